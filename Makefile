@@ -1,0 +1,76 @@
+SHELL := bash
+.SHELLFLAGS := -eu -o pipefail -c
+.DEFAULT_GOAL := help
+
+VENV := .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/.polhode-ready
+EXTRAS := all,docs,test,dev
+QUIETLY := -qq --disable-pip-version-check
+PYTHON ?= $(shell for python in python3.11 python3.12 python3.13 python3; do \
+	$$python -c 'import sys, ensurepip, venv; sys.exit(sys.version_info < (3, 11))' 2>/dev/null \
+	&& echo $$python && break; done)
+
+.PHONY: help demo test check bench proof wheel docs lock clean
+
+help:
+	@echo 'make demo    work through the systems of the catalogue; writes tour/index.html'
+	@echo 'make test    run the tests'
+	@echo 'also: check bench proof wheel docs lock clean (see CONTRIBUTING.md)'
+
+# The lock file fixes every version; the extras are then resolved against it alone, so that a
+# requirement missing from it is an error here and not a surprise elsewhere.
+$(READY): pyproject.toml requirements.lock
+	@echo 'preparing $(VENV) (a minute or two, once)'
+	@test -n '$(PYTHON)' || { echo 'polhode needs Python 3.11 or newer, with venv' >&2; exit 1; }
+	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	@$(BIN)/python -m pip install $(QUIETLY) -r requirements.lock
+	@$(BIN)/python -m pip install $(QUIETLY) --no-index --no-build-isolation -e '.[$(EXTRAS)]'
+	@touch $@
+
+demo: $(READY)
+	@$(BIN)/polhode tour
+
+test: $(READY)
+	@$(BIN)/python -m pytest -n 2
+
+check: $(READY)
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy --strict src
+
+bench: $(READY)
+	@$(BIN)/python benchmarks/run.py
+
+proof: $(READY)
+	@mkdir -p proof
+	@$(BIN)/python -m pytest tests/proof --hypothesis-profile proof -n 2 -vv --no-header | tee proof/log.txt
+
+docs: $(READY)
+	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict
+
+wheel: $(READY)
+	@rm -rf dist build/wheel
+	@$(BIN)/python -m build --wheel --no-isolation --outdir dist . | tail -n 1
+	@for kind in with-heyoka without-heyoka; do \
+		$(PYTHON) -m venv build/wheel/$$kind; \
+		build/wheel/$$kind/bin/pip install $(QUIETLY) -c requirements.lock dist/*.whl; \
+	done
+	@build/wheel/without-heyoka/bin/pip uninstall $(QUIETLY) --yes heyoka
+	@for kind in with-heyoka without-heyoka; do \
+		(cd build/wheel/$$kind && bin/python -I $(CURDIR)/tests/wheel_smoke.py); \
+	done
+
+# `make lock` takes the newest of everything; what is named here is needed to build polhode itself.
+lock:
+	@rm -rf build/lock
+	@$(PYTHON) -m venv build/lock
+	@build/lock/bin/pip install $(QUIETLY) hatchling hatch-vcs editables -e '.[$(EXTRAS)]'
+	@{ echo '# Exact versions for .venv and CI, written by `make lock`.'; \
+		build/lock/bin/pip freeze --all --exclude-editable | grep -v '^pip==' \
+		| sed 's/^heyoka==.*/&; sys_platform == "linux"/'; } > build/requirements.lock
+	@mv build/requirements.lock requirements.lock
+
+clean:
+	rm -rf $(VENV) build dist site tour
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +

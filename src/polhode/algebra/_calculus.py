@@ -1,0 +1,132 @@
+"""Linear parts, Taylor expansion, and integrals over lengths and angles."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from math import comb, factorial
+
+from polhode.algebra._expression import ONE, ZERO, Expr, ExprLike, as_symbol
+from polhode.algebra._functions import CIRCULAR, Elementary, Even, cos, sin
+from polhode.algebra._generators import Generator, Symbol
+from polhode.base import NumericError
+
+
+def linear_parts(expression: Expr, symbols: Sequence[Symbol]) -> tuple[tuple[Expr, ...], Expr]:
+    """Coefficients of the symbols in an expression linear in them, and the rest.
+
+    Raises `NumericError` where the expression is not linear in them.
+    """
+    wanted = set(symbols)
+    parts: dict[Symbol | None, Expr] = {}
+    for generator in expression.denominator.generators:
+        if generator.symbols() & wanted:
+            raise _not_linear(expression, symbols)
+    for powers, coefficient in expression.terms():
+        hits = [g for g in powers if g.symbols() & wanted]
+        if len(hits) > 1 or any(not isinstance(g, Symbol) or powers[g] > 1 for g in hits):
+            raise _not_linear(expression, symbols)
+        key = hits[0] if hits and isinstance(hits[0], Symbol) else None
+        rest = {g: p for g, p in powers.items() if g is not key}
+        parts[key] = parts.get(key, ZERO) + _product(rest, coefficient)
+    scale = ONE / expression.denominator
+    return (
+        tuple(parts.get(symbol, ZERO) * scale for symbol in symbols),
+        parts.get(None, ZERO) * scale,
+    )
+
+
+def _not_linear(expression: Expr, symbols: Iterable[Symbol]) -> NumericError:
+    names = ", ".join(s.published for s in symbols)
+    return NumericError(
+        f"{expression}", expected=f"an expression linear in {names}", advice="check the powers"
+    )
+
+
+def _product(powers: dict[Generator, int], coefficient: Fraction) -> Expr:
+    result = Expr.constant(coefficient)
+    for generator, power in powers.items():
+        result = result * Expr.generator(generator) ** power
+    return result
+
+
+def taylor(expression: ExprLike, symbol: Expr | Symbol, order: int, about: ExprLike = 0) -> Expr:
+    """Taylor polynomial in `symbol - about`, up to and including `order`."""
+    derivative, result, variable = Expr.of(expression), ZERO, as_symbol(symbol)
+    distance = Expr.generator(variable) - about
+    for power in range(order + 1):
+        value = derivative.subs({variable: about})
+        result = result + value * distance**power / factorial(power)
+        derivative = derivative.diff(variable)
+    return result
+
+
+def integrate(
+    expression: ExprLike, symbol: Expr | Symbol, lower: ExprLike, upper: ExprLike
+) -> Expr:
+    """Definite integral of a polynomial in a length, or of a trigonometric polynomial in an angle.
+
+    What remains may depend on anything but the symbol. Raises `NumericError` for other integrands.
+    """
+    variable = as_symbol(symbol)
+    primitive = _primitive(Expr.of(expression), variable)
+    return primitive.subs({variable: upper}) - primitive.subs({variable: lower})
+
+
+def _primitive(integrand: Expr, variable: Symbol) -> Expr:
+    x = Expr.generator(variable)
+    unit = _angular_unit(integrand, variable)
+    result = ZERO
+    if variable in integrand.denominator.symbols():
+        raise _not_integrable(integrand, variable)
+    for powers, coefficient in integrand.terms():
+        mine = {g: p for g, p in powers.items() if variable in g.symbols()}
+        rest = _product({g: p for g, p in powers.items() if g not in mine}, coefficient)
+        length = mine.pop(variable, 0)
+        if length and mine:
+            raise _not_integrable(integrand, variable)
+        if mine:
+            sines = sum(p for g, p in mine.items() if not isinstance(g, Even))
+            cosines = sum(p for g, p in mine.items() if isinstance(g, Even))
+            result = result + rest * _circular_primitive(sines, cosines, x * unit) / unit
+        else:
+            result = result + rest * x ** (length + 1) / (length + 1)
+    return result / integrand.denominator
+
+
+def _angular_unit(integrand: Expr, variable: Symbol) -> Expr:
+    """The factor k where the functions of the variable x are those of kx."""
+    unit = ONE
+    for generator in integrand.generators:
+        if generator == variable or variable not in generator.symbols():
+            continue
+        if not isinstance(generator, Elementary) or generator.family != CIRCULAR:
+            raise _not_integrable(integrand, variable)
+        unit = generator.argument / Expr.generator(variable)
+        if variable in unit.symbols():
+            raise _not_integrable(integrand, variable)
+    return unit
+
+
+def _circular_primitive(sines: int, cosines: int, angle: Expr) -> Expr:
+    """Primitive of sin^m cos^n, n ≤ 1 (higher powers are reduced away)."""
+    if cosines:
+        return sin(angle) ** (sines + 1) / (sines + 1)
+    if sines % 2:  # sin^(2k+1) = (1 - cos²)^k sin
+        half = sines // 2
+        powers = ((-1) ** (j + 1) * comb(half, j) for j in range(half + 1))
+        return sum(
+            (c * cos(angle) ** (2 * j + 1) / (2 * j + 1) for j, c in enumerate(powers)), ZERO
+        )
+    if not sines:
+        return angle
+    lower = _circular_primitive(sines - 2, 0, angle) * (sines - 1)
+    return (lower - cos(angle) * sin(angle) ** (sines - 1)) / sines
+
+
+def _not_integrable(integrand: Expr, variable: Symbol) -> NumericError:
+    return NumericError(
+        f"the integral of {integrand} over {variable.published}",
+        expected="a polynomial, or a polynomial in sine and cosine of one multiple of it",
+        advice="integrate it numerically",
+    )

@@ -1,0 +1,254 @@
+"""From exact expressions to straight-line programs with few operations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import reduce
+from typing import Any, NamedTuple
+
+from flint import fmpq
+
+from polhode.algebra._elimination import solve_on
+from polhode.algebra._expression import ONE, ZERO, Expr
+from polhode.algebra._forms import shortest
+from polhode.algebra._functions import Elementary
+from polhode.algebra._generators import Generator, Symbol
+from polhode.algebra._linear import Matrix, Row
+from polhode.algebra._program import Op, Program
+from polhode.algebra._ring import Polynomial, Ring
+from polhode.algebra._roots import Root
+from polhode.algebra._special import PI
+from polhode.algebra._tape import Tape, Value
+from polhode.base import DeclarationError, NumericError
+
+
+@dataclass(frozen=True)
+class LinearSolve:
+    """Symbols defined as the solution of `matrix` @ unknowns = `right`.
+
+    The solution is unrolled into steps: LDLᵀ for a symmetric matrix (a positive definite mass
+    matrix needs no pivoting), LU otherwise. No inverse is ever written out.
+    """
+
+    unknowns: tuple[Symbol, ...]
+    matrix: Matrix
+    right: tuple[Expr, ...]
+
+    @property
+    def solution(self) -> tuple[Expr, ...]:
+        """The unknowns, as expressions to be asked for."""
+        return tuple(Expr.generator(unknown) for unknown in self.unknowns)
+
+
+def compile_program(
+    expressions: Iterable[Expr],
+    arguments: Sequence[Symbol],
+    where: Mapping[Symbol, Expr] | None = None,
+    solves: Iterable[LinearSolve] = (),
+) -> Program:
+    """The program that computes the expressions from the arguments.
+
+    Args:
+        expressions: what to compute, in the order of the outputs.
+        arguments: the symbols whose values will be given, in their order.
+        where: further symbols, each by an expression in others of them and the arguments.
+        solves: further symbols, defined by systems of linear equations.
+
+    Raises:
+        DeclarationError: for a symbol that is neither given nor defined.
+        NumericError: for linear equations that are singular whatever the values.
+    """
+    writer = _Writer(tuple(arguments), where or {}, tuple(solves))
+    outputs = [writer.expression(expression) for expression in expressions]
+    return writer.tape.program(writer.arguments, outputs)
+
+
+class _Fraction(NamedTuple):
+    """One way of writing an expression."""
+
+    ring: Ring
+    num: Polynomial
+    den: Polynomial
+
+
+class _Writer:
+    """Writes expressions on a tape, and remembers the value of every symbol and function."""
+
+    def __init__(
+        self,
+        arguments: tuple[Symbol, ...],
+        where: Mapping[Symbol, Expr],
+        solves: tuple[LinearSolve, ...],
+    ) -> None:
+        self.tape = Tape()
+        self.arguments = arguments
+        self._where = where
+        self._solves = {unknown: solve for solve in solves for unknown in solve.unknowns}
+        self._values: dict[Generator, Value] = {
+            symbol: self.tape.argument(i) for i, symbol in enumerate(arguments)
+        }
+
+    def expression(self, expression: Expr) -> Value:
+        """Write an expression in the form that adds fewest steps."""
+        forms = list(_forms(expression))
+        for form in forms:
+            self._prepare(form)
+        return self._fraction(min(forms, key=self._cost) if len(forms) > 1 else forms[0])
+
+    def _cost(self, form: _Fraction) -> int:
+        start = len(self.tape)
+        self._fraction(form)
+        cost = len(self.tape) - start
+        self.tape.rewind(start)
+        return cost
+
+    # -- symbols and functions ------------------------------------------------------------------
+
+    def _prepare(self, form: _Fraction) -> None:
+        used = zip(form.ring.generators, form.num.degrees(), form.den.degrees(), strict=True)
+        for generator, above, below in used:
+            if max(above, below) > 0 and generator not in self._values:
+                self._values[generator] = self._generator(generator)
+
+    def _generator(self, generator: Generator) -> Value:
+        match generator:
+            case Symbol():
+                return self._symbol(generator)
+            case Root():
+                return self.tape.call(Op.SQRT, self.expression(generator.radicand))
+            case Elementary():
+                return self.tape.call(Op(generator.name), self.expression(generator.argument))
+            case _:
+                raise NumericError(
+                    f"the function {generator.key}", expected="one with a numeric value"
+                )
+
+    def _symbol(self, symbol: Symbol) -> Value:
+        if symbol in self._where:
+            return self.expression(self._where[symbol])
+        if symbol in self._solves:
+            self._solve(self._solves[symbol])
+            return self._values[symbol]
+        if symbol == PI.symbol:
+            return self.tape.pi()
+        raise DeclarationError(
+            f"{symbol.published} has no value",
+            expected="a value for every symbol that occurs",
+            advice=f"give {symbol.published} or define it",
+        )
+
+    def _solve(self, solve: LinearSolve) -> None:
+        matrix, column = _divided(solve)
+        rows = [[self.expression(entry) for entry in row] for row in matrix.rows]
+        right = [self.expression(entry) for entry in column]
+        values = solve_on(self.tape, rows, right, symmetric=matrix == matrix.T)
+        self._values.update(zip(solve.unknowns, values, strict=True))
+
+    # -- polynomials ----------------------------------------------------------------------------
+
+    def _fraction(self, form: _Fraction) -> Value:
+        content, above = _factored(form.num)
+        divisor, below = _factored(form.den)
+        num = self._product(form.ring, above, content / divisor)
+        return self.tape.divide(num, self._product(form.ring, below, Fraction(1)))
+
+    def _product(
+        self, ring: Ring, factors: list[tuple[Polynomial, int]], number: Fraction
+    ) -> Value:
+        if len(factors) == 1 and factors[0][1] == 1 and len(factors[0][0]) > 1:
+            return self._scaled(ring, factors[0][0], number)
+        powers = (self.tape.power(self._sum(ring, f), e) for f, e in factors)
+        product = reduce(self.tape.multiply, sorted(powers), self.tape.one)
+        return self.tape.multiply(self.tape.constant(number), product)
+
+    def _scaled(self, ring: Ring, polynomial: Polynomial, number: Fraction) -> Value:
+        """A number times a sum, the number multiplied in where that costs no step."""
+        coefficients = [_rational(c) for c in polynomial.coeffs()]
+        inside = sum(abs(c * number) != 1 for c in coefficients)
+        outside = sum(abs(c) != 1 for c in coefficients) + (abs(number) != 1)
+        if inside < outside:
+            return self._sum(ring, polynomial * fmpq(number.numerator, number.denominator))
+        return self.tape.multiply(self.tape.constant(number), self._sum(ring, polynomial))
+
+    def _sum(self, ring: Ring, polynomial: Polynomial) -> Value:
+        """Greedy Horner form: the generator that most terms share is taken out first."""
+        position, shared, power = _most_shared(polynomial)
+        if shared < 2:
+            terms = sorted(self._term(ring, m, c) for m, c in polynomial.to_dict().items())
+            return reduce(self.tape.add, terms, self.tape.zero)
+        inner, rest = _split(ring, polynomial, position, power)
+        factor = self.tape.power(self._values[ring.generators[position]], power)
+        value = self.tape.multiply(self._polynomial(ring, inner), factor)
+        return self.tape.add(value, self._polynomial(ring, rest)) if rest else value
+
+    def _polynomial(self, ring: Ring, polynomial: Polynomial) -> Value:
+        content, factors = _factored(polynomial)
+        return self._product(ring, factors, content)
+
+    def _term(self, ring: Ring, monomial: Sequence[int], coefficient: Any) -> Value:
+        powers = sorted(
+            self.tape.power(self._values[g], int(e))
+            for g, e in zip(ring.generators, monomial, strict=True)
+            if e
+        )
+        product = reduce(self.tape.multiply, powers, self.tape.one)
+        return self.tape.multiply(self.tape.constant(_rational(coefficient)), product)
+
+
+def _divided(solve: LinearSolve) -> tuple[Matrix, Row]:
+    """The same equations, those in one unknown divided out exactly so that factors cancel."""
+    rows, right = list(solve.matrix.rows), list(solve.right)
+    for i, row in enumerate(rows):
+        occurring = [entry for entry in row if entry]
+        if len(occurring) == 1:
+            right[i] = right[i] / occurring[0]
+            rows[i] = tuple(ONE if entry else ZERO for entry in row)
+    return Matrix(tuple(rows)), tuple(right)
+
+
+def _forms(expression: Expr) -> Iterator[_Fraction]:
+    ring, num, den = expression.ring, expression.num, expression.den
+    yield _Fraction(ring, num, den)
+    above, below = shortest(ring, num), shortest(ring, den)
+    if above is num and below is den:
+        return
+    common = above.gcd(below)
+    yield _Fraction(ring, above / common, below / common)
+
+
+def _factored(polynomial: Polynomial) -> tuple[Fraction, list[tuple[Polynomial, int]]]:
+    if polynomial == 0:
+        return Fraction(0), []
+    content, factors = polynomial.factor()
+    return _rational(content), [(factor, int(exponent)) for factor, exponent in factors]
+
+
+def _most_shared(polynomial: Polynomial) -> tuple[int, int, int]:
+    """(position, number of terms, lowest power) of the generator that most terms share."""
+    monomials = polynomial.monoms()
+    best = (0, 0, 0)
+    for position in range(polynomial.context().nvars()):
+        powers = [int(m[position]) for m in monomials if m[position]]
+        if len(powers) > best[1]:
+            best = (position, len(powers), min(powers))
+    return best
+
+
+def _split(
+    ring: Ring, polynomial: Polynomial, position: int, power: int
+) -> tuple[Polynomial, Polynomial]:
+    """(Q, R) of a polynomial Q g^power + R, R free of the generator g at `position`."""
+    inner, rest = dict[tuple[int, ...], Any](), dict[tuple[int, ...], Any]()
+    for monomial, coefficient in polynomial.to_dict().items():
+        if monomial[position]:
+            lowered = int(monomial[position]) - power
+            inner[(*monomial[:position], lowered, *monomial[position + 1 :])] = coefficient
+        else:
+            rest[monomial] = coefficient
+    return ring.context.from_dict(inner), ring.context.from_dict(rest)
+
+
+def _rational(number: Any) -> Fraction:
+    return Fraction(int(number.p), int(number.q))

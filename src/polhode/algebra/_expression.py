@@ -1,0 +1,393 @@
+"""Exact expressions: rational functions of generators, each in one unique form."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from functools import cached_property, lru_cache
+from numbers import Rational
+from typing import Any, TypeAlias, Union
+
+from flint import fmpq
+
+from polhode.algebra._generators import Generator, Rate, Symbol
+from polhode.algebra._ring import CONSTANTS, Polynomial, Ring, ring_of, union
+from polhode.base import NumericError
+
+#: What is accepted wherever an expression is wanted: also SymPy's expressions.
+ExprLike: TypeAlias = Union["Expr", int, float, Fraction, Any]
+
+
+class Expr:
+    """An exact expression; immutable, hashable, picklable, with a decided equality.
+
+    Made from `symbols`, `coordinates`, `speeds`, numbers and functions by ordinary arithmetic.
+    Floats are read as the decimal they print as (0.1 is one tenth).
+    """
+
+    def __init__(self, ring: Ring, num: Polynomial, den: Polynomial) -> None:
+        """Internal: `num` and `den` must already be in normal form; see `fraction`."""
+        self.ring = ring
+        self.num = num
+        self.den = den
+
+    # -- making ---------------------------------------------------------------------------------
+
+    @classmethod
+    def of(cls, value: ExprLike) -> Expr:
+        """The expression a number, an expression or a SymPy expression stands for."""
+        if isinstance(value, Expr):
+            return value
+        if isinstance(value, Rational):
+            return cls.constant(Fraction(value))
+        if isinstance(value, float):
+            return cls.constant(_decimal(value))
+        if type(value).__module__.startswith("sympy"):
+            from polhode.algebra._sympy import from_sympy
+
+            return from_sympy(value)
+        if hasattr(value, "item"):  # a NumPy scalar
+            return cls.of(value.item())
+        raise NumericError(
+            f"{value!r} of type {type(value).__name__} is no expression",
+            expected="a number, a symbol or an expression of symbols",
+            advice="declare names with symbols, coordinates or speeds",
+        )
+
+    @classmethod
+    def constant(cls, value: Fraction | int) -> Expr:
+        """A rational number."""
+        value = Fraction(value)
+        number = fmpq(value.numerator, value.denominator)
+        return cls(CONSTANTS, CONSTANTS.context.constant(number), CONSTANTS.one)
+
+    @classmethod
+    def generator(cls, generator: Generator) -> Expr:
+        """A symbol, or one function of symbols, as an expression."""
+        ring = ring_of(frozenset((generator,)))
+        return cls(ring, ring.variable(generator), ring.one)
+
+    @classmethod
+    def fraction(cls, ring: Ring, num: Polynomial, den: Polynomial) -> Expr:
+        """Any fraction of reduced polynomials, brought to normal form."""
+        if den == 0:
+            raise ZeroDivisionError("division of an expression by zero")
+        num, den = ring.rationalise(num, den)
+        return cls(ring, *ring.cancel(num, den))
+
+    # -- looking --------------------------------------------------------------------------------
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether it vanishes identically; decided, up to the branch of a root."""
+        return bool(self.num == 0)
+
+    @property
+    def is_polynomial(self) -> bool:
+        """Whether the denominator is a number."""
+        return bool(self.den.is_constant())
+
+    @property
+    def rational(self) -> Fraction | None:
+        """Its value if it is a rational number."""
+        if not (self.num.is_constant() and self.den.is_constant()):
+            return None
+        value = self.num.leading_coefficient() if self.num != 0 else fmpq(0)
+        return Fraction(int(value.p), int(value.q))
+
+    @property
+    def symbol(self) -> Symbol | None:
+        """The symbol, if the expression is just one."""
+        found = self.generators
+        if len(found) == 1 and isinstance(found[0], Symbol) and self == Expr.generator(found[0]):
+            return found[0]
+        return None
+
+    @cached_property
+    def generators(self) -> tuple[Generator, ...]:
+        """The generators that occur, in their fixed order."""
+        used = zip(self.num.degrees(), self.den.degrees(), strict=True)
+        pairs = zip(self.ring.generators, used, strict=True)
+        return tuple(g for g, (above, below) in pairs if above or below)
+
+    def trimmed(self) -> Expr:
+        """The same expression in the smallest ring that holds it."""
+        ring = ring_of(frozenset(self.generators))
+        num = self.num.project_to_context(ring.context)
+        return Expr(ring, num, self.den.project_to_context(ring.context))
+
+    def symbols(self) -> frozenset[Symbol]:
+        """Every symbol it depends on, also inside functions."""
+        return frozenset().union(*(g.symbols() for g in self.generators))
+
+    def terms(self) -> Iterator[tuple[dict[Generator, int], Fraction]]:
+        """Powers and coefficient of each term of the numerator."""
+        for monomial, coefficient in self.num.terms():
+            pairs = zip(self.ring.generators, monomial, strict=True)
+            powers = {generator: int(power) for generator, power in pairs if power}
+            yield powers, Fraction(int(coefficient.p), int(coefficient.q))
+
+    @property
+    def numerator(self) -> Expr:
+        """The numerator, over a monic denominator."""
+        return Expr(self.ring, self.num, self.ring.one)
+
+    @property
+    def denominator(self) -> Expr:
+        """The denominator: monic, free of cosines and roots."""
+        return Expr(self.ring, self.den, self.ring.one)
+
+    # -- arithmetic -----------------------------------------------------------------------------
+
+    def __add__(self, other: ExprLike) -> Expr:
+        a, b, ring = _together(self, other)
+        if a.is_polynomial and b.is_polynomial:
+            return Expr(ring, a.num + b.num, ring.one)
+        if a.den == b.den:
+            return Expr(ring, *ring.cancel(a.num + b.num, a.den))
+        num = ring.reduce(a.num * b.den + b.num * a.den)
+        return Expr(ring, *ring.cancel(num, a.den * b.den))
+
+    def __mul__(self, other: ExprLike) -> Expr:
+        a, b, ring = _together(self, other)
+        num = ring.reduce(a.num * b.num)
+        if a.is_polynomial and b.is_polynomial:
+            return Expr(ring, num, ring.one)
+        return Expr(ring, *ring.cancel(num, a.den * b.den))
+
+    def __neg__(self) -> Expr:
+        return Expr(self.ring, -self.num, self.den)
+
+    def __pos__(self) -> Expr:
+        return self
+
+    def __sub__(self, other: ExprLike) -> Expr:
+        return self + (-Expr.of(other))
+
+    def __truediv__(self, other: ExprLike) -> Expr:
+        return self * Expr.of(other).reciprocal()
+
+    def reciprocal(self) -> Expr:
+        """One over this expression."""
+        return Expr.fraction(self.ring, self.den, self.num)
+
+    def __pow__(self, exponent: int | Fraction | Expr) -> Expr:
+        power = Expr.of(exponent).rational
+        if power is None or power.denominator > 2:
+            raise NumericError(
+                f"power {exponent!s}", expected="an integer or half-integer power", advice=""
+            )
+        if power.denominator == 2:
+            from polhode.algebra._functions import sqrt
+
+            return sqrt(self) ** power.numerator
+        base = self if power >= 0 else self.reciprocal()
+        ring, times = self.ring, abs(int(power))
+        return Expr(ring, *ring.cancel(ring.reduce(base.num**times), base.den**times))
+
+    __radd__ = __add__
+    __rmul__ = __mul__
+
+    def __rsub__(self, other: ExprLike) -> Expr:
+        return Expr.of(other) - self
+
+    def __rtruediv__(self, other: ExprLike) -> Expr:
+        return Expr.of(other) / self
+
+    # -- identity -------------------------------------------------------------------------------
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Expr):
+            if not isinstance(other, Rational | float):
+                return NotImplemented
+            other = Expr.of(other)
+        if self.ring is other.ring:
+            return bool(self.num == other.num and self.den == other.den)
+        a, b, _ = _together(self, other)
+        return bool(a.num == b.num and a.den == b.den)
+
+    @cached_property
+    def key(self) -> str:
+        """Unique text of the normal form; equal expressions in like units have equal keys."""
+        return str(self.num) if self.is_polynomial else f"({self.num})/({self.den})"
+
+    def __hash__(self) -> int:
+        value = self.rational
+        return hash(value) if value is not None else hash(self.key)
+
+    def __bool__(self) -> bool:
+        return not self.is_zero
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _rebuild, (self.generators, _plain(self, self.num), _plain(self, self.den))
+
+    # -- calculus: thin faces of their own rooms ------------------------------------------------
+
+    def chain(self, rate: Rate) -> Expr:
+        """Derivative along a direction in which every symbol changes at its `rate`."""
+        result = ZERO
+        for generator in self.generators:
+            slope = self._partial(generator)
+            if slope:
+                result = result + slope * generator.chain(rate)
+        return result
+
+    def _partial(self, generator: Generator) -> Expr:
+        ring, position = self.ring, self.ring.index[generator]
+        above = ring.reduce(self.num.derivative(position))
+        if self.is_polynomial:
+            return Expr(ring, above, ring.one)
+        below = self.den.derivative(position)
+        num = ring.reduce(above * self.den - self.num * below)
+        return Expr(ring, *ring.cancel(num, self.den**2))
+
+    def diff(self, symbol: Expr | Symbol) -> Expr:
+        """Partial derivative with respect to a symbol."""
+        wanted = as_symbol(symbol)
+        return self.chain(lambda s: ONE if s == wanted else ZERO)
+
+    def dt(self) -> Expr:
+        """Time derivative: coordinates, speeds and functions of time change, parameters do not."""
+        return self.chain(time_rate)
+
+    def subs(self, images: Mapping[Any, ExprLike]) -> Expr:
+        """With symbols replaced, all at once, also inside functions."""
+        table = {as_symbol(symbol): Expr.of(image) for symbol, image in images.items()}
+        if not table.keys() & self.symbols():
+            return self
+        return self.replaced(lambda s: table[s] if s in table else Expr.generator(s))
+
+    def replaced(self, image: Rate) -> Expr:
+        """With every symbol replaced by its image."""
+        return self.recast({g: g.replaced(image) for g in self.generators})
+
+    def recast(self, images: Mapping[Generator, Expr]) -> Expr:
+        """With whole generators replaced by expressions."""
+        images = {g: images[g] if g in images else Expr.generator(g) for g in self.generators}
+        num = _compose(self.ring, self.num, images)
+        return num if self.is_polynomial else num / _compose(self.ring, self.den, images)
+
+    # -- printing -------------------------------------------------------------------------------
+
+    def __repr__(self) -> str:
+        return str(self)
+
+    def __str__(self) -> str:
+        from polhode.algebra._text import text
+
+        return text(self)
+
+    def pretty(self) -> str:
+        """One line with Greek letters, dots and superscripts."""
+        from polhode.algebra._text import pretty
+
+        return pretty(self)
+
+    def latex(self) -> str:
+        """LaTeX as a text would print it."""
+        from polhode.algebra._latex import latex
+
+        return latex(self)
+
+    def mathml(self) -> str:
+        """Presentation MathML."""
+        from polhode.algebra._latex import mathml
+
+        return mathml(self.latex())
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.latex()}$"
+
+
+def as_symbol(value: Expr | Symbol) -> Symbol:
+    """The symbol that an expression is."""
+    symbol = value if isinstance(value, Symbol) else Expr.of(value).symbol
+    if symbol is None:
+        raise NumericError(f"{value}", expected="a single symbol", advice="")
+    return symbol
+
+
+def time_rate(symbol: Symbol) -> Expr:
+    """Time derivative of a symbol."""
+    if symbol.kind.varies:
+        return Expr.generator(symbol.derivative())
+    return ONE if symbol.kind.value == "time" else ZERO
+
+
+def _together(first: Expr, second: ExprLike) -> tuple[Expr, Expr, Ring]:
+    """Both in one ring; in one unit where one has sin θ and the other sin θ/2."""
+    other = Expr.of(second)
+    if first.ring is other.ring:
+        return first, other, first.ring
+    ring = union(first.ring, other.ring)
+    coarse = _refinements(ring)
+    if coarse:
+        first, other = first.recast(coarse), other.recast(coarse)
+        ring = union(first.ring, other.ring)
+    return _lifted(first, ring), _lifted(other, ring), ring
+
+
+@lru_cache(maxsize=16384)
+def _refinements(ring: Ring) -> dict[Generator, Expr]:
+    pairs = ((g, g.refined(ring.generators)) for g in ring.generators)
+    return {g: finer for g, finer in pairs if finer is not None}
+
+
+def _lifted(expression: Expr, ring: Ring) -> Expr:
+    if expression.ring is ring:
+        return expression
+    num = ring.lift(expression.ring, expression.num)
+    if expression.is_polynomial:
+        return Expr(ring, num, ring.one)
+    return Expr(ring, num, ring.lift(expression.ring, expression.den))
+
+
+def _compose(ring: Ring, polynomial: Polynomial, images: Mapping[Generator, Expr]) -> Expr:
+    result = ZERO
+    powers: dict[tuple[Generator, int], Expr] = {}
+    for monomial, coefficient in polynomial.terms():
+        term = Expr.constant(Fraction(int(coefficient.p), int(coefficient.q)))
+        for generator, power in zip(ring.generators, monomial, strict=True):
+            if power:
+                if (generator, power) not in powers:
+                    powers[generator, power] = images[generator] ** int(power)
+                term = term * powers[generator, power]
+        result = result + term
+    return result
+
+
+def _decimal(value: float) -> Fraction:
+    if value != value or value in (float("inf"), float("-inf")):
+        raise NumericError(f"the number {value}", expected="a finite number", advice="")
+    return Fraction(repr(value))
+
+
+Plain = tuple[tuple[tuple[int, ...], int, int], ...]
+
+
+def _plain(expression: Expr, polynomial: Polynomial) -> Plain:
+    positions = [expression.ring.index[g] for g in expression.generators]
+    return tuple(
+        (tuple(monomial[p] for p in positions), int(c.p), int(c.q))
+        for monomial, c in polynomial.terms()
+    )
+
+
+def _rebuild(generators: tuple[Generator, ...], num: Plain, den: Plain) -> Expr:
+    ring = ring_of(frozenset(generators))
+    positions = [ring.index[g] for g in generators]
+
+    def polynomial(plain: Plain) -> Polynomial:
+        table = {}
+        for powers, p, q in plain:
+            monomial = [0] * len(ring.generators)
+            for position, power in zip(positions, powers, strict=True):
+                monomial[position] = power
+            table[tuple(monomial)] = fmpq(p, q)
+        return ring.context.from_dict(table)
+
+    return Expr(ring, polynomial(num), polynomial(den))
+
+
+ZERO = Expr.constant(0)
+ONE = Expr.constant(1)

@@ -1,0 +1,278 @@
+"""Sines, cosines, exponentials and hyperbolic functions of expressions.
+
+The argument is taken apart into terms; each term is a whole multiple of a *unit*, so that sin 2θ,
+sin(θ + φ) and sin θ/2 become polynomials in the functions of few units, and every identity
+follows from cos² = 1 - sin² and cosh² = 1 + sinh².
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property, lru_cache, reduce
+from math import gcd, lcm
+
+from polhode.algebra._expression import ONE, ZERO, Expr, ExprLike
+from polhode.algebra._generators import Generator, Rate, Symbol
+from polhode.algebra._ring import Polynomial, Ring
+from polhode.algebra._special import PI, cosine_of_turn
+from polhode.base import NumericError
+
+#: The ratio of a circle's circumference to its diameter.
+pi = PI
+
+#: Multiples up to this one are expanded (sin 4θ); beyond it the multiple is a unit of its own.
+_LARGEST_MULTIPLE = 8
+
+Pair = tuple[Expr, Expr]
+
+
+@dataclass(frozen=True)
+class Family:
+    """An even and an odd function with an addition theorem: even² = 1 + sign · odd²."""
+
+    even: str
+    odd: str
+    sign: int
+
+    def unit(self, base: Expr, unit: Fraction) -> Pair:
+        """(even, odd) of one unit of the argument."""
+        return (
+            Expr.generator(Even(self, base, unit)),
+            Expr.generator(Odd(self, base, unit)),
+        )
+
+    def multiple(self, base: Expr, unit: Fraction, times: int) -> Pair:
+        """(even, odd) of a whole number of units."""
+        one = self.unit(base, unit)
+        even, odd = reduce(self.sum, [one] * abs(times), (ONE, ZERO))
+        return (even, odd) if times >= 0 else (even, -odd)
+
+    def sum(self, first: Pair, second: Pair) -> Pair:
+        """(even, odd) of the sum of two arguments."""
+        (c1, s1), (c2, s2) = first, second
+        return c1 * c2 + self.sign * s1 * s2, s1 * c2 + c1 * s2
+
+    def of(self, argument: ExprLike) -> Pair:
+        """(even, odd) of any expression."""
+        parts = (self._term(base, factor) for base, factor in _terms(Expr.of(argument)))
+        return reduce(self.sum, parts, (ONE, ZERO))
+
+    @lru_cache(maxsize=4096)  # noqa: B019 - families are two immortal constants
+    def _term(self, base: Expr, factor: Fraction) -> Pair:
+        if base == pi and self.sign < 0:
+            half_pi = Fraction(1, 2)
+            return cosine_of_turn(factor), cosine_of_turn(half_pi - factor)
+        unit, times = _unit(factor)
+        return self.multiple(base, unit, times)
+
+
+CIRCULAR = Family("cos", "sin", -1)
+HYPERBOLIC = Family("cosh", "sinh", +1)
+
+
+@dataclass(frozen=True)
+class Elementary(Generator):
+    """One function of `unit` times `base`."""
+
+    family: Family
+    base: Expr
+    unit: Fraction
+
+    @property
+    def name(self) -> str:
+        """What the function is called."""
+        return self.family.odd
+
+    @cached_property
+    def key(self) -> str:  # type: ignore[override]
+        return f"{self.name}({self.unit}*{self.base.key})"
+
+    @property
+    def argument(self) -> Expr:
+        """What it is a function of."""
+        return self.base * self.unit
+
+    @property
+    def arguments(self) -> tuple[Expr, ...]:
+        return (self.argument,)
+
+    def symbols(self) -> frozenset[Symbol]:
+        return self.base.symbols()
+
+    def companions(self) -> tuple[Generator, ...]:
+        return Odd(*self._same), Even(*self._same)
+
+    @property
+    def _same(self) -> tuple[Family, Expr, Fraction]:
+        return self.family, self.base, self.unit
+
+    def pair(self) -> Pair:
+        """The even and the odd function of the same argument."""
+        return self.family.unit(self.base, self.unit)
+
+    def chain(self, rate: Rate) -> Expr:
+        return self.pair()[0] * self.argument.chain(rate)
+
+    def replaced(self, image: Rate) -> Expr:
+        return self.family.of(self.argument.replaced(image))[1]
+
+    def finest(self, others: tuple[Generator, ...]) -> Fraction:
+        """The largest unit of which all like functions among `others` take whole multiples."""
+        units = [
+            g.unit
+            for g in others
+            if isinstance(g, Elementary) and g.family == self.family and g.base == self.base
+        ]
+        return reduce(_common_unit, units)
+
+    def refined(self, others: tuple[Generator, ...]) -> Expr | None:
+        finest = self.finest(others)
+        if finest == self.unit:
+            return None
+        return self.in_units(finest, int(self.unit / finest))
+
+    def in_units(self, unit: Fraction, times: int) -> Expr:
+        """The same function, in terms of a smaller unit."""
+        return self.family.multiple(self.base, unit, times)[1]
+
+
+class Odd(Elementary):
+    """Sine or hyperbolic sine."""
+
+
+class Even(Elementary):
+    """Cosine or hyperbolic cosine: algebraic over the sine."""
+
+    @property
+    def name(self) -> str:
+        return self.family.even
+
+    @property
+    def depth(self) -> int:
+        return 1
+
+    @property
+    def positive(self) -> bool:  # type: ignore[override]
+        return self.family.sign > 0
+
+    def partner(self) -> tuple[Generator, int]:
+        return Odd(*self._same), self.family.sign
+
+    def square(self, ring: Ring) -> Polynomial:
+        odd, sign = self.partner()
+        return 1 + sign * ring.variable(odd) ** 2
+
+    def chain(self, rate: Rate) -> Expr:
+        return self.family.sign * self.pair()[1] * self.argument.chain(rate)
+
+    def replaced(self, image: Rate) -> Expr:
+        return self.family.of(self.argument.replaced(image))[0]
+
+    def in_units(self, unit: Fraction, times: int) -> Expr:
+        return self.family.multiple(self.base, unit, times)[0]
+
+
+class Exponential(Elementary):
+    """exp: kept apart from cosh + sinh until both occur together."""
+
+    positive = True
+
+    @property
+    def name(self) -> str:
+        return "exp"
+
+    def companions(self) -> tuple[Generator, ...]:
+        return ()
+
+    def chain(self, rate: Rate) -> Expr:
+        return Expr.generator(self) * self.argument.chain(rate)
+
+    def replaced(self, image: Rate) -> Expr:
+        return exp(self.argument.replaced(image))
+
+    def refined(self, others: tuple[Generator, ...]) -> Expr | None:
+        kin = [g for g in others if isinstance(g, Even | Odd) and g.base == self.base]
+        if any(g.family == HYPERBOLIC for g in kin):
+            finest = self.finest(others)
+            even, odd = HYPERBOLIC.multiple(self.base, finest, int(self.unit / finest))
+            return even + odd
+        return super().refined(others)
+
+    def in_units(self, unit: Fraction, times: int) -> Expr:
+        return Expr.generator(Exponential(HYPERBOLIC, self.base, unit)) ** times
+
+
+def cos(x: ExprLike) -> Expr:
+    """Cosine of an angle in radians."""
+    return CIRCULAR.of(x)[0]
+
+
+def sin(x: ExprLike) -> Expr:
+    """Sine of an angle in radians."""
+    return CIRCULAR.of(x)[1]
+
+
+def tan(x: ExprLike) -> Expr:
+    """Tangent of an angle in radians."""
+    even, odd = CIRCULAR.of(x)
+    return odd / even
+
+
+def cosh(x: ExprLike) -> Expr:
+    """Hyperbolic cosine."""
+    return HYPERBOLIC.of(x)[0]
+
+
+def sinh(x: ExprLike) -> Expr:
+    """Hyperbolic sine."""
+    return HYPERBOLIC.of(x)[1]
+
+
+def tanh(x: ExprLike) -> Expr:
+    """Hyperbolic tangent."""
+    even, odd = HYPERBOLIC.of(x)
+    return odd / even
+
+
+def sech(x: ExprLike) -> Expr:
+    """Hyperbolic secant."""
+    return 1 / cosh(x)
+
+
+def exp(x: ExprLike) -> Expr:
+    """Exponential function."""
+    result = ONE
+    for base, factor in _terms(Expr.of(x)):
+        unit, times = _unit(factor)
+        result = result * Expr.generator(Exponential(HYPERBOLIC, base, unit)) ** times
+    return result
+
+
+def _terms(argument: Expr) -> Iterator[tuple[Expr, Fraction]]:
+    below = argument.denominator
+    for powers, coefficient in argument.terms():
+        base = ONE / below
+        for generator, power in powers.items():
+            base = base * Expr.generator(generator) ** power
+        yield base, coefficient
+
+
+def _unit(factor: Fraction) -> tuple[Fraction, int]:
+    if abs(factor.numerator) > _LARGEST_MULTIPLE:
+        return abs(factor), (1 if factor > 0 else -1)
+    return Fraction(1, factor.denominator), factor.numerator
+
+
+def _common_unit(first: Fraction, second: Fraction) -> Fraction:
+    below = lcm(first.denominator, second.denominator)
+    above = gcd(int(first * below), int(second * below))
+    common = Fraction(above, below)
+    if max(first, second) / common > 64:
+        raise NumericError(
+            f"functions of multiples {first} and {second} of one angle in one expression",
+            expected="multiples whose ratio is below 64",
+            advice="",
+        )
+    return common

@@ -1,0 +1,200 @@
+"""Straight-line programs: many expressions as one list of arithmetic steps.
+
+A program is data. It becomes a Python function over floats, arrays or any other numbers by being
+given the arithmetic of those numbers.
+"""
+
+from __future__ import annotations
+
+import ast
+import math
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from enum import Enum
+from fractions import Fraction
+from types import CodeType, FunctionType
+from typing import Any, NamedTuple, TypeAlias
+
+from polhode.algebra._generators import Symbol
+
+
+class Op(Enum):
+    """What one step does."""
+
+    CONST = "const"
+    PI = "pi"
+    ARG = "arg"
+    ADD = "add"
+    SUB = "sub"
+    MUL = "mul"
+    DIV = "div"
+    NEG = "neg"
+    SQRT = "sqrt"
+    SIN = "sin"
+    COS = "cos"
+    EXP = "exp"
+    SINH = "sinh"
+    COSH = "cosh"
+
+
+_GIVEN = (Op.CONST, Op.PI, Op.ARG)
+_BINARY: Mapping[Op, ast.operator] = {
+    Op.ADD: ast.Add(),
+    Op.SUB: ast.Sub(),
+    Op.MUL: ast.Mult(),
+    Op.DIV: ast.Div(),
+}
+
+
+class Instruction(NamedTuple):
+    """One step: an operation on the results of earlier steps.
+
+    `value` is the exact number of a constant, or the position of an argument.
+    """
+
+    op: Op
+    operands: tuple[int, ...] = ()
+    value: Fraction | int | None = None
+
+
+@dataclass(frozen=True)
+class Arithmetic:
+    """How the steps are done on one sort of number; + - * / are the number's own."""
+
+    number: Callable[[Fraction], Any]
+    pi: Any
+    functions: Mapping[Op, Callable[[Any], Any]]
+
+    @classmethod
+    def of(cls, library: Any, number: Callable[[Fraction], Any] = float) -> Arithmetic:
+        """The arithmetic of a module with sqrt, sin, cos, exp, sinh, cosh and pi."""
+        calls = (Op.SQRT, Op.SIN, Op.COS, Op.EXP, Op.SINH, Op.COSH)
+        return cls(number, library.pi, {op: getattr(library, op.value) for op in calls})
+
+
+#: Python's floats, one value at a time.
+FLOATS = Arithmetic.of(math)
+
+Compiled: TypeAlias = Callable[..., tuple[Any, ...]]
+
+
+@dataclass(frozen=True)
+class Program:
+    """Steps that compute `outputs` from `arguments`, every common part done once."""
+
+    arguments: tuple[Symbol, ...]
+    instructions: tuple[Instruction, ...]
+    outputs: tuple[int, ...]
+
+    @property
+    def operations(self) -> int:
+        """How many sums, products, quotients, signs and function calls one evaluation takes."""
+        return sum(step.op not in _GIVEN for step in self.instructions)
+
+    def function(self, arithmetic: Arithmetic = FLOATS) -> Compiled:
+        """A function of the arguments, by position, that returns the outputs as a tuple.
+
+        Numbers are rounded once to the arithmetic's nearest. An output that depends on no
+        argument comes as a single number whatever the shape of the arguments.
+        """
+        names = {f"_{op.value}": call for op, call in arithmetic.functions.items()}
+        names |= _numbers(self, arithmetic)
+        return FunctionType(_code(self), {"__builtins__": {}, **names})
+
+
+def arrays() -> Arithmetic:
+    """NumPy's arrays, elementwise."""
+    import numpy
+
+    return Arithmetic.of(numpy)
+
+
+def _numbers(program: Program, arithmetic: Arithmetic) -> dict[str, Any]:
+    """The constants, under the names by which the code knows them."""
+    steps = enumerate(program.instructions)
+    constants = {
+        f"c{i}": arithmetic.number(Fraction(step.value or 0))
+        for i, step in steps
+        if step.op is Op.CONST
+    }
+    return {**constants, "pi": arithmetic.pi}
+
+
+def _code(program: Program) -> CodeType:
+    slots = _Slots(program)
+    body: list[ast.stmt] = [
+        ast.Assign([ast.Name(slots.taken(i), ast.Store())], value)
+        for i, value in _steps(program, slots)
+    ]
+    results = [_operand(program, slots, i) for i in program.outputs]
+    body.append(ast.Return(ast.Tuple(results, ast.Load())))
+    arguments = [ast.arg(f"a{i}") for i in range(len(program.arguments))]
+    signature = ast.arguments([], arguments, None, [], [], None, [])
+    module = ast.Module([ast.FunctionDef("program", signature, body, [])], [])
+    compiled = compile(ast.fix_missing_locations(module), "<program>", "exec")
+    return next(code for code in compiled.co_consts if isinstance(code, CodeType))
+
+
+def _steps(program: Program, slots: _Slots) -> Iterator[tuple[int, ast.expr]]:
+    for i, (op, operands, _) in enumerate(program.instructions):
+        if op in _GIVEN:
+            continue
+        parts = [_operand(program, slots, operand) for operand in operands]
+        slots.release(operands)
+        yield i, _applied(op, parts)
+
+
+def _applied(op: Op, parts: list[ast.expr]) -> ast.expr:
+    if op in _BINARY:
+        return ast.BinOp(parts[0], _BINARY[op], parts[1])
+    if op is Op.NEG:
+        return ast.UnaryOp(ast.USub(), parts[0])
+    return ast.Call(ast.Name(f"_{op.value}", ast.Load()), parts, [])
+
+
+def _operand(program: Program, slots: _Slots, i: int) -> ast.expr:
+    op, _, position = program.instructions[i]
+    match op:
+        case Op.CONST:
+            name = f"c{i}"
+        case Op.PI:
+            name = "pi"
+        case Op.ARG:
+            name = f"a{position}"
+        case _:
+            name = slots.name(i)
+    return ast.Name(name, ast.Load())
+
+
+class _Slots:
+    """Local names for results, used again once a result is no longer needed.
+
+    Arrays are thus freed as early as they can be.
+    """
+
+    def __init__(self, program: Program) -> None:
+        self._uses = Counter(i for step in program.instructions for i in step.operands)
+        self._uses.update(program.outputs)
+        self._names: dict[int, str] = {}
+        self._free: list[str] = []
+        self._made = 0
+
+    def taken(self, i: int) -> str:
+        """A name for the result of step i."""
+        if not self._free:
+            self._free.append(f"v{self._made}")
+            self._made += 1
+        self._names[i] = self._free.pop()
+        return self._names[i]
+
+    def name(self, i: int) -> str:
+        """The name that holds the result of step i."""
+        return self._names[i]
+
+    def release(self, operands: Iterable[int]) -> None:
+        """Count one use of each operand."""
+        for i in operands:
+            self._uses[i] -= 1
+            if i in self._names and not self._uses[i]:
+                self._free.append(self._names[i])

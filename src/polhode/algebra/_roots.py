@@ -1,0 +1,151 @@
+"""Square roots: algebraic generators, simplified as far as known signs allow."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from math import prod
+
+from flint import fmpz
+
+from polhode.algebra._expression import ONE, Expr, ExprLike
+from polhode.algebra._forms import shortest
+from polhode.algebra._generators import Generator, Rate, Symbol
+from polhode.algebra._ring import Polynomial, Ring
+from polhode.base import NumericError
+
+
+@dataclass(frozen=True)
+class Root(Generator):
+    """The non-negative square root of a polynomial; |f| where that is the square of f."""
+
+    radicand: Expr
+    positive = True
+
+    @cached_property
+    def key(self) -> str:  # type: ignore[override]
+        return f"sqrt({self.radicand.key})"
+
+    @property
+    def depth(self) -> int:
+        return 1 + max((g.depth for g in self.radicand.generators), default=0)
+
+    def companions(self) -> tuple[Generator, ...]:
+        return self.radicand.generators
+
+    def square(self, ring: Ring) -> Polynomial:
+        return ring.lift(self.radicand.ring, self.radicand.num)
+
+    @property
+    def arguments(self) -> tuple[Expr, ...]:
+        return (self.radicand,)
+
+    def symbols(self) -> frozenset[Symbol]:
+        return self.radicand.symbols()
+
+    def chain(self, rate: Rate) -> Expr:
+        return self.radicand.chain(rate) / (2 * Expr.generator(self))
+
+    def replaced(self, image: Rate) -> Expr:
+        return sqrt(self.radicand.replaced(image))
+
+
+def sqrt(x: ExprLike) -> Expr:
+    """The non-negative square root.
+
+    Factors known to be positive come out: √(a²b) = a√b for positive a. Where a sign is not known
+    the root of a square stays as an absolute value. Raises `NumericError` for a negative number.
+    """
+    x = Expr.of(x)
+    if x.is_zero:
+        return x
+    number, factors = _factors(x)
+    known = {f: e for f, e in factors.items() if is_positive(f)}
+    open_ = {f: e for f, e in factors.items() if f not in known and e % 2}
+    squares = {f: e for f, e in factors.items() if f not in known and not e % 2}
+    result = _root_of_number(abs(number))
+    for factor, exponent in known.items():
+        result = result * (_root(factor) if exponent % 2 else ONE) * factor ** (exponent // 2)
+    for factor, exponent in squares.items():
+        result = result * absolute(factor) ** (exponent // 2)
+    return result * _root_of_unknown_sign(1 if number > 0 else -1, open_)
+
+
+def principal_root(x: ExprLike) -> Expr:
+    """A square root that is a plain expression wherever x is a perfect square.
+
+    √(sin²θ) is sin θ here: the branch on which it is positive. Whoever calls must say so.
+    """
+    x = Expr.of(x)
+    number, factors = _factors(x)
+    if number <= 0 or any(e % 2 for f, e in factors.items() if not is_positive(f)):
+        return sqrt(x)
+    halves = (
+        sqrt(f) ** e if is_positive(f) else f ** (e // 2) for f, e in factors.items()
+    )
+    return prod(halves, start=_root_of_number(number))
+
+
+def absolute(x: ExprLike) -> Expr:
+    """|x|, resolved where the sign is known."""
+    x = Expr.of(x)
+    if is_positive(x):
+        return x
+    if is_positive(-x):
+        return -x
+    return _root(x * x) if x.is_polynomial else absolute(x.numerator) / absolute(x.denominator)
+
+
+def is_positive(x: Expr) -> bool:
+    """Whether it is seen to be positive from the signs of its terms."""
+    return _all_positive(x.numerator) and _all_positive(x.denominator)
+
+
+def _all_positive(polynomial: Expr) -> bool:
+    strict = False
+    for powers, coefficient in polynomial.terms():
+        if coefficient < 0 or any(p % 2 and not g.positive for g, p in powers.items()):
+            return False
+        strict = strict or all(g.positive for g in powers)
+    return strict
+
+
+def _root(radicand: Expr) -> Expr:
+    return Expr.generator(Root(radicand.trimmed()))
+
+
+def _factors(x: Expr) -> tuple[Fraction, dict[Expr, int]]:
+    number, factors = Fraction(1), dict[Expr, int]()
+    for polynomial, sense in ((x.num, 1), (x.den, -1)):
+        content, pairs = shortest(x.ring, polynomial).factor()
+        number *= Fraction(int(content.p), int(content.q)) ** sense
+        for factor, exponent in pairs:
+            base = Expr(x.ring, x.ring.reduce(factor), x.ring.one)
+            factors[base] = factors.get(base, 0) + sense * int(exponent)
+    return number, {f: e for f, e in factors.items() if e}
+
+
+def _root_of_number(number: Fraction) -> Expr:
+    outside, inside = Fraction(1, number.denominator), ONE
+    for prime, exponent in fmpz(number.numerator * number.denominator).factor():
+        outside *= int(prime) ** (int(exponent) // 2)
+        if exponent % 2:
+            inside = inside * _root(Expr.constant(int(prime)))
+    return inside * outside
+
+
+def _root_of_unknown_sign(sign: int, factors: dict[Expr, int]) -> Expr:
+    if not factors:
+        if sign < 0:
+            raise NumericError(
+                "the square root of a negative number",
+                expected="a radicand that can be positive",
+                advice="check the signs under the root",
+            )
+        return ONE
+    if len(factors) == 1:
+        ((factor, exponent),) = factors.items()
+        return _root(factor * sign) ** exponent
+    below = prod((absolute(f) ** ((1 - e) // 2) for f, e in factors.items()), start=ONE)
+    return _root(prod(factors, start=Expr.constant(sign))) / below

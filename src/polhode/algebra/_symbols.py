@@ -1,0 +1,69 @@
+"""Names: parameters, coordinates, speeds, functions of time, and time itself."""
+
+from __future__ import annotations
+
+import re
+
+from polhode.algebra._expression import Expr
+from polhode.algebra._generators import Kind, Symbol
+from polhode.base import DeclarationError
+
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*_?")
+
+
+def symbols(names: str, *, positive: bool = False) -> tuple[Expr, ...]:
+    """Constant parameters, from names separated by blanks: `M, a = symbols("M a")`.
+
+    `positive` tells the sign, which decides √(a²) = a.
+    """
+    return tuple(_named(name, Kind.PARAMETER, positive) for name in names.split())
+
+
+def symbol(name: str, *, positive: bool = False) -> Expr:
+    """One constant parameter."""
+    return _named(name, Kind.PARAMETER, positive)
+
+
+def coordinates(names: str) -> tuple[Expr, ...]:
+    """Generalised coordinates; the rate of `theta` is `theta_dot`."""
+    return tuple(_named(name, Kind.COORDINATE) for name in names.split())
+
+
+def coordinate(name: str) -> Expr:
+    """One generalised coordinate."""
+    return _named(name, Kind.COORDINATE)
+
+
+def speeds(names: str) -> tuple[Expr, ...]:
+    """Generalised speeds that are not the rate of a coordinate, such as `omega_3`."""
+    return tuple(_named(name, Kind.SPEED) for name in names.split())
+
+
+def speed(name: str) -> Expr:
+    """One generalised speed."""
+    return _named(name, Kind.SPEED)
+
+
+def functions(names: str) -> tuple[Expr, ...]:
+    """Prescribed functions of time, such as the place X of a sheet that is pulled."""
+    return tuple(_named(name, Kind.FUNCTION) for name in names.split())
+
+
+def _named(name: str, kind: Kind, positive: bool = False) -> Expr:
+    if not _NAME.fullmatch(name) or name == "t":
+        raise DeclarationError(
+            f"the name {name!r}",
+            expected="letters and digits with underscores, starting with a letter, and not t",
+            advice="write lambda_ for λ and theta for θ",
+        )
+    if name.endswith(("_dot", "_ddot", "_dddot")):
+        raise DeclarationError(
+            f"the name {name!r}",
+            expected="a name without _dot, which means a time derivative",
+            advice="declare the quantity and call .dt() on it",
+        )
+    return Expr.generator(Symbol(name, kind, 0, positive))
+
+
+#: Time.
+time = Expr.generator(Symbol("t", Kind.TIME))

@@ -1,0 +1,148 @@
+"""A tape on which arithmetic is recorded, each step once however often it is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+from typing import NamedTuple
+
+from polhode.algebra._generators import Symbol
+from polhode.algebra._program import Instruction, Op, Program
+
+
+class Value(NamedTuple):
+    """The result of a step, or its negative: signs cost nothing until one must be written."""
+
+    step: int
+    sign: int = 1
+
+    def __neg__(self) -> Value:
+        return Value(self.step, -self.sign)
+
+
+_COMMUTES = (Op.ADD, Op.MUL)
+_ODD = (Op.SIN, Op.SINH)
+_EVEN = (Op.COS, Op.COSH)
+
+
+class Tape:
+    """Records steps, folds constants, and knows what has been recorded before."""
+
+    def __init__(self) -> None:
+        self._steps: list[Instruction] = []
+        self._index: dict[Instruction, int] = {}
+        self.zero = self.constant(Fraction(0))
+        self.one = self.constant(Fraction(1))
+
+    def __len__(self) -> int:
+        return len(self._steps)
+
+    def rewind(self, length: int) -> None:
+        """Forget every step after the first `length`."""
+        for step in self._steps[length:]:
+            del self._index[step]
+        del self._steps[length:]
+
+    def constant(self, number: Fraction) -> Value:
+        """An exact number."""
+        return Value(self._record(Op.CONST, value=abs(number)), -1 if number < 0 else 1)
+
+    def pi(self) -> Value:
+        """The number π."""
+        return Value(self._record(Op.PI))
+
+    def argument(self, position: int) -> Value:
+        """One argument of the program."""
+        return Value(self._record(Op.ARG, value=position))
+
+    def add(self, a: Value, b: Value) -> Value:
+        """a + b."""
+        if self._number(a) == 0:
+            return b
+        if self._number(b) == 0:
+            return a
+        if a == -b:
+            return self.zero
+        x, y = self._number(a), self._number(b)
+        if x is not None and y is not None:
+            return self.constant(x + y)
+        if a.sign == b.sign:
+            return Value(self._record(Op.ADD, (a.step, b.step)), a.sign)
+        first, second = sorted((a, b))
+        return Value(self._record(Op.SUB, (first.step, second.step)), first.sign)
+
+    def multiply(self, a: Value, b: Value) -> Value:
+        """a b."""
+        x, y = self._number(a), self._number(b)
+        if x is not None and y is not None:
+            return self.constant(x * y)
+        sign = a.sign * b.sign
+        if x is not None and abs(x) in (0, 1):
+            return Value(b.step, sign) if x else self.zero
+        if y is not None and abs(y) in (0, 1):
+            return Value(a.step, sign) if y else self.zero
+        return Value(self._record(Op.MUL, (a.step, b.step)), sign)
+
+    def divide(self, a: Value, b: Value) -> Value:
+        """a / b; `ZeroDivisionError` where b is the number zero."""
+        divisor = self._number(b)
+        if divisor is not None:
+            return self.multiply(a, self.constant(1 / divisor))
+        sign = a.sign * b.sign
+        if self._number(a) == 0:
+            return a
+        if a.step == b.step:
+            return Value(self.one.step, sign)
+        return Value(self._record(Op.DIV, (a.step, b.step)), sign)
+
+    def power(self, base: Value, exponent: int) -> Value:
+        """base^exponent for a positive exponent, by as few products as halving gives."""
+        if exponent == 1:
+            return base
+        half = self.power(base, exponent // 2)
+        return self.multiply(self.power(base, exponent - exponent // 2), half)
+
+    def call(self, op: Op, x: Value) -> Value:
+        """A function of x."""
+        if op in _ODD:
+            return Value(self._record(op, (x.step,)), x.sign)
+        return Value(self._record(op, (x.step if op in _EVEN else self._signed(x),)))
+
+    def program(self, arguments: tuple[Symbol, ...], outputs: Iterable[Value]) -> Program:
+        """The steps that the outputs need, and no others."""
+        ends = [self._signed(value) for value in outputs]
+        needed = set(ends)
+        for i in reversed(range(len(self._steps))):
+            if i in needed:
+                needed.update(self._steps[i].operands)
+        places = {old: new for new, old in enumerate(sorted(needed))}
+        steps = (self._steps[i] for i in places)
+        return Program(
+            arguments,
+            tuple(s._replace(operands=tuple(places[i] for i in s.operands)) for s in steps),
+            tuple(places[i] for i in ends),
+        )
+
+    def _number(self, value: Value) -> Fraction | None:
+        step = self._steps[value.step]
+        return Fraction(step.value or 0) * value.sign if step.op is Op.CONST else None
+
+    def _signed(self, value: Value) -> int:
+        """A step whose result is the value with its sign."""
+        op, operands, number = self._steps[value.step]
+        if value.sign > 0:
+            return value.step
+        if op is Op.SUB:
+            return self._record(Op.SUB, operands[::-1])
+        if op is Op.CONST:
+            return self._record(Op.CONST, value=-Fraction(number or 0))
+        return self._record(Op.NEG, (value.step,))
+
+    def _record(
+        self, op: Op, operands: tuple[int, ...] = (), value: Fraction | int | None = None
+    ) -> int:
+        step = Instruction(op, tuple(sorted(operands)) if op in _COMMUTES else operands, value)
+        if step not in self._index:
+            self._index[step] = len(self._steps)
+            self._steps.append(step)
+        return self._index[step]

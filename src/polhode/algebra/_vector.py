@@ -1,0 +1,114 @@
+"""Vectors of ordinary space, resolved along a triad of unit vectors that may turn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Protocol
+
+from polhode.algebra._expression import ZERO, Expr, ExprLike
+from polhode.algebra._linear import Matrix, Row, dot
+from polhode.algebra._roots import sqrt
+
+
+class Triad(Protocol):
+    """Three right-handed orthonormal directions; a frame of `model` is one."""
+
+    def rotation_to(self, other: Triad) -> Matrix:
+        """Turns components along these directions into components along the other's."""
+        ...
+
+    @property
+    def turning(self) -> Row:
+        """Angular velocity in inertial space, components along these directions, rad/s."""
+        ...
+
+
+@dataclass(frozen=True)
+class Vector:
+    """A vector by its components along a triad."""
+
+    components: Row
+    triad: Triad
+
+    @classmethod
+    def along(cls, triad: Triad, components: Iterable[ExprLike]) -> Vector:
+        """From three numbers or expressions."""
+        x, y, z = (Expr.of(c) for c in components)
+        return cls((x, y, z), triad)
+
+    def express(self, triad: Triad) -> Vector:
+        """The same vector, resolved along another triad."""
+        if triad == self.triad:
+            return self
+        return Vector(self.triad.rotation_to(triad).times(self.components), triad)
+
+    def component(self, direction: Vector) -> Expr:
+        """Component along a unit vector."""
+        return self.dot(direction)
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether it vanishes identically."""
+        return not any(self.components)
+
+    def __add__(self, other: Vector) -> Vector:
+        if self.is_zero:
+            return other
+        there = other.express(self.triad).components
+        return Vector(tuple(a + b for a, b in zip(self.components, there, strict=True)), self.triad)
+
+    def __neg__(self) -> Vector:
+        return Vector(tuple(-c for c in self.components), self.triad)
+
+    def __sub__(self, other: Vector) -> Vector:
+        return self + (-other)
+
+    def __mul__(self, factor: ExprLike) -> Vector:
+        return Vector(tuple(c * factor for c in self.components), self.triad)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, divisor: ExprLike) -> Vector:
+        return self * (1 / Expr.of(divisor))
+
+    def dot(self, other: Vector) -> Expr:
+        """Scalar product."""
+        return dot(self.components, other.express(self.triad).components)
+
+    def cross(self, other: Vector) -> Vector:
+        """Vector product."""
+        return Vector(_cross(self.components, other.express(self.triad).components), self.triad)
+
+    def norm(self) -> Expr:
+        """Length."""
+        return sqrt(self.dot(self))
+
+    def dt(self, seen_from: Triad | None = None) -> Vector:
+        """Time derivative, in inertial space or as seen from a turning triad."""
+        rate = Vector(tuple(c.dt() for c in self.components), self.triad)
+        turning = Vector(self.triad.turning, self.triad)
+        if seen_from is not None:
+            turning = turning - Vector(seen_from.turning, seen_from)
+        return rate + turning.cross(self)
+
+    def diff(self, symbol: Expr) -> Vector:
+        """Derivative of the components with respect to a symbol, the triad held."""
+        return Vector(tuple(c.diff(symbol) for c in self.components), self.triad)
+
+    def subs(self, images: dict[Expr, ExprLike]) -> Vector:
+        """With symbols replaced in the components."""
+        return Vector(tuple(c.subs(images) for c in self.components), self.triad)
+
+
+def zero_vector(triad: Triad) -> Vector:
+    """The vector of length zero."""
+    return Vector((ZERO, ZERO, ZERO), triad)
+
+
+def _cross(a: Row, b: Row) -> Row:
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )

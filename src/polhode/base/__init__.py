@@ -1,0 +1,51 @@
+"""What every room stands on: errors, units, the cache, progress and the schema."""
+
+from polhode.base import _cache as cache
+from polhode.base._dimension import LENGTH, MASS, PURE, TIME, Dimension
+from polhode.base._errors import (
+    ConstraintError,
+    DeclarationError,
+    Exit,
+    NumericError,
+    ParseError,
+    PolhodeError,
+    StoreError,
+    UnitError,
+    exit_code,
+)
+from polhode.base._progress import Progress, SilentProgress, terminal_progress
+from polhode.base._quantity import Quantity, Value, read_quantity, to_si
+from polhode.base._schema import SCHEMA, Provenance, installed_version, provenance
+from polhode.base._unit_text import read_unit
+from polhode.base._units import Unit
+
+__all__ = [
+    "LENGTH",
+    "MASS",
+    "PURE",
+    "SCHEMA",
+    "TIME",
+    "ConstraintError",
+    "DeclarationError",
+    "Dimension",
+    "Exit",
+    "NumericError",
+    "ParseError",
+    "PolhodeError",
+    "Progress",
+    "Provenance",
+    "Quantity",
+    "SilentProgress",
+    "StoreError",
+    "Unit",
+    "UnitError",
+    "Value",
+    "cache",
+    "exit_code",
+    "installed_version",
+    "provenance",
+    "read_quantity",
+    "read_unit",
+    "terminal_progress",
+    "to_si",
+]

@@ -1,0 +1,72 @@
+"""The one family of errors, and what each means to a shell."""
+
+from enum import IntEnum
+
+
+class PolhodeError(Exception):
+    """Something polhode was given, or met, that it cannot work with.
+
+    Prints as "given; expected ...; advice", without the parts that were left empty.
+
+    Args:
+        given: what came, naming the quantity or the declaration it came in.
+        expected: what would have been accepted, without the word "expected".
+        advice: what to do about it.
+    """
+
+    def __init__(self, given: str, *, expected: str = "", advice: str = "") -> None:
+        self.given = given
+        self.expected = expected
+        self.advice = advice
+        parts = (given, expected and f"expected {expected}", advice)
+        super().__init__("; ".join(filter(None, parts)))
+
+    def __reduce__(self) -> tuple[object, ...]:
+        # Worker processes send their errors home; Exception alone would forget the keywords.
+        return _rebuilt, (type(self), self.given, self.expected, self.advice)
+
+
+class DeclarationError(PolhodeError):
+    """A body, contact, load or system that contradicts itself or is incomplete."""
+
+
+class ConstraintError(PolhodeError):
+    """Constraints that contradict one another, or start values that contradict them."""
+
+
+class UnitError(PolhodeError):
+    """A value that cannot be read, is not finite, or has the wrong dimension."""
+
+
+class ParseError(PolhodeError):
+    """Text that cannot be read as an expression, a formula or a name."""
+
+
+class NumericError(PolhodeError):
+    """A computation that could not reach the accuracy asked of it."""
+
+
+class StoreError(PolhodeError):
+    """A file or store that is missing, damaged or of another schema."""
+
+
+class Exit(IntEnum):
+    """Exit codes of the command line."""
+
+    DONE = 0
+    FAILED = 1
+    REFUSED = 2
+    INTERRUPTED = 130
+
+
+def exit_code(error: BaseException) -> int:
+    """The exit code with which a command ended by `error` leaves.
+
+    A failed check is an answer, not an error, so `Exit.FAILED` is never returned: bad input,
+    what could not be read or decided, and what went wrong unforeseen are all `Exit.REFUSED`.
+    """
+    return Exit.INTERRUPTED if isinstance(error, KeyboardInterrupt) else Exit.REFUSED
+
+
+def _rebuilt(kind: type[PolhodeError], given: str, expected: str, advice: str) -> PolhodeError:
+    return kind(given, expected=expected, advice=advice)

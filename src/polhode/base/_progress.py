@@ -1,0 +1,74 @@
+"""How a long computation tells how far it is, without knowing who listens."""
+
+import sys
+import time
+from typing import Protocol, TextIO
+
+
+class Progress(Protocol):
+    """A listener to one task at a time."""
+
+    def begin(self, task: str, total: int | None = None) -> None:
+        """Start a task of `total` steps, or of a number that is not known."""
+
+    def advance(self, steps: int = 1) -> None:
+        """Tell that so many more steps are done."""
+
+    def finish(self) -> None:
+        """End the task."""
+
+
+class SilentProgress:
+    """Listens and shows nothing."""
+
+    def begin(self, task: str, total: int | None = None) -> None:
+        """Show nothing."""
+
+    def advance(self, steps: int = 1) -> None:
+        """Show nothing."""
+
+    def finish(self) -> None:
+        """Show nothing."""
+
+
+class TerminalProgress:
+    """One line of a terminal, rewritten as the task advances and wiped when it ends."""
+
+    _INTERVAL = 0.1  # seconds between rewrites
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+        self._task = ""
+        self._total: int | None = None
+        self._done = 0
+        self._due = 0.0
+
+    def begin(self, task: str, total: int | None = None) -> None:
+        """Show the task."""
+        self._task, self._total, self._done = task, total, 0
+        self._show()
+
+    def advance(self, steps: int = 1) -> None:
+        """Count the steps, and show the count when it is time."""
+        self._done += steps
+        if time.monotonic() >= self._due:
+            self._show()
+
+    def finish(self) -> None:
+        """Wipe the line."""
+        self._write("")
+
+    def _show(self) -> None:
+        counted = f"{self._done}" if self._total is None else f"{self._done}/{self._total}"
+        self._write(f"{self._task} {counted}")
+        self._due = time.monotonic() + self._INTERVAL
+
+    def _write(self, line: str) -> None:
+        self._stream.write(f"\r\x1b[K{line}")
+        self._stream.flush()
+
+
+def terminal_progress(stream: TextIO | None = None) -> Progress:
+    """Progress on a terminal (standard error unless told); silent where that is not one."""
+    chosen = sys.stderr if stream is None else stream
+    return TerminalProgress(chosen) if chosen.isatty() else SilentProgress()

@@ -1,0 +1,178 @@
+"""Values as people write them, read to SI: ``"80 deg"``, ``0.2``, ``(12, "mm")``."""
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Protocol, SupportsFloat, TypeAlias, runtime_checkable
+
+from polhode.base._dimension import PURE, Dimension
+from polhode.base._errors import UnitError
+from polhode.base._unit_text import read_unit
+from polhode.base._units import Unit
+
+
+@runtime_checkable
+class PintQuantity(Protocol):
+    """What is used of a pint quantity, so that pint need not be imported."""
+
+    @property
+    def magnitude(self) -> Any: ...
+    @property
+    def dimensionality(self) -> Mapping[str, Any]: ...
+    def to(self, other: str, /) -> Any: ...
+
+
+Value: TypeAlias = SupportsFloat | str | tuple[SupportsFloat, str] | PintQuantity
+"""A bare SI number, text such as ``"80 deg"``, a magnitude with its unit, or a pint quantity."""
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """An exact value in SI units, ``coefficient * pi**pi_power``.
+
+    `dimension` is None where no unit was written: a bare number is SI of whatever it is for.
+    """
+
+    coefficient: Fraction
+    pi_power: int
+    dimension: Dimension | None
+
+    @property
+    def value(self) -> float:
+        """The value in SI units, to double precision."""
+        return float(self.coefficient) * math.pi**self.pi_power
+
+
+def read_quantity(text: str) -> Quantity:
+    """Read a number, perhaps with a unit: ``80deg``, ``-0.2 m``, ``pi/2``, ``3000 rpm``.
+
+    Decimals are taken as the exact fraction they spell, so ``80deg`` is 4 pi/9.
+
+    Raises:
+        UnitError: if the text is not a finite number with a known unit.
+    """
+    match = _NUMBER.match(text)
+    assert match is not None  # every part of the pattern is optional
+    number, unit_text = _signed(match), text[match.end() :].strip()
+    unit = read_unit(unit_text.removeprefix("*")) if unit_text else Unit()
+    quantity = Quantity(
+        number * unit.coefficient,
+        unit.pi_power + bool(match["pi"]),
+        unit.dimension if unit_text else None,
+    )
+    return _finite(quantity, text)
+
+
+def to_si(value: Value, dimension: Dimension, name: str) -> float:
+    """The value of the quantity `name` in the SI unit of `dimension`.
+
+    Args:
+        value: a number (taken as SI), text with a unit, a magnitude and its unit, or a pint
+            quantity.
+        dimension: what the quantity must be; an angle is `PURE`.
+        name: what the quantity is called, for messages.
+
+    Raises:
+        UnitError: if the value cannot be read, is not finite or has another dimension.
+    """
+    try:
+        quantity = _quantity(value)
+    except UnitError as error:
+        raise UnitError(
+            f"{name}: {error.given}", expected=error.expected, advice=error.advice
+        ) from error
+    if quantity.dimension not in (None, dimension):
+        raise UnitError(
+            f"{name} = {_shown(value)} is {_described(quantity.dimension)}",
+            expected=_described(dimension),
+            advice=f"give {name} as a bare SI number or in a unit of that dimension",
+        )
+    return quantity.value
+
+
+_DECIMAL = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3}(?![0-9]))?"
+_NUMBER = re.compile(
+    rf"""\s*(?P<sign>[+\-−]?)\s*
+    (?P<factor>{_DECIMAL})?
+    (?P<pi>\s*\*?\s*(?:pi(?![A-Za-z])|π))?
+    (?:\s*/\s*(?P<divisor>{_DECIMAL}))?""",
+    re.VERBOSE,
+)
+
+
+def _signed(match: re.Match[str]) -> Fraction:
+    divisor = Fraction(match["divisor"] or 1)
+    if not (match["factor"] or match["pi"]) or divisor == 0:
+        raise _unreadable(match.string)
+    size = Fraction(match["factor"] or 1) / divisor
+    return -size if match["sign"] in ("-", "−") else size
+
+
+def _quantity(value: Value) -> Quantity:
+    match value:
+        case str():
+            return read_quantity(value)
+        case (magnitude, str(unit)):
+            return _scaled(_exact(magnitude), read_unit(unit), value)
+        case PintQuantity():
+            return _from_pint(value)
+        case _:
+            return Quantity(_exact(value), 0, None)
+
+
+def _scaled(number: Fraction, unit: Unit, shown: object) -> Quantity:
+    quantity = Quantity(number * unit.coefficient, unit.pi_power, unit.dimension)
+    return _finite(quantity, shown)
+
+
+def _exact(number: Any) -> Fraction:
+    try:
+        size = float(number)
+    except OverflowError:
+        size = math.inf
+    except (TypeError, ValueError) as error:
+        raise _unreadable(number) from error
+    if not math.isfinite(size):
+        raise _unreadable(size)
+    return Fraction(size)
+
+
+_PINT_BASES = {"[mass]": "kilogram", "[length]": "meter", "[time]": "second"}
+
+
+def _from_pint(value: PintQuantity) -> Quantity:
+    powers = {base: Fraction(power) for base, power in value.dimensionality.items()}
+    if not powers.keys() <= _PINT_BASES.keys():
+        raise UnitError(f"{value} is not mechanical", expected="only mass, length and time in it")
+    dimension = Dimension(*(powers.get(base, Fraction(0)) for base in _PINT_BASES))
+    unit = " * ".join(f"{_PINT_BASES[base]}**({power})" for base, power in powers.items())
+    return Quantity(_exact(value.to(unit).magnitude), 0, dimension)
+
+
+def _finite(quantity: Quantity, given: object) -> Quantity:
+    try:
+        finite = math.isfinite(quantity.value)
+    except OverflowError:
+        finite = False
+    if not finite:
+        raise _unreadable(given)
+    return quantity
+
+
+def _unreadable(given: object) -> UnitError:
+    return UnitError(
+        f"{_shown(given)} is not a value",
+        expected="a finite number, perhaps with a unit",
+        advice="write it as 0.2, '12 mm', '80 deg' or '3000 rpm'",
+    )
+
+
+def _shown(given: object) -> str:
+    text = repr(given) if isinstance(given, str | tuple) else str(given)
+    return text if len(text) <= 80 else f"{text[:77]}..."
+
+
+def _described(dimension: Dimension | None) -> str:
+    return "a pure number or an angle" if dimension == PURE else f"a quantity in {dimension}"

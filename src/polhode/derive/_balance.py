@@ -1,0 +1,47 @@
+"""Newton and Euler for every body: what the reactions have to supply."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from polhode.algebra import Vector
+from polhode.derive._motion import Motion, inertia_times
+from polhode.model import Action, Body
+
+
+@dataclass(frozen=True)
+class Wrench:
+    """A force (N) through the centre of mass and a couple (N m), along the body's axes."""
+
+    force: Vector
+    couple: Vector
+
+
+def demands(motion: Motion) -> dict[Body, Wrench]:
+    """Rate of change of momentum less the loads, and of angular momentum less their moments.
+
+    m dv/dt - F and dL/dt - τ about the centre of mass; the reactions must equal them.
+    """
+    actions = applied(motion)
+    return {body: _demand(motion, body, actions) for body in motion.system.bodies}
+
+
+def applied(motion: Motion) -> tuple[Action, ...]:
+    """Everything the loads do."""
+    system = motion.system
+    return tuple(
+        action
+        for load in system.loads
+        for action in load.actions(system.bodies, motion.places, motion.velocities)
+    )
+
+
+def _demand(motion: Motion, body: Body, actions: tuple[Action, ...]) -> Wrench:
+    velocity, angular = motion.velocities[body]
+    force = motion.derivative(velocity) * body.mass
+    couple = motion.derivative(inertia_times(body.inertia, angular))
+    for action in actions:
+        if action.body == body:
+            force = force - action.force
+            couple = couple - action.couple - action.arm.cross(action.force).express(body.axes)
+    return Wrench(force, couple)

@@ -1,0 +1,94 @@
+"""Energies, momenta, and the power of what is not in the potential."""
+
+from __future__ import annotations
+
+from polhode.algebra import ZERO, Expr, Kind, Vector
+from polhode.derive._balance import applied
+from polhode.derive._motion import Motion, inertia_times
+from polhode.derive._reactions import Line
+from polhode.model import Body, Load
+
+
+def kinetic_energy(motion: Motion) -> Expr:
+    """Kinetic energy in inertial space, J."""
+    return sum((_kinetic(motion, body) for body in motion.system.bodies), ZERO)
+
+
+def _kinetic(motion: Motion, body: Body) -> Expr:
+    velocity, angular = motion.velocities[body]
+    spin = angular.dot(inertia_times(body.inertia, angular))
+    return (body.mass * velocity.dot(velocity) + spin) / 2
+
+
+def potential_energy(motion: Motion) -> Expr:
+    """Potential energy of all loads that have one, J."""
+    system = motion.system
+    potentials = (load.potential(system.bodies, motion.places) for load in system.loads)
+    return sum((v for v in potentials if v is not None), ZERO)
+
+
+def load_power(motion: Motion, load: Load) -> Expr:
+    """Rate of work of a load, W."""
+    actions = load.actions(motion.system.bodies, motion.places, motion.velocities)
+    return sum((action.power(motion.velocities) for action in actions), ZERO)
+
+
+def reaction_power(motion: Motion, line: Line, value: Expr) -> Expr:
+    """Rate of work of one reaction component on the whole system, W.
+
+    Zero for a support at rest; a support that moves, a motor and sliding friction do work.
+    """
+    total = ZERO
+    for body in (line.restraint.body, line.restraint.other):
+        wrench = line.on(body) if body is not None else None
+        if body is None or wrench is None:
+            continue
+        velocity, angular = motion.velocities[body]
+        total = total + velocity.dot(wrench.force) + angular.dot(wrench.couple)
+    return total * value if total else ZERO
+
+
+def supplied_power(motion: Motion, columns: tuple[Line, ...], values: dict[str, Expr]) -> Expr:
+    """Rate of change of kinetic plus potential energy, W."""
+    system = motion.system
+    driven = (load for load in system.loads if _potential(motion, load) is None)
+    moving = (_explicit_rate(v) for load in system.loads if (v := _potential(motion, load)))
+    reactions = (reaction_power(motion, line, values[line.name]) for line in columns)
+    own = (load_power(motion, load) for load in driven)
+    return sum((*own, *moving, *reactions), ZERO)
+
+
+def _potential(motion: Motion, load: Load) -> Expr | None:
+    return load.potential(motion.system.bodies, motion.places)
+
+
+def _explicit_rate(potential: Expr) -> Expr:
+    """∂V/∂t at fixed coordinates: the work of a support that moves a spring's end."""
+    driven = (Kind.FUNCTION, Kind.TIME)
+    return potential.chain(
+        lambda s: Expr.generator(s).dt() if s.kind in driven else Expr.constant(0)
+    )
+
+
+def linear_momentum(motion: Motion) -> Vector:
+    """Linear momentum in inertial space, kg m/s, along the root frame."""
+    root = motion.system.root
+    parts = (motion.velocities[b][0] * b.mass for b in motion.system.bodies)
+    return sum((p.express(root) for p in parts), root.zero)
+
+
+def angular_momentum(motion: Motion, about: Vector) -> Vector:
+    """Angular momentum in inertial space about a place (from the origin, m), kg m²/s."""
+    root = motion.system.root
+    total = root.zero
+    for body in motion.system.bodies:
+        velocity, angular = motion.velocities[body]
+        arm = motion.places[body] - about
+        total = total + inertia_times(body.inertia, angular)
+        total = total + arm.cross(velocity) * body.mass
+    return total
+
+
+def work_rate_of_loads(motion: Motion) -> Expr:
+    """Rate of work of all loads, W."""
+    return sum((action.power(motion.velocities) for action in applied(motion)), ZERO)

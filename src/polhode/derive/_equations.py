@@ -1,0 +1,339 @@
+"""Equations of motion of one contact mode, and everything that follows from them exactly."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from math import gcd, lcm
+
+from polhode.algebra import (
+    ZERO,
+    Expr,
+    Kind,
+    Matrix,
+    Row,
+    Symbol,
+    Vector,
+    linear_parts,
+    solve,
+    variables,
+)
+from polhode.base import NumericError
+from polhode.derive import _energy as energies
+from polhode.derive._balance import Wrench, demands
+from polhode.derive._motion import Motion, motion_of
+from polhode.derive._reactions import Line, Reactions, lines, solve_reactions
+from polhode.model import Body, System
+
+#: Beyond this many speeds the mass matrix is not inverted symbolically.
+LARGEST_SYMBOLIC = 5
+
+
+@dataclass(frozen=True)
+class Reaction:
+    """What one contact or joint does to its body.
+
+    Attributes:
+        name: of the contact or joint.
+        body: the body acted on.
+        force: N; resolve it along any frame with `.express(frame)`.
+        couple: N m, besides the moment of the force.
+        arm: from the body's centre of mass to where the force acts, m.
+        undetermined: names of components that Newton's laws leave open.
+    """
+
+    name: str
+    body: Body
+    force: Vector
+    couple: Vector
+    arm: Vector
+    undetermined: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Equations:
+    """Exact equations on independent speeds.
+
+    The motion obeys `mass · accelerations = forcing` together with `kinematics`.
+
+    Attributes:
+        system: the declaration they come from.
+        kinetics: positions and velocities of all bodies.
+        rows: the equations as they come, each an expression equal to zero, one per speed.
+        mass: mass matrix over the accelerations.
+        forcing: right-hand sides.
+    """
+
+    system: System
+    kinetics: Motion
+    rows: tuple[Expr, ...]
+    mass: Matrix
+    forcing: Row
+
+    @property
+    def coordinates(self) -> tuple[Symbol, ...]:
+        """All coordinates."""
+        return self.kinetics.coordinates
+
+    @property
+    def speeds(self) -> tuple[Symbol, ...]:
+        """Independent speeds."""
+        return self.kinetics.speeds
+
+    @property
+    def kinematics(self) -> dict[Symbol, Expr]:
+        """Rate of every coordinate in terms of coordinates, speeds and time."""
+        return self.kinetics.kinematics
+
+    @property
+    def dependent(self) -> dict[Symbol, Expr]:
+        """The speeds that the constraints give, in terms of the independent ones."""
+        return self.kinetics.dependent
+
+    @property
+    def acceleration_symbols(self) -> tuple[Symbol, ...]:
+        """Time derivatives of the independent speeds."""
+        return self.kinetics.accelerations
+
+    @cached_property
+    def motion(self) -> tuple[Expr, ...]:
+        """The equations of motion, each an expression equal to zero, without idle factors."""
+        return tuple(_without_idle_factors(row) for row in self.rows)
+
+    @cached_property
+    def accelerations(self) -> dict[Symbol, Expr]:
+        """Every acceleration, solved for.
+
+        Raises `NumericError` beyond five speeds, where only the blocks are kept.
+        """
+        if len(self.speeds) > LARGEST_SYMBOLIC:
+            raise NumericError(
+                f"accelerations of {len(self.speeds)} speeds in closed form",
+                expected=f"at most {LARGEST_SYMBOLIC}",
+                advice="use mass and forcing, which are factorised numerically",
+            )
+        solved = solve(self.mass.rows, self.forcing)
+        return dict(zip(self.acceleration_symbols, solved, strict=True))
+
+    def on_shell(self, expression: Expr) -> Expr:
+        """An expression along true motions: rates and accelerations replaced."""
+        once = self.kinetics.on_speeds(expression)
+        if not once.symbols() & set(self.acceleration_symbols):
+            return once
+        return once.subs(self.accelerations)
+
+    def rate(self, expression: Expr) -> Expr:
+        """Time derivative along true motions."""
+        settled = self.kinetics.on_speeds(expression)
+        return self.on_shell(settled.chain(self.kinetics.rate))
+
+    # -- reactions ------------------------------------------------------------------------------
+
+    @cached_property
+    def _lines(self) -> tuple[Line, ...]:
+        return lines(self.kinetics)
+
+    @cached_property
+    def _solved(self) -> Reactions:
+        return solve_reactions(self.kinetics, demands(self.kinetics), self._lines)
+
+    @cached_property
+    def components(self) -> dict[str, Expr]:
+        """Every scalar reaction component by name, in terms of accelerations too.
+
+        Undetermined ones appear as symbols of their own names.
+        """
+        return {**self._solved.values, **self._friction(self._solved.values)}
+
+    @cached_property
+    def least(self) -> dict[str, Expr]:
+        """The same with the smallest sum of squares where they are not determined."""
+        return {**self._solved.least, **self._friction(self._solved.least)}
+
+    def _friction(self, values: Mapping[str, Expr]) -> dict[str, Expr]:
+        found = {}
+        for element in self.kinetics.elements:
+            for friction in element.friction(self.kinetics.places):
+                line = next(c for c in self._lines if c.name == friction.normal.name)
+                for name, direction in friction.directions:
+                    found[name] = line.direction.dot(direction) * values[line.name]
+        return found
+
+    @property
+    def undetermined(self) -> tuple[str, ...]:
+        """Names of reaction components that Newton's laws leave open."""
+        return self._solved.undetermined
+
+    @cached_property
+    def reactions(self) -> dict[str, Reaction]:
+        """Force and couple of every contact and joint on its body, by its name."""
+        return {
+            element.name: self._reaction(element.name, [r.name for r in restraints])
+            for element in self.kinetics.elements
+            if (restraints := element.restraints(self.kinetics.places))
+        }
+
+    def _reaction(self, element: str, names: list[str]) -> Reaction:
+        own = [line for line in self._lines if line.name in names]
+        first = own[0].restraint
+        zero = first.direction.triad
+        force = couple = first.direction * 0
+        for line in own:
+            share = line.direction * self.components[line.name]
+            if line.restraint.is_couple:
+                couple = couple + share
+            else:
+                force = force + share
+        arm = next((c.restraint.arm for c in own if c.restraint.arm), Vector.along(zero, (0, 0, 0)))
+        loose = tuple(name for name in names if name in self.undetermined)
+        return Reaction(element, first.body, force, couple, arm, loose)
+
+    # -- energies and momenta -------------------------------------------------------------------
+
+    @cached_property
+    def kinetic_energy(self) -> Expr:
+        """Kinetic energy in inertial space, J."""
+        return energies.kinetic_energy(self.kinetics)
+
+    @cached_property
+    def potential_energy(self) -> Expr:
+        """Potential energy, J."""
+        return energies.potential_energy(self.kinetics)
+
+    @property
+    def energy(self) -> Expr:
+        """Kinetic plus potential energy, J."""
+        return self.kinetic_energy + self.potential_energy
+
+    @property
+    def lagrangian(self) -> Expr:
+        """Kinetic less potential energy, J."""
+        return self.kinetic_energy - self.potential_energy
+
+    @cached_property
+    def power(self) -> Expr:
+        """Rate of change of the energy: work of friction, motors, moving supports, drives, W."""
+        return energies.supplied_power(self.kinetics, self._lines, self._solved.least)
+
+    def load_power(self, name: str) -> Expr:
+        """Rate of work of one load, W."""
+        load = next(load for load in self.system.loads if load.name == name)
+        return energies.load_power(self.kinetics, load)
+
+    @property
+    def linear_momentum(self) -> Vector:
+        """Linear momentum in inertial space, kg m/s."""
+        return energies.linear_momentum(self.kinetics)
+
+    def angular_momentum(self, about: Vector | None = None) -> Vector:
+        """Angular momentum about a place (from the origin, m; the origin itself), kg m²/s."""
+        place = about if about is not None else self.system.root.zero
+        return energies.angular_momentum(self.kinetics, place)
+
+    # -- constraints and names ------------------------------------------------------------------
+
+    @cached_property
+    def closures(self) -> tuple[Expr, ...]:
+        """Expressions of the configuration that must vanish (m): closed loops."""
+        motion = self.kinetics
+        return tuple(c for e in motion.elements for c in e.closures(motion.places))
+
+    @cached_property
+    def slips(self) -> dict[str, Expr]:
+        """Velocity of every restrained point against its support, m/s; zero along the motion."""
+        motion = self.kinetics
+        return {
+            line.name: motion.slip(line.restraint).dot(line.restraint.direction)
+            for line in self._lines
+        }
+
+    @cached_property
+    def assumed_positive(self) -> tuple[Expr, ...]:
+        """Expressions whose sign had to be taken as positive, such as sin θ for a disk."""
+        found = (e for element in self.kinetics.elements for e in element.assumed_positive())
+        return tuple(dict.fromkeys(found))
+
+    @cached_property
+    def parameters(self) -> tuple[Symbol, ...]:
+        """Constants that occur, in alphabetical order."""
+        return self._of_kind(Kind.PARAMETER)
+
+    @cached_property
+    def functions(self) -> tuple[Symbol, ...]:
+        """Prescribed functions of time that occur, without their derivatives."""
+        found = (s.base() for s in self._of_kind(Kind.FUNCTION))
+        return tuple(dict.fromkeys(found))
+
+    def _of_kind(self, kind: Kind) -> tuple[Symbol, ...]:
+        used = variables((*self.rows, self.energy, *self.kinematics.values(), *self.closures))
+        found = (s for s in used if s.kind is kind and s.name != "pi")
+        return tuple(sorted(found, key=lambda s: s.published))
+
+
+def derive(system: System) -> Equations:
+    """Exact equations of motion and reactions of a system as declared.
+
+    Newton's and Euler's equations of every body are projected on the motions that the velocity
+    constraints allow (Jourdain's principle), which removes all reactions that do no work.
+
+    Raises `ConstraintError` for constraints that contradict one another.
+    """
+    motion = motion_of(system)
+    needs = demands(motion)
+    columns = lines(motion)
+    rows = _projected(motion, needs)
+    rubbing = [c for c in columns if c.direction != c.restraint.direction]
+    if rubbing:
+        values = solve_reactions(motion, needs, columns).values
+        rows = tuple(
+            row - sum((values[c.name] * _virtual_power(motion, c, u) for c in rubbing), ZERO)
+            for row, u in zip(rows, motion.speeds, strict=True)
+        )
+    parts = [linear_parts(row, motion.accelerations) for row in rows]
+    mass = Matrix(tuple(coefficients for coefficients, _ in parts))
+    return Equations(system, motion, rows, mass, tuple(-rest for _, rest in parts))
+
+
+def _projected(motion: Motion, needs: Mapping[Body, Wrench]) -> tuple[Expr, ...]:
+    """One row per independent speed: power of all demands in a unit of that speed alone."""
+    return tuple(
+        sum((_share(motion, body, need, speed) for body, need in needs.items()), ZERO)
+        for speed in motion.speeds
+    )
+
+
+def _share(motion: Motion, body: Body, need: Wrench, speed: Symbol) -> Expr:
+    velocity, angular = (_partial(v, speed) for v in motion.velocities[body])
+    return velocity.dot(need.force) + angular.dot(need.couple)
+
+
+def _partial(vector: Vector, speed: Symbol) -> Vector:
+    return Vector(tuple(c.diff(speed) for c in vector.components), vector.triad)
+
+
+def _virtual_power(motion: Motion, line: Line, speed: Symbol) -> Expr:
+    total = ZERO
+    for body in (line.restraint.body, line.restraint.other):
+        wrench = line.on(body) if body is not None else None
+        if body is not None and wrench is not None:
+            total = total + _share(motion, body, wrench, speed)
+    return total
+
+
+def _without_idle_factors(row: Expr) -> Expr:
+    """Numerator without the rational and monomial factors in parameters common to all terms."""
+    terms = list(row.numerator.terms())
+    if not terms:
+        return row
+    shared = {
+        g: min(powers.get(g, 0) for powers, _ in terms)
+        for g in terms[0][0]
+        if isinstance(g, Symbol) and g.kind is Kind.PARAMETER
+    }
+    above = gcd(*(abs(c.numerator) for _, c in terms))
+    below = lcm(*(c.denominator for _, c in terms))
+    result = row.numerator * below / above
+    for generator, power in shared.items():
+        result = result / Expr.generator(generator) ** power
+    return result

@@ -1,0 +1,170 @@
+"""Reactions: solved from the balance of every body, component by component."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from polhode.algebra import (
+    ONE,
+    ZERO,
+    Elimination,
+    Expr,
+    Row,
+    Symbol,
+    Vector,
+    dot,
+    eliminate,
+    solve,
+)
+from polhode.base import ConstraintError
+from polhode.derive._balance import Wrench
+from polhode.derive._motion import Motion
+from polhode.model import Body, Friction, Restraint
+
+
+@dataclass(frozen=True)
+class Line:
+    """The force or couple that one unit of a reaction puts on a body (and its opposite)."""
+
+    restraint: Restraint
+    direction: Vector
+
+    @property
+    def name(self) -> str:
+        """Name of the reaction component."""
+        return self.restraint.name
+
+    def on(self, body: Body) -> Wrench | None:
+        """What one unit does to a body."""
+        if body == self.restraint.body:
+            return _acting(body, self.direction, self.restraint.arm)
+        if body == self.restraint.other:
+            return _acting(body, -self.direction, self.restraint.other_arm)
+        return None
+
+
+def _acting(body: Body, direction: Vector, arm: Vector | None) -> Wrench:
+    if arm is None:
+        return Wrench(body.axes.zero, direction)
+    return Wrench(direction, arm.cross(direction))
+
+
+@dataclass(frozen=True)
+class Reactions:
+    """All reaction components of a system.
+
+    Attributes:
+        values: each component in terms of coordinates, speeds and accelerations; components that
+            are not determined appear in the others as symbols of their own names.
+        undetermined: components that Newton's laws leave open, or that depend on open ones.
+        least: the values with the smallest sum of squares of all components.
+    """
+
+    values: dict[str, Expr]
+    undetermined: tuple[str, ...]
+    least: dict[str, Expr]
+
+
+def lines(motion: Motion) -> tuple[Line, ...]:
+    """Lines of action of all reactions; a normal force with friction leans against the slip."""
+    found = []
+    for element in motion.elements:
+        leaning = {f.normal.name: f for f in element.friction(motion.places)}
+        for restraint in element.restraints(motion.places):
+            direction = restraint.direction
+            if restraint.name in leaning:
+                direction = direction + friction_lean(motion, leaning[restraint.name])
+            found.append(Line(restraint, direction))
+    return tuple(found)
+
+
+def friction_lean(motion: Motion, friction: Friction) -> Vector:
+    """Friction per unit of normal force: -μ along the slip velocity."""
+    slip = motion.slip(friction.normal)
+    (_, first), (_, second) = friction.directions
+    along, across = slip.dot(first), slip.dot(second)
+    speed = (first * along + second * across).norm()
+    if not speed:
+        raise ConstraintError(
+            f"sliding friction at {friction.normal.name} of a contact that cannot slip",
+            expected="a slip velocity that is not zero identically",
+            advice="declare the contact Rolling",
+        )
+    return (first * along + second * across) * (-friction.coefficient / speed)
+
+
+def solve_reactions(
+    motion: Motion, demands: Mapping[Body, Wrench], columns: tuple[Line, ...]
+) -> Reactions:
+    """Every reaction component, from the balance of all bodies."""
+    rows: list[Row] = []
+    right: list[Expr] = []
+    for body, demand in demands.items():
+        unit = [line.on(body) for line in columns]
+        triad = next((w.force.triad for w in unit if w and w.force.components), body.axes)
+        forces = demand.force.express(triad).components
+        for i in range(3):
+            rows.append(tuple(_part(w.force, triad, i) if w else ZERO for w in unit))
+            right.append(forces[i])
+        for i in range(3):
+            rows.append(tuple(_part(w.couple, body.axes, i) if w else ZERO for w in unit))
+            right.append(demand.couple.components[i])
+    outcome = eliminate(rows, right, [0] * len(columns))
+    _refuse_unheld(motion, outcome, demands)
+    return _named(outcome, [line.name for line in columns])
+
+
+def _part(vector: Vector, triad: object, index: int) -> Expr:
+    return vector.express(triad).components[index] if any(vector.components) else ZERO  # type: ignore[arg-type]
+
+
+def _refuse_unheld(
+    motion: Motion, outcome: Elimination, demands: Mapping[Body, Wrench]
+) -> None:
+    """Balances left over must be the equations of motion; more of them means a missing support."""
+    demanding = outcome.contradictory
+    if len(demanding) <= len(motion.speeds):
+        return
+    bodies = list(demands)
+    held = {r.body for e in motion.elements for r in e.restraints(motion.places) if r.is_couple}
+    suspects = [bodies[i // 6].name for i in demanding if bodies[i // 6] not in held]
+    names = ", ".join(dict.fromkeys(suspects or [b.name for b in bodies]))
+    raise ConstraintError(
+        f"nothing supplies the couple that keeps the axes of {names} as they are declared",
+        expected="a Hinge, Guide, Universal or Motor for every rotation that is ruled out",
+        advice="add it, or turn the axes by one more coordinate",
+    )
+
+
+def _named(outcome: Elimination, names: list[str]) -> Reactions:
+    if not outcome.free:
+        values = {names[j]: constant for j, (_, constant) in outcome.solved.items()}
+        ordered = {name: values[name] for name in names}
+        return Reactions(ordered, (), ordered)
+    open_ = tuple(Expr.generator(Symbol(names[j])) for j in outcome.free)
+    least_open = _least(outcome)
+    values = dict(zip((names[j] for j in outcome.free), open_, strict=True))
+    least = dict(zip((names[j] for j in outcome.free), least_open, strict=True))
+    loose = [names[j] for j in outcome.free]
+    for j, (row, constant) in outcome.solved.items():
+        values[names[j]] = dot(row, open_) + constant
+        least[names[j]] = dot(row, least_open) + constant
+        loose += [names[j]] if any(row) else []
+    return Reactions(
+        {name: values[name] for name in names},
+        tuple(name for name in names if name in loose),
+        {name: least[name] for name in names},
+    )
+
+
+def _least(outcome: Elimination) -> Row:
+    """Open components that make the sum of squares of all components smallest."""
+    pairs = list(outcome.solved.values())
+    size = range(len(outcome.free))
+    normal = [
+        [sum((row[i] * row[j] for row, _ in pairs), ONE if i == j else ZERO) for j in size]
+        for i in size
+    ]
+    right = [-sum((row[i] * constant for row, constant in pairs), ZERO) for i in size]
+    return solve(normal, right)

@@ -1,0 +1,95 @@
+"""What contacts and joints have in common: they place bodies, and they restrain them."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from polhode.algebra import Expr, Vector
+from polhode.model._body import Body
+
+#: Position of the centre of mass of every body placed so far, from the origin of the root frame.
+Places = Mapping[Body, Vector]
+
+
+@dataclass(frozen=True)
+class Restraint:
+    """One relative speed that a support prescribes, and the reaction by which it does so.
+
+    A force along `direction` acts on `body` at `arm` from its centre of mass, and its opposite on
+    `other` if there is one; without an arm the reaction is a couple about `direction`.
+
+    Attributes:
+        name: of the reaction component, such as F_rho.
+        body: the body held.
+        direction: unit vector.
+        velocity: prescribed velocity of the point (m/s), or angular velocity (rad/s) for a
+            couple; relative to `other` where there is one.
+        arm: from the centre of mass to the point, m.
+        other: the body that holds, if not the ground.
+        other_arm: from its centre of mass to the point, m.
+    """
+
+    name: str
+    body: Body
+    direction: Vector
+    velocity: Vector
+    arm: Vector | None = None
+    other: Body | None = None
+    other_arm: Vector | None = None
+
+    @property
+    def is_couple(self) -> bool:
+        """Whether the reaction is a couple rather than a force."""
+        return self.arm is None
+
+
+@dataclass(frozen=True)
+class Friction:
+    """Sliding friction: coefficient times the normal reaction, against the slip velocity.
+
+    Attributes:
+        normal: the restraint whose reaction presses the surfaces together.
+        coefficient: kinetic friction coefficient.
+        directions: two unit vectors in the plane of contact, with the names of the components.
+    """
+
+    normal: Restraint
+    coefficient: Expr
+    directions: tuple[tuple[str, Vector], tuple[str, Vector]]
+
+
+class Element(ABC):
+    """A contact or a joint."""
+
+    name: str
+
+    @property
+    @abstractmethod
+    def bodies(self) -> tuple[Body, ...]:
+        """The bodies it acts on."""
+
+    @abstractmethod
+    def restraints(self, places: Places) -> tuple[Restraint, ...]:
+        """What it prescribes, given where the bodies are."""
+
+    def centre(self, places: Places) -> Mapping[Body, Vector]:
+        """Where it puts the centre of mass of a body that is not placed yet."""
+        return {}
+
+    def rates(self) -> Mapping[Expr, Expr]:
+        """Rates of the coordinates it brings, in terms of the speeds it brings."""
+        return {}
+
+    def closures(self, places: Places) -> tuple[Expr, ...]:
+        """Expressions of the configuration that must vanish (m)."""
+        return ()
+
+    def friction(self, places: Places) -> tuple[Friction, ...]:
+        """Friction laws at work."""
+        return ()
+
+    def assumed_positive(self) -> tuple[Expr, ...]:
+        """Expressions whose sign had to be taken as positive."""
+        return ()

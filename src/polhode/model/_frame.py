@@ -1,0 +1,203 @@
+"""Frames: right-handed triads of directions, each turned out of another in steps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+from polhode.algebra import (
+    ONE,
+    ZERO,
+    Expr,
+    ExprLike,
+    Matrix,
+    Row,
+    Vector,
+    cos,
+    pi,
+    rotation,
+    sin,
+    zero_vector,
+)
+from polhode.base import DeclarationError
+
+IDENTITY = Matrix.diagonal([1, 1, 1])
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Three orthonormal directions, for vectors to be resolved along.
+
+    A frame without a parent is a root: the laboratory. `turned` is the angular velocity of a root
+    in inertial space (rad/s, components along its own directions): zero but for the Earth.
+
+    Args:
+        name: what to call it.
+        parent: the frame it is turned out of.
+        angle: by how much, in radians.
+        axis: about which direction: components along either frame.
+        labels: what its directions are called.
+        turned: for a root, its angular velocity in inertial space.
+    """
+
+    name: str
+    parent: Frame | None = None
+    angle: Expr = ZERO
+    axis: Row = (ZERO, ZERO, ONE)
+    labels: tuple[str, ...] = ("x", "y", "z")
+    turned: Row = (ZERO, ZERO, ZERO)
+
+    def rotated(
+        self, angle: ExprLike, about: str | Sequence[ExprLike], labels: str = "", name: str = ""
+    ) -> Frame:
+        """The frame turned out of this one by an angle (rad) about one of its directions.
+
+        Args:
+            angle: an expression of coordinates, parameters, time.
+            about: label of a direction of this frame, or three components of a unit vector.
+            labels: names of the new directions, such as "1 2 3"; those of this frame by default.
+            name: name of the new frame.
+        """
+        new = tuple(labels.split()) or self.labels
+        if len(set(new)) != 3:
+            raise DeclarationError(f"labels {labels!r}", expected="three different labels")
+        axis = self._components(about)
+        return Frame(name or f"{self.name}'", self, Expr.of(angle), axis, new)
+
+    def _components(self, about: str | Sequence[ExprLike]) -> Row:
+        if isinstance(about, str):
+            return self[about].components
+        axis = tuple(Expr.of(c) for c in about)
+        if len(axis) != 3 or sum((c * c for c in axis), ZERO) != 1:
+            raise DeclarationError(
+                f"rotation about {tuple(map(str, axis))}",
+                expected="three components of a unit vector",
+                advice="divide them by their length",
+            )
+        return axis
+
+    def __getitem__(self, label: str) -> Vector:
+        """Unit vector along the direction with this label."""
+        if label not in self.labels:
+            raise DeclarationError(
+                f"direction {label!r} of frame {self.name!r}",
+                expected=f"one of {', '.join(self.labels)}",
+            )
+        position = self.labels.index(label)
+        return Vector(tuple(ONE if i == position else ZERO for i in range(3)), self)
+
+    @property
+    def directions(self) -> tuple[Vector, Vector, Vector]:
+        """The three unit vectors."""
+        first, second, third = (self[label] for label in self.labels)
+        return first, second, third
+
+    def others(self, label: str) -> tuple[str, str]:
+        """The two labels that follow one in cyclic order."""
+        self[label]
+        position = self.labels.index(label)
+        return self.labels[(position + 1) % 3], self.labels[(position + 2) % 3]
+
+    def vector(self, *components: ExprLike) -> Vector:
+        """The vector with these three components."""
+        return Vector.along(self, components)
+
+    @property
+    def zero(self) -> Vector:
+        """The zero vector."""
+        return zero_vector(self)
+
+    @property
+    def lineage(self) -> tuple[Frame, ...]:
+        """This frame, the one it is turned out of, and so on to the root."""
+        return (self,) if self.parent is None else (self, *self.parent.lineage)
+
+    @property
+    def root(self) -> Frame:
+        """The frame without a parent that this one is turned out of in the end."""
+        return self.lineage[-1]
+
+    @property
+    def turning(self) -> Row:
+        """Angular velocity in inertial space, components along these directions, rad/s."""
+        return _turning(self)
+
+    @property
+    def angular_velocity(self) -> Vector:
+        """Angular velocity in inertial space, rad/s."""
+        return Vector(self.turning, self)
+
+    def rotation_to(self, other: Frame) -> Matrix:
+        """Turns components along these directions into components along the other's."""
+        return _rotation_between(self, other)
+
+
+def earth(Omega: ExprLike, *, colatitude: ExprLike, directions: str = "east north up") -> Frame:
+    """The laboratory on the turning Earth: a root frame with the Earth's angular velocity.
+
+    The origin moves with the ground; its centripetal acceleration is part of what is called g.
+
+    Args:
+        Omega: angular velocity of the Earth, rad/s.
+        colatitude: angle between the vertical and the Earth's axis, rad.
+        directions: which way the x, y, z of the frame point, as three of
+            east, west, north, south, up, down, right-handed.
+    """
+    spin = {"north": sin(colatitude) * Omega, "up": cos(colatitude) * Omega, "east": ZERO}
+    opposite = {"south": "north", "down": "up", "west": "east"}
+    names = directions.split()
+    axes = [opposite.get(name, name) for name in names]
+    signs = [-1 if name in opposite else 1 for name in names]
+    if sorted(axes) != ["east", "north", "up"] or not _right_handed(axes, signs):
+        raise DeclarationError(
+            f"directions {directions!r} of the Earth frame",
+            expected="three perpendicular right-handed directions, such as 'east north up'",
+        )
+    return Frame("Earth", turned=tuple(s * spin[a] for s, a in zip(signs, axes, strict=True)))
+
+
+def _right_handed(axes: list[str], signs: list[int]) -> bool:
+    cyclic = (axes.index("north") - axes.index("east")) % 3 == 1
+    return (signs[0] * signs[1] * signs[2] > 0) == cyclic
+
+
+def upright(frame: Frame, labels: str = "1 2 3") -> Frame:
+    """The frame whose first direction is the third (the vertical) of the given one."""
+    return frame.rotated(-pi / 2, frame.labels[1], labels=labels)
+
+
+@lru_cache(maxsize=1024)
+def _step(frame: Frame) -> Matrix:
+    """Components along the frame → components along its parent."""
+    return rotation(frame.axis, cos(frame.angle), sin(frame.angle))
+
+
+@lru_cache(maxsize=4096)
+def _turning(frame: Frame) -> Row:
+    if frame.parent is None:
+        return frame.turned
+    carried = _step(frame).T.times(frame.parent.turning)
+    rate = frame.angle.dt()
+    return tuple(w + rate * axis for w, axis in zip(carried, frame.axis, strict=True))
+
+
+@lru_cache(maxsize=4096)
+def _rotation_between(source: Frame, target: Frame) -> Matrix:
+    if source == target:
+        return IDENTITY
+    down, up = source.lineage, target.lineage
+    shared = next((frame for frame in down if frame in up), None)
+    if shared is None:
+        raise DeclarationError(
+            f"frames {source.name!r} and {target.name!r} in one system",
+            expected="frames turned out of one root",
+            advice="build both from the same Frame with rotated",
+        )
+    matrix = IDENTITY
+    for frame in down[: down.index(shared)]:
+        matrix = _step(frame) @ matrix
+    for frame in reversed(up[: up.index(shared)]):
+        matrix = _step(frame).T @ matrix
+    return matrix
+

@@ -1,0 +1,229 @@
+"""Loads: forces and couples that act whatever the supports do."""
+
+from __future__ import annotations
+
+from abc import ABC
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from polhode.algebra import ZERO, Expr, ExprLike, Vector
+from polhode.model._body import Body, BodyPoint
+from polhode.model._element import Places
+
+#: Velocity of the centre of mass and angular velocity of every body.
+Velocities = Mapping[Body, tuple[Vector, Vector]]
+
+
+@dataclass(frozen=True)
+class Action:
+    """A force (N) at a point of a body and a couple (N m) on it."""
+
+    body: Body
+    force: Vector
+    arm: Vector
+    couple: Vector
+
+    @classmethod
+    def at(cls, point: BodyPoint, force: Vector) -> Action:
+        """A force at a point."""
+        return cls(point.body, force, point.offset, point.body.axes.zero)
+
+    @classmethod
+    def pure(cls, body: Body, couple: Vector) -> Action:
+        """A couple."""
+        return cls(body, body.axes.zero, body.axes.zero, couple)
+
+    def power(self, velocities: Velocities) -> Expr:
+        """Rate of work, W."""
+        velocity, angular = velocities[self.body]
+        point = velocity + angular.cross(self.arm)
+        return self.force.dot(point) + self.couple.dot(angular)
+
+
+class Load(ABC):
+    """A load; conservative where it has a potential."""
+
+    name: str
+
+    def actions(
+        self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
+    ) -> tuple[Action, ...]:
+        """What it does to the bodies."""
+        return ()
+
+    def potential(self, bodies: tuple[Body, ...], places: Places) -> Expr | None:
+        """Potential energy, J; None for a load that has none."""
+        return None
+
+
+@dataclass(frozen=True, init=False)
+class Gravity(Load):
+    """Uniform gravity.
+
+    Args:
+        g: its acceleration, m/s².
+        up: unit vector against it; the third direction of the root frame by default.
+    """
+
+    g: Expr
+    up: Vector | None
+    name: str
+
+    def __init__(self, g: ExprLike, *, up: Vector | None = None, name: str = "gravity") -> None:
+        for field, value in (("g", Expr.of(g)), ("up", up), ("name", name)):
+            object.__setattr__(self, field, value)
+
+    def _up(self, body: Body) -> Vector:
+        root = body.axes.root
+        return self.up if self.up is not None else root[root.labels[2]]
+
+    def actions(
+        self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
+    ) -> tuple[Action, ...]:
+        return tuple(
+            Action.at(body.point(body.axes.zero), self._up(body) * (-body.mass * self.g))
+            for body in bodies
+        )
+
+    def potential(self, bodies: tuple[Body, ...], places: Places) -> Expr:
+        heights = (body.mass * self.g * places[body].dot(self._up(body)) for body in bodies)
+        return sum(heights, ZERO)
+
+
+@dataclass(frozen=True)
+class Force(Load):
+    """A given force (N) at a point of a body."""
+
+    at: BodyPoint
+    force: Vector
+    name: str = "force"
+
+    def actions(
+        self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
+    ) -> tuple[Action, ...]:
+        return (Action.at(self.at, self.force),)
+
+
+@dataclass(frozen=True)
+class Torque(Load):
+    """A given couple (N m) on a body, and its opposite on another if named."""
+
+    body: Body
+    torque: Vector
+    reaction_on: Body | None = None
+    name: str = "torque"
+
+    def actions(
+        self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
+    ) -> tuple[Action, ...]:
+        own = Action.pure(self.body, self.torque)
+        if self.reaction_on is None:
+            return (own,)
+        return (own, Action.pure(self.reaction_on, -self.torque))
+
+
+@dataclass(frozen=True, init=False)
+class Spring(Load):
+    """A straight spring between two points.
+
+    Args:
+        start: a point of a body.
+        end: a point of another body, or a place from the origin (m) that may move.
+        stiffness: N/m.
+        length: unstretched, m; zero for an ideal spring.
+    """
+
+    start: BodyPoint
+    end: BodyPoint | Vector
+    stiffness: Expr
+    length: Expr
+    name: str
+
+    def __init__(
+        self,
+        start: BodyPoint,
+        end: BodyPoint | Vector,
+        *,
+        stiffness: ExprLike,
+        length: ExprLike = 0,
+        name: str = "spring",
+    ) -> None:
+        values = {
+            "start": start,
+            "end": end,
+            "stiffness": Expr.of(stiffness),
+            "length": Expr.of(length),
+            "name": name,
+        }
+        for field, value in values.items():
+            object.__setattr__(self, field, value)
+
+    def _stretch(self, places: Places) -> Vector:
+        return _place(self.start, places) - _place(self.end, places)
+
+    def actions(
+        self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
+    ) -> tuple[Action, ...]:
+        between = self._stretch(places)
+        tension = self.stiffness if not self.length else self._tension(between)
+        return _pair(self.start, self.end, between * -tension)
+
+    def _tension(self, between: Vector) -> Expr:
+        return self.stiffness * (1 - self.length / between.norm())
+
+    def potential(self, bodies: tuple[Body, ...], places: Places) -> Expr:
+        between = self._stretch(places)
+        squared = between.dot(between)
+        if self.length:
+            squared = (between.norm() - self.length) ** 2
+        return self.stiffness * squared / 2
+
+
+@dataclass(frozen=True, init=False)
+class Damper(Load):
+    """Resistance proportional to the relative velocity of two points.
+
+    Args:
+        start: a point of a body.
+        end: a point of another body, or a place from the origin (m) that may move.
+        damping: N s/m.
+    """
+
+    start: BodyPoint
+    end: BodyPoint | Vector
+    damping: Expr
+    name: str
+
+    def __init__(
+        self,
+        start: BodyPoint,
+        end: BodyPoint | Vector,
+        *,
+        damping: ExprLike,
+        name: str = "damper",
+    ) -> None:
+        values = {"start": start, "end": end, "damping": Expr.of(damping), "name": name}
+        for field, value in values.items():
+            object.__setattr__(self, field, value)
+
+    def actions(
+        self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
+    ) -> tuple[Action, ...]:
+        relative = _velocity(self.start, velocities) - _velocity(self.end, velocities)
+        return _pair(self.start, self.end, relative * -self.damping)
+
+
+def _place(point: BodyPoint | Vector, places: Places) -> Vector:
+    return places[point.body] + point.offset if isinstance(point, BodyPoint) else point
+
+
+def _velocity(point: BodyPoint | Vector, velocities: Velocities) -> Vector:
+    if isinstance(point, Vector):
+        return point.dt()
+    velocity, angular = velocities[point.body]
+    return velocity + angular.cross(point.offset)
+
+
+def _pair(start: BodyPoint, end: BodyPoint | Vector, force: Vector) -> tuple[Action, ...]:
+    first = Action.at(start, force)
+    return (first, Action.at(end, -force)) if isinstance(end, BodyPoint) else (first,)

@@ -1,0 +1,110 @@
+"""Bodies whose inertia follows from their shape."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+from polhode.algebra import Expr, ExprLike
+from polhode.model._body import Body
+from polhode.model._frame import Frame
+from polhode.model._spin import Free
+from polhode.model._surface import Ellipsoidal, Rim, Round
+
+
+def disk(
+    name: str, *, mass: ExprLike, radius: ExprLike, axes: Frame, axis: str = "3", **more: Any
+) -> Body:
+    """A thin uniform disk that spins about `axis`: m a²/4 about diameters, m a²/2 about the axis."""
+    return _rimmed(name, mass, radius, axes, axis, Fraction(1, 4), more)
+
+
+def hoop(
+    name: str, *, mass: ExprLike, radius: ExprLike, axes: Frame, axis: str = "3", **more: Any
+) -> Body:
+    """A thin uniform hoop that spins about `axis`: m a²/2 about diameters, m a² about the axis."""
+    return _rimmed(name, mass, radius, axes, axis, Fraction(1, 2), more)
+
+
+def _rimmed(
+    name: str,
+    mass: ExprLike,
+    radius: ExprLike,
+    axes: Frame,
+    axis: str,
+    share: Fraction,
+    more: dict[str, Any],
+) -> Body:
+    across = Expr.of(mass) * Expr.of(radius) ** 2 * share
+    moments = [2 * across if label == axis else across for label in axes.labels]
+    turning = {} if "spin" in more else {"spin_about": axis}
+    surface = Rim(Expr.of(radius), axis)
+    return Body(name, mass=mass, inertia=moments, axes=axes, surface=surface, **turning, **more)
+
+
+def sphere(
+    name: str,
+    *,
+    mass: ExprLike,
+    radius: ExprLike,
+    axes: Frame,
+    inertia: ExprLike | None = None,
+    **more: Any,
+) -> Body:
+    """A ball: 2 m a²/5 if uniform, or the given moment of inertia about any axis through it.
+
+    `axes` are directions that need not follow it, such as those of its support.
+    """
+    moment = Fraction(2, 5) * Expr.of(mass) * Expr.of(radius) ** 2 if inertia is None else inertia
+    surface = Round(Expr.of(radius))
+    more = {"spin": Free(), **more}
+    return Body(name, mass=mass, inertia=[moment] * 3, axes=axes, surface=surface, **more)
+
+
+def ellipsoid(
+    name: str,
+    *,
+    mass: ExprLike,
+    half_axes: tuple[ExprLike, ExprLike, ExprLike],
+    axes: Frame,
+    **more: Any,
+) -> Body:
+    """A uniform solid ellipsoid with half-axes along its axes: m (b² + c²)/5 and so on."""
+    a, b, c = (Expr.of(h) ** 2 for h in half_axes)
+    moments = [Expr.of(mass) * s / 5 for s in (b + c, c + a, a + b)]
+    first, second, third = (Expr.of(h) for h in half_axes)
+    surface = Ellipsoidal((first, second, third))
+    return Body(name, mass=mass, inertia=moments, axes=axes, surface=surface, **more)
+
+
+def rod(
+    name: str, *, mass: ExprLike, length: ExprLike, axes: Frame, axis: str = "x", **more: Any
+) -> Body:
+    """A thin uniform rod along `axis`: m l²/12 across it, nothing about it."""
+    across = Expr.of(mass) * Expr.of(length) ** 2 / 12
+    moments = [Expr.of(0) if label == axis else across for label in axes.labels]
+    return Body(name, mass=mass, inertia=moments, axes=axes, **more)
+
+
+def cylinder(
+    name: str,
+    *,
+    mass: ExprLike,
+    radius: ExprLike,
+    height: ExprLike,
+    axes: Frame,
+    axis: str = "3",
+    **more: Any,
+) -> Body:
+    """A uniform solid cylinder about `axis`, touching with the edge of its lower face."""
+    mass, radius, height = Expr.of(mass), Expr.of(radius), Expr.of(height)
+    across = mass * (3 * radius**2 + height**2) / 12
+    moments = [mass * radius**2 / 2 if label == axis else across for label in axes.labels]
+    turning = {} if "spin" in more else {"spin_about": axis}
+    surface = Rim(radius, axis, -height / 2)
+    return Body(name, mass=mass, inertia=moments, axes=axes, surface=surface, **turning, **more)
+
+
+def point_mass(name: str, *, mass: ExprLike, axes: Frame, **more: Any) -> Body:
+    """A particle: no inertia and no rotation of its own."""
+    return Body(name, mass=mass, inertia=(0, 0, 0), axes=axes, **more)

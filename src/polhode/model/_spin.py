@@ -1,0 +1,138 @@
+"""How a body turns relative to the axes its inertia is given along, and by which speeds."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+from polhode.algebra import Expr, Vector, coordinate, solve, speed
+from polhode.model._frame import Frame
+
+
+class Spin(ABC):
+    """Chooses the rotational speeds of a body."""
+
+    @abstractmethod
+    def angular_velocity(self, axes: Frame, tag: str) -> Vector:
+        """Angular velocity of the body in inertial space."""
+
+    def speeds(self, axes: Frame, tag: str) -> tuple[Expr, ...]:
+        """Speeds that are not rates of coordinates."""
+        return ()
+
+    def rates(self, axes: Frame, tag: str) -> dict[Expr, Expr]:
+        """Rates of coordinates in terms of those speeds."""
+        return {}
+
+    def fixed_axes(self, axes: Frame, tag: str) -> Frame | None:
+        """Axes that are fixed in the body, where its attitude is known."""
+        return axes
+
+
+@dataclass(frozen=True)
+class WithAxes(Spin):
+    """The body turns with its axes; the speeds are the rates of their angles."""
+
+    def angular_velocity(self, axes: Frame, tag: str) -> Vector:
+        return axes.angular_velocity
+
+
+@dataclass(frozen=True)
+class About(Spin):
+    """The body spins about one of its axes, which only follow it.
+
+    The speed is the whole angular velocity along that axis: omega_3 = psi_dot + ω(axes)·3.
+
+    Args:
+        axis: label of the axis.
+        angle: name of the coordinate that counts the turns relative to the axes.
+    """
+
+    axis: str
+    angle: str = "psi"
+
+    def _speed(self, tag: str) -> Expr:
+        return speed(f"omega_{self.axis}{tag}")
+
+    def angular_velocity(self, axes: Frame, tag: str) -> Vector:
+        along = axes[self.axis]
+        carried = axes.angular_velocity
+        return carried + along * (self._speed(tag) - carried.dot(along))
+
+    def speeds(self, axes: Frame, tag: str) -> tuple[Expr, ...]:
+        return (self._speed(tag),)
+
+    def rates(self, axes: Frame, tag: str) -> dict[Expr, Expr]:
+        carried = axes.angular_velocity.dot(axes[self.axis])
+        return {coordinate(self.angle + tag): self._speed(tag) - carried}
+
+    def fixed_axes(self, axes: Frame, tag: str) -> Frame:
+        return axes.rotated(coordinate(self.angle + tag), self.axis, name=f"{axes.name} spun")
+
+
+@dataclass(frozen=True)
+class Relative(Spin):
+    """As `About`, but the speed is the spin relative to the axes: omega = psi_dot.
+
+    Args:
+        axis: label of the axis.
+        name: name of the speed.
+        angle: name of the coordinate that counts the turns.
+    """
+
+    axis: str
+    name: str = "omega"
+    angle: str = "psi"
+
+    def angular_velocity(self, axes: Frame, tag: str) -> Vector:
+        return axes.angular_velocity + axes[self.axis] * speed(self.name + tag)
+
+    def speeds(self, axes: Frame, tag: str) -> tuple[Expr, ...]:
+        return (speed(self.name + tag),)
+
+    def rates(self, axes: Frame, tag: str) -> dict[Expr, Expr]:
+        return {coordinate(self.angle + tag): speed(self.name + tag)}
+
+    def fixed_axes(self, axes: Frame, tag: str) -> Frame:
+        return axes.rotated(coordinate(self.angle + tag), self.axis, name=f"{axes.name} spun")
+
+
+@dataclass(frozen=True)
+class Components(Spin):
+    """The speeds are the components of the angular velocity along the body's axes.
+
+    The three coordinates that turn the axes follow from them, but where the chart is singular.
+
+    Args:
+        angles: names of the three angles in the axes' rotations.
+    """
+
+    angles: tuple[str, str, str] = ("phi", "theta", "psi")
+
+    def speeds(self, axes: Frame, tag: str) -> tuple[Expr, ...]:
+        return tuple(speed(f"omega_{label}{tag}") for label in axes.labels)
+
+    def angular_velocity(self, axes: Frame, tag: str) -> Vector:
+        return Vector(self.speeds(axes, tag), axes)
+
+    def rates(self, axes: Frame, tag: str) -> dict[Expr, Expr]:
+        angles = tuple(coordinate(name + tag) for name in self.angles)
+        columns = [[w.diff(angle.dt()) for angle in angles] for w in axes.turning]
+        still = {angle.dt(): 0 for angle in angles}
+        carried = [w.subs(still) for w in axes.turning]
+        right = [w - c for w, c in zip(self.speeds(axes, tag), carried, strict=True)]
+        return dict(zip(angles, solve(columns, right), strict=True))
+
+
+@dataclass(frozen=True)
+class Free(Spin):
+    """Components along axes that do not follow the body: for spheres, whose attitude is idle."""
+
+    def speeds(self, axes: Frame, tag: str) -> tuple[Expr, ...]:
+        return tuple(speed(f"omega_{label}{tag}") for label in axes.labels)
+
+    def angular_velocity(self, axes: Frame, tag: str) -> Vector:
+        return Vector(self.speeds(axes, tag), axes)
+
+    def fixed_axes(self, axes: Frame, tag: str) -> None:
+        return None

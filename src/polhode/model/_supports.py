@@ -1,0 +1,126 @@
+"""Supports: rigid flat surfaces, at rest or moving in their own plane."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from polhode.algebra import ZERO, Expr, ExprLike, Vector
+from polhode.model._frame import Frame
+
+
+@dataclass(frozen=True, init=False)
+class Plane:
+    """A plane at rest in a frame, through the frame's origin.
+
+    Args:
+        axes: the frame.
+        normal: label of the direction that points away from the support.
+        tilt: angle (rad) by which the plane is first turned about the direction that follows its
+            normal, so that the next one points up the slope.
+    """
+
+    axes: Frame
+    normal: str
+
+    def __init__(self, axes: Frame, *, normal: str = "z", tilt: ExprLike = 0) -> None:
+        first, _ = axes.others(normal)
+        tilted = axes.rotated(tilt, first, name="slope") if Expr.of(tilt) else axes
+        object.__setattr__(self, "axes", tilted)
+        object.__setattr__(self, "normal", normal)
+
+    @property
+    def up(self) -> Vector:
+        """Unit normal, away from the support."""
+        return self.axes[self.normal]
+
+    @property
+    def tangents(self) -> tuple[str, str]:
+        """Labels of the two directions in the plane."""
+        return self.axes.others(self.normal)
+
+    @property
+    def drift(self) -> Vector:
+        """Velocity of the support's origin relative to its frame, m/s."""
+        return self.axes.zero
+
+    @property
+    def origin(self) -> Vector:
+        """Place of the support's own origin in its frame, m."""
+        return self.axes.zero
+
+    @property
+    def turning(self) -> Expr:
+        """Angular velocity of the surface about its normal, relative to its frame, rad/s."""
+        return ZERO
+
+    def velocity(self, point: Vector) -> Vector:
+        """Velocity in inertial space of the surface at a point given from the origin, m/s."""
+        spin = self.up * self.turning
+        carried = self.axes.angular_velocity.cross(point)
+        return carried + self.drift + spin.cross(point - self.origin)
+
+
+@dataclass(frozen=True, init=False)
+class Turntable(Plane):
+    """A plane that turns about its normal through the origin.
+
+    Args:
+        axes: the frame it turns in.
+        Omega: angular velocity about the normal, rad/s; may be a function of time.
+    """
+
+    Omega: Expr
+
+    def __init__(
+        self, axes: Frame, Omega: ExprLike, *, normal: str = "z", tilt: ExprLike = 0
+    ) -> None:
+        super().__init__(axes, normal=normal, tilt=tilt)
+        object.__setattr__(self, "Omega", Expr.of(Omega))
+
+    @property
+    def turning(self) -> Expr:
+        return self.Omega
+
+
+@dataclass(frozen=True, init=False)
+class Sheet(Plane):
+    """A plane that is moved about in itself: a sheet of paper that is pulled and turned.
+
+    Args:
+        axes: the frame it moves in.
+        motion: place (X, Y) of the sheet's own origin along the two directions in the plane, m:
+            functions of time.
+        angle: angle by which the sheet has turned about its origin, rad.
+    """
+
+    motion: tuple[Expr, Expr]
+    angle: Expr
+
+    def __init__(
+        self,
+        axes: Frame,
+        *,
+        motion: tuple[ExprLike, ExprLike] = (0, 0),
+        angle: ExprLike = 0,
+        normal: str = "z",
+        tilt: ExprLike = 0,
+    ) -> None:
+        super().__init__(axes, normal=normal, tilt=tilt)
+        object.__setattr__(self, "motion", (Expr.of(motion[0]), Expr.of(motion[1])))
+        object.__setattr__(self, "angle", Expr.of(angle))
+
+    def _in_plane(self, first: Expr, second: Expr) -> Vector:
+        along, across = (self.axes[label] for label in self.tangents)
+        return along * first + across * second
+
+    @property
+    def origin(self) -> Vector:
+        return self._in_plane(*self.motion)
+
+    @property
+    def drift(self) -> Vector:
+        return self._in_plane(self.motion[0].dt(), self.motion[1].dt())
+
+    @property
+    def turning(self) -> Expr:
+        return self.angle.dt()

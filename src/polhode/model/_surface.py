@@ -1,0 +1,71 @@
+"""Surfaces that bodies touch with: where the point of contact with a plane lies."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+from polhode.algebra import ZERO, Expr, Vector, principal_root
+from polhode.model._frame import Frame
+
+
+class Surface(ABC):
+    """A convex surface fixed to a body's axes, or symmetric about the axis it spins on."""
+
+    @abstractmethod
+    def lowest(self, axes: Frame, normal: Vector) -> Vector:
+        """From the centre of mass to the point that touches a plane with this unit normal, m."""
+
+    def assumed_positive(self, axes: Frame, normal: Vector) -> tuple[Expr, ...]:
+        """Expressions whose sign had to be taken as positive."""
+        return ()
+
+
+@dataclass(frozen=True)
+class Round(Surface):
+    """A sphere about the centre of mass."""
+
+    radius: Expr
+
+    def lowest(self, axes: Frame, normal: Vector) -> Vector:
+        return normal * -self.radius
+
+
+@dataclass(frozen=True)
+class Rim(Surface):
+    """A circle about one of the axes: the edge of a disk, a coin or a hoop.
+
+    `offset` is the height of its centre along the axis, from the centre of mass.
+    """
+
+    radius: Expr
+    axis: str
+    offset: Expr = ZERO
+
+    def _steepest(self, axes: Frame, normal: Vector) -> Vector:
+        along = axes[self.axis]
+        upright = normal.express(axes)
+        return upright - along * upright.dot(along)
+
+    def lowest(self, axes: Frame, normal: Vector) -> Vector:
+        steepest = self._steepest(axes, normal)
+        length = principal_root(steepest.dot(steepest))
+        return axes[self.axis] * self.offset - steepest * (self.radius / length)
+
+    def assumed_positive(self, axes: Frame, normal: Vector) -> tuple[Expr, ...]:
+        steepest = self._steepest(axes, normal)
+        return (principal_root(steepest.dot(steepest)),)
+
+
+@dataclass(frozen=True)
+class Ellipsoidal(Surface):
+    """An ellipsoid with these half-axes along the body's axes, centred on the centre of mass."""
+
+    half_axes: tuple[Expr, Expr, Expr]
+
+    def lowest(self, axes: Frame, normal: Vector) -> Vector:
+        upright = normal.express(axes).components
+        stretched = [h * h * n for h, n in zip(self.half_axes, upright, strict=True)]
+        support = sum((s * n for s, n in zip(stretched, upright, strict=True)), ZERO)
+        height = principal_root(support)
+        return Vector(tuple(-s / height for s in stretched), axes)

@@ -1,0 +1,131 @@
+"""A system: bodies, what touches and holds them, and what loads them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from polhode.algebra import Expr, Kind, Symbol
+from polhode.base import DeclarationError
+from polhode.model._body import Body
+from polhode.model._element import Element
+from polhode.model._flight import Flight
+from polhode.model._frame import Frame
+from polhode.model._loads import Load
+
+Part = Body | Element | Load
+
+
+@dataclass(frozen=True, init=False)
+class System:
+    """An immutable declaration; building it computes nothing.
+
+    Args:
+        parts: bodies, contacts, joints and loads, in any order. Bodies that a contact or joint
+            names need not be listed again.
+        name: short name.
+        independent: speeds to keep as independent ones, where the constraints leave a choice.
+    """
+
+    bodies: tuple[Body, ...]
+    elements: tuple[Element, ...]
+    loads: tuple[Load, ...]
+    name: str
+    independent: tuple[Symbol, ...]
+
+    def __init__(
+        self, *parts: Part, name: str = "system", independent: Iterable[Expr] = ()
+    ) -> None:
+        bodies = _bodies(parts)
+        elements = tuple(part for part in parts if isinstance(part, Element))
+        loads = tuple(part for part in parts if isinstance(part, Load))
+        _refuse_strangers(parts)
+        if not bodies:
+            raise DeclarationError("a system without a body", expected="at least one Body")
+        _refuse_twins("body", [body.name for body in bodies])
+        _refuse_twins("contact or joint", [element.name for element in elements])
+        _refuse_twins("load", [load.name for load in loads])
+        _root(bodies)
+        kept = tuple(s for e in independent if (s := e.symbol) is not None)
+        values = {
+            "bodies": bodies,
+            "elements": elements,
+            "loads": loads,
+            "name": name,
+            "independent": kept,
+        }
+        for field, value in values.items():
+            object.__setattr__(self, field, value)
+
+    @property
+    def root(self) -> Frame:
+        """The laboratory frame that everything is turned out of."""
+        return self.bodies[0].axes.root
+
+    def body(self, name: str) -> Body:
+        """The body with this name."""
+        for body in self.bodies:
+            if body.name == name:
+                return body
+        known = ", ".join(b.name for b in self.bodies)
+        raise DeclarationError(f"body {name!r}", expected=f"one of {known}")
+
+    def element(self, name: str) -> Element:
+        """The contact or joint with this name."""
+        for element in self.elements:
+            if element.name == name:
+                return element
+        known = ", ".join(e.name for e in self.elements)
+        raise DeclarationError(f"contact or joint {name!r}", expected=f"one of {known}")
+
+    def flights(self, placed: Iterable[Body]) -> tuple[Flight, ...]:
+        """Free motion for the bodies that nothing places."""
+        known = set(placed)
+        return tuple(Flight(b, f"flight{b.tag}") for b in self.bodies if b not in known)
+
+
+def _bodies(parts: Iterable[Part]) -> tuple[Body, ...]:
+    found: dict[Body, None] = {}
+    for part in parts:
+        if isinstance(part, Body):
+            found.setdefault(part)
+        elif isinstance(part, Element):
+            for body in part.bodies:
+                found.setdefault(body)
+    return tuple(found)
+
+
+def _refuse_strangers(parts: Iterable[object]) -> None:
+    for part in parts:
+        if not isinstance(part, Body | Element | Load):
+            raise DeclarationError(
+                f"{part!r} in a system",
+                expected="bodies, contacts, joints and loads",
+                advice="a support belongs into a contact: Rolling(body, on=Plane(lab))",
+            )
+
+
+def _refuse_twins(what: str, names: list[str]) -> None:
+    for name in names:
+        if names.count(name) > 1:
+            raise DeclarationError(
+                f"two different things both called {name!r}",
+                expected=f"every {what} with a name of its own",
+                advice="give one of them another name=",
+            )
+
+
+def _root(bodies: Iterable[Body]) -> None:
+    roots = {body.axes.root for body in bodies}
+    if len(roots) > 1:
+        names = ", ".join(sorted(frame.name for frame in roots))
+        raise DeclarationError(
+            f"bodies whose axes start from different frames: {names}",
+            expected="frames turned out of one root",
+            advice="build all axes from the same Frame",
+        )
+
+
+def is_configuration(symbol: Symbol) -> bool:
+    """Whether a symbol is a coordinate (and not its rate)."""
+    return symbol.kind is Kind.COORDINATE and symbol.order == 0

@@ -1,0 +1,31 @@
+"""What an installed wheel must do; `make wheel` runs it in an environment with nothing else."""
+
+import sys
+from importlib.resources import files
+from importlib.util import find_spec
+from pathlib import Path
+
+import polhode as ph
+from polhode import base
+
+
+def main() -> None:
+    installed = Path(ph.__file__).resolve()
+    assert installed.is_relative_to(Path(sys.prefix).resolve()), f"not the wheel: {installed}"
+    assert files("polhode").joinpath("py.typed").is_file()
+    assert ph.__version__ == base.provenance()["versions"]["polhode"]
+    refuses_a_wrong_dimension()
+    heyoka = "with" if find_spec("heyoka") else "without"
+    print(f"polhode {ph.__version__} works from its wheel, {heyoka} heyoka")
+
+
+def refuses_a_wrong_dimension() -> None:
+    message = ""
+    try:
+        base.to_si("3 kg", base.LENGTH, "radius")
+    except ph.UnitError as error:
+        message = str(error)
+    assert message.startswith("radius = '3 kg' is a quantity in kg; expected a quantity in m")
+
+
+main()
