@@ -11,6 +11,32 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from polhode.algebra import Expr as Expr
+    from polhode.algebra import Kind as Kind
+    from polhode.algebra import Matrix as Matrix
+    from polhode.algebra import Symbol as Symbol
+    from polhode.algebra import Vector as Vector
+    from polhode.algebra import absolute as absolute
+    from polhode.algebra import coordinate as coordinate
+    from polhode.algebra import coordinates as coordinates
+    from polhode.algebra import cos as cos
+    from polhode.algebra import cosh as cosh
+    from polhode.algebra import exp as exp
+    from polhode.algebra import functions as functions
+    from polhode.algebra import integrate as integrate
+    from polhode.algebra import pi as pi
+    from polhode.algebra import sech as sech
+    from polhode.algebra import sin as sin
+    from polhode.algebra import sinh as sinh
+    from polhode.algebra import speed as speed
+    from polhode.algebra import speeds as speeds
+    from polhode.algebra import sqrt as sqrt
+    from polhode.algebra import symbol as symbol
+    from polhode.algebra import symbols as symbols
+    from polhode.algebra import tan as tan
+    from polhode.algebra import tanh as tanh
+    from polhode.algebra import taylor as taylor
+    from polhode.algebra import time as time
     from polhode.base import ConstraintError as ConstraintError
     from polhode.base import DeclarationError as DeclarationError
     from polhode.base import NumericError as NumericError
@@ -18,10 +44,79 @@ if TYPE_CHECKING:
     from polhode.base import PolhodeError as PolhodeError
     from polhode.base import StoreError as StoreError
     from polhode.base import UnitError as UnitError
+    from polhode.derive import Equations as Equations
+    from polhode.derive import Reaction as Reaction
+    from polhode.derive import derive as derive
+    from polhode.model import About as About
+    from polhode.model import Body as Body
+    from polhode.model import BodyPoint as BodyPoint
+    from polhode.model import Components as Components
+    from polhode.model import Coulomb as Coulomb
+    from polhode.model import Damper as Damper
+    from polhode.model import Ellipsoidal as Ellipsoidal
+    from polhode.model import Force as Force
+    from polhode.model import Frame as Frame
+    from polhode.model import Free as Free
+    from polhode.model import Gravity as Gravity
+    from polhode.model import Guide as Guide
+    from polhode.model import Hinge as Hinge
+    from polhode.model import Hold as Hold
+    from polhode.model import Motor as Motor
+    from polhode.model import Pivot as Pivot
+    from polhode.model import Plane as Plane
+    from polhode.model import Relative as Relative
+    from polhode.model import Rim as Rim
+    from polhode.model import Rolling as Rolling
+    from polhode.model import Round as Round
+    from polhode.model import Sheet as Sheet
+    from polhode.model import Smooth as Smooth
+    from polhode.model import Spring as Spring
+    from polhode.model import System as System
+    from polhode.model import Torque as Torque
+    from polhode.model import Turntable as Turntable
+    from polhode.model import Universal as Universal
+    from polhode.model import WithAxes as WithAxes
+    from polhode.model import cylinder as cylinder
+    from polhode.model import disk as disk
+    from polhode.model import earth as earth
+    from polhode.model import ellipsoid as ellipsoid
+    from polhode.model import hoop as hoop
+    from polhode.model import point_mass as point_mass
+    from polhode.model import rod as rod
+    from polhode.model import sphere as sphere
+    from polhode.model import upright as upright
 
     __version__: str
 
 _ROOMS = {
+    "algebra": (
+        "Expr",
+        "Kind",
+        "Matrix",
+        "Symbol",
+        "Vector",
+        "absolute",
+        "coordinate",
+        "coordinates",
+        "cos",
+        "cosh",
+        "exp",
+        "functions",
+        "integrate",
+        "pi",
+        "sech",
+        "sin",
+        "sinh",
+        "speed",
+        "speeds",
+        "sqrt",
+        "symbol",
+        "symbols",
+        "tan",
+        "tanh",
+        "taylor",
+        "time",
+    ),
     "base": (
         "ConstraintError",
         "DeclarationError",
@@ -30,6 +125,51 @@ _ROOMS = {
         "PolhodeError",
         "StoreError",
         "UnitError",
+    ),
+    "derive": (
+        "Equations",
+        "Reaction",
+        "derive",
+    ),
+    "model": (
+        "About",
+        "Body",
+        "BodyPoint",
+        "Components",
+        "Coulomb",
+        "Damper",
+        "Ellipsoidal",
+        "Force",
+        "Frame",
+        "Free",
+        "Gravity",
+        "Guide",
+        "Hinge",
+        "Hold",
+        "Motor",
+        "Pivot",
+        "Plane",
+        "Relative",
+        "Rim",
+        "Rolling",
+        "Round",
+        "Sheet",
+        "Smooth",
+        "Spring",
+        "System",
+        "Torque",
+        "Turntable",
+        "Universal",
+        "WithAxes",
+        "cylinder",
+        "disk",
+        "earth",
+        "ellipsoid",
+        "hoop",
+        "point_mass",
+        "rod",
+        "sphere",
+        "upright",
     ),
 }
 _HOME = {name: f"polhode.{room}" for room, names in _ROOMS.items() for name in names}

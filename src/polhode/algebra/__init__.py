@@ -3,10 +3,13 @@
 from polhode.algebra._calculus import integrate as integrate
 from polhode.algebra._calculus import linear_parts as linear_parts
 from polhode.algebra._calculus import taylor as taylor
+from polhode.algebra._compile import LinearSolve as LinearSolve
+from polhode.algebra._compile import compile_program as compile_program
 from polhode.algebra._expression import Expr as Expr
 from polhode.algebra._expression import ExprLike as ExprLike
 from polhode.algebra._expression import ONE as ONE
 from polhode.algebra._expression import ZERO as ZERO
+from polhode.algebra._expression import as_symbol as as_symbol
 from polhode.algebra._functions import cos as cos
 from polhode.algebra._functions import cosh as cosh
 from polhode.algebra._functions import exp as exp
@@ -27,6 +30,12 @@ from polhode.algebra._linear import eliminate as eliminate
 from polhode.algebra._linear import rotation as rotation
 from polhode.algebra._linear import solve as solve
 from polhode.algebra._linear import variables as variables
+from polhode.algebra._program import FLOATS as FLOATS
+from polhode.algebra._program import Arithmetic as Arithmetic
+from polhode.algebra._program import Compiled as Compiled
+from polhode.algebra._program import Op as Op
+from polhode.algebra._program import Program as Program
+from polhode.algebra._program import arrays as arrays
 from polhode.algebra._roots import absolute as absolute
 from polhode.algebra._roots import is_positive as is_positive
 from polhode.algebra._roots import principal_root as principal_root

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 from flint import fmpq
 
@@ -42,10 +42,13 @@ class LinearSolve:
         return tuple(Expr.generator(unknown) for unknown in self.unknowns)
 
 
+Definitions: TypeAlias = Callable[[Symbol], Expr | None]
+
+
 def compile_program(
     expressions: Iterable[Expr],
     arguments: Sequence[Symbol],
-    where: Mapping[Symbol, Expr] | None = None,
+    where: Definitions = lambda symbol: None,
     solves: Iterable[LinearSolve] = (),
 ) -> Program:
     """The program that computes the expressions from the arguments.
@@ -53,14 +56,15 @@ def compile_program(
     Args:
         expressions: what to compute, in the order of the outputs.
         arguments: the symbols whose values will be given, in their order.
-        where: further symbols, each by an expression in others of them and the arguments.
+        where: what a further symbol stands for, as an expression in others and the arguments, or
+            None where it is not known; a dictionary's `get` will do.
         solves: further symbols, defined by systems of linear equations.
 
     Raises:
         DeclarationError: for a symbol that is neither given nor defined.
         NumericError: for linear equations that are singular whatever the values.
     """
-    writer = _Writer(tuple(arguments), where or {}, tuple(solves))
+    writer = _Writer(tuple(arguments), where, tuple(solves))
     outputs = [writer.expression(expression) for expression in expressions]
     return writer.tape.program(writer.arguments, outputs)
 
@@ -79,7 +83,7 @@ class _Writer:
     def __init__(
         self,
         arguments: tuple[Symbol, ...],
-        where: Mapping[Symbol, Expr],
+        where: Definitions,
         solves: tuple[LinearSolve, ...],
     ) -> None:
         self.tape = Tape()
@@ -126,11 +130,12 @@ class _Writer:
                 )
 
     def _symbol(self, symbol: Symbol) -> Value:
-        if symbol in self._where:
-            return self.expression(self._where[symbol])
         if symbol in self._solves:
             self._solve(self._solves[symbol])
             return self._values[symbol]
+        meaning = self._where(symbol)
+        if meaning is not None:
+            return self.expression(meaning)
         if symbol == PI.symbol:
             return self.tape.pi()
         raise DeclarationError(

@@ -322,14 +322,17 @@ def _virtual_power(motion: Motion, line: Line, speed: Symbol) -> Expr:
 
 
 def _without_idle_factors(row: Expr) -> Expr:
-    """Numerator without the rational and monomial factors in parameters common to all terms."""
+    """Numerator without the number, parameters and sines common to all terms.
+
+    What is left vanishes wherever the sine does not, and by continuity there too.
+    """
     terms = list(row.numerator.terms())
     if not terms:
         return row
     shared = {
         g: min(powers.get(g, 0) for powers, _ in terms)
         for g in terms[0][0]
-        if isinstance(g, Symbol) and g.kind is Kind.PARAMETER
+        if not isinstance(g, Symbol) or g.kind is Kind.PARAMETER
     }
     above = gcd(*(abs(c.numerator) for _, c in terms))
     below = lcm(*(c.denominator for _, c in terms))

@@ -18,6 +18,7 @@ from polhode.model._frame import earth as earth
 from polhode.model._frame import upright as upright
 from polhode.model._joints import Guide as Guide
 from polhode.model._joints import Hinge as Hinge
+from polhode.model._joints import Hold as Hold
 from polhode.model._joints import Motor as Motor
 from polhode.model._joints import Pivot as Pivot
 from polhode.model._joints import Universal as Universal

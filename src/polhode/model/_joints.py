@@ -100,6 +100,61 @@ class Pivot(Element):
         )
 
 
+@dataclass(frozen=True, init=False)
+class Hold(Element):
+    """A point of a body kept at rest wherever it happens to be, along some directions or all.
+
+    Args:
+        body: the body held.
+        at: from its centre of mass to the point, m.
+        along: frame whose directions name the components of the reaction.
+        only: labels of the directions in which it holds; all three by default.
+        force: letter of the components.
+    """
+
+    body: Body
+    at: Vector
+    along: Frame
+    only: tuple[str, ...]
+    name: str
+    force: str
+
+    def __init__(
+        self,
+        body: Body,
+        *,
+        at: Vector,
+        along: Frame | None = None,
+        only: str = "",
+        name: str = "hold",
+        force: str = "Fprime",
+    ) -> None:
+        axes = along or body.axes.root
+        values = {
+            "body": body,
+            "at": at,
+            "along": axes,
+            "only": tuple(only.split()) or axes.labels,
+            "name": name,
+            "force": force,
+        }
+        for field, value in values.items():
+            object.__setattr__(self, field, value)
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        return (self.body,)
+
+    def restraints(self, places: Places) -> tuple[Restraint, ...]:
+        point = places[self.body] + self.at
+        carried = self.body.axes.root.angular_velocity.cross(point)
+        tag = self.body.tag
+        return tuple(
+            Restraint(f"{self.force}_{label}{tag}", self.body, self.along[label], carried, self.at)
+            for label in self.only
+        )
+
+
 @dataclass(frozen=True)
 class _Couple(Element):
     """Holds the attitude of a body by couples."""

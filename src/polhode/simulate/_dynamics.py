@@ -1,0 +1,139 @@
+"""What every symbol of a system means in numbers, once the prescribed motions are known."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol
+
+from polhode.algebra import (
+    Expr,
+    Kind,
+    LinearSolve,
+    Matrix,
+    Program,
+    Symbol,
+    arrays,
+    compile_program,
+    time,
+)
+from polhode.algebra import Compiled as Compiled
+from polhode.base import DeclarationError
+
+
+class EquationsOfMotion(Protocol):
+    """What is needed of the equations of one contact mode; `derive.Equations` are such."""
+
+    @property
+    def system(self) -> Any: ...
+    @property
+    def coordinates(self) -> tuple[Symbol, ...]: ...
+    @property
+    def speeds(self) -> tuple[Symbol, ...]: ...
+    @property
+    def kinematics(self) -> Mapping[Symbol, Expr]: ...
+    @property
+    def dependent(self) -> Mapping[Symbol, Expr]: ...
+    @property
+    def mass(self) -> Matrix: ...
+    @property
+    def forcing(self) -> tuple[Expr, ...]: ...
+    @property
+    def components(self) -> Mapping[str, Expr]: ...
+    @property
+    def undetermined(self) -> tuple[str, ...]: ...
+    @property
+    def energy(self) -> Expr: ...
+    @property
+    def power(self) -> Expr: ...
+    @property
+    def closures(self) -> tuple[Expr, ...]: ...
+    @property
+    def assumed_positive(self) -> tuple[Expr, ...]: ...
+    @property
+    def parameters(self) -> tuple[Symbol, ...]: ...
+    @property
+    def functions(self) -> tuple[Symbol, ...]: ...
+
+
+TIME = time.symbol or Symbol("t", Kind.TIME)
+
+
+@dataclass(frozen=True)
+class Dynamics:
+    """Equations of one contact mode together with the prescribed functions of time.
+
+    Attributes:
+        equations: exact equations of motion.
+        prescribed: every prescribed function as an expression of time.
+    """
+
+    equations: EquationsOfMotion
+    prescribed: Mapping[Symbol, Expr]
+
+    @cached_property
+    def states(self) -> tuple[Symbol, ...]:
+        """Coordinates, then independent speeds."""
+        return (*self.equations.coordinates, *self.equations.speeds)
+
+    @cached_property
+    def parameters(self) -> tuple[Symbol, ...]:
+        """Every constant whose value is needed."""
+        driving = (s for e in self.prescribed.values() for s in e.symbols())
+        also = (s for s in driving if s.kind is Kind.PARAMETER and s.name != "pi")
+        return tuple(dict.fromkeys((*self.equations.parameters, *also)))
+
+    @cached_property
+    def arguments(self) -> tuple[Symbol, ...]:
+        """What numbers are given for: states, parameters, time."""
+        return (*self.states, *self.parameters, TIME)
+
+    @cached_property
+    def rates(self) -> tuple[Expr, ...]:
+        """Time derivatives of the states."""
+        return tuple(Expr.generator(symbol.derivative()) for symbol in self.states)
+
+    @cached_property
+    def accelerations(self) -> LinearSolve:
+        """The accelerations, as the solution of mass · accelerations = forcing."""
+        unknowns = tuple(speed.derivative() for speed in self.equations.speeds)
+        return LinearSolve(unknowns, self.equations.mass, tuple(self.equations.forcing))
+
+    def program(
+        self, expressions: Iterable[Expr], arguments: tuple[Symbol, ...] | None = None
+    ) -> Program:
+        """Steps that compute expressions in any symbol of the system."""
+        return compile_program(
+            expressions, arguments or self.arguments, self.meaning, (self.accelerations,)
+        )
+
+    def function(self, expressions: Iterable[Expr]) -> Compiled:
+        """The same as a function of NumPy arrays."""
+        return self.program(expressions).function(arrays())
+
+    def meaning(self, symbol: Symbol) -> Expr | None:
+        """What a symbol that is neither state, parameter nor acceleration stands for."""
+        for table in (self.equations.kinematics, self.equations.dependent, self.prescribed):
+            if symbol in table:
+                return table[symbol]
+        if symbol.kind is Kind.FUNCTION and not symbol.order:
+            raise DeclarationError(
+                f"the motion {symbol.published}(t) is not given",
+                expected="an expression of time for every prescribed function",
+                advice=f"add it to forcing, as in {{{symbol.published}: sin(2*t)}}",
+            )
+        return self._derivative(symbol)
+
+    def _derivative(self, symbol: Symbol) -> Expr | None:
+        if not symbol.order or symbol.kind is Kind.PARAMETER:
+            return None
+        lower = Symbol(symbol.name, symbol.kind, symbol.order - 1)
+        if lower in self.accelerations.unknowns:
+            raise DeclarationError(
+                f"{symbol.published}, the rate of an acceleration",
+                expected="derivatives up to accelerations",
+                advice="difference the acceleration along the trajectory",
+            )
+        meaning = self.meaning(lower)
+        return meaning.dt() if meaning is not None else None

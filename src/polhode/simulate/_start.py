@@ -1,0 +1,188 @@
+"""Start values: any sufficient set is taken, the rest is solved for or starts at zero."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from polhode.algebra import Expr, Kind, Symbol
+from polhode.base import ConstraintError, NumericError
+from polhode.simulate._closures import close
+from polhode.simulate._dynamics import Dynamics
+from polhode.simulate._names import Name, by_name
+from polhode.simulate._values import Numbers, read_values
+
+Array = NDArray[np.float64]
+
+_AGREE = 1e-9  # relative difference of start values that are taken to agree
+_INDEPENDENT = 1e-12  # relative size below which a pivot is rounding
+
+
+@dataclass(frozen=True)
+class Start:
+    """Where a motion starts.
+
+    Attributes:
+        state: values of all states, SI.
+        assumed: names and values of what had to be assumed.
+    """
+
+    state: Array
+    assumed: Mapping[str, float]
+
+
+def read_start(dynamics: Dynamics, given: Mapping[Name, Any], parameters: Numbers) -> Start:
+    """The state a motion starts from at t = 0.
+
+    Coordinates, speeds, rates of coordinates and dependent speeds may be given in any mixture.
+
+    Raises:
+        ConstraintError: for values that contradict each other or the constraints.
+        DeclarationError: for a name that is not known.
+        NumericError: where the equations of motion have no finite solution.
+        UnitError: for a value that cannot be read or has the wrong dimension.
+    """
+    equations = dynamics.equations
+    rates = (*equations.kinematics, *equations.dependent)
+    names = by_name((*equations.coordinates, *equations.speeds, *rates))
+    dimensions = getattr(equations, "dimensions", {})
+    values = read_values(given, names, "coordinate or speed", dimensions, parameters)
+    places = {symbol: values.pop(symbol) for symbol in equations.coordinates if symbol in values}
+    configuration, assumed = close(dynamics, places, parameters)
+    speeds = _Relations(dynamics, configuration, parameters, values).solution()
+    resting = [speed for speed in equations.speeds if speed not in speeds]
+    assumed |= dict.fromkeys((speed.published for speed in resting), 0.0)
+    state = [configuration[q] for q in equations.coordinates]
+    state += [speeds.get(u, 0.0) for u in equations.speeds]
+    start = Start(np.array(state), assumed)
+    _check(dynamics, start, parameters)
+    return start
+
+
+class _Relations:
+    """Given rates and speeds as linear equations in the independent speeds."""
+
+    def __init__(
+        self,
+        dynamics: Dynamics,
+        configuration: Numbers,
+        parameters: Numbers,
+        given: Numbers,
+    ) -> None:
+        self._unknowns = dynamics.equations.speeds
+        direct = [symbol for symbol in given if symbol in self._unknowns]
+        others = [symbol for symbol in given if symbol not in self._unknowns]
+        self._given = {symbol: given[symbol] for symbol in (*direct, *others)}
+        function = dynamics.function([Expr.generator(symbol) for symbol in self._given])
+        fixed = list(configuration.values())
+
+        def at(speeds: Sequence[float]) -> Array:
+            with np.errstate(all="ignore"):
+                values = function(*np.array([*fixed, *speeds, *parameters.values(), 0.0]))
+            return np.array(values, dtype=float)
+
+        self._constant = at(np.zeros(len(self._unknowns)))
+        columns = [at(unit) - self._constant for unit in np.eye(len(self._unknowns))]
+        self._matrix = np.reshape(columns, (len(self._unknowns), len(self._given))).T
+        self._check_finite()
+
+    def solution(self) -> dict[Symbol, float]:
+        """Independent speeds that the given values fix, with the others at rest."""
+        rows, pivots = self._independent()
+        matrix = self._matrix[np.ix_(rows, pivots)]
+        right = np.array(list(self._given.values()))[rows] - self._constant[rows]
+        found = np.zeros(len(self._unknowns))
+        found[pivots] = np.linalg.solve(matrix, right)
+        self._check_agreement(rows, found)
+        return {self._unknowns[j]: float(found[j]) for j in pivots}
+
+    def _independent(self) -> tuple[list[int], list[int]]:
+        """Relations that say something new, and the speed that each is solved for."""
+        rows, pivots = list[int](), list[int]()
+        reduced = self._matrix.copy()
+        for i, row in enumerate(reduced):
+            size = np.max(np.abs(self._matrix[i]), initial=0.0)
+            j = int(np.argmax(np.abs(row))) if row.size else 0
+            if size == 0.0 or abs(row[j]) <= _INDEPENDENT * size:
+                continue
+            reduced[i + 1 :] -= np.outer(reduced[i + 1 :, j] / row[j], row)
+            rows.append(i)
+            pivots.append(j)
+        return rows, pivots
+
+    def _check_agreement(self, rows: list[int], speeds: Array) -> None:
+        implied = self._constant + self._matrix @ speeds
+        scale = np.abs(self._constant) + np.abs(self._matrix) @ np.abs(speeds)
+        for i, (symbol, value) in enumerate(self._given.items()):
+            if abs(value - implied[i]) > _AGREE * max(scale[i], abs(value)):
+                raise self._contradiction(symbol, value, float(implied[i]), rows)
+
+    def _contradiction(
+        self, symbol: Symbol, value: float, implied: float, rows: list[int]
+    ) -> ConstraintError:
+        names = [s.published for i, s in enumerate(self._given) if i in rows]
+        cause = f"which follows from {', '.join(names)}" if names else "as the constraints demand"
+        return ConstraintError(
+            f"{symbol.published} = {value:g} at the start contradicts the constraints",
+            expected=f"{implied:.12g}, {cause}",
+            advice=f"leave {symbol.published} out, or change the others",
+        )
+
+    def _check_finite(self) -> None:
+        finite = np.isfinite(self._constant) & np.isfinite(self._matrix).all(axis=1)
+        for symbol, good in zip(self._given, finite, strict=True):
+            if not good:
+                raise NumericError(
+                    f"{symbol.published} is not defined at the start",
+                    expected="coordinates where the kinematic relations are regular",
+                    advice="start away from the singular position (such as theta = 0)",
+                )
+
+
+def _check(dynamics: Dynamics, start: Start, parameters: Numbers) -> None:
+    point = (*start.state, *parameters.values(), 0.0)
+    equations = dynamics.equations
+    named = ", ".join(
+        f"{symbol.published} = {value:g}"
+        for symbol, value in zip(dynamics.states, start.state, strict=True)
+        if symbol.kind is Kind.COORDINATE and not symbol.order
+    )
+    for sign in equations.assumed_positive:
+        (value,) = _evaluated(dynamics, [sign], point)
+        if not value > 0:
+            raise ConstraintError(
+                f"{sign} = {value:g} at the start ({named})",
+                expected="a positive value: the equations were derived for that side",
+                advice="start on the other side, by symmetry",
+            )
+    if not all(np.isfinite(_evaluated(dynamics, dynamics.rates, point))):
+        raise NumericError(
+            f"the equations of motion have no finite solution at the start ({named})",
+            expected="a start away from singular positions",
+            advice="give every angle, and none where the axes coincide (such as theta = 0)",
+        )
+    _check_mass_matrix(dynamics, point)
+
+
+def _check_mass_matrix(dynamics: Dynamics, point: Sequence[float]) -> None:
+    matrix = dynamics.equations.mass
+    if matrix != matrix.T:
+        return
+    entries = _evaluated(dynamics, [e for row in matrix.rows for e in row], point)
+    if np.any(np.linalg.eigvalsh(np.reshape(entries, matrix.shape)) <= 0):
+        raise NumericError(
+            "the mass matrix is not positive definite at the start",
+            expected="positive masses, moments of inertia and lengths",
+            advice="check their signs and that none is zero",
+        )
+
+
+def _evaluated(
+    dynamics: Dynamics, expressions: Sequence[Expr], point: Sequence[float]
+) -> Array:
+    with np.errstate(all="ignore"):
+        return np.array(dynamics.function(expressions)(*np.array(point)), dtype=float)

@@ -1,0 +1,110 @@
+"""Values of parameters and start values, read and checked."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from polhode.algebra import FLOATS, Expr, Symbol, compile_program
+from polhode.base import PURE, DeclarationError, Dimension, read_quantity, read_unit, to_si
+from polhode.model import check_inertia, check_mass
+from polhode.simulate._dynamics import Dynamics
+from polhode.simulate._names import Name, by_name, look_up, published
+
+Numbers = Mapping[Symbol, float]
+
+
+def read_values(
+    given: Mapping[Name, Any],
+    symbols: Mapping[str, Symbol],
+    what: str,
+    dimensions: Mapping[Symbol, Dimension],
+    known: Numbers,
+) -> dict[Symbol, float]:
+    """SI values of quantities given by name.
+
+    Args:
+        given: numbers, texts with a unit, or expressions of `known` symbols.
+        symbols: what may be given.
+        what: what these are called in messages.
+        dimensions: what is known of the dimension of each.
+        known: values of symbols that expressions may use.
+
+    Raises:
+        DeclarationError: for a name that is not known or given twice.
+        UnitError: for a value that cannot be read or has the wrong dimension.
+    """
+    values: dict[Symbol, float] = {}
+    for key, value in given.items():
+        name = published(key)
+        symbol = look_up(name, symbols, what)
+        if symbol in values:
+            raise DeclarationError(f"{name} is given twice", expected="one value for it")
+        values[symbol] = _number(value, name, dimensions.get(symbol), known)
+    return values
+
+
+def read_parameters(dynamics: Dynamics, given: Mapping[Name, Any]) -> dict[Symbol, float]:
+    """The value of every parameter.
+
+    Raises:
+        DeclarationError: for a name that is not known, a parameter without a value, or values
+            that no body can have.
+        UnitError: for a value that cannot be read or has the wrong dimension.
+    """
+    wanted = dynamics.parameters
+    dimensions = getattr(dynamics.equations, "dimensions", {})
+    values = read_values(given, by_name(wanted), "parameter", dimensions, {})
+    missing = [symbol.published for symbol in wanted if symbol not in values]
+    if missing:
+        raise DeclarationError(
+            f"no value for {', '.join(missing)}",
+            expected="a value for every parameter",
+            advice=f"give {missing[0]} as a number in SI units or with a unit",
+        )
+    _check_signs(values)
+    _check_bodies(dynamics, values)
+    return {symbol: values[symbol] for symbol in wanted}
+
+
+def evaluate(expression: Expr, numbers: Numbers) -> float:
+    """Value of an expression of known symbols."""
+    program = compile_program([expression], tuple(numbers))
+    return float(program.function(FLOATS)(*numbers.values())[0])
+
+
+def _number(value: Any, name: str, dimension: Dimension | None, known: Numbers) -> float:
+    if isinstance(value, Expr):
+        value = evaluate(value, known)
+    return to_si(value, _stated(value) if dimension is None else dimension, name)
+
+
+def _stated(value: Any) -> Dimension:
+    """The dimension a value comes with, taken at its word where none is known."""
+    match value:
+        case str():
+            return read_quantity(value).dimension or PURE
+        case (_, str(unit)):
+            return read_unit(unit).dimension
+        case _:
+            return PURE
+
+
+def _check_signs(values: Numbers) -> None:
+    for symbol, value in values.items():
+        if symbol.positive and value <= 0:
+            raise DeclarationError(
+                f"{symbol.published} = {value:g}",
+                expected="a positive value, as it was declared",
+                advice=f"check the sign of {symbol.published}",
+            )
+
+
+def _check_bodies(dynamics: Dynamics, values: Numbers) -> None:
+    for body in getattr(dynamics.equations.system, "bodies", ()):
+        check_mass(body.name, evaluate(body.mass, values))
+        inertia = [[evaluate(entry, values) for entry in row] for row in body.inertia.rows]
+        moments = np.linalg.eigvalsh(np.array(inertia))
+        check_inertia(body.name, [float(moment) for moment in moments])
