@@ -5,10 +5,10 @@ from polhode.algebra._calculus import linear_parts as linear_parts
 from polhode.algebra._calculus import taylor as taylor
 from polhode.algebra._compile import LinearSolve as LinearSolve
 from polhode.algebra._compile import compile_program as compile_program
-from polhode.algebra._expression import Expr as Expr
-from polhode.algebra._expression import ExprLike as ExprLike
 from polhode.algebra._expression import ONE as ONE
 from polhode.algebra._expression import ZERO as ZERO
+from polhode.algebra._expression import Expr as Expr
+from polhode.algebra._expression import ExprLike as ExprLike
 from polhode.algebra._expression import as_symbol as as_symbol
 from polhode.algebra._functions import cos as cos
 from polhode.algebra._functions import cosh as cosh

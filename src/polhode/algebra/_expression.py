@@ -54,6 +54,12 @@ class Expr:
             advice="declare names with symbols, coordinates or speeds",
         )
 
+    @staticmethod
+    def reads(value: object) -> bool:
+        """Whether `of` takes values of this type."""
+        plain = isinstance(value, Expr | Rational | float) or hasattr(value, "item")
+        return plain or type(value).__module__.startswith("sympy")
+
     @classmethod
     def constant(cls, value: Fraction | int) -> Expr:
         """A rational number."""
@@ -149,6 +155,8 @@ class Expr:
         return Expr(ring, *ring.cancel(num, a.den * b.den))
 
     def __mul__(self, other: ExprLike) -> Expr:
+        if not Expr.reads(other):
+            return NotImplemented  # a vector knows how to multiply itself
         a, b, ring = _together(self, other)
         num = ring.reduce(a.num * b.num)
         if a.is_polynomial and b.is_polynomial:
@@ -178,7 +186,7 @@ class Expr:
                 f"power {exponent!s}", expected="an integer or half-integer power", advice=""
             )
         if power.denominator == 2:
-            from polhode.algebra._functions import sqrt
+            from polhode.algebra._roots import sqrt
 
             return sqrt(self) ** power.numerator
         base = self if power >= 0 else self.reciprocal()
@@ -211,9 +219,13 @@ class Expr:
         """Unique text of the normal form; equal expressions in like units have equal keys."""
         return str(self.num) if self.is_polynomial else f"({self.num})/({self.den})"
 
-    def __hash__(self) -> int:
+    @cached_property
+    def _hash(self) -> int:
         value = self.rational
         return hash(value) if value is not None else hash(self.key)
+
+    def __hash__(self) -> int:
+        return self._hash
 
     def __bool__(self) -> bool:
         return not self.is_zero
@@ -329,7 +341,8 @@ def _together(first: Expr, second: ExprLike) -> tuple[Expr, Expr, Ring]:
 
 @lru_cache(maxsize=16384)
 def _refinements(ring: Ring) -> dict[Generator, Expr]:
-    pairs = ((g, g.refined(ring.generators)) for g in ring.generators)
+    functions = tuple(g for g in ring.generators if g.arguments)
+    pairs = ((g, g.refined(functions)) for g in functions)
     return {g: finer for g, finer in pairs if finer is not None}
 
 

@@ -89,6 +89,9 @@ class Elementary(Generator):
     def key(self) -> str:  # type: ignore[override]
         return f"{self.name}({self.unit}*{self.base.key})"
 
+    def __hash__(self) -> int:
+        return hash(self.key)
+
     @property
     def argument(self) -> Expr:
         """What it is a function of."""

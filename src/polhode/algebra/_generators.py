@@ -116,6 +116,9 @@ class Symbol(Generator):
         """The quantity this is a time derivative of."""
         return Symbol(self.name, self.kind, 0, self.positive)
 
+    def __hash__(self) -> int:
+        return hash(self.key)
+
     def chain(self, rate: Rate) -> Expr:
         return rate(self)
 

@@ -27,6 +27,9 @@ class Root(Generator):
     def key(self) -> str:  # type: ignore[override]
         return f"sqrt({self.radicand.key})"
 
+    def __hash__(self) -> int:
+        return hash(self.key)
+
     @property
     def depth(self) -> int:
         return 1 + max((g.depth for g in self.radicand.generators), default=0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 from polhode.algebra._expression import ZERO, Expr, ExprLike
 from polhode.algebra._linear import Matrix, Row, dot
@@ -14,13 +14,18 @@ from polhode.algebra._roots import sqrt
 class Triad(Protocol):
     """Three right-handed orthonormal directions; a frame of `model` is one."""
 
-    def rotation_to(self, other: Triad) -> Matrix:
+    def rotation_to(self, other: Any, /) -> Matrix:
         """Turns components along these directions into components along the other's."""
         ...
 
     @property
     def turning(self) -> Row:
         """Angular velocity in inertial space, components along these directions, rad/s."""
+        ...
+
+    @property
+    def angular_velocity(self) -> Vector:
+        """The same as a vector."""
         ...
 
 
@@ -87,9 +92,9 @@ class Vector:
     def dt(self, seen_from: Triad | None = None) -> Vector:
         """Time derivative, in inertial space or as seen from a turning triad."""
         rate = Vector(tuple(c.dt() for c in self.components), self.triad)
-        turning = Vector(self.triad.turning, self.triad)
+        turning = self.triad.angular_velocity
         if seen_from is not None:
-            turning = turning - Vector(seen_from.turning, seen_from)
+            turning = turning - seen_from.angular_velocity
         return rate + turning.cross(self)
 
     def diff(self, symbol: Expr) -> Vector:

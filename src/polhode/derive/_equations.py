@@ -5,25 +5,24 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from math import gcd, lcm
 
 from polhode.algebra import (
-    ZERO,
     Expr,
     Kind,
     Matrix,
     Row,
     Symbol,
     Vector,
-    linear_parts,
     solve,
     variables,
 )
-from polhode.base import NumericError
+from polhode.base import Dimension, NumericError
+from polhode.derive import _dimensions as units
 from polhode.derive import _energy as energies
-from polhode.derive._balance import Wrench, demands
-from polhode.derive._motion import Motion, motion_of
-from polhode.derive._reactions import Line, Reactions, lines, solve_reactions
+from polhode.derive._balance import Wrench
+from polhode.derive._motion import Motion
+from polhode.derive._reactions import Line, Reactions, solve_reactions
+from polhode.derive._textbook import without_idle_factors
 from polhode.model import Body, System
 
 #: Beyond this many speeds the mass matrix is not inverted symbolically.
@@ -60,6 +59,8 @@ class Equations:
     Attributes:
         system: the declaration they come from.
         kinetics: positions and velocities of all bodies.
+        demands: what the reactions have to supply to every body.
+        lines: along which the reactions act.
         rows: the equations as they come, each an expression equal to zero, one per speed.
         mass: mass matrix over the accelerations.
         forcing: right-hand sides.
@@ -67,6 +68,8 @@ class Equations:
 
     system: System
     kinetics: Motion
+    demands: dict[Body, Wrench]
+    lines: tuple[Line, ...]
     rows: tuple[Expr, ...]
     mass: Matrix
     forcing: Row
@@ -99,7 +102,7 @@ class Equations:
     @cached_property
     def motion(self) -> tuple[Expr, ...]:
         """The equations of motion, each an expression equal to zero, without idle factors."""
-        return tuple(_without_idle_factors(row) for row in self.rows)
+        return tuple(without_idle_factors(row) for row in self.rows)
 
     @cached_property
     def accelerations(self) -> dict[Symbol, Expr]:
@@ -131,12 +134,8 @@ class Equations:
     # -- reactions ------------------------------------------------------------------------------
 
     @cached_property
-    def _lines(self) -> tuple[Line, ...]:
-        return lines(self.kinetics)
-
-    @cached_property
     def _solved(self) -> Reactions:
-        return solve_reactions(self.kinetics, demands(self.kinetics), self._lines)
+        return solve_reactions(self.kinetics, self.demands, self.lines)
 
     @cached_property
     def components(self) -> dict[str, Expr]:
@@ -155,7 +154,7 @@ class Equations:
         found = {}
         for element in self.kinetics.elements:
             for friction in element.friction(self.kinetics.places):
-                line = next(c for c in self._lines if c.name == friction.normal.name)
+                line = next(c for c in self.lines if c.name == friction.normal.name)
                 for name, direction in friction.directions:
                     found[name] = line.direction.dot(direction) * values[line.name]
         return found
@@ -169,13 +168,13 @@ class Equations:
     def reactions(self) -> dict[str, Reaction]:
         """Force and couple of every contact and joint on its body, by its name."""
         return {
-            element.name: self._reaction(element.name, [r.name for r in restraints])
-            for element in self.kinetics.elements
-            if (restraints := element.restraints(self.kinetics.places))
+            name: self._reaction(name, [restraint.name for restraint in restraints])
+            for name, restraints in self.kinetics.restraints.items()
+            if restraints
         }
 
     def _reaction(self, element: str, names: list[str]) -> Reaction:
-        own = [line for line in self._lines if line.name in names]
+        own = [line for line in self.lines if line.name in names]
         first = own[0].restraint
         zero = first.direction.triad
         force = couple = first.direction * 0
@@ -214,7 +213,7 @@ class Equations:
     @cached_property
     def power(self) -> Expr:
         """Rate of change of the energy: work of friction, motors, moving supports, drives, W."""
-        return energies.supplied_power(self.kinetics, self._lines, self._solved.least)
+        return energies.supplied_power(self.kinetics, self.lines, self._solved.least)
 
     def load_power(self, name: str) -> Expr:
         """Rate of work of one load, W."""
@@ -245,7 +244,7 @@ class Equations:
         motion = self.kinetics
         return {
             line.name: motion.slip(line.restraint).dot(line.restraint.direction)
-            for line in self._lines
+            for line in self.lines
         }
 
     @cached_property
@@ -265,78 +264,23 @@ class Equations:
         found = (s.base() for s in self._of_kind(Kind.FUNCTION))
         return tuple(dict.fromkeys(found))
 
+    @cached_property
+    def dimensions(self) -> dict[Symbol, Dimension]:
+        """Dimension of every symbol, inferred from its uses; rates have that of their own order.
+
+        Raises `UnitError` where two uses contradict one another.
+        """
+        energy = {"kinetic energy": self.kinetic_energy, "potential energy": self.potential_energy}
+        forces = {
+            f"reaction {line.name}": (
+                self.least[line.name],
+                units.ENERGY if line.restraint.is_couple else units.FORCE,
+            )
+            for line in self.lines
+        }
+        return units.infer(units.uses_of(self.kinetics, energy, forces))
+
     def _of_kind(self, kind: Kind) -> tuple[Symbol, ...]:
         used = variables((*self.rows, self.energy, *self.kinematics.values(), *self.closures))
         found = (s for s in used if s.kind is kind and s.name != "pi")
         return tuple(sorted(found, key=lambda s: s.published))
-
-
-def derive(system: System) -> Equations:
-    """Exact equations of motion and reactions of a system as declared.
-
-    Newton's and Euler's equations of every body are projected on the motions that the velocity
-    constraints allow (Jourdain's principle), which removes all reactions that do no work.
-
-    Raises `ConstraintError` for constraints that contradict one another.
-    """
-    motion = motion_of(system)
-    needs = demands(motion)
-    columns = lines(motion)
-    rows = _projected(motion, needs)
-    rubbing = [c for c in columns if c.direction != c.restraint.direction]
-    if rubbing:
-        values = solve_reactions(motion, needs, columns).values
-        rows = tuple(
-            row - sum((values[c.name] * _virtual_power(motion, c, u) for c in rubbing), ZERO)
-            for row, u in zip(rows, motion.speeds, strict=True)
-        )
-    parts = [linear_parts(row, motion.accelerations) for row in rows]
-    mass = Matrix(tuple(coefficients for coefficients, _ in parts))
-    return Equations(system, motion, rows, mass, tuple(-rest for _, rest in parts))
-
-
-def _projected(motion: Motion, needs: Mapping[Body, Wrench]) -> tuple[Expr, ...]:
-    """One row per independent speed: power of all demands in a unit of that speed alone."""
-    return tuple(
-        sum((_share(motion, body, need, speed) for body, need in needs.items()), ZERO)
-        for speed in motion.speeds
-    )
-
-
-def _share(motion: Motion, body: Body, need: Wrench, speed: Symbol) -> Expr:
-    velocity, angular = (_partial(v, speed) for v in motion.velocities[body])
-    return velocity.dot(need.force) + angular.dot(need.couple)
-
-
-def _partial(vector: Vector, speed: Symbol) -> Vector:
-    return Vector(tuple(c.diff(speed) for c in vector.components), vector.triad)
-
-
-def _virtual_power(motion: Motion, line: Line, speed: Symbol) -> Expr:
-    total = ZERO
-    for body in (line.restraint.body, line.restraint.other):
-        wrench = line.on(body) if body is not None else None
-        if body is not None and wrench is not None:
-            total = total + _share(motion, body, wrench, speed)
-    return total
-
-
-def _without_idle_factors(row: Expr) -> Expr:
-    """Numerator without the number, parameters and sines common to all terms.
-
-    What is left vanishes wherever the sine does not, and by continuity there too.
-    """
-    terms = list(row.numerator.terms())
-    if not terms:
-        return row
-    shared = {
-        g: min(powers.get(g, 0) for powers, _ in terms)
-        for g in terms[0][0]
-        if not isinstance(g, Symbol) or g.kind is Kind.PARAMETER
-    }
-    above = gcd(*(abs(c.numerator) for _, c in terms))
-    below = lcm(*(c.denominator for _, c in terms))
-    result = row.numerator * below / above
-    for generator, power in shared.items():
-        result = result / Expr.generator(generator) ** power
-    return result

@@ -32,6 +32,7 @@ class Motion:
         speeds: the independent ones.
         kinematics: rate of every coordinate.
         dependent: the other speeds.
+        restraints: what every contact and joint prescribes, by its name.
         velocities: velocity of the centre of mass and angular velocity of every body, in inertial
             space, along the body's axes.
     """
@@ -43,6 +44,7 @@ class Motion:
     speeds: tuple[Symbol, ...]
     kinematics: dict[Symbol, Expr]
     dependent: dict[Symbol, Expr]
+    restraints: dict[str, tuple[Restraint, ...]]
     velocities: dict[Body, tuple[Vector, Vector]]
 
     @cached_property
@@ -70,7 +72,7 @@ class Motion:
     def derivative(self, vector: Vector) -> Vector:
         """Time derivative in inertial space along the motion."""
         components = tuple(c.chain(self.rate) for c in vector.components)
-        turning = self.resolve(Vector(vector.triad.turning, vector.triad))
+        turning = self.resolve(vector.triad.angular_velocity)
         return Vector(components, vector.triad) + turning.cross(vector)
 
     def point_velocity(self, body: Body, arm: Vector) -> Vector:
@@ -93,9 +95,10 @@ def motion_of(system: System) -> Motion:
     quasi = tuple(_quasi_speeds(system, brought))
     rates = {q.derivative(): rate for q, rate in given.items()}
     raw = {body: _raw_velocity(body, places[body], rates) for body in system.bodies}
-    restraints = [r for e in elements for r in e.restraints(places)]
+    restraints = {e.name: e.restraints(places) for e in elements}
     speeds = bare + quasi
-    dependent = _dependent(restraints, raw, rates, speeds, _ranks(system, bare, quasi, brought))
+    prescribed = [r for group in restraints.values() for r in group]
+    dependent = _dependent(prescribed, raw, rates, speeds, _ranks(system, bare, quasi, brought))
     independent = tuple(s for s in speeds if s not in dependent)
     kinematics = {q.derivative(): Expr.generator(q.derivative()) for q in coordinates} | rates
     return Motion(
@@ -106,6 +109,7 @@ def motion_of(system: System) -> Motion:
         independent,
         {rate: value.subs(dependent) for rate, value in kinematics.items()},
         dependent,
+        restraints,
         {body: _settled(body, pair, dependent) for body, pair in raw.items()},
     )
 
@@ -175,18 +179,14 @@ def _quasi_speeds(system: System, brought: Brought) -> dict[Symbol, None]:
     return dict.fromkeys(_symbol(s) for s in [*rotational, *(r for _, r in brought.values())])
 
 
-def _raw_velocity(
-    body: Body, place: Vector, rates: Mapping[Symbol, Expr]
-) -> tuple[Vector, Vector]:
+def _raw_velocity(body: Body, place: Vector, rates: Mapping[Symbol, Expr]) -> tuple[Vector, Vector]:
     velocity = place.dt()
     moved = Vector(tuple(c.subs(rates) for c in velocity.components), velocity.triad)
     angular = body.angular_velocity
     return moved, Vector(tuple(c.subs(rates) for c in angular.components), angular.triad)
 
 
-def _against(
-    restraint: Restraint, velocities: Mapping[Body, tuple[Vector, Vector]]
-) -> Vector:
+def _against(restraint: Restraint, velocities: Mapping[Body, tuple[Vector, Vector]]) -> Vector:
     def of(body: Body, arm: Vector | None) -> Vector:
         velocity, angular = velocities[body]
         return angular if arm is None else velocity + angular.cross(arm)

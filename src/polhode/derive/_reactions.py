@@ -71,7 +71,7 @@ def lines(motion: Motion) -> tuple[Line, ...]:
     found = []
     for element in motion.elements:
         leaning = {f.normal.name: f for f in element.friction(motion.places)}
-        for restraint in element.restraints(motion.places):
+        for restraint in motion.restraints[element.name]:
             direction = restraint.direction
             if restraint.name in leaning:
                 direction = direction + friction_lean(motion, leaning[restraint.name])
@@ -119,15 +119,13 @@ def _part(vector: Vector, triad: object, index: int) -> Expr:
     return vector.express(triad).components[index] if any(vector.components) else ZERO  # type: ignore[arg-type]
 
 
-def _refuse_unheld(
-    motion: Motion, outcome: Elimination, demands: Mapping[Body, Wrench]
-) -> None:
+def _refuse_unheld(motion: Motion, outcome: Elimination, demands: Mapping[Body, Wrench]) -> None:
     """Balances left over must be the equations of motion; more of them means a missing support."""
     demanding = outcome.contradictory
     if len(demanding) <= len(motion.speeds):
         return
     bodies = list(demands)
-    held = {r.body for e in motion.elements for r in e.restraints(motion.places) if r.is_couple}
+    held = {r.body for group in motion.restraints.values() for r in group if r.is_couple}
     suspects = [bodies[i // 6].name for i in demanding if bodies[i // 6] not in held]
     names = ", ".join(dict.fromkeys(suspects or [b.name for b in bodies]))
     raise ConstraintError(

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
-from polhode.algebra import ZERO, Expr, ExprLike, Matrix, Vector
+from polhode.algebra import Expr, ExprLike, Matrix, Vector
 from polhode.base import DeclarationError
 from polhode.model._frame import Frame
 from polhode.model._spin import About, Spin, WithAxes
@@ -72,7 +73,10 @@ class Body:
         check_mass(name, self.mass.rational)
         check_inertia(name, [self.inertia[i, i].rational for i in range(3)])
 
-    @property
+    def __hash__(self) -> int:
+        return hash((self.name, self.axes, self.tag))
+
+    @cached_property
     def angular_velocity(self) -> Vector:
         """Angular velocity in inertial space, rad/s."""
         return self.spin.angular_velocity(self.axes, self.tag)
@@ -125,10 +129,10 @@ def _symmetry_axis(spin: Spin, name: str) -> str:
 def _inertia(name: str, given: InertiaLike | Matrix) -> Matrix:
     if isinstance(given, Matrix):
         return given
-    rows = [list(r) if isinstance(r, Sequence) else r for r in given]
-    if len(rows) == 3 and not any(isinstance(r, list) for r in rows):
-        return Matrix.diagonal(rows)
-    if len(rows) == 3 and all(isinstance(r, list) and len(r) == 3 for r in rows):
+    rows = [entry for entry in given if isinstance(entry, Sequence)]
+    if len(given) == 3 and not rows:
+        return Matrix.diagonal(list(given))
+    if len(given) == 3 and [len(row) for row in rows] == [3, 3, 3]:
         matrix = Matrix.of(rows)
         if matrix == matrix.T:
             return matrix
@@ -159,8 +163,3 @@ def check_inertia(name: str, moments: Sequence[float | Fraction | None]) -> None
             expected="each at most the sum of the other two (the triangle inequality)",
             advice="check the moments: no body can have these",
         )
-
-
-def origin_of(frame: Frame) -> Vector:
-    """The origin of the laboratory."""
-    return Vector((ZERO, ZERO, ZERO), frame.root)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 from polhode.algebra import Expr, ExprLike, Vector, coordinate, speed
 from polhode.base import DeclarationError
@@ -32,9 +33,7 @@ class Contact(Element):
     name: str
     force: str
 
-    def __init__(
-        self, body: Body, *, on: Plane, name: str = "contact", force: str = "F"
-    ) -> None:
+    def __init__(self, body: Body, *, on: Plane, name: str = "contact", force: str = "F") -> None:
         if not isinstance(on, Plane):
             raise DeclarationError(
                 f"contact {name!r} of body {body.name!r} with {on!r}",
@@ -58,7 +57,7 @@ class Contact(Element):
     def bodies(self) -> tuple[Body, ...]:
         return (self.body,)
 
-    @property
+    @cached_property
     def arm(self) -> Vector:
         """From the centre of mass to the point of contact, m."""
         return self._surface().lowest(self.body.axes, self.on.up)

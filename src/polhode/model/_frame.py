@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 from polhode.algebra import (
     ONE,
@@ -47,6 +47,13 @@ class Frame:
     axis: Row = (ZERO, ZERO, ONE)
     labels: tuple[str, ...] = ("x", "y", "z")
     turned: Row = (ZERO, ZERO, ZERO)
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash((self.name, self.parent, self.angle, self.axis, self.labels, self.turned))
+
+    def __hash__(self) -> int:
+        return self._hash
 
     def rotated(
         self, angle: ExprLike, about: str | Sequence[ExprLike], labels: str = "", name: str = ""
@@ -200,4 +207,3 @@ def _rotation_between(source: Frame, target: Frame) -> Matrix:
     for frame in reversed(up[: up.index(shared)]):
         matrix = _step(frame).T @ matrix
     return matrix
-

@@ -328,4 +328,3 @@ class Motor(_Couple):
         if self.to is not None:
             frame = frame - self.to.angular_velocity
         return (self._restraint(self.axis, along, frame + along * self.rate),)
-

@@ -8,21 +8,21 @@ from typing import Any
 from polhode.algebra import Expr, ExprLike
 from polhode.model._body import Body
 from polhode.model._frame import Frame
-from polhode.model._spin import Free
+from polhode.model._spin import About, Free
 from polhode.model._surface import Ellipsoidal, Rim, Round
 
 
 def disk(
     name: str, *, mass: ExprLike, radius: ExprLike, axes: Frame, axis: str = "3", **more: Any
 ) -> Body:
-    """A thin uniform disk that spins about `axis`: m a²/4 about diameters, m a²/2 about the axis."""
+    """A thin uniform disk spinning about `axis`: m a²/4 about diameters, m a²/2 about the axis."""
     return _rimmed(name, mass, radius, axes, axis, Fraction(1, 4), more)
 
 
 def hoop(
     name: str, *, mass: ExprLike, radius: ExprLike, axes: Frame, axis: str = "3", **more: Any
 ) -> Body:
-    """A thin uniform hoop that spins about `axis`: m a²/2 about diameters, m a² about the axis."""
+    """A thin uniform hoop spinning about `axis`: m a²/2 about diameters, m a² about the axis."""
     return _rimmed(name, mass, radius, axes, axis, Fraction(1, 2), more)
 
 
@@ -37,9 +37,8 @@ def _rimmed(
 ) -> Body:
     across = Expr.of(mass) * Expr.of(radius) ** 2 * share
     moments = [2 * across if label == axis else across for label in axes.labels]
-    turning = {} if "spin" in more else {"spin_about": axis}
-    surface = Rim(Expr.of(radius), axis)
-    return Body(name, mass=mass, inertia=moments, axes=axes, surface=surface, **turning, **more)
+    more = {"spin": About(axis), "surface": Rim(Expr.of(radius), axis), **more}
+    return Body(name, mass=mass, inertia=moments, axes=axes, **more)
 
 
 def sphere(
@@ -100,9 +99,8 @@ def cylinder(
     mass, radius, height = Expr.of(mass), Expr.of(radius), Expr.of(height)
     across = mass * (3 * radius**2 + height**2) / 12
     moments = [mass * radius**2 / 2 if label == axis else across for label in axes.labels]
-    turning = {} if "spin" in more else {"spin_about": axis}
-    surface = Rim(radius, axis, -height / 2)
-    return Body(name, mass=mass, inertia=moments, axes=axes, surface=surface, **turning, **more)
+    more = {"spin": About(axis), "surface": Rim(radius, axis, -height / 2), **more}
+    return Body(name, mass=mass, inertia=moments, axes=axes, **more)
 
 
 def point_mass(name: str, *, mass: ExprLike, axes: Frame, **more: Any) -> Body:

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from math import pi, sqrt
+from collections.abc import Callable, Iterator, Sequence
+from math import pi
 
 import numpy as np
 from numpy.typing import NDArray
 
 from polhode.algebra import Expr, Symbol
 from polhode.base import ConstraintError
-from polhode.simulate._dynamics import Dynamics
+from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate._values import Numbers
 
 Array = NDArray[np.float64]
@@ -61,19 +61,16 @@ class _Loop:
 
     def closed(self) -> Array:
         """Free coordinates that close the loops."""
-        best = min((self._newton(guess) for guess in self._guesses()), key=self._misfit_class)
-        if self._misfit(best) > _CLOSED:
-            raise self._open_error(best)
-        return best
+        tried = []
+        for guess in self._guesses():
+            tried.append(self._newton(guess))
+            if self._misfit(tried[-1]) <= _CLOSED:
+                return tried[-1]
+        raise self._stays_open(min(tried, key=self._misfit))
 
     def rank(self, place: Array) -> int:
         """How many coordinates the loops determine there."""
         return int(np.linalg.matrix_rank(self._jacobian(place))) if self._free else 0
-
-    def _misfit_class(self, place: Array) -> float:
-        """Misfit with all closed loops equal, so that the first of them wins."""
-        misfit = self._misfit(place)
-        return 0.0 if misfit <= _CLOSED else misfit
 
     def _misfit(self, place: Array) -> float:
         slopes = np.max(np.abs(self._jacobian(place)), initial=0.0) if self._free else 1.0
@@ -102,27 +99,25 @@ class _Loop:
         for k in range(_GUESSES if self._free else 1):
             yield 2 * pi * ((k * slopes + 0.5) % 1.0 - 0.5)
 
-    def _open_error(self, place: Array) -> ConstraintError:
+    def _stays_open(self, place: Array) -> ConstraintError:
         residual = np.abs(self._residual(place))
         worst = self._closures[int(np.argmax(residual))]
         names = ", ".join(f"{q.published} = {v:g}" for q, v in self._given.items())
         return ConstraintError(
             f"no configuration with {names or 'these lengths'} closes the loop {worst} = 0",
-            expected=f"a residual of zero, not {sqrt(float(residual @ residual)):.3g} m",
+            expected=f"a residual of zero, not {np.max(residual):.3g} m at best",
             advice="leave out the coordinates that the loop determines, or change the lengths",
         )
 
 
 def _of_free(
     dynamics: Dynamics,
-    expressions: list[Expr] | tuple[Expr, ...],
+    expressions: Sequence[Expr],
     given: Numbers,
     free: tuple[Symbol, ...],
     parameters: Numbers,
 ) -> Callable[[Array], Array]:
-    from polhode.simulate._dynamics import TIME
-
-    arguments = (*free, *given, *parameters, TIME)
+    arguments = (*free, *given, *parameters, CLOCK)
     function = dynamics.program(expressions, arguments).function()
     known = (*given.values(), *parameters.values(), 0.0)
     return lambda place: np.array(function(*(float(x) for x in place), *known), dtype=float)

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any, Protocol
 
 from polhode.algebra import (
+    Compiled,
     Expr,
     Kind,
     LinearSolve,
@@ -18,7 +19,6 @@ from polhode.algebra import (
     compile_program,
     time,
 )
-from polhode.algebra import Compiled as Compiled
 from polhode.base import DeclarationError
 
 
@@ -57,7 +57,7 @@ class EquationsOfMotion(Protocol):
     def functions(self) -> tuple[Symbol, ...]: ...
 
 
-TIME = time.symbol or Symbol("t", Kind.TIME)
+CLOCK = time.symbol or Symbol("t", Kind.TIME)
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,7 @@ class Dynamics:
     @cached_property
     def arguments(self) -> tuple[Symbol, ...]:
         """What numbers are given for: states, parameters, time."""
-        return (*self.states, *self.parameters, TIME)
+        return (*self.states, *self.parameters, CLOCK)
 
     @cached_property
     def rates(self) -> tuple[Expr, ...]:

@@ -29,7 +29,7 @@ def look_up(name: str, known: Mapping[str, Quantity], what: str) -> Quantity:
     near = get_close_matches(name, known, n=3, cutoff=0.5)
     raise DeclarationError(
         f"{name!r} is no {what} of this system",
-        expected=f"one of {', '.join(sorted(known))}",
+        expected=f"one of {', '.join(sorted(known))}" if known else "none: it has none",
         advice=f"did you mean {' or '.join(near)}?" if near else "",
     )
 

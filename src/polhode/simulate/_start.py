@@ -80,7 +80,7 @@ class _Relations:
         function = dynamics.function([Expr.generator(symbol) for symbol in self._given])
         fixed = list(configuration.values())
 
-        def at(speeds: Sequence[float]) -> Array:
+        def at(speeds: Array) -> Array:
             with np.errstate(all="ignore"):
                 values = function(*np.array([*fixed, *speeds, *parameters.values(), 0.0]))
             return np.array(values, dtype=float)
@@ -181,8 +181,6 @@ def _check_mass_matrix(dynamics: Dynamics, point: Sequence[float]) -> None:
         )
 
 
-def _evaluated(
-    dynamics: Dynamics, expressions: Sequence[Expr], point: Sequence[float]
-) -> Array:
+def _evaluated(dynamics: Dynamics, expressions: Sequence[Expr], point: Sequence[float]) -> Array:
     with np.errstate(all="ignore"):
         return np.array(dynamics.function(expressions)(*np.array(point)), dtype=float)

@@ -1,0 +1,177 @@
+"""Dimensions of all symbols, inferred from where they are used."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from polhode.algebra import Expr, Generator, Symbol, time
+from polhode.base import LENGTH, MASS, PURE, TIME, Dimension, UnitError
+from polhode.derive._motion import Motion
+
+RATE = PURE / TIME
+FORCE = MASS * LENGTH / TIME**2
+ENERGY = FORCE * LENGTH
+
+
+@dataclass(frozen=True)
+class Use:
+    """An expression in a role whose dimension is known."""
+
+    role: str
+    expression: Expr
+    dimension: Dimension
+
+
+def infer(uses: Iterable[Use]) -> dict[Symbol, Dimension]:
+    """Dimension of every symbol that the uses determine.
+
+    Every term of every expression must have the dimension of its role, and every argument of a
+    function none; that is a linear system for the exponents.
+
+    Raises `UnitError` where two uses contradict one another, naming both.
+    """
+    system = _Exponents()
+    for use in uses:
+        for term in _terms(use):
+            system.demand(term, use.role)
+    return system.dimensions()
+
+
+@dataclass(frozen=True)
+class _Term:
+    """One term: a product of powers of symbols that must have a dimension."""
+
+    powers: Mapping[Symbol, Fraction]
+    dimension: Dimension
+
+
+def _terms(use: Use) -> Iterator[_Term]:
+    parts = (use.expression.numerator, use.expression.denominator)
+    monomials = [[_dimensional(powers) for powers, _ in part.terms()] for part in parts]
+    for generator in use.expression.generators:
+        yield from _inside(generator, use.role)
+    if not monomials[0]:
+        return
+    below = monomials[1][0]
+    for above in monomials[0]:
+        yield _quotient(above, below, use.dimension)
+    for other in monomials[1][1:]:
+        yield _quotient(other, below, PURE)
+
+
+def _inside(generator: Generator, role: str) -> Iterator[_Term]:
+    """Arguments of sines and exponentials are numbers; radicands are homogeneous."""
+    for argument in generator.arguments:
+        if not generator.depth or generator.partner() is not None:
+            yield from _terms(Use(role, argument, PURE))
+        else:
+            first, *others = (_dimensional(powers) for powers, _ in argument.terms())
+            yield from (_quotient(other, first, PURE) for other in others)
+
+
+def _dimensional(powers: Mapping[Generator, int]) -> _Term:
+    """Powers of symbols in a monomial; a root counts as half of the first term under it."""
+    found: dict[Symbol, Fraction] = {}
+    dimension = PURE
+
+    def count(symbol: Symbol, power: Fraction) -> None:
+        nonlocal dimension
+        base = symbol.base()
+        found[base] = found.get(base, Fraction(0)) + power
+        dimension = dimension * TIME ** (symbol.order * power)
+
+    for generator, power in powers.items():
+        if isinstance(generator, Symbol):
+            count(generator, Fraction(power))
+        elif generator.depth and generator.partner() is None:
+            inner = _dimensional(next(iter(generator.arguments[0].terms()))[0])
+            for symbol, exponent in inner.powers.items():
+                found[symbol] = found.get(symbol, Fraction(0)) + exponent * power / 2
+            dimension = dimension * inner.dimension ** Fraction(power, 2)
+    return _Term(found, dimension)
+
+
+def _quotient(above: _Term, below: _Term, dimension: Dimension) -> _Term:
+    powers = _difference(above.powers, below.powers)
+    return _Term(powers, dimension * above.dimension / below.dimension)
+
+
+def _difference(
+    above: Mapping[Symbol, Fraction], below: Mapping[Symbol, Fraction]
+) -> dict[Symbol, Fraction]:
+    zero = Fraction(0)
+    return {s: above.get(s, zero) - below.get(s, zero) for s in dict.fromkeys([*above, *below])}
+
+
+class _Exponents:
+    """Gaussian elimination on exponents that remembers which role fixed which symbol."""
+
+    def __init__(self) -> None:
+        self._rows: dict[Symbol, _Term] = {}
+        self._roles: dict[Symbol, str] = {}
+
+    def demand(self, term: _Term, role: str) -> None:
+        reduced = self._reduced(term)
+        pivot = next((s for s, power in reduced.powers.items() if power), None)
+        if pivot is not None:
+            self._rows[pivot] = _scaled(reduced, 1 / reduced.powers[pivot])
+            self._roles[pivot] = role
+        elif reduced.dimension != PURE:
+            raise self._conflict(term, role, reduced.dimension)
+
+    def _reduced(self, term: _Term) -> _Term:
+        while known := next((s for s, p in term.powers.items() if p and s in self._rows), None):
+            row = _scaled(self._rows[known], term.powers[known])
+            term = _Term(_difference(term.powers, row.powers), term.dimension / row.dimension)
+        return term
+
+    def _conflict(self, term: _Term, role: str, excess: Dimension) -> UnitError:
+        involved = [s for s, power in term.powers.items() if power]
+        earlier = dict.fromkeys(self._roles[s] for s in involved if s in self._roles)
+        names = ", ".join(s.published for s in involved) or "a number"
+        return UnitError(
+            f"dimensions of {names}: as {role} they are off by {excess}",
+            expected="one dimension for each quantity; before, it followed from "
+            + (" and from ".join(earlier) or "the role alone"),
+            advice="check the declaration for a missing length, mass or time",
+        )
+
+    def dimensions(self) -> dict[Symbol, Dimension]:
+        found = {}
+        for symbol in self._rows:
+            solved = self._reduced(_Term({symbol: Fraction(1)}, PURE))
+            if not any(solved.powers.values()):
+                found[symbol] = PURE / solved.dimension
+        return found
+
+
+def _scaled(term: _Term, factor: Fraction) -> _Term:
+    powers = {s: p * factor for s, p in term.powers.items()}
+    return _Term(powers, term.dimension**factor)
+
+
+def uses_of(
+    motion: Motion,
+    energies: Mapping[str, Expr],
+    reactions: Mapping[str, tuple[Expr, Dimension]],
+) -> Iterator[Use]:
+    """Every role that a system gives to expressions, the most telling first."""
+    yield Use("time", time, TIME)
+    for body in motion.system.bodies:
+        yield Use(f"mass of {body.name}", body.mass, MASS)
+        for row in body.inertia.rows:
+            for entry in row:
+                yield Use(f"inertia of {body.name}", entry, MASS * LENGTH**2)
+        for frame in body.axes.lineage:
+            yield Use(f"angle of frame {frame.name}", frame.angle, PURE)
+        yield from (Use(f"place of {body.name}", c, LENGTH) for c in motion.places[body].components)
+        velocity, angular = motion.velocities[body]
+        yield from (Use(f"velocity of {body.name}", c, LENGTH / TIME) for c in velocity.components)
+        yield from (Use(f"rotation of {body.name}", c, RATE) for c in angular.components)
+    for coordinate, rate in motion.kinematics.items():
+        quotient = rate / Expr.generator(coordinate)
+        yield Use(f"rate of {coordinate.base().published}", quotient, PURE)
+    yield from (Use(name, energy, ENERGY) for name, energy in energies.items())
+    yield from (Use(name, value, d) for name, (value, d) in reactions.items())

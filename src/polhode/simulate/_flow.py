@@ -1,0 +1,123 @@
+"""The motion as a flow: a core that drives itself, and quadratures that follow from it.
+
+Angles of spin, positions and work done grow without influencing the accelerations. Left out of
+the core they cannot spoil its accuracy, however far they grow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from math import lcm, pi
+
+from polhode.algebra import Expr, Kind, Op, Program, Symbol
+from polhode.simulate._dynamics import CLOCK, Dynamics
+
+#: Stands for the work done by everything that is not in the potential, J.
+WORK = Symbol("work done", Kind.COORDINATE)
+
+
+@dataclass(frozen=True)
+class Stage:
+    """States whose rates follow from the states of earlier stages (and, in the core, their own).
+
+    The program's arguments are the states of earlier stages, then these if `coupled`, then
+    parameters and time.
+    """
+
+    symbols: tuple[Symbol, ...]
+    program: Program
+
+
+@dataclass(frozen=True)
+class Flow:
+    """A core and the quadratures over it, stage by stage.
+
+    Attributes:
+        core: the states that are integrated as differential equations.
+        periods: of each core state: the period, rad, of an angle that occurs only within sines
+            and cosines; None for others.
+        stages: the quadratures.
+        parameters: constants, in the order of the programs' arguments.
+    """
+
+    core: Stage
+    periods: tuple[float | None, ...]
+    stages: tuple[Stage, ...]
+    parameters: tuple[Symbol, ...]
+
+    @property
+    def symbols(self) -> tuple[Symbol, ...]:
+        """All states, in the order in which the flow has them."""
+        return tuple(s for stage in (self.core, *self.stages) for s in stage.symbols)
+
+
+def flow_of(dynamics: Dynamics, *, reduced: bool) -> Flow:
+    """The flow of all states and of the work done; `reduced` to the smallest core or whole."""
+    rates = dict(zip(dynamics.states, dynamics.rates, strict=True))
+    if dynamics.equations.power:
+        rates[WORK] = dynamics.equations.power
+    layers = list(_peeled(_influences(dynamics, rates))) if reduced else []
+    outer = {symbol for layer in layers for symbol in layer}
+    core = tuple(symbol for symbol in rates if symbol not in outer)
+    ordered = (core, *reversed(layers))
+    stages = []
+    for i, symbols in enumerate(ordered):
+        known = core + tuple(s for layer in ordered[1:i] for s in layer)
+        arguments = (*known, *dynamics.parameters, CLOCK)
+        stages.append(Stage(symbols, dynamics.program([rates[s] for s in symbols], arguments)))
+    periods = tuple(period_in(stages[0].program, i) for i in range(len(core)))
+    return Flow(stages[0], periods, tuple(stages[1:]), dynamics.parameters)
+
+
+def _influences(dynamics: Dynamics, rates: dict[Symbol, Expr]) -> dict[Symbol, set[Symbol]]:
+    """The states that the rate of each state depends on."""
+    states = tuple(rates)
+    program = dynamics.program(rates.values(), (*states, *dynamics.parameters, CLOCK))
+    reached: list[set[Symbol]] = []
+    for step in program.instructions:
+        found = set[Symbol]().union(*(reached[i] for i in step.operands))
+        if step.op is Op.ARG and isinstance(step.value, int) and step.value < len(states):
+            found.add(states[step.value])
+        reached.append(found)
+    return {s: reached[i] for s, i in zip(states, program.outputs, strict=True)}
+
+
+def _peeled(influences: dict[Symbol, set[Symbol]]) -> Iterator[tuple[Symbol, ...]]:
+    """Layers of states that influence none of those within; what remains is the core."""
+    remaining = dict(influences)
+    while remaining:
+        felt = set[Symbol]().union(*remaining.values())
+        layer = tuple(symbol for symbol in remaining if symbol not in felt)
+        if not layer or len(layer) == len(remaining):
+            return
+        yield layer
+        remaining = {s: needs for s, needs in remaining.items() if s not in layer}
+
+
+def period_in(program: Program, argument: int) -> float | None:
+    """The period of a program in an argument seen only by sines and cosines, else None."""
+    steps = program.instructions
+    place = next((i for i, s in enumerate(steps) if (s.op, s.value) == (Op.ARG, argument)), None)
+    if place is None or place in program.outputs:
+        return None
+    unit = 1
+    for i, step in enumerate(steps):
+        if place in step.operands and step.op not in (Op.SIN, Op.COS):
+            factor = _factor_of_angle(program, i, place)
+            if factor is None:
+                return None
+            unit = lcm(unit, factor.denominator)
+    return 2 * pi * unit
+
+
+def _factor_of_angle(program: Program, i: int, place: int) -> Fraction | None:
+    """k where step i is k times the argument and goes into sines and cosines only."""
+    steps = program.instructions
+    others = [steps[operand] for operand in steps[i].operands if operand != place]
+    users = [step.op for step in steps if i in step.operands]
+    scaled = steps[i].op is Op.MUL and len(others) == 1 and others[0].op is Op.CONST
+    if not scaled or i in program.outputs or not set(users) <= {Op.SIN, Op.COS}:
+        return None
+    return Fraction(others[0].value or 0)

@@ -1,0 +1,89 @@
+"""The one seam to the libraries that integrate differential equations."""
+
+from __future__ import annotations
+
+import os
+from importlib.util import find_spec
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from polhode.base import DeclarationError
+from polhode.simulate._flow import Flow
+
+Array = NDArray[np.float64]
+
+CHOICE = "POLHODE_INTEGRATOR"
+"""Environment variable that names the integrator to use."""
+
+
+class Watch(Protocol):
+    """Looks on after every step."""
+
+    def __call__(self, time: float, state: Array) -> bool:
+        """Whether to go on."""
+        ...
+
+
+class Leg(Protocol):
+    """A solution over a stretch of time, known at every instant of it."""
+
+    @property
+    def times(self) -> Array:
+        """Where its steps begin and end, s."""
+        ...
+
+    def at(self, times: Array) -> Array:
+        """States, shape (states, times)."""
+        ...
+
+
+class Stepper(Protocol):
+    """A compiled flow, ready to be integrated from any state with any parameters."""
+
+    def leg(self, parameters: Array, begin: float, state: Array, end: float, watch: Watch) -> Leg:
+        """Integrate the core from `begin` to `end`, or until `watch` says no.
+
+        Raises:
+            NumericError: where the motion cannot be continued.
+        """
+        ...
+
+
+class Integrator(Protocol):
+    """A way of integrating flows.
+
+    Attributes:
+        name: of the library or method.
+        dense: whether a solution is as exact between the steps as at their ends, so that
+            quadratures can be done afterwards.
+    """
+
+    name: str
+    dense: bool
+
+    def prepare(self, flow: Flow, tolerance: float | None) -> Stepper:
+        """Compile a flow; the tolerance is relative, None the best that the method holds."""
+        ...
+
+
+def chosen() -> Integrator:
+    """heyoka's Taylor method where it is installed, else SciPy's DOP853.
+
+    Raises:
+        DeclarationError: where POLHODE_INTEGRATOR asks for one that is not there.
+    """
+    there = ["heyoka", "scipy"] if find_spec("heyoka") else ["scipy"]
+    name = os.environ.get(CHOICE) or there[0]
+    if name not in there:
+        raise DeclarationError(
+            f"{CHOICE} = {name!r}", expected=f"one of {', '.join(there)}", advice="or unset it"
+        )
+    if name == "heyoka":
+        from polhode.simulate._heyoka import Taylor
+
+        return Taylor()
+    from polhode.simulate._scipy import DormandPrince
+
+    return DormandPrince()

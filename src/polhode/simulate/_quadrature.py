@@ -1,0 +1,100 @@
+"""Integrals of functions of time, known at every instant: Gauss's rule on ever shorter pieces."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial import legendre
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+_NODES, _WEIGHTS = legendre.leggauss(16)
+_ORDERS = np.arange(len(_NODES))
+#: Legendre coefficients of the polynomial through values at the nodes.
+_ANALYSIS = (
+    (2 * _ORDERS[:, None] + 1) / 2 * legendre.legvander(_NODES, len(_NODES) - 1).T * _WEIGHTS
+)
+_CONVERGED = 1e-14  # last coefficients, relative to the largest value anywhere
+_NOISE = 1e-8  # last coefficients below this that no longer fall are rounding
+_FALLING = 0.25  # what is left of them when a piece that is not yet resolved is halved
+_MOST = 100_000  # new pieces at a time; nothing smooth needs more
+
+
+@dataclass(frozen=True)
+class Integral:
+    """Integrals of several functions of time from their common start.
+
+    Attributes:
+        knots: ends of the pieces, s, shape (pieces + 1,).
+        totals: integrals up to each knot, shape (functions, pieces + 1).
+        series: Legendre coefficients of the integral from the left end of each piece, shape
+            (functions, pieces, order).
+    """
+
+    knots: Array
+    totals: Array
+    series: Array
+
+    def at(self, times: Array) -> Array:
+        """The integrals at some times, shape (functions, times)."""
+        piece = np.clip(np.searchsorted(self.knots, times, "right") - 1, 0, len(self.knots) - 2)
+        left, right = self.knots[piece], self.knots[piece + 1]
+        place = (2 * times - left - right) / (right - left)
+        inside = legendre.legval(place, np.moveaxis(self.series[:, piece], 2, 0), tensor=False)
+        return np.asarray(self.totals[:, piece] + inside)
+
+
+def integral(function: Callable[[Array], Array], knots: Array) -> Integral:
+    """Integrate smooth functions of time to rounding.
+
+    Args:
+        function: values at some times, shape (functions, times).
+        knots: first guess of pieces on which 16 nodes may do, s.
+    """
+    left, right, coefficients = _resolved(function, knots)
+    order = np.argsort(left)
+    left, right, coefficients = left[order], right[order], coefficients[:, order]
+    halves = (right - left) / 2
+    series = _antiderivatives(coefficients) * halves[None, :, None]
+    pieces = 2 * halves * coefficients[:, :, 0]
+    totals = np.cumsum(pieces.astype(np.longdouble), axis=1).astype(float)
+    start = np.zeros((len(totals), 1))
+    return Integral(np.append(left, right[-1:]), np.hstack([start, totals]), series)
+
+
+def _resolved(function: Callable[[Array], Array], knots: Array) -> tuple[Array, Array, Array]:
+    """Pieces on which the Legendre coefficients have died out, and the coefficients."""
+    left, right = knots[:-1], knots[1:]
+    before = np.full(len(left), np.inf)
+    done: list[tuple[Array, Array, Array]] = []
+    scale: Array | float = 0.0
+    while len(left):
+        coefficients = _coefficients(function, left, right)
+        largest = np.max(np.abs(coefficients), axis=(1, 2), keepdims=True)
+        scale = np.maximum(scale, largest)
+        tails = np.abs(coefficients[:, :, -2:]) / np.where(scale > 0, scale, 1.0)
+        tail = np.max(tails, axis=(0, 2), initial=0.0)
+        rough = (tail > _CONVERGED) & ((tail > _NOISE) | (tail < _FALLING * before))
+        rough &= np.sum(rough) < _MOST
+        done.append((left[~rough], right[~rough], coefficients[:, ~rough]))
+        middle = (left[rough] + right[rough]) / 2
+        left, right = np.append(left[rough], middle), np.append(middle, right[rough])
+        before = np.tile(tail[rough], 2)
+    lefts, rights, parts = zip(*done, strict=True)
+    return np.concatenate(lefts), np.concatenate(rights), np.concatenate(parts, axis=1)
+
+
+def _coefficients(function: Callable[[Array], Array], left: Array, right: Array) -> Array:
+    """Legendre coefficients on every piece, shape (functions, pieces, order)."""
+    times = (left[:, None] + right[:, None] + (right - left)[:, None] * _NODES) / 2
+    values = function(times.ravel())
+    return np.asarray(values.reshape(len(values), len(left), len(_NODES)) @ _ANALYSIS.T)
+
+
+def _antiderivatives(coefficients: Array) -> Array:
+    """Legendre coefficients of the integral from -1."""
+    by_order = np.moveaxis(coefficients, 2, 0)
+    return np.moveaxis(np.asarray(legendre.legint(by_order, lbnd=-1)), 0, 2)

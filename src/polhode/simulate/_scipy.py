@@ -1,0 +1,71 @@
+"""Dormand and Prince's method of order eight, from SciPy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.integrate import DOP853, OdeSolution
+
+from polhode.algebra import Compiled
+from polhode.base import NumericError
+from polhode.simulate._flow import Flow
+from polhode.simulate._integrators import Array, Leg, Stepper, Watch
+
+_TIGHTEST = 1e-13  # relative; below it rounding rules the choice of steps
+_ABSOLUTE = 1e-15
+
+
+class DormandPrince:
+    """Explicit Runge–Kutta steps of order eight; between them a polynomial of order seven."""
+
+    name = "scipy"
+    dense = False
+
+    def prepare(self, flow: Flow, tolerance: float | None) -> Stepper:
+        """The core as a function of floats."""
+        return _RungeKuttaStepper(flow.core.program.function(), max(tolerance or 0.0, _TIGHTEST))
+
+
+@dataclass(frozen=True)
+class _RungeKuttaStepper:
+    rates: Compiled
+    tolerance: float
+
+    def leg(self, parameters: Array, begin: float, state: Array, end: float, watch: Watch) -> Leg:
+        constants = parameters.tolist()
+
+        def rate(time: float, state: Array) -> Array:
+            try:
+                return np.array(self.rates(*state.tolist(), *constants, time), dtype=float)
+            except (ArithmeticError, ValueError):
+                return np.full(len(state), np.nan)
+
+        method = DOP853(rate, begin, state, end, rtol=self.tolerance, atol=_ABSOLUTE)
+        times, pieces = [begin], list[Any]()
+        going = True
+        while method.status == "running" and going:
+            method.step()
+            if method.status == "failed" or not np.all(np.isfinite(method.y)):
+                raise NumericError(
+                    f"the motion cannot be continued beyond t = {method.t:.9g} s",
+                    expected="finite accelerations",
+                    advice="it runs into a singular position there: end before, or start elsewhere",
+                )
+            times.append(method.t)
+            pieces.append(method.dense_output())
+            going = watch(method.t, method.y)
+        return _RungeKuttaLeg(OdeSolution(times, pieces))
+
+
+@dataclass(frozen=True)
+class _RungeKuttaLeg:
+    solution: Any
+
+    @property
+    def times(self) -> Array:
+        return np.asarray(self.solution.ts)
+
+    def at(self, times: Array) -> Array:
+        return np.asarray(self.solution(times))
