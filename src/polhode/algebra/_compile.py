@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
+from types import MappingProxyType
 from typing import Any, NamedTuple, TypeAlias
 
 from flint import fmpq
@@ -13,7 +14,7 @@ from flint import fmpq
 from polhode.algebra._elimination import solve_on
 from polhode.algebra._expression import ONE, ZERO, Expr
 from polhode.algebra._forms import shortest
-from polhode.algebra._functions import Elementary
+from polhode.algebra._functions import CIRCULAR, Elementary
 from polhode.algebra._generators import Generator, Symbol
 from polhode.algebra._linear import Matrix, Row
 from polhode.algebra._program import Op, Program
@@ -50,6 +51,7 @@ def compile_program(
     arguments: Sequence[Symbol],
     where: Definitions = lambda symbol: None,
     solves: Iterable[LinearSolve] = (),
+    turned: Mapping[Symbol, Symbol] = MappingProxyType({}),
 ) -> Program:
     """The program that computes the expressions from the arguments.
 
@@ -59,12 +61,14 @@ def compile_program(
         where: what a further symbol stands for, as an expression in others and the arguments, or
             None where it is not known; a dictionary's `get` will do.
         solves: further symbols, defined by systems of linear equations.
+        turned: of angles that have grown large: the argument that is the same angle less whole
+            turns, of which sines and cosines are more exact.
 
     Raises:
         DeclarationError: for a symbol that is neither given nor defined.
         NumericError: for linear equations that are singular whatever the values.
     """
-    writer = _Writer(tuple(arguments), where, tuple(solves))
+    writer = _Writer(tuple(arguments), where, tuple(solves), turned)
     outputs = [writer.expression(expression) for expression in expressions]
     return writer.tape.program(writer.arguments, outputs)
 
@@ -85,10 +89,12 @@ class _Writer:
         arguments: tuple[Symbol, ...],
         where: Definitions,
         solves: tuple[LinearSolve, ...],
+        turned: Mapping[Symbol, Symbol],
     ) -> None:
         self.tape = Tape()
         self.arguments = arguments
         self._where = where
+        self._turned = turned
         self._solves = {unknown: solve for solve in solves for unknown in solve.unknowns}
         self._values: dict[Generator, Value] = {
             symbol: self.tape.argument(i) for i, symbol in enumerate(arguments)
@@ -123,11 +129,18 @@ class _Writer:
             case Root():
                 return self.tape.call(Op.SQRT, self.expression(generator.radicand))
             case Elementary():
-                return self.tape.call(Op(generator.name), self.expression(generator.argument))
+                return self.tape.call(Op(generator.name), self._argument(generator))
             case _:
                 raise NumericError(
                     f"the function {generator.key}", expected="one with a numeric value"
                 )
+
+    def _argument(self, function: Elementary) -> Value:
+        angle = function.base.symbol
+        periodic = function.family == CIRCULAR and function.unit.denominator == 1
+        if periodic and angle in self._turned:
+            return self.expression(Expr.generator(self._turned[angle]) * function.unit)
+        return self.expression(function.argument)
 
     def _symbol(self, symbol: Symbol) -> Value:
         if symbol in self._solves:

@@ -56,7 +56,7 @@ class _Elimination:
         return sum(self._occurs(i, j) for j in self._columns)
 
     def _occurs(self, i: int, j: int) -> bool:
-        return self._rows[i][j] != self._tape.zero
+        return self._rows[i][j].step != self._tape.zero.step
 
     def _eliminate(self, i: int, j: int) -> None:
         rows, right = self._rows, self._right

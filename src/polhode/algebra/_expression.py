@@ -114,7 +114,7 @@ class Expr:
         """The generators that occur, in their fixed order."""
         used = zip(self.num.degrees(), self.den.degrees(), strict=True)
         pairs = zip(self.ring.generators, used, strict=True)
-        return tuple(g for g, (above, below) in pairs if above or below)
+        return tuple(g for g, (above, below) in pairs if above > 0 or below > 0)
 
     def trimmed(self) -> Expr:
         """The same expression in the smallest ring that holds it."""

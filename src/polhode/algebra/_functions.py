@@ -92,6 +92,11 @@ class Elementary(Generator):
     def __hash__(self) -> int:
         return hash(self.key)
 
+    @cached_property
+    def kin(self) -> tuple[int, str]:
+        """Shared by functions whose arguments may have a common unit."""
+        return self.family.sign, self.base.key
+
     @property
     def argument(self) -> Expr:
         """What it is a function of."""
@@ -123,11 +128,7 @@ class Elementary(Generator):
 
     def finest(self, others: tuple[Generator, ...]) -> Fraction:
         """The largest unit of which all like functions among `others` take whole multiples."""
-        units = [
-            g.unit
-            for g in others
-            if isinstance(g, Elementary) and g.family == self.family and g.base == self.base
-        ]
+        units = {g.unit for g in others if isinstance(g, Elementary) and g.kin == self.kin}
         return reduce(_common_unit, units)
 
     def refined(self, others: tuple[Generator, ...]) -> Expr | None:

@@ -53,7 +53,12 @@ class Ring:
 
     def lift(self, ring: Ring, polynomial: Polynomial) -> Polynomial:
         """A polynomial of a smaller ring as one of this ring."""
-        return polynomial if ring is self else polynomial.project_to_context(self.context)
+        if ring is self:
+            return polynomial
+        if not ring.generators:
+            number = polynomial.leading_coefficient() if polynomial != 0 else 0
+            return self.context.constant(number)
+        return polynomial.project_to_context(self.context)
 
     def reduce(self, polynomial: Polynomial) -> Polynomial:
         """The same element with no algebraic generator squared."""

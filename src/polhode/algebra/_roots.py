@@ -24,6 +24,12 @@ class Root(Generator):
     positive = True
 
     @cached_property
+    def plain(self) -> Expr | None:
+        """f, where the radicand is the square of f and the root therefore |f|."""
+        root = principal_root(self.radicand)
+        return root if all(g != self for g in root.generators) else None
+
+    @cached_property
     def key(self) -> str:  # type: ignore[override]
         return f"sqrt({self.radicand.key})"
 

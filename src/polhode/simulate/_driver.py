@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
-from polhode.algebra import Compiled, Symbol, arrays
+from polhode.algebra import Symbol, arrays
 from polhode.base import NumericError, Progress
 from polhode.simulate._flow import Flow, Stage
 from polhode.simulate._integrators import Array, Leg, Stepper
@@ -27,10 +28,12 @@ class Solution:
 
     Attributes:
         symbols: the states, in the order of the rows of `at`.
+        turned: of large angles: the symbol of the angle less whole turns.
         steps: where the steps of the integrator begin and end, s.
     """
 
     symbols: tuple[Symbol, ...]
+    turned: Mapping[Symbol, Symbol]
     steps: Array
     _at: States
 
@@ -62,26 +65,30 @@ def integrate(
     known = size
     for stage in flow.stages:
         own = start[known : known + len(stage.symbols)]
-        at = _with_stage(at, stage, parameters, own, steps)
+        at = _with_stage(at, _rates(flow, stage, parameters), own, steps)
         known += len(stage.symbols)
-    return Solution(flow.symbols, steps, at)
+    return Solution(flow.symbols, flow.turned, steps, at)
 
 
 @dataclass(frozen=True)
 class _Path:
-    """Legs one after the other, each with what was taken off its angles before it began."""
+    """Legs one after the other, each with what was taken off its angles before it began.
+
+    Its rows are the states of the core, then the periodic ones once more, less whole turns.
+    """
 
     legs: list[Leg]
     begins: Array
     turned: Array
+    periodic: NDArray[np.bool_]
 
     def at(self, times: Array) -> Array:
         which = np.clip(np.searchsorted(self.begins, times, "right") - 1, 0, None)
-        states = np.empty((self.turned.shape[1], len(times)))
+        states = np.empty((len(self.periodic), len(times)))
         for i in np.unique(which):
             here = which == i
-            states[:, here] = self.legs[i].at(times[here]) + self.turned[i][:, None]
-        return states
+            states[:, here] = self.legs[i].at(times[here])
+        return np.vstack([states + self.turned[which].T, states[self.periodic]])
 
 
 def _legs(
@@ -104,9 +111,9 @@ def _legs(
         turned.append(offset)
         now = float(leg.times[-1])
         state = leg.at(leg.times[-1:])[:, 0]
-        whole = np.where(np.isfinite(periods), np.round(state / periods) * periods, 0.0)
+        whole = np.round(state / periods) * np.where(np.isfinite(periods), periods, 0.0)
         state, offset = state - whole, offset + whole
-    return _Path(legs, np.array(begins), np.array(turned))
+    return _Path(legs, np.array(begins), np.array(turned), np.isfinite(periods))
 
 
 class _Watch:
@@ -139,10 +146,9 @@ def _endless(time: float, why: str) -> NumericError:
 
 
 def _with_stage(
-    inner: States, stage: Stage, parameters: Array, start: Array, steps: Array
+    inner: States, rates: Callable[[Array, Array], Array], start: Array, steps: Array
 ) -> States:
     """The states known so far, and below them those of one more stage."""
-    rates = _rates(stage.program.function(arrays()), parameters)
     found: Integral = integral(lambda times: rates(inner(times), times), steps)
 
     def at(times: Array) -> Array:
@@ -151,9 +157,12 @@ def _with_stage(
     return at
 
 
-def _rates(function: Compiled, parameters: Array) -> Callable[[Array, Array], Array]:
+def _rates(flow: Flow, stage: Stage, parameters: Array) -> Callable[[Array, Array], Array]:
+    function = stage.program.function(arrays())
+
     def rates(states: Array, times: Array) -> Array:
-        values = function(*states, *parameters, times)
+        later = np.zeros(len(flow.symbols) - len(states))
+        values = function(*states, *later, *parameters, times)
         return np.array([np.broadcast_to(value, times.shape) for value in values])
 
     return rates

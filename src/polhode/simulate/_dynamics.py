@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from types import MappingProxyType
 from typing import Any, Protocol
 
 from polhode.algebra import (
@@ -101,16 +102,17 @@ class Dynamics:
         return LinearSolve(unknowns, self.equations.mass, tuple(self.equations.forcing))
 
     def program(
-        self, expressions: Iterable[Expr], arguments: tuple[Symbol, ...] | None = None
+        self,
+        expressions: Iterable[Expr],
+        arguments: tuple[Symbol, ...],
+        turned: Mapping[Symbol, Symbol] = MappingProxyType({}),
     ) -> Program:
         """Steps that compute expressions in any symbol of the system."""
-        return compile_program(
-            expressions, arguments or self.arguments, self.meaning, (self.accelerations,)
-        )
+        return compile_program(expressions, arguments, self.meaning, (self.accelerations,), turned)
 
     def function(self, expressions: Iterable[Expr]) -> Compiled:
-        """The same as a function of NumPy arrays."""
-        return self.program(expressions).function(arrays())
+        """Expressions as a function of NumPy arrays of the `arguments`."""
+        return self.program(expressions, self.arguments).function(arrays())
 
     def meaning(self, symbol: Symbol) -> Expr | None:
         """What a symbol that is neither state, parameter nor acceleration stands for."""

@@ -6,7 +6,7 @@ the core they cannot spoil its accuracy, however far they grow.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm, pi
@@ -22,8 +22,8 @@ WORK = Symbol("work done", Kind.COORDINATE)
 class Stage:
     """States whose rates follow from the states of earlier stages (and, in the core, their own).
 
-    The program's arguments are the states of earlier stages, then these if `coupled`, then
-    parameters and time.
+    The program computes the rates. Its arguments are all symbols of the flow, of which later ones
+    are not used, then parameters and time.
     """
 
     symbols: tuple[Symbol, ...]
@@ -38,19 +38,30 @@ class Flow:
         core: the states that are integrated as differential equations.
         periods: of each core state: the period, rad, of an angle that occurs only within sines
             and cosines; None for others.
+        turned: of those angles: the symbol of the angle less whole turns.
         stages: the quadratures.
         parameters: constants, in the order of the programs' arguments.
     """
 
     core: Stage
     periods: tuple[float | None, ...]
+    turned: Mapping[Symbol, Symbol]
     stages: tuple[Stage, ...]
     parameters: tuple[Symbol, ...]
 
     @property
-    def symbols(self) -> tuple[Symbol, ...]:
+    def states(self) -> tuple[Symbol, ...]:
         """All states, in the order in which the flow has them."""
-        return tuple(s for stage in (self.core, *self.stages) for s in stage.symbols)
+        return (*self.core.symbols, *self._later)
+
+    @property
+    def symbols(self) -> tuple[Symbol, ...]:
+        """The states, with the angles less whole turns after the core."""
+        return (*self.core.symbols, *self.turned.values(), *self._later)
+
+    @property
+    def _later(self) -> tuple[Symbol, ...]:
+        return tuple(symbol for stage in self.stages for symbol in stage.symbols)
 
 
 def flow_of(dynamics: Dynamics, *, reduced: bool) -> Flow:
@@ -58,17 +69,24 @@ def flow_of(dynamics: Dynamics, *, reduced: bool) -> Flow:
     rates = dict(zip(dynamics.states, dynamics.rates, strict=True))
     if dynamics.equations.power:
         rates[WORK] = dynamics.equations.power
-    layers = list(_peeled(_influences(dynamics, rates))) if reduced else []
-    outer = {symbol for layer in layers for symbol in layer}
+    peeled = list(_peeled(_influences(dynamics, rates))) if reduced else []
+    layers = tuple(reversed(peeled))
+    outer = tuple(symbol for layer in layers for symbol in layer)
     core = tuple(symbol for symbol in rates if symbol not in outer)
-    ordered = (core, *reversed(layers))
-    stages = []
-    for i, symbols in enumerate(ordered):
-        known = core + tuple(s for layer in ordered[1:i] for s in layer)
-        arguments = (*known, *dynamics.parameters, CLOCK)
-        stages.append(Stage(symbols, dynamics.program([rates[s] for s in symbols], arguments)))
-    periods = tuple(period_in(stages[0].program, i) for i in range(len(core)))
-    return Flow(stages[0], periods, tuple(stages[1:]), dynamics.parameters)
+    given = (*outer, *dynamics.parameters, CLOCK)
+    program = dynamics.program([rates[s] for s in core], (*core, *given))
+    periods = tuple(period_in(program, i) for i in range(len(core)))
+    turned = {s: _less_turns(s) for s, period in zip(core, periods, strict=True) if period}
+    arguments = (*core, *turned.values(), *given)
+    stages = (
+        Stage(layer, dynamics.program([rates[s] for s in layer], arguments, turned))
+        for layer in layers
+    )
+    return Flow(Stage(core, program), periods, turned, tuple(stages), dynamics.parameters)
+
+
+def _less_turns(angle: Symbol) -> Symbol:
+    return Symbol(f"{angle.name} less whole turns", Kind.COORDINATE)
 
 
 def _influences(dynamics: Dynamics, rates: dict[Symbol, Expr]) -> dict[Symbol, set[Symbol]]:

@@ -34,9 +34,10 @@ class Taylor:
         """Compile the core; all parameters stay open."""
         heyoka = library()
         states = [heyoka.make_vars(f"x{i}") for i in range(len(flow.core.symbols))]
+        later = [0.0] * (len(flow.states) - len(states))
         constants = [heyoka.par[i] for i in range(len(flow.parameters))]
         function = flow.core.program.function(Arithmetic.of(heyoka))
-        rates = function(*states, *constants, heyoka.time)
+        rates = function(*states, *later, *constants, heyoka.time)
         return _TaylorStepper(
             heyoka.taylor_adaptive(
                 [(x, heyoka.expression(rate)) for x, rate in zip(states, rates, strict=True)],

@@ -157,7 +157,7 @@ def _tolerance(tolerance: float | None) -> float | None:
 
 def _ordered(flow: Flow, dynamics: Dynamics, start: Start) -> Array:
     values = dict(zip(dynamics.states, start.state, strict=True)) | {WORK: 0.0}
-    return np.array([values[symbol] for symbol in flow.symbols], dtype=float)
+    return np.array([values[symbol] for symbol in flow.states], dtype=float)
 
 
 @contextmanager

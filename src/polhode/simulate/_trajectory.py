@@ -193,8 +193,8 @@ class Trajectory:
     def _values(self, expressions: Iterable[Expr], times: Array) -> Array:
         """Values of expressions, shape (expressions, *shape of times)."""
         arguments = (*self._solution.symbols, *self.dynamics.parameters, CLOCK)
-        function = self.dynamics.program(expressions, arguments).function(arrays())
+        program = self.dynamics.program(expressions, arguments, self._solution.turned)
         states = self._solution.at(times.ravel()).reshape(-1, *times.shape)
         with np.errstate(all="ignore"):
-            values = function(*states, *self.parameters.values(), times)
+            values = program.function(arrays())(*states, *self.parameters.values(), times)
         return np.array([np.broadcast_to(value, times.shape) for value in values])

@@ -1,0 +1,242 @@
+"""The display tree: what is printed where, decided once for all printers."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from functools import cached_property
+from math import prod
+from typing import Protocol, TypeVar
+
+from polhode.algebra._generators import Symbol
+
+T = TypeVar("T")
+T_co = TypeVar("T_co", covariant=True)
+
+
+class Style(Protocol[T_co]):
+    """A way of writing: one method for each kind of node."""
+
+    def number(self, value: int) -> T_co:
+        """A whole number."""
+        ...
+
+    def name(self, symbol: Symbol) -> T_co:
+        """A symbol."""
+        ...
+
+    def call(self, function: str, argument: Node) -> T_co:
+        """A function of one argument."""
+        ...
+
+    def power(self, base: Node, exponent: int) -> T_co:
+        """A whole power above one."""
+        ...
+
+    def product(self, factors: tuple[Node, ...]) -> T_co:
+        """Two or more factors; only the first can be a number."""
+        ...
+
+    def sum(self, terms: tuple[Node, ...]) -> T_co:
+        """Two or more terms."""
+        ...
+
+    def fraction(self, above: Node, below: Node) -> T_co:
+        """One positive quantity over another."""
+        ...
+
+    def radical(self, radicand: Node) -> T_co:
+        """A square root."""
+        ...
+
+
+class Node(ABC):
+    """A piece of a printed expression."""
+
+    @property
+    @abstractmethod
+    def size(self) -> int:
+        """How many nodes it takes; signs are free."""
+
+    @abstractmethod
+    def drawn(self, style: Style[T]) -> T:
+        """Written in a style."""
+
+    @property
+    def is_negative(self) -> bool:
+        """Whether it begins with a minus sign that a sum can take over."""
+        return False
+
+    def negated(self) -> Node:
+        """The same with the opposite sign."""
+        return Product((Number(-1), self))
+
+
+@dataclass(frozen=True)
+class Number(Node):
+    """A whole number; a rational one is a `Fraction` of two."""
+
+    value: int
+
+    @property
+    def size(self) -> int:
+        return 1
+
+    def drawn(self, style: Style[T]) -> T:
+        return style.number(self.value)
+
+    @property
+    def is_negative(self) -> bool:
+        return self.value < 0
+
+    def negated(self) -> Node:
+        return Number(-self.value)
+
+
+@dataclass(frozen=True)
+class Name(Node):
+    """A symbol."""
+
+    symbol: Symbol
+
+    @property
+    def size(self) -> int:
+        return 1
+
+    def drawn(self, style: Style[T]) -> T:
+        return style.name(self.symbol)
+
+
+@dataclass(frozen=True)
+class Call(Node):
+    """A function of one argument: sin, cos, sinh, cosh, exp, abs."""
+
+    function: str
+    argument: Node
+
+    @cached_property
+    def size(self) -> int:  # type: ignore[override]
+        return 1 + self.argument.size
+
+    def drawn(self, style: Style[T]) -> T:
+        return style.call(self.function, self.argument)
+
+
+@dataclass(frozen=True)
+class Power(Node):
+    """A whole power, above one."""
+
+    base: Node
+    exponent: int
+
+    @cached_property
+    def size(self) -> int:  # type: ignore[override]
+        return 1 + self.base.size
+
+    def drawn(self, style: Style[T]) -> T:
+        return style.power(self.base, self.exponent)
+
+
+@dataclass(frozen=True)
+class Product(Node):
+    """Two or more factors; only the first can be a number, and then carries the sign."""
+
+    factors: tuple[Node, ...]
+
+    @cached_property
+    def size(self) -> int:  # type: ignore[override]
+        bare = self.factors[1:] if self.factors[0] == Number(-1) else self.factors
+        return sum(f.size for f in bare) + (len(bare) > 1)
+
+    def drawn(self, style: Style[T]) -> T:
+        return style.product(self.factors)
+
+    @property
+    def is_negative(self) -> bool:
+        return self.factors[0].is_negative
+
+    def negated(self) -> Node:
+        first, *rest = self.factors
+        if isinstance(first, Number):
+            return product(-first.value, rest)
+        return Product((Number(-1), *self.factors))
+
+
+@dataclass(frozen=True)
+class Sum(Node):
+    """Two or more terms, none of them a sum."""
+
+    terms: tuple[Node, ...]
+
+    @cached_property
+    def size(self) -> int:  # type: ignore[override]
+        return 1 + sum(t.size for t in self.terms)
+
+    def drawn(self, style: Style[T]) -> T:
+        return style.sum(self.terms)
+
+    def negated(self) -> Node:
+        return Sum(tuple(t.negated() for t in self.terms))
+
+
+@dataclass(frozen=True)
+class Fraction(Node):
+    """A quotient; its sign stands before it."""
+
+    above: Node
+    below: Node
+
+    @cached_property
+    def size(self) -> int:  # type: ignore[override]
+        return 1 + self.above.size + self.below.size
+
+    def drawn(self, style: Style[T]) -> T:
+        return style.fraction(self.above, self.below)
+
+
+@dataclass(frozen=True)
+class Radical(Node):
+    """A square root."""
+
+    radicand: Node
+
+    @cached_property
+    def size(self) -> int:  # type: ignore[override]
+        return 1 + self.radicand.size
+
+    def drawn(self, style: Style[T]) -> T:
+        return style.radical(self.radicand)
+
+
+def product(number: int, factors: list[Node]) -> Node:
+    """A number times factors that are not numbers, without idle ones."""
+    whole = [f for f in factors if isinstance(f, Number)]
+    number = number * prod(f.value for f in whole)
+    rest = [f for f in factors if not isinstance(f, Number)]
+    if number == 1 and rest:
+        return rest[0] if len(rest) == 1 else Product(tuple(rest))
+    return Product((Number(number), *rest)) if rest else Number(number)
+
+
+def fraction(above: Node, below: Node) -> Node:
+    """A quotient with its sign before it; `below` positive."""
+    if below == Number(1):
+        return above
+    if above.is_negative:
+        return Product((Number(-1), Fraction(above.negated(), below)))
+    return Fraction(above, below)
+
+
+def power(base: Node, exponent: int) -> Node:
+    """A positive whole power."""
+    return base if exponent == 1 else Power(base, exponent)
+
+
+def total(terms: list[Node]) -> Node:
+    """A sum that begins without a minus sign if any of its terms does."""
+    if not terms:
+        return Number(0)
+    if len(terms) == 1:
+        return terms[0]
+    first = next((t for t in terms if not t.is_negative), terms[0])
+    return Sum((first, *(t for t in terms if t is not first)))

@@ -1,0 +1,10 @@
+import pytest
+
+
+@pytest.fixture(params=["heyoka", "scipy"])
+def integrator(request, monkeypatch):
+    """Each integrator in turn."""
+    if request.param == "heyoka":
+        pytest.importorskip("heyoka")
+    monkeypatch.setenv("POLHODE_INTEGRATOR", request.param)
+    return request.param
