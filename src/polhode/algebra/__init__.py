@@ -37,6 +37,7 @@ from polhode.algebra._program import Op as Op
 from polhode.algebra._program import Program as Program
 from polhode.algebra._program import arrays as arrays
 from polhode.algebra._roots import absolute as absolute
+from polhode.algebra._roots import factors as factors
 from polhode.algebra._roots import is_positive as is_positive
 from polhode.algebra._roots import principal_root as principal_root
 from polhode.algebra._roots import sqrt as sqrt

@@ -138,7 +138,7 @@ class _Writer:
     def _argument(self, function: Elementary) -> Value:
         angle = function.base.symbol
         periodic = function.family == CIRCULAR and function.unit.denominator == 1
-        if periodic and angle in self._turned:
+        if periodic and angle is not None and angle in self._turned:
             return self.expression(Expr.generator(self._turned[angle]) * function.unit)
         return self.expression(function.argument)
 

@@ -69,10 +69,10 @@ def sqrt(x: ExprLike) -> Expr:
     x = Expr.of(x)
     if x.is_zero:
         return x
-    number, factors = _factors(x)
-    known = {f: e for f, e in factors.items() if is_positive(f)}
-    open_ = {f: e for f, e in factors.items() if f not in known and e % 2}
-    squares = {f: e for f, e in factors.items() if f not in known and not e % 2}
+    number, powers = factors(x)
+    known = {f: e for f, e in powers.items() if is_positive(f)}
+    open_ = {f: e for f, e in powers.items() if f not in known and e % 2}
+    squares = {f: e for f, e in powers.items() if f not in known and not e % 2}
     result = _root_of_number(abs(number))
     for factor, exponent in known.items():
         result = result * (_root(factor) if exponent % 2 else ONE) * factor ** (exponent // 2)
@@ -87,12 +87,10 @@ def principal_root(x: ExprLike) -> Expr:
     √(sin²θ) is sin θ here: the branch on which it is positive. Whoever calls must say so.
     """
     x = Expr.of(x)
-    number, factors = _factors(x)
-    if number <= 0 or any(e % 2 for f, e in factors.items() if not is_positive(f)):
+    number, powers = factors(x)
+    if number <= 0 or any(e % 2 for f, e in powers.items() if not is_positive(f)):
         return sqrt(x)
-    halves = (
-        sqrt(f) ** e if is_positive(f) else f ** (e // 2) for f, e in factors.items()
-    )
+    halves = (sqrt(f) ** e if is_positive(f) else f ** (e // 2) for f, e in powers.items())
     return prod(halves, start=_root_of_number(number))
 
 
@@ -124,15 +122,16 @@ def _root(radicand: Expr) -> Expr:
     return Expr.generator(Root(radicand.trimmed()))
 
 
-def _factors(x: Expr) -> tuple[Fraction, dict[Expr, int]]:
-    number, factors = Fraction(1), dict[Expr, int]()
+def factors(x: Expr) -> tuple[Fraction, dict[Expr, int]]:
+    """A number, and irreducible factors with their powers, negative ones below the bar."""
+    number, powers = Fraction(1), dict[Expr, int]()
     for polynomial, sense in ((x.num, 1), (x.den, -1)):
         content, pairs = shortest(x.ring, polynomial).factor()
         number *= Fraction(int(content.p), int(content.q)) ** sense
         for factor, exponent in pairs:
             base = Expr(x.ring, x.ring.reduce(factor), x.ring.one)
-            factors[base] = factors.get(base, 0) + sense * int(exponent)
-    return number, {f: e for f, e in factors.items() if e}
+            powers[base] = powers.get(base, 0) + sense * int(exponent)
+    return number, {f: e for f, e in powers.items() if e}
 
 
 def _root_of_number(number: Fraction) -> Expr:
@@ -144,8 +143,8 @@ def _root_of_number(number: Fraction) -> Expr:
     return inside * outside
 
 
-def _root_of_unknown_sign(sign: int, factors: dict[Expr, int]) -> Expr:
-    if not factors:
+def _root_of_unknown_sign(sign: int, powers: dict[Expr, int]) -> Expr:
+    if not powers:
         if sign < 0:
             raise NumericError(
                 "the square root of a negative number",
@@ -153,8 +152,8 @@ def _root_of_unknown_sign(sign: int, factors: dict[Expr, int]) -> Expr:
                 advice="check the signs under the root",
             )
         return ONE
-    if len(factors) == 1:
-        ((factor, exponent),) = factors.items()
+    if len(powers) == 1:
+        ((factor, exponent),) = powers.items()
         return _root(factor * sign) ** exponent
-    below = prod((absolute(f) ** ((1 - e) // 2) for f, e in factors.items()), start=ONE)
-    return _root(prod(factors, start=Expr.constant(sign))) / below
+    below = prod((absolute(f) ** ((1 - e) // 2) for f, e in powers.items()), start=ONE)
+    return _root(prod(powers, start=Expr.constant(sign))) / below

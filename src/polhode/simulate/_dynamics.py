@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
@@ -61,6 +61,14 @@ class EquationsOfMotion(Protocol):
 CLOCK = time.symbol or Symbol("t", Kind.TIME)
 
 
+def constants(expressions: Iterable[Expr]) -> Iterator[Symbol]:
+    """The parameters in expressions."""
+    for expression in expressions:
+        for symbol in sorted(expression.symbols(), key=lambda symbol: symbol.published):
+            if symbol.kind is Kind.PARAMETER and symbol.name != "pi":
+                yield symbol
+
+
 @dataclass(frozen=True)
 class Dynamics:
     """Equations of one contact mode together with the prescribed functions of time.
@@ -68,10 +76,12 @@ class Dynamics:
     Attributes:
         equations: exact equations of motion.
         prescribed: every prescribed function as an expression of time.
+        idle: parameters of the declaration that dropped out of the equations but have values.
     """
 
     equations: EquationsOfMotion
     prescribed: Mapping[Symbol, Expr]
+    idle: tuple[Symbol, ...] = ()
 
     @cached_property
     def states(self) -> tuple[Symbol, ...]:
@@ -80,10 +90,9 @@ class Dynamics:
 
     @cached_property
     def parameters(self) -> tuple[Symbol, ...]:
-        """Every constant whose value is needed."""
-        driving = (s for e in self.prescribed.values() for s in e.symbols())
-        also = (s for s in driving if s.kind is Kind.PARAMETER and s.name != "pi")
-        return tuple(dict.fromkeys((*self.equations.parameters, *also)))
+        """Every constant that has a value."""
+        driving = constants(self.prescribed.values())
+        return tuple(dict.fromkeys((*self.equations.parameters, *driving, *self.idle)))
 
     @cached_property
     def arguments(self) -> tuple[Symbol, ...]:

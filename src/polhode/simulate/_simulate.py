@@ -29,7 +29,7 @@ from polhode.simulate._integrators import Array, chosen
 from polhode.simulate._names import Name, by_name, look_up, published
 from polhode.simulate._start import Start, read_start
 from polhode.simulate._trajectory import Event, Trajectory
-from polhode.simulate._values import read_parameters
+from polhode.simulate._values import idle_parameters, read_parameters
 
 SAMPLES = 1001
 
@@ -75,7 +75,8 @@ def simulate(
     seconds: dict[str, float] = {}
     with _timed(seconds, "derive"):
         equations = derive(subject) if isinstance(subject, System) else subject
-        dynamics = Dynamics(equations, _prescribed(equations, forcing or {}))
+        idle = idle_parameters(equations, parameters)
+        dynamics = Dynamics(equations, _prescribed(equations, forcing or {}), idle)
     end = _duration(duration)
     times = _samples(samples, end)
     numbers = read_parameters(dynamics, parameters)

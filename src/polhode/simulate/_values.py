@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
 
 from polhode.algebra import FLOATS, Expr, Symbol, compile_program
-from polhode.base import PURE, DeclarationError, Dimension, read_quantity, read_unit, to_si
+from polhode.base import (
+    PURE,
+    DeclarationError,
+    Dimension,
+    UnitError,
+    read_quantity,
+    read_unit,
+    to_si,
+)
 from polhode.model import check_inertia, check_mass
-from polhode.simulate._dynamics import Dynamics
+from polhode.simulate._dynamics import Dynamics, EquationsOfMotion, constants
 from polhode.simulate._names import Name, by_name, look_up, published
 
 Numbers = Mapping[Symbol, float]
@@ -69,6 +78,14 @@ def read_parameters(dynamics: Dynamics, given: Mapping[Name, Any]) -> dict[Symbo
     return {symbol: values[symbol] for symbol in wanted}
 
 
+def idle_parameters(equations: EquationsOfMotion, given: Mapping[Name, Any]) -> tuple[Symbol, ...]:
+    """Parameters of the bodies among those given, needed by the motion or not."""
+    names = {published(name) for name in given}
+    bodies = getattr(equations.system, "bodies", ())
+    parts = [part for body in bodies for part in (body.mass, *sum(body.inertia.rows, ()))]
+    return tuple(symbol for symbol in constants(parts) if symbol.published in names)
+
+
 def evaluate(expression: Expr, numbers: Numbers) -> float:
     """Value of an expression of known symbols."""
     program = compile_program([expression], tuple(numbers))
@@ -83,13 +100,13 @@ def _number(value: Any, name: str, dimension: Dimension | None, known: Numbers) 
 
 def _stated(value: Any) -> Dimension:
     """The dimension a value comes with, taken at its word where none is known."""
-    match value:
-        case str():
-            return read_quantity(value).dimension or PURE
-        case (_, str(unit)):
-            return read_unit(unit).dimension
-        case _:
-            return PURE
+    with suppress(UnitError):  # what cannot be read is refused with its name, later
+        match value:
+            case str():
+                return read_quantity(value).dimension or PURE
+            case (_, str(unit)):
+                return read_unit(unit).dimension
+    return PURE
 
 
 def _check_signs(values: Numbers) -> None:
@@ -104,7 +121,10 @@ def _check_signs(values: Numbers) -> None:
 
 def _check_bodies(dynamics: Dynamics, values: Numbers) -> None:
     for body in getattr(dynamics.equations.system, "bodies", ()):
-        check_mass(body.name, evaluate(body.mass, values))
-        inertia = [[evaluate(entry, values) for entry in row] for row in body.inertia.rows]
-        moments = np.linalg.eigvalsh(np.array(inertia))
-        check_inertia(body.name, [float(moment) for moment in moments])
+        if values.keys() >= set(constants([body.mass])):
+            check_mass(body.name, evaluate(body.mass, values))
+        entries = [entry for row in body.inertia.rows for entry in row]
+        if values.keys() >= set(constants(entries)):
+            inertia = [evaluate(entry, values) for entry in entries]
+            moments = np.linalg.eigvalsh(np.reshape(inertia, (3, 3)))
+            check_inertia(body.name, [float(moment) for moment in moments])

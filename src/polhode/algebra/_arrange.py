@@ -1,0 +1,78 @@
+"""The order in which a text writes the factors of a term, and the terms of a sum."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import lru_cache
+
+from polhode.algebra._functions import Elementary, Even
+from polhode.algebra._generators import Generator, Kind, Symbol
+from polhode.algebra._names import Spelling
+
+Rank = tuple[object, ...]
+
+_MASSES, _INERTIAS, _GRAVITY = ("m", "M"), ("I",), ("g",)
+
+#: Where a sum in brackets stands among the factors: of constants, of anything else.
+CONSTANT_SUM: Rank = (1, 1)
+VARYING_SUM: Rank = (5,)
+
+
+def is_constant(generator: Generator) -> bool:
+    """Whether it depends on parameters alone."""
+    return all(s.kind is Kind.PARAMETER for s in generator.symbols())
+
+
+@lru_cache(maxsize=4096)
+def factor_rank(generator: Generator) -> Rank:
+    """Numbers, then parameters, then what varies, then functions: m g a θ̇ sin θ."""
+    if isinstance(generator, Symbol):
+        return _symbol_rank(generator)
+    if isinstance(generator, Elementary):
+        names = sorted(_place(s) for s in generator.symbols())
+        return (3, names, generator.family.sign, isinstance(generator, Even), generator.key)
+    return radical_rank(is_constant(generator), generator.key)
+
+
+def radical_rank(constant: bool, key: str = "") -> Rank:
+    """Where a root stands: of constants right after them, any other last."""
+    return (1, 2, key) if constant else (4, key)
+
+
+def _symbol_rank(symbol: Symbol) -> Rank:
+    if symbol.kind is not Kind.PARAMETER:
+        return (2, _level(symbol), symbol.kind is not Kind.SPEED, _place(symbol))
+    stem = Spelling.of(symbol).stem
+    families = ("pi",), _MASSES, _INERTIAS, _GRAVITY
+    family = next((i for i, stems in enumerate(families) if stem in stems), len(families))
+    return (1, 0, family, _place(symbol))
+
+
+def _place(symbol: Symbol) -> Rank:
+    return (*Spelling.of(symbol).place, symbol.order)
+
+
+def term_rank(powers: Mapping[Generator, int]) -> Rank:
+    """Highest time derivative first, then higher degree in speeds, then the rest."""
+    rates = [(g, p) for g, p in powers.items() if isinstance(g, Symbol) and _level(g) > 0]
+    highest = max((_level(g) for g, _ in rates), default=0)
+    degree = sum(p * _level(g) for g, p in rates)
+    return (
+        -highest if highest > 1 else 0,
+        -degree,
+        -max((p for _, p in rates), default=0),
+        sum(abs(p) for p in powers.values()),
+        sorted(_spread(powers)),
+    )
+
+
+def _spread(powers: Mapping[Generator, int]) -> Iterator[Rank]:
+    for generator, power in powers.items():
+        yield (*factor_rank(generator), -power)
+
+
+def _level(symbol: Symbol) -> int:
+    """0 for a place, 1 for a velocity, 2 for an acceleration."""
+    if symbol.kind in (Kind.PARAMETER, Kind.TIME):
+        return 0
+    return symbol.order + (symbol.kind is Kind.SPEED)

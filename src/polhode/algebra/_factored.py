@@ -1,0 +1,138 @@
+"""Polynomials as products: a number, powers of generators, and sums."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from fractions import Fraction as Rational
+from math import gcd, lcm
+
+from polhode.algebra._forms import traded
+from polhode.algebra._generators import Generator
+from polhode.algebra._ring import Polynomial, Ring
+
+#: Longer polynomials are not worth the search for factors.
+_LONGEST_TO_FACTOR = 150
+
+
+@dataclass(frozen=True)
+class Factored:
+    """number · Π generator^power · Π sum^power; powers of either sign."""
+
+    number: Rational = Rational(1)
+    powers: dict[Generator, int] = field(default_factory=dict)
+    sums: tuple[tuple[Polynomial, int], ...] = ()
+
+    def __mul__(self, other: Factored) -> Factored:
+        generators = self.powers.keys() | other.powers.keys()
+        powers = {g: self.powers.get(g, 0) + other.powers.get(g, 0) for g in generators}
+        return Factored(
+            self.number * other.number,
+            {g: p for g, p in powers.items() if p},
+            self.sums + other.sums,
+        )
+
+    def inverse(self) -> Factored:
+        """One over this."""
+        return Factored(
+            1 / self.number,
+            {g: -p for g, p in self.powers.items()},
+            tuple((s, -p) for s, p in self.sums),
+        )
+
+    @property
+    def is_sum(self) -> bool:
+        """Whether it is nothing but one sum."""
+        return abs(self.number) == 1 and not self.powers and [p for _, p in self.sums] == [1]
+
+
+def rational(number: object) -> Rational:
+    """A number of flint as one of Python."""
+    return Rational(int(number.p), int(number.q))  # type: ignore[attr-defined]
+
+
+def terms(ring: Ring, polynomial: Polynomial) -> Iterator[Factored]:
+    """Its terms."""
+    for monomial, coefficient in polynomial.terms():
+        yield Factored(rational(coefficient), _powers(ring, monomial))
+
+
+def extracted(ring: Ring, polynomial: Polynomial) -> Factored:
+    """With the number and the generators common to all terms taken out."""
+    number = content(rational(c) for c in polynomial.coeffs())
+    common = tuple(min(powers) for powers in zip(*polynomial.monoms(), strict=True))
+    rest = polynomial / (ring.context.from_dict({common: 1}) * number.numerator)
+    rest *= number.denominator
+    return Factored(number, _powers(ring, common)) * _plain(ring, rest)
+
+
+def factorised(ring: Ring, polynomial: Polynomial) -> Factored:
+    """As a product of irreducible factors; (1 - sin)(1 + sin) is cos²."""
+    if len(polynomial) > _LONGEST_TO_FACTOR:
+        return extracted(ring, polynomial)
+    number, factors = polynomial.factor()
+    result = Factored(rational(number))
+    for factor, exponent in _with_squares(ring, factors):
+        part = _plain(ring, factor)
+        powers = {g: p * exponent for g, p in part.powers.items()}
+        sums = tuple((s, p * exponent) for s, p in part.sums)
+        result *= Factored(part.number**exponent, powers, sums)
+    return result
+
+
+def factorisations(ring: Ring, polynomial: Polynomial) -> Iterator[Factored]:
+    """Its factors over the sines, and over the cosines."""
+    yield factorised(ring, polynomial)
+    other = over_cosines(ring, polynomial)
+    if other != polynomial:
+        yield factorised(ring, other)
+
+
+def over_cosines(ring: Ring, polynomial: Polynomial) -> Polynomial:
+    """With every square of a sine replaced."""
+    for generator in ring.generators:
+        polynomial = traded(ring, polynomial, generator)
+    return polynomial
+
+
+def content(numbers: Iterable[Rational]) -> Rational:
+    """The largest number of which all are whole multiples."""
+    found = list(numbers)
+    return Rational(
+        gcd(*(n.numerator for n in found)),
+        lcm(*(n.denominator for n in found)),
+    )
+
+
+def _plain(ring: Ring, polynomial: Polynomial) -> Factored:
+    if len(polynomial) == 1:
+        return next(terms(ring, polynomial))
+    return Factored(sums=((polynomial, 1),))
+
+
+def _powers(ring: Ring, monomial: Iterable[int]) -> dict[Generator, int]:
+    return {g: int(p) for g, p in zip(ring.generators, monomial, strict=True) if p}
+
+
+Factors = list[tuple[Polynomial, int]]
+
+
+def _with_squares(ring: Ring, factors: Factors) -> Factors:
+    for even in ring.generators:
+        for parts, square in _squares(ring, even):
+            shared = min(next((e for f, e in factors if f == part), 0) for part in parts)
+            if shared:
+                rest = ((f, e - shared if f in parts else e) for f, e in factors)
+                factors = [*((f, e) for f, e in rest if e), (square, shared)]
+    return factors
+
+
+def _squares(ring: Ring, even: Generator) -> Iterator[tuple[list[Polynomial], Polynomial]]:
+    """Irreducible factors that together are a square, by even² = 1 + sign · odd²."""
+    partner = even.partner()
+    if partner is None:
+        return
+    odd, sign = partner
+    e, o = ring.variable(even), ring.variable(odd)
+    yield ([o - 1, o + 1], -(e**2)) if sign < 0 else ([o**2 + 1], e**2)
+    yield [e - 1, e + 1], sign * o**2

@@ -1,0 +1,106 @@
+"""Expressions as LaTeX, as a mechanics text prints them, and as MathML."""
+
+from __future__ import annotations
+
+from polhode.algebra._expression import Expr
+from polhode.algebra._generators import Symbol
+from polhode.algebra._layout import layout
+from polhode.algebra._names import GREEK, Spelling
+from polhode.algebra._nodes import Call, Fraction, Name, Node, Number, Power, Product, Sum
+
+
+def latex(expression: Expr) -> str:
+    r"""LaTeX of an expression: `5 a \ddot{\theta} + 4 g \cos\theta`."""
+    return layout(expression).drawn(_Latex())
+
+
+def latex_of_symbol(symbol: Symbol) -> str:
+    r"""LaTeX of a symbol: `\dot{\omega}_3` for omega_3_dot, `F'_{\rho}` for Fprime_rho."""
+    spelling = Spelling.of(symbol)
+    return _dotted(_letter(spelling.stem), spelling.dots) + _marks(spelling)
+
+
+def mathml(formula: str) -> str:
+    """Presentation MathML of a LaTeX formula."""
+    from latex2mathml.converter import convert
+
+    return str(convert(formula))
+
+
+def _letter(name: str) -> str:
+    if name in GREEK:
+        return rf"\{name}"
+    return name if len(name) == 1 else rf"\mathrm{{{name}}}"
+
+
+_ACCENTS = ("", "dot", "ddot", "dddot")
+
+
+def _dotted(letter: str, dots: int) -> str:
+    if dots == 0:
+        return letter
+    if dots < len(_ACCENTS):
+        return rf"\{_ACCENTS[dots]}{{{letter}}}"
+    return rf"{letter}^{{({dots})}}"
+
+
+def _marks(spelling: Spelling) -> str:
+    subscript = ",".join(s if s.isdigit() else _letter(s) for s in spelling.subscripts)
+    below = f"_{subscript}" if len(subscript) == 1 else f"_{{{subscript}}}"
+    return "'" * spelling.primes + (below if subscript else "")
+
+
+class _Latex:
+    """The style of `latex`."""
+
+    def number(self, value: int) -> str:
+        return str(value)
+
+    def name(self, symbol: Symbol) -> str:
+        return latex_of_symbol(symbol)
+
+    def call(self, function: str, argument: Node) -> str:
+        return self._called(function, "", argument)
+
+    def power(self, base: Node, exponent: int) -> str:
+        raised = f"^{exponent}" if exponent < 10 else f"^{{{exponent}}}"
+        match base:
+            case Call(function="abs", argument=argument):
+                return self._called("abs", "", argument) + raised
+            case Call(function=function, argument=argument):
+                return self._called(function, raised, argument)
+            case Sum() | Product() | Fraction() | Power():
+                return self._bracketed(base) + raised
+        written = base.drawn(self)
+        return f"{{{written}}}{raised}" if "'" in written or "^" in written else written + raised
+
+    def product(self, factors: tuple[Node, ...]) -> str:
+        sign = "-" if factors[0] == Number(-1) else ""
+        rest = factors[1:] if sign else factors
+        parts = (self._bracketed(f) if isinstance(f, Sum) else f.drawn(self) for f in rest)
+        return sign + " ".join(parts)
+
+    def sum(self, terms: tuple[Node, ...]) -> str:
+        written = terms[0].drawn(self)
+        for term in terms[1:]:
+            size = term.negated() if term.is_negative else term
+            written += f" {'-' if term.is_negative else '+'} {size.drawn(self)}"
+        return written
+
+    def fraction(self, above: Node, below: Node) -> str:
+        return rf"\frac{{{above.drawn(self)}}}{{{below.drawn(self)}}}"
+
+    def radical(self, radicand: Node) -> str:
+        return rf"\sqrt{{{radicand.drawn(self)}}}"
+
+    def _called(self, function: str, raised: str, argument: Node) -> str:
+        inside = argument.drawn(self)
+        if function == "abs":
+            return rf"\left|{inside}\right|"
+        if isinstance(argument, Name):
+            gap = "" if inside.startswith("\\") or raised else " "
+            return rf"\{function}{raised}{gap}{inside}"
+        return rf"\{function}{raised}\left({inside}\right)"
+
+    def _bracketed(self, node: Node) -> str:
+        return rf"\left({node.drawn(self)}\right)"

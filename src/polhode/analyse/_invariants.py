@@ -1,0 +1,108 @@
+"""First integrals: named ones tried first, then whatever a stated ansatz contains."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from polhode.algebra import Expr, Vector, dot
+from polhode.analyse._ansatz import Ansatz, search
+from polhode.analyse._independence import independent
+from polhode.derive import Equations
+
+
+@dataclass(frozen=True)
+class Invariant:
+    """An expression of coordinates, speeds and time that keeps its value along every motion.
+
+    Attributes:
+        name: what it is called; C_1, C_2, ... where it has no name.
+        expression: verified exactly, by its derivative along the motion.
+        meaning: in words.
+    """
+
+    name: str
+    expression: Expr
+    meaning: str
+
+
+@dataclass(frozen=True)
+class Invariants:
+    """All that was found.
+
+    Attributes:
+        found: independent of one another.
+        ansatz: what was searched, in words; nothing outside it is excluded.
+    """
+
+    found: tuple[Invariant, ...]
+    ansatz: str
+
+    def __iter__(self) -> Iterator[Invariant]:
+        return iter(self.found)
+
+    def __len__(self) -> int:
+        return len(self.found)
+
+    def __getitem__(self, name: str) -> Invariant:
+        return next(i for i in self.found if i.name == name)
+
+
+def invariants(equations: Equations, ansatz: Ansatz | None = None) -> Invariants:
+    """First integrals of the motion, each verified exactly.
+
+    Args:
+        equations: derived equations.
+        ansatz: what to search besides energy and momenta; a modest default otherwise.
+    """
+    chosen = ansatz or Ansatz()
+    found: list[Invariant] = []
+    for candidate in (*_named(equations), *_searched(equations, chosen)):
+        known = [i.expression for i in found]
+        if not equations.rate(candidate.expression) and independent(candidate.expression, known):
+            found.append(candidate)
+    numbered = _numbered(found)
+    return Invariants(numbered, f"energy, momenta and speeds; {chosen.describe()}")
+
+
+def _named(equations: Equations) -> Iterator[Invariant]:
+    yield Invariant("E", equations.energy, "energy")
+    for speed in equations.speeds:
+        expression = Expr.generator(speed)
+        yield Invariant(speed.published, expression, f"the speed {speed.published}")
+    for body in equations.system.bodies:
+        spin = equations.kinetics.velocities[body][1]
+        momentum = Vector(body.inertia.times(spin.components), spin.triad)
+        for label in body.axes.labels:
+            meaning = f"angular momentum of {body.name} about its axis {label}"
+            yield Invariant(f"L_{label}{body.tag}", momentum.dot(body.axes[label]), meaning)
+    yield from _momenta(equations)
+
+
+def _momenta(equations: Equations) -> Iterator[Invariant]:
+    root = equations.system.root
+    angular, linear = equations.angular_momentum(), equations.linear_momentum
+    for label in reversed(root.labels):
+        yield Invariant(f"L_{label}", angular.dot(root[label]), f"angular momentum about {label}")
+    yield Invariant("L2", dot(angular.components, angular.components), "angular momentum squared")
+    for label in root.labels:
+        yield Invariant(f"P_{label}", linear.dot(root[label]), f"linear momentum along {label}")
+
+
+def _searched(equations: Equations, ansatz: Ansatz) -> Iterator[Invariant]:
+    for expression in search(equations, ansatz):
+        yield Invariant("", expression, "found within the ansatz")
+
+
+def _numbered(found: list[Invariant]) -> tuple[Invariant, ...]:
+    taken: set[str] = set()
+    result = []
+    for invariant in found:
+        name = invariant.name
+        number = 1
+        while not name or name in taken:
+            name = f"C_{number}" if not invariant.name else f"{invariant.name}_{number}"
+            number += 1
+        taken.add(name)
+        result.append(Invariant(name, invariant.expression, invariant.meaning))
+    return tuple(result)

@@ -1,0 +1,67 @@
+"""The reduced system: what is left of the equations when ignorable coordinates are dropped."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from polhode.algebra import Expr, Kind, Row, Symbol, variables
+from polhode.base import NumericError
+from polhode.derive import Equations
+
+
+@dataclass(frozen=True)
+class Reduced:
+    """Essential coordinates and speeds, closed under the equations of motion.
+
+    Attributes:
+        equations: the whole.
+        essential: coordinates that the accelerations depend on, directly or through one another.
+        ignorable: the other coordinates.
+        speeds: all independent speeds.
+        rates: of the essential coordinates.
+    """
+
+    equations: Equations
+    essential: tuple[Symbol, ...]
+    ignorable: tuple[Symbol, ...]
+    speeds: tuple[Symbol, ...]
+    rates: Row
+
+    @property
+    def state(self) -> tuple[Symbol, ...]:
+        """Essential coordinates, then speeds."""
+        return self.essential + self.speeds
+
+
+def reduced(equations: Equations) -> Reduced:
+    """Drop the coordinates that nothing depends on.
+
+    Raises `NumericError` for equations that depend on time explicitly.
+    """
+    entries = [e for row in equations.mass.rows for e in row] + list(equations.forcing)
+    driven = [s for s in variables(entries) if s.kind in (Kind.FUNCTION, Kind.TIME)]
+    if driven:
+        names = ", ".join(sorted(s.published for s in driven))
+        raise NumericError(
+            f"equations that depend on time through {names}",
+            expected="autonomous equations: steady motions and integrals need them",
+            advice="let the supports rest or move steadily",
+        )
+    essential = _closure(equations, variables(entries))
+    return Reduced(
+        equations,
+        essential,
+        tuple(q for q in equations.coordinates if q not in essential),
+        equations.speeds,
+        tuple(equations.kinematics[q.derivative()] for q in essential),
+    )
+
+
+def _closure(equations: Equations, used: frozenset[Symbol]) -> tuple[Symbol, ...]:
+    while True:
+        essential = tuple(q for q in equations.coordinates if q in used)
+        rates: list[Expr] = [equations.kinematics[q.derivative()] for q in essential]
+        more = used | variables(rates)
+        if not (more - used) & set(equations.coordinates):
+            return essential
+        used = more

@@ -1,0 +1,267 @@
+"""Linear stability of steady motions, on the reduced space and modulo the steady family itself."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+from polhode.algebra import ONE, ZERO, Expr, ExprLike, Row, Symbol, as_symbol, eliminate, sqrt
+from polhode.analyse._conditions import Condition, Truth, positive
+from polhode.analyse._steady import SteadyMotion
+from polhode.base import NumericError
+
+_EXPONENT = Symbol("exponent")
+
+#: What linearisation can and cannot tell.
+PROVES = (
+    "Exponents with positive real part prove instability. Purely imaginary ones leave stability "
+    "open to the terms of higher order; energy or numbers must decide."
+)
+
+
+@dataclass(frozen=True)
+class Stability:
+    """Exponents of small departures from a steady motion.
+
+    Attributes:
+        family: the steady motion.
+        polynomial: coefficients of the characteristic polynomial, lowest power first.
+        neutral: multiplicity of the exponent zero.
+        directions: independent departures that neither grow nor oscillate; along the family
+            itself and its parameters. Fewer than `neutral` of them means steady drift.
+    """
+
+    family: SteadyMotion
+    polynomial: Row
+    neutral: int
+    directions: int
+
+    @property
+    def drifts(self) -> bool:
+        """Whether some departure grows in proportion to time."""
+        return self.directions < self.neutral
+
+    @cached_property
+    def oscillating(self) -> Row:
+        """The polynomial without its roots at zero; normalised to a positive leading one."""
+        return self.polynomial[self.neutral :]
+
+    @property
+    def is_even(self) -> bool:
+        """Whether exponents come in pairs ±, as where nothing dissipates."""
+        return not any(self._holds_not(c) for c in self.oscillating[1::2])
+
+    def _holds_not(self, coefficient: Expr) -> bool:
+        return not vanishes(coefficient, self.family)
+
+    @cached_property
+    def conditions(self) -> tuple[Condition, ...]:
+        """All of them together are linear stability; what holds anyway is left out."""
+        demanded = _even(self.oscillating[::2]) if self.is_even else _hurwitz(self.oscillating)
+        assumed = self.family.reduced.equations.assumed_positive
+        found = dict.fromkeys(positive(e.subs(self.family.fixed), assumed) for e in demanded)
+        if any(c.truth is Truth.NEVER for c in found):
+            return (Condition(-ONE),)
+        return tuple(c for c in found if c.truth is Truth.OPEN)
+
+    @property
+    def truth(self) -> Truth:
+        """Stable always, never, or depending on the parameters."""
+        if not self.conditions:
+            return Truth.ALWAYS
+        return self.conditions[0].truth
+
+    @cached_property
+    def frequencies(self) -> tuple[Expr, ...]:
+        """Angular frequencies of small oscillations where stable, rad/s."""
+        return tuple(sqrt(-square) for square in self._squares)
+
+    @cached_property
+    def growth(self) -> tuple[Expr, ...]:
+        """Rates of exponential growth where unstable, 1/s."""
+        return tuple(sqrt(square) for square in self._squares)
+
+    @cached_property
+    def _squares(self) -> tuple[Expr, ...]:
+        if not self.is_even:
+            return ()
+        coefficients = self.oscillating[::2]
+        if len(coefficients) == 2:
+            return (-coefficients[0] / coefficients[1],)
+        if len(coefficients) == 3:
+            c, b, a = coefficients
+            root = sqrt(b * b - 4 * a * c)
+            return ((-b + root) / (2 * a), (-b - root) / (2 * a))
+        return ()
+
+    @property
+    def loss(self) -> str:
+        """How stability is lost."""
+        if len(self.oscillating) == 1:
+            return "none: every departure is neutral"
+        if not self.is_even:
+            return "growth, with or without oscillation"
+        if len(self.oscillating) == 3:
+            return "divergence: one pair of exponents becomes real"
+        return "divergence where an exponent passes zero, flutter where two frequencies merge"
+
+    def __str__(self) -> str:
+        if self.truth is Truth.OPEN:
+            return "stable when " + " and ".join(map(str, self.conditions))
+        return "stable" if self.truth is Truth.ALWAYS else "unstable"
+
+
+def stability(
+    family: SteadyMotion, at: Mapping[Expr | Symbol, ExprLike] | None = None
+) -> Stability:
+    """Linearise about a family of steady motions.
+
+    Args:
+        family: from `steady`.
+        at: further values of coordinates, speeds or parameters.
+
+    Raises `NumericError` where the coordinates are singular on the family.
+    """
+    given = {as_symbol(symbol): Expr.of(value) for symbol, value in (at or {}).items()}
+    narrowed = _narrowed(family, given)
+    left, right = _linearised(narrowed)
+    size = range(len(left))
+    exponent = Expr.generator(_EXPONENT)
+    matrix = tuple(tuple(exponent * left[i][j] - right[i][j] for j in size) for i in size)
+    polynomial = _coefficients(_determinant(matrix), len(left))
+    if vanishes(polynomial[-1], narrowed):
+        raise NumericError(
+            f"stability of {narrowed} of {family.reduced.equations.system.name}",
+            expected="coordinates that are not singular there",
+            advice="describe the attitude by other angles, such as two tilts for an upright top",
+        )
+    neutral = next(i for i, c in enumerate(polynomial) if not vanishes(c, narrowed))
+    frozen = [[_on(entry, narrowed) for entry in row] for row in right]
+    rank = len(eliminate(frozen, [ZERO] * len(frozen)).solved)
+    return Stability(narrowed, polynomial, neutral, len(left) - rank)
+
+
+def _narrowed(family: SteadyMotion, given: Mapping[Symbol, Expr]) -> SteadyMotion:
+    fixed = {s: v.subs(given) for s, v in family.fixed.items()} | dict(given)
+    relations = tuple(r for e in family.relations if (r := e.subs(given)))
+    return SteadyMotion(family.reduced, fixed, relations)
+
+
+def _linearised(family: SteadyMotion) -> tuple[tuple[Row, ...], tuple[Row, ...]]:
+    """Matrices B, A of B x' = A x for small departures x of the reduced state.
+
+    The accelerations vanish on the family, so that the mass matrix need not be varied.
+    """
+    system = family.reduced
+    flow = (*system.rates, *system.equations.forcing)
+    right = tuple(
+        tuple(component.diff(s).subs(family.fixed) for s in system.state) for component in flow
+    )
+    coordinates = len(system.essential)
+    left = []
+    for i in range(len(flow)):
+        if i < coordinates:
+            row = [ONE if j == i else ZERO for j in range(len(flow))]
+        else:
+            mass = system.equations.mass.rows[i - coordinates]
+            row = [ZERO] * coordinates + [entry.subs(family.fixed) for entry in mass]
+        left.append(tuple(row))
+    return tuple(left), right
+
+
+def vanishes(expression: Expr, family: SteadyMotion) -> bool:
+    """Whether an expression is zero on the whole family."""
+    return not _on(expression, family)
+
+
+def _on(expression: Expr, family: SteadyMotion) -> Expr:
+    """An expression with one quantity eliminated by each relation of the family."""
+    result = expression.subs(family.fixed)
+    for relation in family.relations:
+        symbol, value = _eliminated(relation)
+        result = result.subs({symbol: value})
+    return result
+
+
+@lru_cache(maxsize=256)
+def _eliminated(relation: Expr) -> tuple[Symbol, Expr]:
+    """Some symbol that a relation is linear in, and its value."""
+    for symbol in sorted(relation.symbols(), key=lambda s: s.published):
+        slope = relation.diff(symbol)
+        if slope and symbol not in slope.symbols():
+            constant = relation - slope * Expr.generator(symbol)
+            if symbol not in constant.symbols():
+                return symbol, -constant / slope
+    raise NumericError(
+        f"the relation {relation} = 0 of a steady motion",
+        expected="one that is linear in some quantity",
+        advice="fix an angle with at=, such as theta = pi/2",
+    )
+
+
+def _determinant(matrix: Sequence[Row]) -> Expr:
+    """By minors, smallest column counts first; exact and without division."""
+
+    @lru_cache(maxsize=None)
+    def minor(columns: tuple[int, ...]) -> Expr:
+        if not columns:
+            return ONE
+        row = matrix[len(matrix) - len(columns)]
+        total = ZERO
+        for position, column in enumerate(columns):
+            if row[column]:
+                rest = columns[:position] + columns[position + 1 :]
+                term = row[column] * minor(rest)
+                total = total - term if position % 2 else total + term
+        return total
+
+    return minor(tuple(range(len(matrix))))
+
+
+def _coefficients(polynomial: Expr, degree: int) -> Row:
+    found = [ZERO] * (degree + 1)
+    scale = ONE / polynomial.denominator
+    for powers, number in polynomial.terms():
+        term = Expr.constant(number)
+        for generator, power in powers.items():
+            if generator != _EXPONENT:
+                term = term * Expr.generator(generator) ** power
+        place = powers.get(_EXPONENT, 0)
+        found[place] = found[place] + term * scale
+    return tuple(found)
+
+
+def _even(coefficients: Row) -> tuple[Expr, ...]:
+    """When all roots of a polynomial in the square of the exponent are real and negative."""
+    lead = coefficients[-1]
+    signs = tuple(c * lead for c in coefficients[:-1])
+    if len(coefficients) <= 2:
+        return signs
+    if len(coefficients) == 3:
+        c, b, a = coefficients
+        return (*signs, b * b - 4 * a * c)
+    if len(coefficients) == 4:
+        d, c, b, a = coefficients
+        quartic = 18 * a * b * c * d - 4 * b**3 * d + b * b * c * c - 4 * a * c**3
+        return (*signs, quartic - 27 * a * a * d * d)
+    raise NumericError(
+        f"a characteristic polynomial of degree {2 * len(coefficients) - 2}",
+        expected="degree six at most",
+        advice="give numbers with at= and look at the roots",
+    )
+
+
+def _hurwitz(coefficients: Row) -> tuple[Expr, ...]:
+    """Routh and Hurwitz: all roots have negative real parts."""
+    degree = len(coefficients) - 1
+    falling = tuple(c * coefficients[-1] for c in reversed(coefficients))
+
+    def entry(i: int, j: int) -> Expr:
+        k = 2 * (j + 1) - (i + 1)
+        return falling[k] if 0 <= k <= degree else ZERO
+
+    return tuple(
+        _determinant(tuple(tuple(entry(i, j) for j in range(n)) for i in range(n)))
+        for n in range(1, degree + 1)
+    )

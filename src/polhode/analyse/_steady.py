@@ -1,0 +1,216 @@
+"""Steady motions: essential coordinates and all speeds constant."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+from polhode.algebra import (
+    ONE,
+    ZERO,
+    Expr,
+    ExprLike,
+    Kind,
+    Symbol,
+    as_symbol,
+    factors,
+    is_positive,
+    sqrt,
+    taylor,
+)
+from polhode.analyse._conditions import Condition, positive
+from polhode.analyse._reduced import Reduced, reduced
+from polhode.base import NumericError
+from polhode.derive import Equations
+
+Values = Mapping[Symbol, Expr]
+
+
+@dataclass(frozen=True)
+class Branch:
+    """A relation solved for one quantity.
+
+    Attributes:
+        quantity: what it is solved for: a speed, or the sine or cosine of an angle.
+        value: what it equals.
+        exists: conditions for it to be real.
+    """
+
+    quantity: Expr
+    value: Expr
+    exists: tuple[Condition, ...]
+
+
+@dataclass(frozen=True)
+class SteadyMotion:
+    """A family of steady motions.
+
+    Attributes:
+        reduced: the system it belongs to.
+        fixed: quantities with a definite value on the family.
+        relations: further expressions that vanish on it.
+    """
+
+    reduced: Reduced
+    fixed: dict[Symbol, Expr]
+    relations: tuple[Expr, ...]
+
+    @property
+    def free(self) -> tuple[Symbol, ...]:
+        """State variables that the family leaves open, up to its relations."""
+        return tuple(s for s in self.reduced.state if s not in self.fixed)
+
+    @cached_property
+    def branches(self) -> tuple[Branch, ...]:
+        """The relation solved for one quantity, with all roots; none for several relations."""
+        if len(self.relations) != 1:
+            return ()
+        return tuple(_branches(self.relations[0], self.reduced))
+
+    def latex(self) -> str:
+        """LaTeX of what holds on the family."""
+        pieces = [
+            f"{Expr.generator(symbol).latex()} = {value.latex()}"
+            for symbol, value in self.fixed.items()
+            if not self._is_rate(symbol)
+        ]
+        pieces += [f"{relation.latex()} = 0" for relation in self.relations]
+        return r", \quad ".join(pieces) or "0 = 0"
+
+    def _is_rate(self, symbol: Symbol) -> bool:
+        return symbol.order > 0 and symbol.base() in self.reduced.essential
+
+    def __str__(self) -> str:
+        pieces = [f"{s.published} = {v}" for s, v in self.fixed.items() if not self._is_rate(s)]
+        return ", ".join([*pieces, *(f"{r} = 0" for r in self.relations)]) or "every state"
+
+
+def steady(
+    equations: Equations, at: Mapping[Expr | Symbol, ExprLike] | None = None
+) -> tuple[SteadyMotion, ...]:
+    """All families of steady motions.
+
+    Args:
+        equations: derived equations, autonomous.
+        at: coordinates, speeds or parameters that are given a value first.
+
+    Raises `NumericError` where there is no steady motion.
+    """
+    system = reduced(equations)
+    given = {as_symbol(symbol): Expr.of(value) for symbol, value in (at or {}).items()}
+    rows = [row.subs(given) for row in (*system.rates, *equations.forcing)]
+    found = [
+        SteadyMotion(system, {**given, **fixed}, relations)
+        for fixed, relations in _families(rows, system)
+    ]
+    families = tuple(_without_special_cases(found))
+    if not families:
+        raise NumericError(
+            f"steady motions of {equations.system.name}",
+            expected="at least one; the conditions contradict one another",
+            advice="give other values, or none",
+        )
+    return families
+
+
+def _families(
+    rows: list[Expr], system: Reduced
+) -> Iterator[tuple[dict[Symbol, Expr], tuple[Expr, ...]]]:
+    """Branch over the factors of the first condition that is not met yet."""
+    pending = [row.numerator for row in rows if row]
+    if not pending:
+        yield {}, ()
+        return
+    row = min(pending, key=lambda e: len(e.num))
+    rest = [other for other in pending if other is not row]
+    for factor in _vanishing(row, system):
+        symbol, value = _solved(factor, system)
+        if symbol is not None and value is not None:
+            reduced_rows = [other.subs({symbol: value}) for other in rest]
+            for fixed, relations in _families(reduced_rows, system):
+                final = value.subs(fixed)
+                yield {symbol: final, **fixed}, relations
+        else:
+            others = [other for other in rest if factor not in factors(other)[1]]
+            for fixed, relations in _families(others, system):
+                kept = factor.subs(fixed)
+                yield fixed, ((kept, *relations) if kept else relations)
+
+
+def _vanishing(row: Expr, system: Reduced) -> list[Expr]:
+    """Factors that some state can make vanish."""
+    state = set(system.state)
+    assumed = system.equations.assumed_positive
+    return [
+        factor
+        for factor in factors(row)[1]
+        if factor.symbols() & state and not is_positive(factor) and factor not in assumed
+    ]
+
+
+def _solved(factor: Expr, system: Reduced) -> tuple[Symbol | None, Expr | None]:
+    """A speed that the factor gives without dividing by what may vanish."""
+    for speed in system.speeds:
+        slope = factor.diff(speed)
+        if slope and not slope.symbols() & set(system.state):
+            return speed, -(factor - slope * Expr.generator(speed)) / slope
+    return None, None
+
+
+def _without_special_cases(found: list[SteadyMotion]) -> Iterator[SteadyMotion]:
+    seen: list[SteadyMotion] = []
+    for family in sorted(found, key=lambda f: len(f.fixed)):
+        if not any(_contains(other, family) for other in seen):
+            seen.append(family)
+            yield family
+
+
+def _contains(wide: SteadyMotion, narrow: SteadyMotion) -> bool:
+    fixed = all(
+        narrow.fixed.get(s, Expr.generator(s)) == value.subs(narrow.fixed)
+        for s, value in wide.fixed.items()
+    )
+    kept = set(narrow.relations)
+    return fixed and all(
+        not r.subs(narrow.fixed) or r.subs(narrow.fixed) in kept for r in wide.relations
+    )
+
+
+def _branches(relation: Expr, system: Reduced) -> Iterator[Branch]:
+    for quantity in _candidates(relation, system):
+        coefficients = _quadratic(relation, quantity)
+        if coefficients is None:
+            continue
+        yield from _roots(quantity, coefficients, system)
+        return
+
+
+def _candidates(relation: Expr, system: Reduced) -> list[Symbol]:
+    """Rates of ignorable coordinates first: a text solves for the rate of precession."""
+    inside = [s for s in system.speeds if s in relation.symbols()]
+    return sorted(inside, key=lambda s: (s.kind is Kind.SPEED, s.published))
+
+
+def _quadratic(relation: Expr, symbol: Symbol) -> tuple[Expr, Expr, Expr] | None:
+    series = taylor(relation, symbol, 2)
+    if relation - series:
+        return None
+    at_zero = {symbol: ZERO}
+    slope = relation.diff(symbol)
+    return slope.diff(symbol) / 2, slope.subs(at_zero), relation.subs(at_zero)
+
+
+def _roots(
+    symbol: Symbol, coefficients: tuple[Expr, Expr, Expr], system: Reduced
+) -> Iterator[Branch]:
+    a, b, c = coefficients
+    quantity = Expr.generator(symbol)
+    if not a:
+        yield Branch(quantity, -c / b, ())
+        return
+    discriminant = b * b - 4 * a * c
+    exists = positive(discriminant, system.equations.assumed_positive)
+    root = sqrt(discriminant)
+    for sign in (ONE, -ONE):
+        yield Branch(quantity, (-b + sign * root) / (2 * a), (exists,))

@@ -1,0 +1,166 @@
+"""What quantities of a motion are called in print, and the units they are shown in."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from polhode.algebra import Expr, Generator, Symbol
+from polhode.base import LENGTH, MASS, PURE, TIME, Dimension, UnitError
+from polhode.derive import Equations
+from polhode.simulate import Trajectory
+
+Array = NDArray[np.float64]
+
+FORCE = MASS * LENGTH / TIME**2
+ENERGY = FORCE * LENGTH
+
+_WORDS = {"energy": ("E", "J"), "power": ("P", "W"), "work": ("W", "J")}
+_UNITS = {
+    PURE: "",
+    LENGTH: "m",
+    TIME: "s",
+    PURE / TIME: "rad/s",
+    PURE / TIME**2: "rad/s²",
+    LENGTH / TIME: "m/s",
+    LENGTH / TIME**2: "m/s²",
+    FORCE: "N",
+    ENERGY: "N m",
+    ENERGY / TIME: "W",
+}
+_PREFIXES = ((1e-2, 1e-3, "m"), (1e-5, 1e-6, "µ"), (1e-8, 1e-9, "n"), (1e-11, 1e-12, "p"))
+_TURN = 2 * np.pi
+
+
+@dataclass(frozen=True)
+class Scale:
+    """A unit to show values in: shown = value in SI units times `factor`."""
+
+    unit: str
+    factor: float
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A quantity of a motion.
+
+    Attributes:
+        name: published name.
+        symbol: as mathematical text between dollar signs.
+        unit: SI unit, empty for a pure number and "rad" for an angle.
+    """
+
+    name: str
+    symbol: str
+    unit: str
+
+    def label(self, scale: Scale) -> str:
+        """Symbol and unit as they stand at an axis."""
+        return label(self.symbol, scale)
+
+
+def label(symbol: str, scale: Scale) -> str:
+    """A symbol with its unit in brackets, if it has one."""
+    return f"{symbol} ({scale.unit})" if scale.unit else symbol
+
+
+def quantity(run: Trajectory, name: str) -> Quantity:
+    """The quantity of that published name.
+
+    Raises:
+        DeclarationError: for a name the run does not have.
+    """
+    if name in _WORDS:
+        letter, unit = _WORDS[name]
+        return Quantity(name, f"${letter}$", unit)
+    expression = run.expression(name)
+    symbol = expression.symbol or Symbol(name)
+    dimension = _dimension(equations_of(run), name, expression)
+    is_angle = dimension == PURE and symbol in run.equations.coordinates
+    unit = "rad" if is_angle else _UNITS.get(dimension, str(dimension))
+    return Quantity(name, math(Expr.generator(symbol)), unit)
+
+
+def math(expression: Expr) -> str:
+    """An expression as mathematical text of a figure."""
+    return f"${expression.latex()}$"
+
+
+def equations_of(run: Trajectory) -> Equations:
+    """The equations behind a motion of a declared system."""
+    return cast(Equations, run.equations)
+
+
+def common_unit(quantities: Sequence[Quantity]) -> str:
+    """The unit that all of them have.
+
+    Raises:
+        UnitError: where they have none in common.
+    """
+    units = dict.fromkeys(q.unit for q in quantities)
+    if len(units) > 1:
+        named = ", ".join(f"{q.name} in {q.unit or 'no unit'}" for q in quantities)
+        raise UnitError(
+            f"{named} on one axis",
+            expected="quantities of one unit",
+            advice="give each a panel of its own",
+        )
+    return next(iter(units))
+
+
+def scale_for(unit: str, largest: float) -> Scale:
+    """A unit in which the largest value is neither tiny nor huge."""
+    if unit == "rad":
+        return Scale("turns", 1 / _TURN) if largest > 5 * _TURN else Scale("deg", 360 / _TURN)
+    if not unit or unit.startswith("kg") or not 0 < largest < 0.1:
+        return Scale(unit, 1.0)
+    for least, size, prefix in _PREFIXES:
+        if largest >= least * 0.1:
+            return Scale(prefix + unit, 1 / size)
+    return Scale(unit, 1.0)
+
+
+def largest(*values: Array) -> float:
+    """Largest size among all values."""
+    return float(max((np.max(np.abs(v), initial=0.0) for v in values), default=0.0))
+
+
+def _dimension(equations: Equations, name: str, expression: Expr) -> Dimension:
+    """Known for a reaction from what it is, and otherwise from the expression."""
+    for line in equations.lines:
+        if line.name == name:
+            return ENERGY if line.restraint.is_couple else FORCE
+    return dimension_of(expression, equations.dimensions)
+
+
+def dimension_of(expression: Expr, known: Mapping[Symbol, Dimension]) -> Dimension:
+    """Dimension of a homogeneous expression; symbols of no known dimension count as numbers."""
+    if not expression:
+        return PURE
+    above, below = (
+        _dimension_of_term(next(part.terms())[0], known)
+        for part in (expression.numerator, expression.denominator)
+    )
+    return above / below
+
+
+def _dimension_of_term(
+    powers: Mapping[Generator, int], known: Mapping[Symbol, Dimension]
+) -> Dimension:
+    total = PURE
+    for generator, power in powers.items():
+        total = total * _dimension_of_factor(generator, known) ** power
+    return total
+
+
+def _dimension_of_factor(generator: Generator, known: Mapping[Symbol, Dimension]) -> Dimension:
+    if isinstance(generator, Symbol):
+        return known.get(generator.base(), PURE) / TIME**generator.order
+    if generator.depth and generator.partner() is None:  # a root
+        return dimension_of(generator.arguments[0], known) ** Fraction(1, 2)
+    return PURE

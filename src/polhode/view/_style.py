@@ -1,0 +1,122 @@
+"""The look of every figure: sober, readable in print, safe for the colour-blind."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+#: Lines are told apart by colour (Okabe and Ito's, safe for the colour-blind) and by dashes.
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#a8518f")
+DASHES: tuple[Any, ...] = ("-", (0, (5, 1.6)), (0, (1.3, 1.3)), (0, (6, 1.5, 1.3, 1.5)))
+INK = "#26282d"
+MUTED = "#6c7079"
+FAINT = "#dcdee3"
+
+WIDTH = 4.6
+"""Width of a figure in inches, so that text is legible at the width of a phone."""
+
+_BACK = "#ffffff"
+_DARK = {
+    INK: "#dfe2e8",
+    MUTED: "#9aa0ab",
+    FAINT: "#3a3e47",
+    _BACK: "#16181d",
+    COLOURS[0]: "#62b5ec",
+    COLOURS[1]: "#f58a4b",
+    COLOURS[2]: "#35c79b",
+    COLOURS[3]: "#db92c8",
+}
+
+_RULES: dict[str, Any] = {
+    "font.family": "STIXGeneral",
+    "font.size": 10,
+    "mathtext.fontset": "stix",
+    "text.color": INK,
+    "axes.edgecolor": MUTED,
+    "axes.labelcolor": INK,
+    "axes.labelsize": 10.5,
+    "axes.linewidth": 0.6,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.formatter.useoffset": False,
+    "axes.formatter.use_mathtext": True,
+    "axes.formatter.limits": (-4, 5),
+    "axes.xmargin": 0,
+    "axes.ymargin": 0.08,
+    "grid.color": FAINT,
+    "grid.linewidth": 0.5,
+    "xtick.color": MUTED,
+    "ytick.color": MUTED,
+    "xtick.labelcolor": INK,
+    "ytick.labelcolor": INK,
+    "xtick.direction": "out",
+    "ytick.direction": "out",
+    "xtick.major.size": 3,
+    "ytick.major.size": 3,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "lines.linewidth": 1.3,
+    "lines.solid_capstyle": "round",
+    "lines.solid_joinstyle": "round",
+    "lines.dash_capstyle": "butt",
+    "legend.frameon": False,
+    "legend.fontsize": 10,
+    "legend.handlelength": 2.2,
+    "legend.borderaxespad": 0.2,
+    "legend.columnspacing": 1.6,
+    "figure.constrained_layout.use": True,
+    "figure.dpi": 100,
+    "savefig.dpi": 200,
+    "savefig.transparent": False,
+    "path.simplify": True,
+    "path.simplify_threshold": 0.2,
+    "svg.fonttype": "path",
+}
+
+
+@contextmanager
+def house_style() -> Iterator[None]:
+    """Everything drawn or saved within looks as figures of this house do."""
+    from matplotlib import rc_context
+
+    with rc_context(_RULES):
+        yield
+
+
+def new_figure(height: float, width: float = WIDTH) -> Figure:
+    """An empty figure of a size in inches."""
+    from matplotlib.figure import Figure as New
+
+    with house_style():
+        return New(figsize=(width, height))
+
+
+def axes_or_new(ax: Axes | None, height: float = 2.6) -> Axes:
+    """The axes given, or those of a new figure."""
+    if ax is not None:
+        return ax
+    with house_style():
+        axes: Axes = new_figure(height).subplots()
+        return axes
+
+
+def line_style(number: int) -> dict[str, Any]:
+    """Colour and dashes of the line with this number in a panel."""
+    return {
+        "color": COLOURS[number % len(COLOURS)],
+        "linestyle": DASHES[number % len(DASHES)],
+    }
+
+
+def for_dark_pages(svg: str) -> str:
+    """The same picture for a dark background."""
+    for light, dark in _DARK.items():
+        svg = svg.replace(light, dark)
+    return svg
