@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from polhode.algebra import Symbol as Symbol
     from polhode.algebra import Vector as Vector
     from polhode.algebra import absolute as absolute
+    from polhode.algebra import compile_program as compile_program
     from polhode.algebra import coordinate as coordinate
     from polhode.algebra import coordinates as coordinates
     from polhode.algebra import cos as cos
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from polhode.algebra import exp as exp
     from polhode.algebra import functions as functions
     from polhode.algebra import integrate as integrate
+    from polhode.algebra import is_positive as is_positive
     from polhode.algebra import pi as pi
     from polhode.algebra import sech as sech
     from polhode.algebra import sin as sin
@@ -37,6 +39,16 @@ if TYPE_CHECKING:
     from polhode.algebra import tanh as tanh
     from polhode.algebra import taylor as taylor
     from polhode.algebra import time as time
+    from polhode.analyse import Ansatz as Ansatz
+    from polhode.analyse import Condition as Condition
+    from polhode.analyse import Invariant as Invariant
+    from polhode.analyse import Invariants as Invariants
+    from polhode.analyse import Stability as Stability
+    from polhode.analyse import SteadyMotion as SteadyMotion
+    from polhode.analyse import Truth as Truth
+    from polhode.analyse import invariants as invariants
+    from polhode.analyse import stability as stability
+    from polhode.analyse import steady as steady
     from polhode.base import ConstraintError as ConstraintError
     from polhode.base import DeclarationError as DeclarationError
     from polhode.base import NumericError as NumericError
@@ -85,11 +97,31 @@ if TYPE_CHECKING:
     from polhode.model import rod as rod
     from polhode.model import sphere as sphere
     from polhode.model import upright as upright
+    from polhode.simulate import Trajectory as Trajectory
+    from polhode.simulate import simulate as simulate
 
     __version__: str
 
 _ROOMS = {
+    "simulate": (
+        "Trajectory",
+        "simulate",
+    ),
+    "analyse": (
+        "Ansatz",
+        "Condition",
+        "Invariant",
+        "Invariants",
+        "Stability",
+        "SteadyMotion",
+        "Truth",
+        "invariants",
+        "stability",
+        "steady",
+    ),
     "algebra": (
+        "is_positive",
+        "compile_program",
         "Expr",
         "Kind",
         "Matrix",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 
 from polhode.algebra._functions import Elementary, Even
@@ -13,11 +13,14 @@ Rank = tuple[object, ...]
 
 _MASSES, _INERTIAS, _GRAVITY = ("m", "M"), ("I",), ("g",)
 
-#: Where a sum in brackets stands among the factors: of constants, of anything else.
+# Where these stand among the factors.
 CONSTANT_SUM: Rank = (1, 1)
-VARYING_SUM: Rank = (5,)
+VARYING_SUM: Rank = (6,)
+EXPONENTIAL: Rank = (3,)
+ABSOLUTE_VALUE: Rank = (5,)
 
 
+@lru_cache(maxsize=4096)
 def is_constant(generator: Generator) -> bool:
     """Whether it depends on parameters alone."""
     return all(s.kind is Kind.PARAMETER for s in generator.symbols())
@@ -31,12 +34,14 @@ def factor_rank(generator: Generator) -> Rank:
     if isinstance(generator, Elementary):
         names = sorted(_place(s) for s in generator.symbols())
         return (3, names, generator.family.sign, isinstance(generator, Even), generator.key)
-    return radical_rank(is_constant(generator), generator.key)
+    return radical_rank(tuple(generator.symbols()), generator.key)
 
 
-def radical_rank(constant: bool, key: str = "") -> Rank:
-    """Where a root stands: of constants right after them, any other last."""
-    return (1, 2, key) if constant else (4, key)
+def radical_rank(inside: Sequence[Generator], key: str = "") -> Rank:
+    """Where a root stands: of a number first, of constants after them, any other last."""
+    if not inside:
+        return (0, key)
+    return (1, 2, key) if all(map(is_constant, inside)) else (4, key)
 
 
 def _symbol_rank(symbol: Symbol) -> Rank:

@@ -12,7 +12,7 @@ from flint import fmpq
 
 from polhode.algebra._generators import Generator, Rate, Symbol
 from polhode.algebra._ring import CONSTANTS, Polynomial, Ring, ring_of, union
-from polhode.base import NumericError
+from polhode.base import DeclarationError, NumericError
 
 #: What is accepted wherever an expression is wanted: also SymPy's expressions.
 ExprLike: TypeAlias = Union["Expr", int, float, Fraction, Any]
@@ -211,7 +211,10 @@ class Expr:
             other = Expr.of(other)
         if self.ring is other.ring:
             return bool(self.num == other.num and self.den == other.den)
-        a, b, _ = _together(self, other)
+        try:
+            a, b, _ = _together(self, other)
+        except DeclarationError:  # a coordinate and a parameter of one name are not equal
+            return False
         return bool(a.num == b.num and a.den == b.den)
 
     @cached_property

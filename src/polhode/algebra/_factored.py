@@ -40,11 +40,6 @@ class Factored:
             tuple((s, -p) for s, p in self.sums),
         )
 
-    @property
-    def is_sum(self) -> bool:
-        """Whether it is nothing but one sum."""
-        return abs(self.number) == 1 and not self.powers and [p for _, p in self.sums] == [1]
-
 
 def rational(number: object) -> Rational:
     """A number of flint as one of Python."""
@@ -54,16 +49,29 @@ def rational(number: object) -> Rational:
 def terms(ring: Ring, polynomial: Polynomial) -> Iterator[Factored]:
     """Its terms."""
     for monomial, coefficient in polynomial.terms():
-        yield Factored(rational(coefficient), _powers(ring, monomial))
+        yield Factored(rational(coefficient), powers_of(ring, monomial))
+
+
+def products(ring: Ring, polynomial: Polynomial) -> list[Factored]:
+    """Its forms as a product: content taken out; factors over the sines, over the cosines."""
+    if len(polynomial) == 1:
+        return list(terms(ring, polynomial))
+    forms = [extracted(ring, polynomial), factorised(ring, polynomial)]
+    other = over_cosines(ring, polynomial)
+    if other != polynomial:
+        forms.append(factorised(ring, other))
+    return [form for i, form in enumerate(forms) if form not in forms[:i]]
 
 
 def extracted(ring: Ring, polynomial: Polynomial) -> Factored:
     """With the number and the generators common to all terms taken out."""
     number = content(rational(c) for c in polynomial.coeffs())
+    if polynomial.leading_coefficient() < 0:
+        number = -number
     common = tuple(min(powers) for powers in zip(*polynomial.monoms(), strict=True))
     rest = polynomial / (ring.context.from_dict({common: 1}) * number.numerator)
     rest *= number.denominator
-    return Factored(number, _powers(ring, common)) * _plain(ring, rest)
+    return Factored(number, powers_of(ring, common)) * _plain(ring, rest)
 
 
 def factorised(ring: Ring, polynomial: Polynomial) -> Factored:
@@ -78,14 +86,6 @@ def factorised(ring: Ring, polynomial: Polynomial) -> Factored:
         sums = tuple((s, p * exponent) for s, p in part.sums)
         result *= Factored(part.number**exponent, powers, sums)
     return result
-
-
-def factorisations(ring: Ring, polynomial: Polynomial) -> Iterator[Factored]:
-    """Its factors over the sines, and over the cosines."""
-    yield factorised(ring, polynomial)
-    other = over_cosines(ring, polynomial)
-    if other != polynomial:
-        yield factorised(ring, other)
 
 
 def over_cosines(ring: Ring, polynomial: Polynomial) -> Polynomial:
@@ -110,7 +110,8 @@ def _plain(ring: Ring, polynomial: Polynomial) -> Factored:
     return Factored(sums=((polynomial, 1),))
 
 
-def _powers(ring: Ring, monomial: Iterable[int]) -> dict[Generator, int]:
+def powers_of(ring: Ring, monomial: Iterable[int]) -> dict[Generator, int]:
+    """The generators of a monomial and their powers."""
     return {g: int(p) for g, p in zip(ring.generators, monomial, strict=True) if p}
 
 

@@ -98,7 +98,7 @@ class _Latex:
         if function == "abs":
             return rf"\left|{inside}\right|"
         if isinstance(argument, Name):
-            gap = "" if inside.startswith("\\") or raised else " "
+            gap = "" if inside.startswith("\\") else " "
             return rf"\{function}{raised}{gap}{inside}"
         return rf"\{function}{raised}\left({inside}\right)"
 

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
+from fractions import Fraction as Rational
 from functools import lru_cache
+from operator import add
+from typing import Any
 
 from polhode.algebra._arrange import (
+    ABSOLUTE_VALUE,
     CONSTANT_SUM,
+    EXPONENTIAL,
     VARYING_SUM,
     Rank,
     factor_rank,
@@ -16,7 +21,7 @@ from polhode.algebra._arrange import (
     term_rank,
 )
 from polhode.algebra._expression import ZERO, Expr
-from polhode.algebra._factored import Factored, extracted, factorisations, factorised, terms
+from polhode.algebra._factored import Factored, factorised, powers_of, products, terms
 from polhode.algebra._functions import Elementary, Exponential
 from polhode.algebra._generators import Generator, Symbol
 from polhode.algebra._nodes import (
@@ -32,10 +37,12 @@ from polhode.algebra._nodes import (
     total,
 )
 from polhode.algebra._quotient import shortest_quotient
-from polhode.algebra._radicals import gathered
+from polhode.algebra._radicals import Radicals, gathered
 from polhode.algebra._ring import Monomial, Polynomial, Ring
-from polhode.algebra._roots import Root
 from polhode.algebra._squares import in_shortest_squares
+
+#: Terms are collected by constants, as in I₁(θ̇² + φ̇² sin²θ), only if so much is saved by it.
+_MUCH = 0.85
 
 #: A factor, where it stands among the others, and its power.
 Placed = tuple[Rank, Node, int]
@@ -45,56 +52,80 @@ def layout(expression: Expr) -> Node:
     """The display tree of an expression: the shortest of its textbook forms."""
     if expression.is_zero:
         return Number(0)
+    expression = expression.trimmed()
     ring = expression.ring
     num, den = shortest_quotient(expression)
     below = factorised(ring, den).inverse()
-    forms = (extracted(ring, num), *factorisations(ring, num))
-    candidates = [_term(ring, form * below) for form in forms]
-    if not below.sums:
-        candidates.insert(0, _sum(ring, num, below))
-    return _shortest(candidates)
+    whole = [_term(ring, form * below) for form in products(ring, num)]
+    return _shortest([*_split(ring, num, below), *whole])
 
 
-def _shortest(candidates: list[Node]) -> Node:
+def _split(ring: Ring, num: Polynomial, below: Factored) -> Iterator[Node]:
+    """Every term over its own denominator; what no term cancels stays common to all."""
+    if below.sums:
+        return
+    degrees = dict(zip(ring.generators, map(int, num.degrees()), strict=True))
+    common = {g: min(p + degrees[g], 0) for g, p in below.powers.items()}
+    outside = Factored(powers={g: p for g, p in common.items() if p})
+    inside = _sum(ring, num, below * outside.inverse())
+    if not outside.powers:
+        yield inside
+    elif isinstance(inside, Sum):
+        yield _product(outside, [(VARYING_SUM, inside, 1)])
+
+
+def _shortest(candidates: Iterable[Node]) -> Node:
     return min(candidates, key=lambda node: node.size)
 
 
 # --- sums ---
 
+Powers = dict[Generator, int]
+
 
 def _sum(ring: Ring, polynomial: Polynomial, scale: Factored) -> Node:
-    """A polynomial times a single term, collected by what varies."""
-    groups = sorted(
-        _groups(ring, in_shortest_squares(ring, polynomial)),
-        key=lambda group: term_rank(group[0].powers),
-    )
-    nodes = [_group(ring, varying * scale, constant) for varying, constant in groups]
+    """A polynomial times a single term, collected by what varies or by the constants."""
+    polynomial = in_shortest_squares(ring, polynomial)
+    varies = [not is_constant(g) for g in ring.generators]
+    collected = _collected(ring, _groups(ring, polynomial, varies), scale)
+    by_constants = _groups(ring, polynomial, [not v for v in varies])
+    if not 1 < len(by_constants) < len(polynomial):
+        return collected
+    other = _collected(ring, by_constants, scale)
+    return other if other.size < _MUCH * collected.size else collected
+
+
+def _groups(
+    ring: Ring, polynomial: Polynomial, chosen: list[bool]
+) -> list[tuple[Powers, Polynomial]]:
+    """Every product of chosen generators with its coefficient, in the order of print."""
+    groups: dict[Monomial, dict[Monomial, Any]] = defaultdict(dict)
+    for monomial, coefficient in polynomial.to_dict().items():
+        pairs = list(zip(monomial, chosen, strict=True))
+        outer = tuple(p if c else 0 for p, c in pairs)
+        groups[outer][tuple(0 if c else p for p, c in pairs)] = coefficient
+    first = {
+        outer: min(term_rank(powers_of(ring, map(add, outer, inner))) for inner in coefficients)
+        for outer, coefficients in groups.items()
+    }
+    return [
+        (powers_of(ring, outer), ring.context.from_dict(groups[outer]))
+        for outer in sorted(groups, key=first.__getitem__)
+    ]
+
+
+def _collected(ring: Ring, groups: Iterable[tuple[Powers, Polynomial]], scale: Factored) -> Node:
+    nodes = (_group(ring, outer, coefficient, scale) for outer, coefficient in groups)
     return total([term for node in nodes for term in _addends(node)])
 
 
-def _groups(ring: Ring, polynomial: Polynomial) -> Iterator[tuple[Factored, Polynomial]]:
-    """Every product of varying quantities, with its constant coefficient."""
-    varies = [not is_constant(g) for g in ring.generators]
-    groups: dict[Monomial, dict[Monomial, object]] = defaultdict(dict)
-    for monomial, coefficient in polynomial.terms():
-        pairs = list(zip(monomial, varies, strict=True))
-        constant = tuple(0 if v else p for p, v in pairs)
-        groups[tuple(p if v else 0 for p, v in pairs)][constant] = coefficient
-    for monomial, coefficients in groups.items():
-        (varying,) = terms(ring, ring.context.from_dict({monomial: 1}))
-        yield varying, ring.context.from_dict(coefficients)
-
-
-def _group(ring: Ring, varying: Factored, constant: Polynomial) -> Node:
-    if len(constant) == 1:
-        return _term(ring, varying * next(terms(ring, constant)))
-    forms = (extracted(ring, constant), *factorisations(ring, constant))
-    if varying.powers:
-        return _shortest([_term(ring, varying * form) for form in forms])
-    ordered = sorted(terms(ring, constant), key=lambda term: term_rank(term.powers))
-    flat = total([_term(ring, varying * term) for term in ordered])
-    products = [_term(ring, varying * form) for form in forms if not form.is_sum]
-    return _shortest([flat, *products])
+def _group(ring: Ring, outer: Powers, coefficient: Polynomial, scale: Factored) -> Node:
+    if outer:
+        common = scale * Factored(powers=outer)
+        return _shortest(_term(ring, common * form) for form in products(ring, coefficient))
+    scaled = (scale * term for term in terms(ring, coefficient))
+    ordered = sorted(scaled, key=lambda term: term_rank(term.powers))
+    return total([_term(ring, term) for term in ordered])
 
 
 def _addends(node: Node) -> tuple[Node, ...]:
@@ -105,56 +136,75 @@ def _addends(node: Node) -> tuple[Node, ...]:
 
 
 def _term(ring: Ring, factored: Factored) -> Node:
-    """A product with one fraction bar."""
-    roots = {g: p for g, p in factored.powers.items() if isinstance(g, Root)}
-    radicals = gathered(factored.number, roots)
+    sums = [(_sum_rank(ring, s), _sum(ring, s, Factored()), p) for s, p in factored.sums]
+    return _product(factored, sums)
+
+
+def _product(factored: Factored, sums: list[Placed]) -> Node:
+    """A product with one fraction bar; the sums of `factored` are given as nodes."""
+    radicals = gathered(factored.number, factored.powers)
     number = radicals.number
-    placed = list(_powers(factored.powers))
-    if radicals.power:
-        rank = radical_rank(all(is_constant(g) for g in radicals.radicand.generators))
-        placed.append((rank, Radical(layout(radicals.radicand)), radicals.power))
-    placed += [((4,), Call("abs", layout(f)), p) for f, p in radicals.sizes.items()]
-    placed += [(factor_rank(g), Radical(layout(g.radicand)), p) for g, p in radicals.loose.items()]
-    for polynomial, exponent in factored.sums:
-        node = _sum(ring, polynomial, Factored())
-        if exponent % 2 and _prefers_negation(node, number < 0):
-            number, node = -number, total(list(_addends(node.negated())))
-        placed.append((_sum_rank(ring, polynomial), node, exponent))
+    number, sums = _turned(number, sums, _is_all_negative)
+    number, sums = _turned(number, sums, _takes_a_sign)
+    placed = [*_powers(radicals.powers), *_roots(radicals), *sums]
     placed.sort(key=lambda factor: factor[0])
     above = [power(node, p) for _, node, p in placed if p > 0]
     below = [power(node, -p) for _, node, p in placed if p < 0]
     return fraction(product(number.numerator, above), product(number.denominator, below))
 
 
-def _prefers_negation(node: Node, outside: bool) -> bool:
-    """Whether most terms are negative, or half of them where a minus sign stands outside."""
-    addends = _addends(node)
-    negative = sum(term.is_negative for term in addends)
-    return 2 * negative + outside > len(addends)
+def _turned(
+    number: Rational, sums: list[Placed], wrong: Callable[[Rational, Node], bool]
+) -> tuple[Rational, list[Placed]]:
+    """With the signs of sums turned where they are wrong, and the number's to match."""
+    turned = []
+    for rank, node, exponent in sums:
+        if exponent % 2 and wrong(number, node):
+            number, node = -number, total(list(_addends(node.negated())))
+        turned.append((rank, node, exponent))
+    return number, turned
+
+
+def _is_all_negative(_: Rational, node: Node) -> bool:
+    return all(term.is_negative for term in _addends(node))
+
+
+def _takes_a_sign(outside: Rational, node: Node) -> bool:
+    return outside < 0 and any(term.is_negative for term in _addends(node))
 
 
 def _sum_rank(ring: Ring, polynomial: Polynomial) -> Rank:
     used = zip(ring.generators, polynomial.degrees(), strict=True)
-    constant = all(is_constant(g) for g, degree in used if degree)
+    constant = all(is_constant(g) for g, degree in used if degree > 0)
     return CONSTANT_SUM if constant else VARYING_SUM
 
 
-def _powers(powers: dict[Generator, int]) -> Iterator[Placed]:
-    exponent = ZERO
-    for generator, exponent_here in powers.items():
+def _roots(radicals: Radicals) -> Iterator[Placed]:
+    if radicals.power:
+        radicand = Radical(layout(radicals.radicand))
+        yield radical_rank(radicals.radicand.generators), radicand, radicals.power
+    for size, exponent in radicals.sizes.items():
+        yield ABSOLUTE_VALUE, Call("abs", layout(size)), exponent
+    for root, exponent in radicals.loose.items():
+        yield factor_rank(root), Radical(layout(root.radicand)), exponent
+
+
+def _powers(powers: Powers) -> Iterator[Placed]:
+    exponents = ZERO
+    for generator, exponent in powers.items():
         if isinstance(generator, Exponential):
-            exponent = exponent + generator.argument * exponent_here
-        elif not isinstance(generator, Root):
-            yield factor_rank(generator), _generator(generator), exponent_here
-    if exponent:
-        yield (3,), Call("exp", layout(exponent)), 1
+            exponents = exponents + generator.argument * exponent
+        else:
+            yield factor_rank(generator), _generator(generator), exponent
+    if exponents:
+        yield EXPONENTIAL, Call("exp", layout(exponents)), 1
 
 
 @lru_cache(maxsize=4096)
 def _generator(generator: Generator) -> Node:
     match generator:
+        case Elementary():
+            return Call(generator.name, layout(generator.argument))
         case Symbol():
             return Name(generator)
-        case Elementary(argument=argument):
-            return Call(generator.name, layout(argument))
-    raise TypeError(f"no display for {generator!r}")
+    raise TypeError(f"{generator.key} is no symbol or function")

@@ -115,7 +115,7 @@ class Call(Node):
     argument: Node
 
     @cached_property
-    def size(self) -> int:  # type: ignore[override]
+    def size(self) -> int:
         return 1 + self.argument.size
 
     def drawn(self, style: Style[T]) -> T:
@@ -130,7 +130,7 @@ class Power(Node):
     exponent: int
 
     @cached_property
-    def size(self) -> int:  # type: ignore[override]
+    def size(self) -> int:
         return 1 + self.base.size
 
     def drawn(self, style: Style[T]) -> T:
@@ -144,7 +144,7 @@ class Product(Node):
     factors: tuple[Node, ...]
 
     @cached_property
-    def size(self) -> int:  # type: ignore[override]
+    def size(self) -> int:
         bare = self.factors[1:] if self.factors[0] == Number(-1) else self.factors
         return sum(f.size for f in bare) + (len(bare) > 1)
 
@@ -169,7 +169,7 @@ class Sum(Node):
     terms: tuple[Node, ...]
 
     @cached_property
-    def size(self) -> int:  # type: ignore[override]
+    def size(self) -> int:
         return 1 + sum(t.size for t in self.terms)
 
     def drawn(self, style: Style[T]) -> T:
@@ -187,7 +187,7 @@ class Fraction(Node):
     below: Node
 
     @cached_property
-    def size(self) -> int:  # type: ignore[override]
+    def size(self) -> int:
         return 1 + self.above.size + self.below.size
 
     def drawn(self, style: Style[T]) -> T:
@@ -201,7 +201,7 @@ class Radical(Node):
     radicand: Node
 
     @cached_property
-    def size(self) -> int:  # type: ignore[override]
+    def size(self) -> int:
         return 1 + self.radicand.size
 
     def drawn(self, style: Style[T]) -> T:

@@ -7,58 +7,67 @@ from dataclasses import dataclass
 from fractions import Fraction as Rational
 from functools import lru_cache
 from math import gcd
+from typing import TypeVar
 
 from flint.utils.flint_exceptions import DomainError
 
 from polhode.algebra._expression import ONE, Expr
 from polhode.algebra._factored import content, over_cosines, rational
+from polhode.algebra._generators import Generator
 from polhode.algebra._ring import Polynomial
 from polhode.algebra._roots import Root, is_positive
 from polhode.algebra._squares import in_shortest_squares
 
+K = TypeVar("K")
+
 
 @dataclass(frozen=True)
 class Radicals:
-    """number · √radicand^power · Π |size|^power · Π loose root^power."""
+    """number · √radicand^power · Π |size|^power · Π loose root^power · Π generator^power."""
 
     number: Rational
     radicand: Expr
     power: int
     sizes: dict[Expr, int]
     loose: dict[Root, int]
+    powers: dict[Generator, int]
 
 
-def gathered(number: Rational, roots: Mapping[Root, int]) -> Radicals:
+def gathered(number: Rational, powers: Mapping[Generator, int]) -> Radicals:
     """The roots of a term, as far as their product is a root whatever the signs.
 
-    That is so for all whose radicands are positive, and one of unknown sign.
+    That is so for all whose radicands are positive, and for one more of unknown sign.
     """
+    roots = {g: p for g, p in powers.items() if isinstance(g, Root)}
+    others = {g: p for g, p in powers.items() if g not in roots}
     absolute = {root: absolute_of(root) for root in roots}
     sizes = {f: roots[root] for root, f in absolute.items() if f is not None}
+    sizes, others = _with_squares_of_sizes(sizes, others)
     plain = {root: p for root, p in roots.items() if absolute[root] is None}
     safe = {root: p for root, p in plain.items() if is_positive(root.radicand)}
     loose = {root: p for root, p in plain.items() if root not in safe}
     if list(loose.values()) == [1]:
-        safe, loose = safe | loose, {}
+        safe, loose = plain, {}
     power = max(safe.values(), default=0)
     radicand = ONE
     for root, exponent in safe.items():
         radicand = radicand * root.radicand ** (exponent * power)
     if power > 0:
-        radicand, sizes = _with_sizes_below(radicand, sizes)
         number, radicand = _with_number_below(number, radicand)
-    return Radicals(number, radicand, power, sizes, loose)
+        radicand, sizes = _with_divisors_inside(radicand, {f: f for f in sizes}, sizes)
+        positive = {g: Expr.generator(g) for g in others if g.positive}
+        radicand, others = _with_divisors_inside(radicand, positive, others)
+    return Radicals(number, radicand, power, sizes, loose, others)
 
 
-def _with_sizes_below(radicand: Expr, sizes: dict[Expr, int]) -> tuple[Expr, dict[Expr, int]]:
-    """√(q r)/|q| is √(r/q)."""
-    kept = {}
-    for size, exponent in sizes.items():
-        if exponent == -1 and (radicand / size).is_polynomial:
-            radicand = radicand / size**2
-        else:
-            kept[size] = exponent
-    return radicand, kept
+def _with_squares_of_sizes(
+    sizes: dict[Expr, int], powers: dict[Generator, int]
+) -> tuple[dict[Expr, int], dict[Generator, int]]:
+    """|f|/f² is 1/|f|."""
+    below = {g: Expr.generator(g) for g, p in powers.items() if p < 0 and p % 2 == 0}
+    squares = {below[g]: powers[g] for g in below if below[g] in sizes}
+    rest = {g: p for g, p in powers.items() if below.get(g) not in squares}
+    return {f: p + squares.get(f, 0) for f, p in sizes.items()}, rest
 
 
 def _with_number_below(number: Rational, radicand: Expr) -> tuple[Rational, Expr]:
@@ -68,6 +77,18 @@ def _with_number_below(number: Rational, radicand: Expr) -> tuple[Rational, Expr
     if shared == 1 or radicand.rational is not None:
         return number, radicand
     return number * shared, radicand / shared**2
+
+
+def _with_divisors_inside(
+    radicand: Expr, values: Mapping[K, Expr], powers: dict[K, int]
+) -> tuple[Expr, dict[K, int]]:
+    """√(q r)/q is √(r/q), for values q that are not negative."""
+    found = dict(powers)
+    for key, value in values.items():
+        if found[key] < 0 and (radicand.numerator / value).is_polynomial:
+            radicand = radicand / value**2
+            found[key] += 1
+    return radicand, {key: p for key, p in found.items() if p}
 
 
 @lru_cache(maxsize=1024)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Sequence
 from math import comb
+from typing import Any
 
 from polhode.algebra._arrange import is_constant
 from polhode.algebra._generators import Generator
@@ -16,6 +17,8 @@ Binary = dict[tuple[int, int], Polynomial]
 
 def in_shortest_squares(ring: Ring, polynomial: Polynomial) -> Polynomial:
     """The form with fewest terms: I₁ sin²θ + I₃ cos²θ for I₃ + (I₁ - I₃) sin²θ.
+
+    Among equals one sign is preferred: 1 + 4 cos²θ for 5 - 4 sin²θ.
 
     The choice is made anew for everything that stands with a square; the result is in general
     not reduced.
@@ -33,15 +36,15 @@ def _rewritten(
 ) -> Polynomial:
     varies = [g in (even, odd) or not is_constant(g) for g in ring.generators]
     position = ring.index[odd]
-    cofactors: dict[Monomial, dict[int, dict[Monomial, object]]] = defaultdict(
+    cofactors: dict[Monomial, dict[int, dict[Monomial, Any]]] = defaultdict(
         lambda: defaultdict(dict)
     )
     for monomial, coefficient in polynomial.to_dict().items():
         half, rest = divmod(monomial[position], 2)
-        outer = [p if v else 0 for p, v in zip(monomial, varies, strict=True)]
-        inner = tuple(0 if v else p for p, v in zip(monomial, varies, strict=True))
-        outer[position] = rest
-        cofactors[tuple(outer)][half][inner] = coefficient
+        kept = (*monomial[:position], rest, *monomial[position + 1 :])
+        pairs = list(zip(kept, varies, strict=True))
+        inner = tuple(0 if v else p for p, v in pairs)
+        cofactors[tuple(p if v else 0 for p, v in pairs)][half][inner] = coefficient
     squares = ring.variable(odd) ** 2, ring.variable(even) ** 2
     result = ring.zero
     for outer, halves in cofactors.items():
@@ -53,8 +56,10 @@ def _rewritten(
     return result
 
 
-def _length(form: Binary) -> int:
-    return sum(len(part) for part in form.values())
+def _length(form: Binary) -> tuple[int, int]:
+    """Terms in all, and those that break the common sign."""
+    signs = [coefficient > 0 for part in form.values() for coefficient in part.coeffs()]
+    return len(signs), min(sum(signs), len(signs) - sum(signs))
 
 
 def _in_odd(parts: Sequence[Polynomial], sign: int) -> Binary:

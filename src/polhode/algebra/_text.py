@@ -115,5 +115,6 @@ def _raised(number: int) -> str:
 
 
 def _lowered(subscript: str) -> str:
-    lowered = GREEK.get(subscript, subscript).translate(_SUBSCRIPTS)
-    return f"_{subscript}" if lowered.isascii() else lowered
+    glyphs = GREEK.get(subscript, subscript)
+    lowered = glyphs.translate(_SUBSCRIPTS)
+    return f"_{glyphs}" if any(a == b for a, b in zip(glyphs, lowered, strict=True)) else lowered

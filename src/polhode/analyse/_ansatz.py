@@ -14,10 +14,23 @@ from fractions import Fraction
 from itertools import combinations_with_replacement
 from random import Random
 
-from flint import fmpq, fmpq_mat
+from flint import fmpq_mat
 
-from polhode.algebra import ONE, ZERO, Expr, Generator, Kind, Row, Symbol, cos, eliminate, sin
-from polhode.analyse._points import at_point, random_point
+from polhode.algebra import (
+    ONE,
+    ZERO,
+    Expr,
+    Generator,
+    Kind,
+    Row,
+    Symbol,
+    cos,
+    eliminate,
+    sin,
+    time,
+    variables,
+)
+from polhode.analyse._points import exact_function, random_values
 from polhode.analyse._reduced import reduced
 from polhode.base import NumericError
 from polhode.derive import Equations
@@ -41,7 +54,7 @@ class Ansatz:
         """In words."""
         return (
             f"polynomials of degree {self.speeds} in the speeds, {self.trigonometric} in sines and "
-            f"cosines of essential angles and {self.lengths} in lengths"
+            f"cosines of essential angles and {self.lengths} in lengths, and time"
         )
 
 
@@ -62,9 +75,7 @@ def search(equations: Equations, ansatz: Ansatz) -> Iterator[Expr]:
             yield sum(terms, ZERO)
 
 
-def _monomials(
-    equations: Equations, essential: tuple[Symbol, ...], ansatz: Ansatz
-) -> list[Expr]:
+def _monomials(equations: Equations, essential: tuple[Symbol, ...], ansatz: Ansatz) -> list[Expr]:
     angles = [q for q in essential if _is_angle(equations, q)]
     lengths = [q for q in equations.coordinates if not _is_angle(equations, q)]
     waves = [ONE]
@@ -74,7 +85,7 @@ def _monomials(
     places = _products([Expr.generator(q) for q in lengths], ansatz.lengths)
     speeds = _products([Expr.generator(u) for u in equations.speeds], ansatz.speeds)
     found = dict.fromkeys(u * w for u in speeds for w in waves)
-    found.update(dict.fromkeys(places))
+    found.update(dict.fromkeys([*places, time]))
     return list(found)
 
 
@@ -100,20 +111,17 @@ def _is_angle(equations: Equations, coordinate: Symbol) -> bool:
 
 def _supports(rates: Sequence[Expr]) -> Iterator[list[int]]:
     """Positions of the monomials in each independent solution, at random parameters."""
-    random = Random(7)
-    everything = list(rates)
-    fixed = random_point(everything, random)
-    constants = {g: v for g, v in fixed.items() if _is_constant(g)}
-    rows = []
-    for _ in range(len(rates) + 4):
-        point = {**random_point(everything, random), **constants}
-        values = (at_point(rate, point) for rate in rates)
-        rows.append([fmpq(v.numerator, v.denominator) for v in values])
+    symbols = sorted(variables(rates), key=lambda s: (s.kind is Kind.PARAMETER, s.published))
+    varying = sum(s.kind is not Kind.PARAMETER for s in symbols)
+    evaluate, random = exact_function(rates, symbols), Random(7)
+    constants = random_values(len(symbols) - varying, random)
+    rows = [
+        list(evaluate([*random_values(varying, random), *constants])) for _ in range(len(rates) + 4)
+    ]
     echelon, rank = fmpq_mat(rows).rref()
-    pivots = []
-    for i in range(rank):
-        pivots.append(next(j for j in range(len(rates)) if echelon[i, j] != 0))
-    for free in (j for j in range(len(rates)) if j not in pivots):
+    columns = range(len(rates))
+    pivots = [next(j for j in columns if echelon[i, j] != 0) for i in range(rank)]
+    for free in (j for j in columns if j not in pivots):
         used = [pivots[i] for i in range(rank) if echelon[i, free] != 0]
         yield sorted([*used, free])
 

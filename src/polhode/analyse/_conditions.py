@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 from math import prod
 
-from polhode.algebra import ONE, Expr, factors, is_positive
+from polhode.algebra import ONE, ZERO, Expr, Kind, Symbol, factors, is_positive
 
 
 class Truth(Enum):
@@ -46,16 +46,49 @@ class Condition:
 
 def positive(expression: Expr, assumed: Collection[Expr] = ()) -> Condition:
     """The condition that an expression is positive, `assumed` ones being so already."""
-    number, powers = factors(expression)
-    sign = ONE if number > 0 else -ONE
     if expression.is_zero:
         return Condition(-ONE)
+    number, powers = factors(expression)
+    sign = ONE if number > 0 else -ONE
     left: list[Expr] = []
-    for factor, exponent in powers.items():
-        if exponent % 2 == 0 or is_positive(factor) or factor in assumed:
-            continue
-        if is_positive(-factor) or -factor in assumed:
+    for factor in (f for f, exponent in powers.items() if exponent % 2):
+        if _is_surely_positive(-factor, assumed):
             sign = -sign
-            continue
-        left.append(factor)
+        elif not _is_surely_positive(factor, assumed):
+            left.append(factor)
     return Condition(prod(left, start=sign))
+
+
+def _is_surely_positive(factor: Expr, assumed: Collection[Expr]) -> bool:
+    return is_positive(factor) or factor in assumed or _is_definite(factor, assumed)
+
+
+def _is_definite(factor: Expr, assumed: Collection[Expr]) -> bool:
+    """Whether it is a quadratic in some speed without real roots, and positive somewhere.
+
+    Where its discriminant vanishes it may still touch zero: stability is then marginal.
+    """
+    for symbol in (s for s in factor.symbols() if s.kind is not Kind.PARAMETER):
+        quadratic = _quadratic_in(factor, symbol)
+        if quadratic is None:
+            continue
+        a, b, c = quadratic
+        below = 4 * a * c - b * b
+        if below and _has_no_negative_factor(a, assumed):
+            return _has_no_negative_factor(below, assumed)
+    return False
+
+
+def _quadratic_in(expression: Expr, symbol: Symbol) -> tuple[Expr, Expr, Expr] | None:
+    slope = expression.diff(symbol)
+    a = slope.diff(symbol) / 2
+    if not a or symbol in a.symbols():
+        return None
+    at_zero = {symbol: ZERO}
+    return a, slope.subs(at_zero), expression.subs(at_zero)
+
+
+def _has_no_negative_factor(expression: Expr, assumed: Collection[Expr]) -> bool:
+    number, powers = factors(expression)
+    odd = (f for f, exponent in powers.items() if exponent % 2)
+    return number > 0 and all(is_positive(f) or f in assumed for f in odd)

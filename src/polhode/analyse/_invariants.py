@@ -81,6 +81,12 @@ def _named(equations: Equations) -> Iterator[Invariant]:
 
 def _momenta(equations: Equations) -> Iterator[Invariant]:
     root = equations.system.root
+    for body in equations.system.bodies:
+        spin = equations.kinetics.velocities[body][1]
+        momentum = Vector(body.inertia.times(spin.components), spin.triad)
+        for label in reversed(root.labels):
+            meaning = f"angular momentum of {body.name} about its centre along {label}"
+            yield Invariant(f"S_{label}{body.tag}", momentum.dot(root[label]), meaning)
     angular, linear = equations.angular_momentum(), equations.linear_momentum
     for label in reversed(root.labels):
         yield Invariant(f"L_{label}", angular.dot(root[label]), f"angular momentum about {label}")

@@ -1,51 +1,54 @@
-"""Exact evaluation at random rational points, sines and cosines on the unit circle."""
+"""Exact evaluation at rational points, with sines and cosines on the unit circle."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from fractions import Fraction
+from collections.abc import Callable, Sequence
 from random import Random
+from typing import Any
 
-from polhode.algebra import Expr, Generator, Symbol
+from flint import fmpq
+
+from polhode.algebra import Arithmetic, Expr, Op, Symbol, compile_program
 from polhode.base import NumericError
 
-Point = Mapping[Generator, Expr]
+Values = tuple[Any, ...]
 
 
-def random_point(expressions: Iterable[Expr], random: Random) -> dict[Generator, Expr]:
-    """A rational value for every symbol, sine and cosine; others follow from their arguments.
+def exact_function(
+    expressions: Sequence[Expr], symbols: Sequence[Symbol]
+) -> Callable[[Sequence[Any]], Values]:
+    """The values of expressions at rational arguments.
 
-    Raises `NumericError` for square roots and exponentials, which have no rational points.
+    Stands sin x → 2x/(1 + x²) and cos x → (1 - x²)/(1 + x²) in for the sine and cosine: other
+    points, but with every algebraic relation intact, which is all that identities ask for.
     """
-    generators = {g: None for e in expressions for g in e.ring.generators}
-    point: dict[Generator, Expr] = {}
-    for generator in generators:
-        partner = generator.partner()
-        if isinstance(generator, Symbol):
-            point[generator] = Expr.constant(_fraction(random))
-        elif partner is not None:
-            odd, sign = partner
-            half = Expr.constant(_fraction(random))
-            below = 1 - sign * half * half
-            point[generator] = (1 + sign * half * half) / below
-            point[odd] = 2 * half / below
-    missing = [g for g in generators if g not in point]
-    if missing:
-        raise NumericError(
-            f"a rational point of {missing[0].key}",
-            expected="sines, cosines and hyperbolic functions only",
-            advice="",
-        )
-    return point
+    program = compile_program(expressions, symbols)
+    function = program.function(_RATIONAL)
+    return lambda values: tuple(fmpq(v) for v in function(*values))
 
 
-def at_point(expression: Expr, point: Point) -> Fraction:
-    """The exact value of an expression."""
-    value = expression.recast({g: point[g] for g in expression.generators}).rational
-    if value is None:
-        raise NumericError(f"the value of {expression} at a rational point", expected="a number")
-    return value
+def random_values(count: int, random: Random) -> list[Any]:
+    """Rational numbers between 1/50 and 50."""
+    return [fmpq(random.randint(2, 97), random.randint(2, 97)) for _ in range(count)]
 
 
-def _fraction(random: Random) -> Fraction:
-    return Fraction(random.randint(2, 97), random.randint(2, 97))
+def _no_rational_value(_: Any) -> Any:
+    raise NumericError(
+        "a square root or an exponential in a search for integrals",
+        expected="equations in polynomials, sines and cosines",
+        advice="the named candidates are still tried",
+    )
+
+
+_RATIONAL = Arithmetic(
+    number=lambda value: fmpq(value.numerator, value.denominator),
+    pi=fmpq(22, 7),
+    functions={
+        Op.SIN: lambda x: 2 * x / (1 + x * x),
+        Op.COS: lambda x: (1 - x * x) / (1 + x * x),
+        Op.SINH: lambda x: 2 * x / (1 - x * x),
+        Op.COSH: lambda x: (1 + x * x) / (1 - x * x),
+        Op.SQRT: _no_rational_value,
+        Op.EXP: _no_rational_value,
+    },
+)

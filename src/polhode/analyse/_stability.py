@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cache, cached_property, lru_cache
 
 from polhode.algebra import ONE, ZERO, Expr, ExprLike, Row, Symbol, as_symbol, eliminate, sqrt
 from polhode.analyse._conditions import Condition, Truth, positive
@@ -60,7 +60,7 @@ class Stability:
         """All of them together are linear stability; what holds anyway is left out."""
         demanded = _even(self.oscillating[::2]) if self.is_even else _hurwitz(self.oscillating)
         assumed = self.family.reduced.equations.assumed_positive
-        found = dict.fromkeys(positive(e.subs(self.family.fixed), assumed) for e in demanded)
+        found = dict.fromkeys(_condition(e, self.family, assumed) for e in demanded)
         if any(c.truth is Truth.NEVER for c in found):
             return (Condition(-ONE),)
         return tuple(c for c in found if c.truth is Truth.OPEN)
@@ -75,12 +75,17 @@ class Stability:
     @cached_property
     def frequencies(self) -> tuple[Expr, ...]:
         """Angular frequencies of small oscillations where stable, rad/s."""
-        return tuple(sqrt(-square) for square in self._squares)
+        return self._real_roots([-square for square in self._squares])
 
     @cached_property
     def growth(self) -> tuple[Expr, ...]:
         """Rates of exponential growth where unstable, 1/s."""
-        return tuple(sqrt(square) for square in self._squares)
+        return self._real_roots(list(self._squares))
+
+    def _real_roots(self, squares: Sequence[Expr]) -> tuple[Expr, ...]:
+        assumed = self.family.reduced.equations.assumed_positive
+        possible = (s for s in squares if positive(s, assumed).truth is not Truth.NEVER)
+        return tuple(sqrt(square) for square in possible)
 
     @cached_property
     def _squares(self) -> tuple[Expr, ...]:
@@ -170,6 +175,19 @@ def _linearised(family: SteadyMotion) -> tuple[tuple[Row, ...], tuple[Row, ...]]
     return tuple(left), right
 
 
+def _condition(expression: Expr, family: SteadyMotion, assumed: Collection[Expr]) -> Condition:
+    """The condition that it is positive, as it stands or with a relation of the family used."""
+    plain = expression.subs(family.fixed)
+    condition = positive(plain, assumed)
+    for relation in family.relations:
+        for symbol, value in _linear_in(relation):
+            # Solving may have divided by zero somewhere: only what holds throughout is used.
+            solved = positive(plain.subs({symbol: value}), assumed)
+            if condition.truth is Truth.OPEN and solved.truth is not Truth.OPEN:
+                condition = solved
+    return condition
+
+
 def vanishes(expression: Expr, family: SteadyMotion) -> bool:
     """Whether an expression is zero on the whole family."""
     return not _on(expression, family)
@@ -179,31 +197,34 @@ def _on(expression: Expr, family: SteadyMotion) -> Expr:
     """An expression with one quantity eliminated by each relation of the family."""
     result = expression.subs(family.fixed)
     for relation in family.relations:
-        symbol, value = _eliminated(relation)
-        result = result.subs({symbol: value})
+        solved = next(iter(_linear_in(relation)), None)
+        if solved is None:
+            raise NumericError(
+                f"the relation {relation} = 0 of a steady motion",
+                expected="one that is linear in some quantity",
+                advice="fix an angle with at=, such as theta = pi/2",
+            )
+        result = result.subs(dict([solved]))
     return result
 
 
 @lru_cache(maxsize=256)
-def _eliminated(relation: Expr) -> tuple[Symbol, Expr]:
-    """Some symbol that a relation is linear in, and its value."""
+def _linear_in(relation: Expr) -> tuple[tuple[Symbol, Expr], ...]:
+    """Every symbol that a relation is linear in, and its value."""
+    found = []
     for symbol in sorted(relation.symbols(), key=lambda s: s.published):
         slope = relation.diff(symbol)
         if slope and symbol not in slope.symbols():
             constant = relation - slope * Expr.generator(symbol)
             if symbol not in constant.symbols():
-                return symbol, -constant / slope
-    raise NumericError(
-        f"the relation {relation} = 0 of a steady motion",
-        expected="one that is linear in some quantity",
-        advice="fix an angle with at=, such as theta = pi/2",
-    )
+                found.append((symbol, -constant / slope))
+    return tuple(found)
 
 
 def _determinant(matrix: Sequence[Row]) -> Expr:
     """By minors, smallest column counts first; exact and without division."""
 
-    @lru_cache(maxsize=None)
+    @cache
     def minor(columns: tuple[int, ...]) -> Expr:
         if not columns:
             return ONE

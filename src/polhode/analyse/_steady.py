@@ -14,8 +14,11 @@ from polhode.algebra import (
     Kind,
     Symbol,
     as_symbol,
+    cos,
     factors,
     is_positive,
+    pi,
+    sin,
     sqrt,
     taylor,
 )
@@ -125,13 +128,12 @@ def _families(
     row = min(pending, key=lambda e: len(e.num))
     rest = [other for other in pending if other is not row]
     for factor in _vanishing(row, system):
-        symbol, value = _solved(factor, system)
-        if symbol is not None and value is not None:
-            reduced_rows = [other.subs({symbol: value}) for other in rest]
-            for fixed, relations in _families(reduced_rows, system):
-                final = value.subs(fixed)
-                yield {symbol: final, **fixed}, relations
-        else:
+        solutions = list(_solved(factor, system))
+        for symbol, value in solutions:
+            narrowed = [other.subs({symbol: value}) for other in rest]
+            for fixed, relations in _families(narrowed, system):
+                yield {symbol: value.subs(fixed), **fixed}, relations
+        if not solutions:
             others = [other for other in rest if factor not in factors(other)[1]]
             for fixed, relations in _families(others, system):
                 kept = factor.subs(fixed)
@@ -149,13 +151,19 @@ def _vanishing(row: Expr, system: Reduced) -> list[Expr]:
     ]
 
 
-def _solved(factor: Expr, system: Reduced) -> tuple[Symbol | None, Expr | None]:
-    """A speed that the factor gives without dividing by what may vanish."""
+def _solved(factor: Expr, system: Reduced) -> Iterator[tuple[Symbol, Expr]]:
+    """A speed that the factor gives without dividing by what may vanish, or an angle."""
     for speed in system.speeds:
         slope = factor.diff(speed)
         if slope and not slope.symbols() & set(system.state):
-            return speed, -(factor - slope * Expr.generator(speed)) / slope
-    return None, None
+            yield speed, -(factor - slope * Expr.generator(speed)) / slope
+            return
+    for angle in system.essential:
+        q = Expr.generator(angle)
+        if factor in (sin(q), -sin(q)):
+            yield from ((angle, ZERO), (angle, pi))
+        if factor in (cos(q), -cos(q)):
+            yield from ((angle, pi / 2), (angle, -pi / 2))
 
 
 def _without_special_cases(found: list[SteadyMotion]) -> Iterator[SteadyMotion]:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polhode.algebra import Expr, Generator, Symbol
-from polhode.base import LENGTH, MASS, PURE, TIME, Dimension, UnitError
+from polhode.base import LENGTH, MASS, PURE, TIME, DeclarationError, Dimension, UnitError
 from polhode.derive import Equations
 from polhode.simulate import Trajectory
 
@@ -78,7 +78,12 @@ def quantity(run: Trajectory, name: str) -> Quantity:
     if name in _WORDS:
         letter, unit = _WORDS[name]
         return Quantity(name, f"${letter}$", unit)
-    expression = run.expression(name)
+    if name not in run.quantities:
+        raise DeclarationError(
+            f"{name!r} is no quantity of {run.equations.system.name}",
+            expected=f"one of {', '.join(run.quantities)}",
+        )
+    expression = run.quantities[name]
     symbol = expression.symbol or Symbol(name)
     dimension = _dimension(equations_of(run), name, expression)
     is_angle = dimension == PURE and symbol in run.equations.coordinates

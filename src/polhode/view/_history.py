@@ -1,0 +1,99 @@
+"""Quantities against time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from polhode.simulate import Trajectory
+from polhode.view._quantities import (
+    Array,
+    Quantity,
+    Scale,
+    common_unit,
+    label,
+    largest,
+    quantity,
+    scale_for,
+)
+from polhode.view._style import axes_or_new, line_style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.lines import Line2D
+
+_ROUNDING = 1e-11  # relative spread below which a quantity counts as constant
+_SLIGHT = 1e-3  # relative spread below which only the change is worth showing
+_DISPARATE = 25.0  # ratio of sizes that do not share an axis
+
+
+def history(run: Trajectory, names: Sequence[str], *, ax: Axes | None = None) -> list[Line2D]:
+    """Named quantities of one unit against time; angles in degrees, or turns where many.
+
+    Of a single quantity that hardly changes only the change since the start is shown.
+
+    Raises:
+        DeclarationError: for a name the run does not have.
+        UnitError: for quantities of different units.
+    """
+    axes = axes_or_new(ax)
+    quantities = [quantity(run, name) for name in names]
+    values = [run.evaluate(name) for name in names]
+    unit = common_unit(quantities)
+    symbols = ", ".join(q.symbol for q in quantities)
+    if len(values) == 1 and _hardly_changes(values[0]):
+        values = [values[0] - values[0][0]]
+        symbols = f"${symbols.strip('$')} - {symbols.strip('$')}(0)$"
+    scale = scale_for(unit, largest(*values))
+    lines = [
+        axes.plot(run.t, value * scale.factor, label=q.symbol, **line_style(i))[0]
+        for i, (q, value) in enumerate(zip(quantities, values, strict=True))
+    ]
+    _widen(axes, values, scale)
+    axes.set_xlim(0, run.duration)
+    axes.set_xlabel("$t$ (s)")
+    axes.set_ylabel(label(symbols, scale))
+    if len(lines) > 1:
+        legend_above(axes)
+    return lines
+
+
+def legend_above(axes: Axes) -> None:
+    """A legend in one row above the axes, out of the way of the lines."""
+    handles, _ = axes.get_legend_handles_labels()
+    axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=len(handles))
+
+
+def panels(run: Trajectory, names: Sequence[str]) -> list[list[str]]:
+    """A group of names split into what can share an axis: one unit, sizes that compare."""
+    found: list[list[tuple[Quantity, float, str]]] = []
+    for name in names:
+        one, size = quantity(run, name), largest(run.evaluate(name))
+        home = next((group for group in found if _fits(one, size, group)), None)
+        if home is None:
+            found.append([(one, size, name)])
+        else:
+            home.append((one, size, name))
+    return [[name for _, _, name in group] for group in found]
+
+
+def _fits(one: Quantity, size: float, group: list[tuple[Quantity, float, str]]) -> bool:
+    sizes = [other for _, other, _ in group if other]
+    comparable = not size or all(1 / _DISPARATE < size / s < _DISPARATE for s in sizes)
+    return comparable and one.unit == group[0][0].unit
+
+
+def _hardly_changes(values: Array) -> bool:
+    spread, size = float(np.ptp(values)), largest(values)
+    return _ROUNDING * size < spread < _SLIGHT * size
+
+
+def _widen(axes: Axes, values: Sequence[Array], scale: Scale) -> None:
+    """Limits about a constant that do not blow rounding up to the height of the panel."""
+    together = np.concatenate(values) * scale.factor
+    size = largest(together)
+    if float(np.ptp(together)) <= _ROUNDING * size or not size:
+        middle, room = float(np.mean(together)), 0.2 * size or 1.0
+        axes.set_ylim(middle - room, middle + room)

@@ -1,0 +1,32 @@
+"""Phase portraits: a coordinate against its rate."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polhode.simulate import Trajectory
+from polhode.view._quantities import largest, quantity, scale_for
+from polhode.view._style import COLOURS, axes_or_new
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.lines import Line2D
+
+
+def phase_portrait(run: Trajectory, name: str, *, ax: Axes | None = None) -> Line2D:
+    """The rate of a coordinate against the coordinate; a dot marks the start.
+
+    Raises:
+        DeclarationError: for a name that is no coordinate of the run.
+    """
+    axes = axes_or_new(ax, 3.0)
+    shown = []
+    for place, one in zip("xy", (quantity(run, name), quantity(run, f"{name}_dot")), strict=True):
+        values = run.evaluate(one.name)
+        scale = scale_for(one.unit, largest(values))
+        axes.set(**{f"{place}label": one.label(scale)})
+        shown.append(values * scale.factor)
+    (line,) = axes.plot(*shown, color=COLOURS[0])
+    axes.plot(shown[0][0], shown[1][0], "o", color=COLOURS[0], markersize=4.5)
+    axes.margins(0.06)
+    return line

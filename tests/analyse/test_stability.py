@@ -1,0 +1,166 @@
+"""Stability against classical thresholds, and every threshold against the motion itself."""
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+import polhode as ph
+from analyse.systems import equations, symbols
+from polhode.algebra import Expr, cos, pi, sqrt
+from polhode.analyse import Stability, SteadyMotion, Truth, stability, steady
+
+NUMBERS = {
+    "spinning-coin": {"m": 0.0075, "a": 0.012, "g": 9.81},
+    "rolling-disk": {"m": 0.2, "a": 0.03, "g": 9.81},
+}
+
+
+def on_edge(name: str, vanishing: str) -> tuple[Stability, dict[str, Expr]]:
+    derived = equations(name)
+    s = symbols(derived)
+    families = steady(derived, {s["theta"]: pi / 2})
+    (family,) = (f for f in families if f.fixed.get(s[vanishing].symbol) == 0)
+    return stability(family), s
+
+
+EDGES = [
+    ("rolling-disk", "phi_dot", "omega_3", lambda s: s["g"] / (3 * s["a"])),
+    ("rolling-disk", "omega_3", "phi_dot", lambda s: 4 * s["g"] / (5 * s["a"])),
+    ("spinning-coin", "phi_dot", "omega_3", lambda s: s["g"] / s["a"]),
+    ("spinning-coin", "omega_3", "phi_dot", lambda s: 4 * s["g"] / s["a"]),
+]
+
+
+@pytest.mark.parametrize(("name", "vanishing", "speed", "square"), EDGES)
+def test_threshold_on_edge(name, vanishing, speed, square):
+    found, s = on_edge(name, vanishing)
+    (condition,) = found.conditions
+    assert condition.truth is Truth.OPEN
+    at_threshold = condition.expression.subs({s[speed]: sqrt(square(s))})
+    assert at_threshold == 0
+    slope = condition.expression.diff(s[speed])
+    assert ph.is_positive(slope.subs({s[speed]: s["g"]}))
+
+
+@pytest.mark.parametrize(("name", "vanishing", "speed", "square"), EDGES)
+@pytest.mark.parametrize("factor", [0.999, 1.001])
+def test_threshold_by_simulation(name, vanishing, speed, square, factor):
+    """A tilt rate of 1e-6 leads nowhere 0.1 % above the threshold and away 0.1 % below it."""
+    found, s = on_edge(name, vanishing)
+    numbers = NUMBERS[name]
+    threshold = float(np.sqrt(_number(square(s), numbers)))
+    start = {"theta": np.pi / 2, "theta_dot": 1e-6, speed: factor * threshold}
+    run = ph.simulate(equations(name), numbers, start, 12.0)
+    departure = np.abs(run["theta"] - np.pi / 2).max()
+    assert (departure < 1e-5) == (factor > 1)
+    assert str(found).startswith("stable when")
+
+
+@pytest.mark.parametrize(("name", "vanishing", "speed", "square"), EDGES)
+def test_frequency_by_simulation(name, vanishing, speed, square):
+    found, s = on_edge(name, vanishing)
+    numbers = NUMBERS[name] | {speed: 2 * float(np.sqrt(_number(square(s), NUMBERS[name])))}
+    (frequency,) = found.frequencies
+    predicted = _number(frequency, numbers)
+    start = {"theta": np.pi / 2, "theta_dot": 1e-5 * predicted, speed: numbers[speed]}
+    period = 2 * np.pi / predicted
+    run = ph.simulate(equations(name), NUMBERS[name], start, 1.1 * period)
+
+    def tilt(t: float) -> float:
+        return float(run.evaluate("theta", np.array([t]))[0]) - np.pi / 2
+
+    measured = brentq(tilt, 0.9 * period, 1.1 * period, xtol=1e-14)
+    assert measured == pytest.approx(period, rel=1e-7)
+
+
+def _number(expression: Expr, numbers: dict[str, float]) -> float:
+    used = sorted(expression.symbols(), key=lambda s: s.published)
+    (value,) = ph.compile_program([expression], used).function()(
+        *(numbers[s.published] for s in used)
+    )
+    return float(value)
+
+
+def test_gyroscope_precesses_stably_wherever_it_precesses():
+    derived = equations("gyroscope")
+    (family,) = (f for f in steady(derived) if f.relations)
+    assert stability(family).truth is Truth.ALWAYS
+
+
+def test_upright_gyroscope_asks_for_another_chart():
+    derived = equations("gyroscope")
+    theta = symbols(derived)["theta"].symbol
+    upright = next(f for f in steady(derived) if f.fixed.get(theta) == 0)
+    with pytest.raises(ph.NumericError, match="not singular"):
+        stability(upright)
+
+
+def test_sleeping_top_in_another_chart():
+    """Two tilts about horizontal axes describe an upright top; stable above 2√(M g a I)/I₁."""
+    mass, a, first, second, g = ph.symbols("M a I_1 I_2 g", positive=True)
+    alpha, beta = ph.coordinates("alpha beta")
+    axes = ph.Frame("lab").rotated(alpha, "x").rotated(beta, "y", labels="2 3 1")
+    top = ph.Body("top", mass=mass, inertia=(second, second, first), axes=axes, spin_about="1")
+    derived = ph.derive(ph.System(ph.Pivot(top, at=axes["1"] * -a), ph.Gravity(g)))
+    upright = SteadyMotion(
+        steady(derived, {alpha: 0, beta: 0, alpha.dt(): 0, beta.dt(): 0})[0].reduced,
+        {s.symbol: Expr.of(0) for s in (alpha, beta, alpha.dt(), beta.dt())},
+        (),
+    )
+    found = stability(upright)
+    spin = ph.speed("omega_1")
+    threshold = first**2 * spin**2 - 4 * mass * g * a * (second + mass * a**2)
+    assert threshold in [c.expression for c in found.conditions]
+
+
+def test_middle_axis_is_unstable():
+    derived = equations("tennis-racquet")
+    s = symbols(derived)
+    low, high = ph.symbols("d e", positive=True)
+    ordered = {s["I_2"]: s["I_1"] + low, s["I_3"]: s["I_1"] + low + high}
+    verdicts = {}
+    for family in steady(derived):
+        axis = next(u for u in ("omega_1", "omega_2", "omega_3") if s[u].symbol in family.free)
+        verdicts[axis] = stability(family, ordered).truth
+    assert verdicts == {
+        "omega_1": Truth.ALWAYS,
+        "omega_2": Truth.NEVER,
+        "omega_3": Truth.ALWAYS,
+    }
+
+
+def test_gyrocompass_settles_about_the_north_with_its_frequency():
+    derived = equations("gyrocompass")
+    s = symbols(derived)
+    north = next(f for f in steady(derived) if f.fixed.get(s["theta"].symbol) == 0)
+    (frequency,) = stability(north).frequencies
+    rate = s["Omega"] * ph.sin(s["lambda_"])
+    exact = (s["I_3"] * (s["omega"] + rate) - s["I_1"] * rate) * rate / s["I_1"]
+    assert frequency**2 == exact
+
+
+def test_marble_runs_in_circles_at_two_sevenths():
+    derived = equations("marble-on-turntable")
+    s = symbols(derived)
+    (family,) = steady(derived)
+    found = stability(family, {s["I"]: 2 * s["m"] * s["a"] ** 2 / 5})
+    (frequency,) = found.frequencies
+    assert frequency**2 == (2 * s["Omega"] / 7) ** 2
+    assert found.neutral == found.directions == 1
+
+
+def test_tall_cosine_of_a_damped_pendulum_needs_hurwitz():
+    mass, a, g, c = ph.symbols("M a g c", positive=True)
+    theta = ph.coordinate("theta")
+    axes = ph.Frame("lab").rotated(theta, "x")
+    bob = ph.Body("bob", mass=mass, axes=axes)
+    end = bob.point(axes.zero)
+    damper = ph.Damper(end, axes.root.zero + axes.root["y"] * a, damping=c)
+    pivot = ph.Pivot(bob, at=axes["z"] * a)
+    derived = ph.derive(ph.System(pivot, ph.Gravity(g), damper))
+    families = steady(derived)
+    truths = {str(f): stability(f).truth for f in families}
+    assert truths["theta = 0"] is Truth.ALWAYS
+    assert truths["theta = pi"] is Truth.NEVER
+    assert not stability(families[0]).is_even
+    assert cos(theta).dt() != 0

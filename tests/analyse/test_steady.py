@@ -1,0 +1,125 @@
+"""Steady motions against the closed forms of the literature, and against the dynamics."""
+
+import math
+
+import pytest
+
+import polhode as ph
+from analyse.systems import equations, symbols
+from polhode.algebra import Expr, cos, pi, sin, sqrt
+from polhode.analyse import SteadyMotion, steady
+
+
+def relation_of(name: str) -> tuple[SteadyMotion, dict[str, Expr]]:
+    derived = equations(name)
+    (family,) = (f for f in steady(derived) if f.relations)
+    return family, symbols(derived)
+
+
+def test_rolling_disk_steady_motion_is_the_classical_quadratic():
+    family, s = relation_of("rolling-disk")
+    (found,) = family.relations
+    theta, spin, rate = s["theta"], s["omega_3"], s["phi_dot"]
+    classical = rate**2 * sin(theta) * cos(theta) - 6 * spin * rate * sin(theta)
+    classical = classical - 4 * s["g"] * cos(theta) / s["a"]
+    quotient = found / classical
+    assert not quotient.symbols() & {theta.symbol, spin.symbol, rate.symbol}
+
+
+def test_coin_precession_has_both_roots():
+    family, s = relation_of("spinning-coin")
+    theta, spin = s["theta"], s["omega_3"]
+    root = sqrt(spin**2 + 4 * s["g"] * cos(theta) ** 2 / (s["a"] * sin(theta)))
+    values = [b.value for b in family.branches]
+    for sign in (1, -1):
+        expected = (spin + sign * root) / cos(theta)
+        assert sum(_agree(value, expected) for value in values) == 1
+
+
+def _agree(first: Expr, second: Expr) -> bool:
+    numbers = {"a": 0.012, "g": 9.81, "theta": 1.1, "omega_3": 7.0}
+    return math.isclose(_number(first, numbers), _number(second, numbers), rel_tol=1e-12)
+
+
+def _number(expression: Expr, numbers: dict[str, float]) -> float:
+    symbols = sorted(expression.symbols(), key=lambda s: s.published)
+    function = ph.compile_program([expression], symbols).function()
+    (value,) = function(*(numbers[s.published] for s in symbols))
+    return float(value)
+
+
+def test_coin_on_edge_has_two_classes():
+    derived = equations("spinning-coin")
+    s = symbols(derived)
+    families = steady(derived, {s["theta"]: pi / 2})
+    vanishing = [
+        {symbol.published for symbol, v in f.fixed.items() if v == 0} - {"theta_dot"}
+        for f in families
+    ]
+    assert sorted(vanishing, key=sorted) == [{"omega_3"}, {"phi_dot"}]
+
+
+def test_gyroscope_precession_exists_where_its_discriminant_is_positive():
+    family, s = relation_of("gyroscope")
+    first, second = family.branches
+    (condition,) = first.exists
+    about_pivot = s["I_2"] + s["M"] * s["a"] ** 2
+    wanted = s["I_1"] ** 2 * s["omega_1"] ** 2
+    wanted = wanted - 4 * s["M"] * s["g"] * s["a"] * about_pivot * cos(s["theta"])
+    assert condition.expression == wanted
+    product = first.value * second.value
+    assert product == s["M"] * s["g"] * s["a"] / (about_pivot * cos(s["theta"]))
+
+
+def test_gyroscope_at_right_angles_has_one_precession():
+    derived = equations("gyroscope")
+    s = symbols(derived)
+    (family,) = steady(derived, {s["theta"]: pi / 2})
+    (branch,) = family.branches
+    assert branch.value == s["M"] * s["g"] * s["a"] / (s["I_1"] * s["omega_1"])
+    assert branch.exists == ()
+
+
+def test_tilted_marble_drifts_at_the_one_velocity_without_acceleration():
+    derived = equations("marble-on-turntable/tilted")
+    s = symbols(derived)
+    (family,) = steady(derived)
+    assert family.fixed[s["v_2"].symbol] == 0
+    drift = -s["m"] * s["a"] ** 2 * s["g"] * sin(s["alpha"]) / (s["I"] * s["Omega"])
+    assert family.fixed[s["v_3"].symbol] == drift
+
+
+def test_free_body_turns_steadily_about_three_axes():
+    families = steady(equations("tennis-racquet"))
+    assert len(families) == 3
+    assert all(sum(v == 0 for v in f.fixed.values()) == 2 for f in families)
+
+
+@pytest.mark.parametrize("name", ["spinning-coin", "rolling-disk", "gyroscope", "gyrocompass"])
+def test_nothing_accelerates_on_any_family(name):
+    derived = equations(name)
+    for family in steady(derived):
+        fixed = dict(family.fixed)
+        for row in derived.forcing:
+            left = row.subs(fixed)
+            for relation in family.relations:
+                left = left.subs(_eliminate(relation))
+            assert left == 0
+
+
+def _eliminate(relation: Expr) -> dict[Expr, Expr]:
+    g = next(Expr.generator(s) for s in relation.symbols() if s.published in ("g", "omega_0"))
+    slope = relation.diff(g)
+    return {g: -(relation - slope * g) / slope}
+
+
+def test_no_steady_motion_is_said_in_words():
+    derived = equations("gyroscope/vertical-plane")
+    theta = symbols(derived)["theta"]
+    with pytest.raises(ph.NumericError, match="steady motions of gyroscope/vertical-plane"):
+        steady(derived, {theta: pi / 2})
+
+
+def test_driven_systems_are_refused_by_name():
+    with pytest.raises(ph.NumericError, match=r"depend on time through .*X"):
+        steady(equations("ball-on-paper"))
