@@ -22,6 +22,10 @@ from polhode.algebra._functions import tanh as tanh
 from polhode.algebra._generators import Generator as Generator
 from polhode.algebra._generators import Kind as Kind
 from polhode.algebra._generators import Symbol as Symbol
+from polhode.algebra._latex import latex as latex
+from polhode.algebra._latex import latex_of_symbol as latex_of_symbol
+from polhode.algebra._latex import mathml as mathml
+from polhode.algebra._layout import layout as layout
 from polhode.algebra._linear import Elimination as Elimination
 from polhode.algebra._linear import Matrix as Matrix
 from polhode.algebra._linear import Row as Row
@@ -30,6 +34,8 @@ from polhode.algebra._linear import eliminate as eliminate
 from polhode.algebra._linear import rotation as rotation
 from polhode.algebra._linear import solve as solve
 from polhode.algebra._linear import variables as variables
+from polhode.algebra._nodes import Node as Node
+from polhode.algebra._nodes import Style as Style
 from polhode.algebra._program import FLOATS as FLOATS
 from polhode.algebra._program import Arithmetic as Arithmetic
 from polhode.algebra._program import Compiled as Compiled
@@ -49,6 +55,10 @@ from polhode.algebra._symbols import speeds as speeds
 from polhode.algebra._symbols import symbol as symbol
 from polhode.algebra._symbols import symbols as symbols
 from polhode.algebra._symbols import time as time
+from polhode.algebra._sympy import from_sympy as from_sympy
+from polhode.algebra._sympy import to_sympy as to_sympy
+from polhode.algebra._text import pretty as pretty
+from polhode.algebra._text import text as text
 from polhode.algebra._vector import Triad as Triad
 from polhode.algebra._vector import Vector as Vector
 from polhode.algebra._vector import zero_vector as zero_vector

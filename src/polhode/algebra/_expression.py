@@ -18,6 +18,10 @@ from polhode.base import DeclarationError, NumericError
 ExprLike: TypeAlias = Union["Expr", int, float, Fraction, Any]
 
 
+#: Beyond it a power is taken for a slip that would fill the memory.
+_LARGEST_POWER = 1000
+
+
 class Expr:
     """An exact expression; immutable, hashable, picklable, with a decided equality.
 
@@ -39,15 +43,15 @@ class Expr:
         if isinstance(value, Expr):
             return value
         if isinstance(value, Rational):
-            return cls.constant(Fraction(value))
+            return cls.constant(Fraction(int(value.numerator), int(value.denominator)))
         if isinstance(value, float):
             return cls.constant(_decimal(value))
         if type(value).__module__.startswith("sympy"):
             from polhode.algebra._sympy import from_sympy
 
             return from_sympy(value)
-        if hasattr(value, "item"):  # a NumPy scalar
-            return cls.of(value.item())
+        if _is_numpy_scalar(value):
+            return cls.of(value.item())  # type: ignore[union-attr]
         raise NumericError(
             f"{value!r} of type {type(value).__name__} is no expression",
             expected="a number, a symbol or an expression of symbols",
@@ -57,14 +61,13 @@ class Expr:
     @staticmethod
     def reads(value: object) -> bool:
         """Whether `of` takes values of this type."""
-        plain = isinstance(value, Expr | Rational | float) or hasattr(value, "item")
+        plain = isinstance(value, Expr | Rational | float) or _is_numpy_scalar(value)
         return plain or type(value).__module__.startswith("sympy")
 
     @classmethod
     def constant(cls, value: Fraction | int) -> Expr:
         """A rational number."""
-        value = Fraction(value)
-        number = fmpq(value.numerator, value.denominator)
+        number = fmpq(int(value.numerator), int(value.denominator))
         return cls(CONSTANTS, CONSTANTS.context.constant(number), CONSTANTS.one)
 
     @classmethod
@@ -189,8 +192,10 @@ class Expr:
             from polhode.algebra._roots import sqrt
 
             return sqrt(self) ** power.numerator
-        base = self if power >= 0 else self.reciprocal()
         ring, times = self.ring, abs(int(power))
+        if times > _LARGEST_POWER:
+            raise NumericError(f"power {power}", expected=f"at most the power {_LARGEST_POWER}")
+        base = self if power >= 0 else self.reciprocal()
         return Expr(ring, *ring.cancel(ring.reduce(base.num**times), base.den**times))
 
     __radd__ = __add__
@@ -234,7 +239,9 @@ class Expr:
         return not self.is_zero
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _rebuild, (self.generators, _plain(self, self.num), _plain(self, self.den))
+        from polhode.algebra._plain import plain, rebuilt
+
+        return rebuilt, (self.generators, plain(self, self.num), plain(self, self.den))
 
     # -- calculus: thin faces of their own rooms ------------------------------------------------
 
@@ -375,34 +382,11 @@ def _compose(ring: Ring, polynomial: Polynomial, images: Mapping[Generator, Expr
 def _decimal(value: float) -> Fraction:
     if value != value or value in (float("inf"), float("-inf")):
         raise NumericError(f"the number {value}", expected="a finite number", advice="")
-    return Fraction(repr(value))
+    return Fraction(repr(float(value)))
 
 
-Plain = tuple[tuple[tuple[int, ...], int, int], ...]
-
-
-def _plain(expression: Expr, polynomial: Polynomial) -> Plain:
-    positions = [expression.ring.index[g] for g in expression.generators]
-    return tuple(
-        (tuple(monomial[p] for p in positions), int(c.p), int(c.q))
-        for monomial, c in polynomial.terms()
-    )
-
-
-def _rebuild(generators: tuple[Generator, ...], num: Plain, den: Plain) -> Expr:
-    ring = ring_of(frozenset(generators))
-    positions = [ring.index[g] for g in generators]
-
-    def polynomial(plain: Plain) -> Polynomial:
-        table = {}
-        for powers, p, q in plain:
-            monomial = [0] * len(ring.generators)
-            for position, power in zip(positions, powers, strict=True):
-                monomial[position] = power
-            table[tuple(monomial)] = fmpq(p, q)
-        return ring.context.from_dict(table)
-
-    return Expr(ring, polynomial(num), polynomial(den))
+def _is_numpy_scalar(value: object) -> bool:
+    return getattr(value, "shape", None) == () and hasattr(value, "item")
 
 
 ZERO = Expr.constant(0)

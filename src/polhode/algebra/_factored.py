@@ -71,7 +71,7 @@ def extracted(ring: Ring, polynomial: Polynomial) -> Factored:
     common = tuple(min(powers) for powers in zip(*polynomial.monoms(), strict=True))
     rest = polynomial / (ring.context.from_dict({common: 1}) * number.numerator)
     rest *= number.denominator
-    return Factored(number, powers_of(ring, common)) * _plain(ring, rest)
+    return Factored(number, powers_of(ring, common)) * _part(ring, rest)
 
 
 def factorised(ring: Ring, polynomial: Polynomial) -> Factored:
@@ -81,7 +81,7 @@ def factorised(ring: Ring, polynomial: Polynomial) -> Factored:
     number, factors = polynomial.factor()
     result = Factored(rational(number))
     for factor, exponent in _with_squares(ring, factors):
-        part = _plain(ring, factor)
+        part = _part(ring, factor)
         powers = {g: p * exponent for g, p in part.powers.items()}
         sums = tuple((s, p * exponent) for s, p in part.sums)
         result *= Factored(part.number**exponent, powers, sums)
@@ -104,7 +104,7 @@ def content(numbers: Iterable[Rational]) -> Rational:
     )
 
 
-def _plain(ring: Ring, polynomial: Polynomial) -> Factored:
+def _part(ring: Ring, polynomial: Polynomial) -> Factored:
     if len(polynomial) == 1:
         return next(terms(ring, polynomial))
     return Factored(sums=((polynomial, 1),))

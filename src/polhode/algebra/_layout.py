@@ -48,6 +48,7 @@ _MUCH = 0.85
 Placed = tuple[Rank, Node, int]
 
 
+@lru_cache(maxsize=1024)
 def layout(expression: Expr) -> Node:
     """The display tree of an expression: the shortest of its textbook forms."""
     if expression.is_zero:

@@ -127,9 +127,14 @@ def _with(monomial: Monomial, position: int, power: int) -> Monomial:
     return (*monomial[:position], power, *monomial[position + 1 :])
 
 
-@lru_cache(maxsize=4096)
 def ring_of(generators: frozenset[Generator]) -> Ring:
     """The ring with these generators and their companions."""
+    return _ring_of(generators, frozenset(g.key for g in generators if g.positive))
+
+
+@lru_cache(maxsize=4096)
+def _ring_of(generators: frozenset[Generator], positive: frozenset[str]) -> Ring:
+    # generators are equal whether or not their sign is known: `positive` keeps those rings apart
     closure = set(generators)
     pending = list(generators)
     while pending:
@@ -156,7 +161,8 @@ def _ordered(generators: set[Generator]) -> tuple[Generator, ...]:
 @lru_cache(maxsize=16384)
 def union(first: Ring, second: Ring) -> Ring:
     """The smallest ring that holds both."""
-    return ring_of(frozenset(first.generators) | frozenset(second.generators))
+    known_first = sorted((*first.generators, *second.generators), key=lambda g: not g.positive)
+    return ring_of(frozenset(known_first))
 
 
 CONSTANTS = ring_of(frozenset())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from keyword import iskeyword
 
 from polhode.algebra._expression import Expr
 from polhode.algebra._generators import Kind, Symbol
@@ -50,10 +51,10 @@ def functions(names: str) -> tuple[Expr, ...]:
 
 
 def _named(name: str, kind: Kind, positive: bool = False) -> Expr:
-    if not _NAME.fullmatch(name) or name == "t":
+    if not _NAME.fullmatch(name) or name == "t" or iskeyword(name):
         raise DeclarationError(
             f"the name {name!r}",
-            expected="letters and digits with underscores, starting with a letter, and not t",
+            expected="letters and digits with underscores, not t or a word of Python",
             advice="write lambda_ for λ and theta for θ",
         )
     if name.endswith(("_dot", "_ddot", "_dddot")):

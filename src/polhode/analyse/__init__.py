@@ -3,6 +3,13 @@
 from polhode.analyse._ansatz import Ansatz as Ansatz
 from polhode.analyse._conditions import Condition as Condition
 from polhode.analyse._conditions import Truth as Truth
+from polhode.analyse._expansion import Expansion as Expansion
+from polhode.analyse._expansion import expand as expand
+from polhode.analyse._fictitious import Fictitious as Fictitious
+from polhode.analyse._fictitious import fictitious_force as fictitious_force
+from polhode.analyse._fictitious import fictitious_torque as fictitious_torque
+from polhode.analyse._fictitious import relative_momentum as relative_momentum
+from polhode.analyse._fictitious import relative_rate as relative_rate
 from polhode.analyse._invariants import Invariant as Invariant
 from polhode.analyse._invariants import Invariants as Invariants
 from polhode.analyse._invariants import invariants as invariants

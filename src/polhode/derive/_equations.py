@@ -20,6 +20,7 @@ from polhode.base import Dimension, NumericError
 from polhode.derive import _dimensions as units
 from polhode.derive import _energy as energies
 from polhode.derive._balance import Wrench
+from polhode.derive._display import equations_latex, equations_text
 from polhode.derive._motion import Motion
 from polhode.derive._reactions import Line, Reactions, solve_reactions
 from polhode.derive._textbook import without_idle_factors
@@ -50,7 +51,7 @@ class Reaction:
     undetermined: tuple[str, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Equations:
     """Exact equations on independent speeds.
 
@@ -73,6 +74,18 @@ class Equations:
     rows: tuple[Expr, ...]
     mass: Matrix
     forcing: Row
+
+    def __str__(self) -> str:
+        return equations_text(self)
+
+    __repr__ = __str__
+
+    def latex(self) -> str:
+        """LaTeX of the equations of motion, aligned."""
+        return equations_latex(self)
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.latex()}$"
 
     @property
     def coordinates(self) -> tuple[Symbol, ...]:

@@ -85,14 +85,19 @@ class Frame:
         return axis
 
     def __getitem__(self, label: str) -> Vector:
-        """Unit vector along the direction with this label."""
-        if label not in self.labels:
-            raise DeclarationError(
-                f"direction {label!r} of frame {self.name!r}",
-                expected=f"one of {', '.join(self.labels)}",
-            )
-        position = self.labels.index(label)
+        """Unit vector along the direction with this label; 1, 2, 3 also count the directions."""
+        position = self.position(label)
         return Vector(tuple(ONE if i == position else ZERO for i in range(3)), self)
+
+    def position(self, label: str) -> int:
+        """Which direction a label stands for: 0, 1 or 2."""
+        for names in (self.labels, ("1", "2", "3")):
+            if label in names:
+                return names.index(label)
+        raise DeclarationError(
+            f"direction {label!r} of frame {self.name!r}",
+            expected=f"one of {', '.join(self.labels)}",
+        )
 
     @property
     def directions(self) -> tuple[Vector, Vector, Vector]:
@@ -102,8 +107,7 @@ class Frame:
 
     def others(self, label: str) -> tuple[str, str]:
         """The two labels that follow one in cyclic order."""
-        self[label]
-        position = self.labels.index(label)
+        position = self.position(label)
         return self.labels[(position + 1) % 3], self.labels[(position + 2) % 3]
 
     def vector(self, *components: ExprLike) -> Vector:

@@ -36,7 +36,7 @@ def _rimmed(
     more: dict[str, Any],
 ) -> Body:
     across = Expr.of(mass) * Expr.of(radius) ** 2 * share
-    moments = [2 * across if label == axis else across for label in axes.labels]
+    moments = [2 * across if i == axes.position(axis) else across for i in range(3)]
     more = {"spin": About(axis), "surface": Rim(Expr.of(radius), axis), **more}
     return Body(name, mass=mass, inertia=moments, axes=axes, **more)
 
@@ -81,7 +81,7 @@ def rod(
 ) -> Body:
     """A thin uniform rod along `axis`: m l²/12 across it, nothing about it."""
     across = Expr.of(mass) * Expr.of(length) ** 2 / 12
-    moments = [Expr.of(0) if label == axis else across for label in axes.labels]
+    moments = [Expr.of(0) if i == axes.position(axis) else across for i in range(3)]
     return Body(name, mass=mass, inertia=moments, axes=axes, **more)
 
 
@@ -98,7 +98,7 @@ def cylinder(
     """A uniform solid cylinder about `axis`, touching with the edge of its lower face."""
     mass, radius, height = Expr.of(mass), Expr.of(radius), Expr.of(height)
     across = mass * (3 * radius**2 + height**2) / 12
-    moments = [mass * radius**2 / 2 if label == axis else across for label in axes.labels]
+    moments = [mass * radius**2 / 2 if i == axes.position(axis) else across for i in range(3)]
     more = {"spin": About(axis), "surface": Rim(radius, axis, -height / 2), **more}
     return Body(name, mass=mass, inertia=moments, axes=axes, **more)
 

@@ -7,66 +7,82 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from polhode.simulate import Trajectory
-from polhode.view._history import legend_above
-from polhode.view._quantities import Array, equations_of, largest, scale_for
-from polhode.view._style import COLOURS, MUTED, axes_or_new, line_style
+from polhode.view._history import legend_above, time_axis, widen
+from polhode.view._quantities import Array, equations_of, instants, largest, scale_for
+from polhode.view._style import COLOURS, MUTED, axes_or_new, house_style, line_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.collections import PathCollection
+    from matplotlib.collections import FillBetweenPolyCollection
     from matplotlib.lines import Line2D
 
 ROUNDING = float(np.finfo(float).eps)
 _FLOOR = ROUNDING / 30  # what is smaller is drawn here
+_INTERVALS = 240
 
 
+@house_style()
 def energies(run: Trajectory, *, ax: Axes | None = None) -> list[Line2D]:
-    """Kinetic, potential and total energy against time, with the work done on the system if any.
+    """Change of kinetic, potential and total energy since the start, and the work done, J.
 
-    All in J, in inertial space.
+    Kinetic energy is that in inertial space. Potential energy and work are drawn where there
+    are any.
     """
     axes = axes_or_new(ax)
-    shares = _shares(run)
-    scale = scale_for("J", largest(*shares.values()))
+    t = instants(run)
+    changes = _changes(run, t)
+    scale = scale_for("J", largest(*changes.values()))
     lines = [
-        axes.plot(run.t, values * scale.factor, label=f"${symbol}$", **line_style(i))[0]
-        for i, (symbol, values) in enumerate(shares.items())
+        axes.plot(t, values * scale.factor, label=f"${symbol}$", **line_style(i))[0]
+        for i, (symbol, values) in enumerate(changes.items())
     ]
-    axes.set_xlim(0, run.duration)
-    axes.set_xlabel("$t$ (s)")
-    axes.set_ylabel(f"energy ({scale.unit})")
+    widen(axes, np.concatenate(list(changes.values())) * scale.factor)
+    time_axis(axes, t)
+    axes.set_ylabel(f"change of energy ({scale.unit})")
     legend_above(axes)
     return lines
 
 
-def energy_drift(run: Trajectory, *, ax: Axes | None = None) -> PathCollection:
+@house_style()
+def energy_drift(run: Trajectory, *, ax: Axes | None = None) -> FillBetweenPolyCollection:
     """Departure of the energy from what the work done accounts for, relative to its size.
 
-    |E - E₀ - W| over the largest |T| + |V| + |W|, on a logarithmic scale; the dashed line is the
-    rounding of one number.
+    Largest |E - E₀ - W| of short intervals over the largest |T| + |V| + |W| of the motion, on a
+    logarithmic scale; the dashed line is the rounding of one number.
     """
     axes = axes_or_new(ax)
-    total, work = run["energy"], run["work"]
-    size = np.max(sum(np.abs(part) for name, part in _shares(run).items() if name != "T + V"))
-    departure = np.abs(total - total[0] - work) / (size or 1.0)
-    dots = axes.scatter(
-        run.t, np.maximum(departure, _FLOOR), s=2.5, color=COLOURS[0], linewidths=0, rasterized=False
-    )
-    axes.axhline(ROUNDING, color=MUTED, linewidth=0.8, linestyle=(0, (4, 3)))
+    t = instants(run)
+    departure = _departure(run, t)
+    parts = [np.max(part) for part in np.array_split(departure, _INTERVALS)]
+    middles = [np.mean(part) for part in np.array_split(t, _INTERVALS)]
+    tops = np.maximum(parts, _FLOOR)
+    area = axes.fill_between(middles, tops, _FLOOR / 2, step="mid", color=COLOURS[0], linewidth=0)
+    axes.axhline(ROUNDING, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
     axes.set_yscale("log")
-    axes.set_ylim(_FLOOR / 2, max(1e-13, 5 * float(np.max(departure))))
-    axes.set_xlim(0, run.duration)
-    axes.set_xlabel("$t$ (s)")
+    axes.set_ylim(_FLOOR / 2, max(1e-13, 10 * float(np.max(departure))))
+    time_axis(axes, t)
     axes.set_ylabel(r"$|E - E_0 - W|\,/\,E_{\rm max}$")
-    return dots
+    return area
 
 
-def _shares(run: Trajectory) -> dict[str, Array]:
-    equations = equations_of(run)
-    kinetic = run.evaluate(equations.kinetic_energy)
-    potential = run.evaluate(equations.potential_energy)
-    shares = {"T": kinetic}
+def _changes(run: Trajectory, t: Array) -> dict[str, Array]:
+    kinetic, potential, work = _shares(run, t)
+    changes = {r"\Delta T": kinetic - kinetic[0]}
     if np.any(potential):
-        shares |= {"V": potential, "T + V": kinetic + potential}
-    work = run["work"]
-    return shares | ({"W": work} if np.any(work) else {})
+        changes[r"\Delta V"] = potential - potential[0]
+        changes[r"\Delta T + \Delta V"] = kinetic + potential - kinetic[0] - potential[0]
+    return changes | ({"W": work} if np.any(work) else {})
+
+
+def _departure(run: Trajectory, t: Array) -> Array:
+    kinetic, potential, work = _shares(run, t)
+    total = kinetic + potential
+    size = np.max(np.abs(kinetic) + np.abs(potential) + np.abs(work)) or 1.0
+    departure: Array = np.abs(total - total[0] - work) / size
+    return departure
+
+
+def _shares(run: Trajectory, t: Array) -> tuple[Array, Array, Array]:
+    equations = equations_of(run)
+    kinetic = run.evaluate(equations.kinetic_energy, t)
+    return kinetic, run.evaluate(equations.potential_energy, t), run.evaluate("work", t)

@@ -12,20 +12,23 @@ from polhode.base import DeclarationError
 from polhode.model import Contact, Plane
 from polhode.simulate import Trajectory
 from polhode.view._history import legend_above
-from polhode.view._quantities import Array, equations_of, label, largest, scale_for
-from polhode.view._style import COLOURS, axes_or_new, line_style
+from polhode.view._quantities import Array, equations_of, instants, label, largest, scale_for
+from polhode.view._style import COLOURS, WIDTH, axes_or_new, house_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.lines import Line2D
 
 _SAME = 1e-9  # relative distance of paths that are drawn as one
+_MARGIN = 0.9  # of labels and legend, inches
 
 
+@house_style()
 def floor_path(run: Trajectory, *, ax: Axes | None = None) -> list[Line2D]:
     """Paths of the centre of mass and of the point of contact, seen from above the support.
 
     Along the two directions of the first support that a body touches, m; a dot marks the start.
+    On a slope, up the slope is up the page.
 
     Raises:
         DeclarationError: for a system in which nothing touches a support.
@@ -34,12 +37,13 @@ def floor_path(run: Trajectory, *, ax: Axes | None = None) -> list[Line2D]:
     place = equations_of(run).kinetics.places[contact.body]
     centre = _on_plane(run, contact.on, place)
     touched = _on_plane(run, contact.on, place + contact.arm)
-    paths = {"centre": centre, "contact": touched}
+    paths = {"centre of mass": centre, "contact": touched}
     if largest(centre - touched) <= _SAME * largest(centre):
-        paths = {"centre and contact": centre}
-    return _drawn(axes_or_new(ax, 3.4), paths, contact.on.tangents)
+        paths = {"centre of mass and contact": centre}
+    return _drawn(ax, paths, contact.on)
 
 
+@house_style()
 def support_trace(run: Trajectory, *, ax: Axes | None = None) -> list[Line2D]:
     """The trace that the contact leaves on a turntable or a sheet, in the support's own axes, m.
 
@@ -51,13 +55,9 @@ def support_trace(run: Trajectory, *, ax: Axes | None = None) -> list[Line2D]:
     place = equations_of(run).kinetics.places[contact.body]
     x, y = _on_plane(run, support, place + contact.arm - support.origin)
     turned = _angle(run, support)
-    trace = np.array(
-        [
-            np.cos(turned) * x + np.sin(turned) * y,
-            np.cos(turned) * y - np.sin(turned) * x,
-        ]
-    )
-    return _drawn(axes_or_new(ax, 3.4), {"trace on the support": trace}, support.tangents)
+    along, across = np.cos(turned), np.sin(turned)
+    trace = np.array([along * x + across * y, along * y - across * x])
+    return _drawn(ax, {"trace on the support": trace}, support)
 
 
 def _contact(run: Trajectory) -> Contact:
@@ -71,27 +71,52 @@ def _contact(run: Trajectory) -> Contact:
 
 
 def _on_plane(run: Trajectory, plane: Plane, place: Vector) -> Array:
-    """Components along the two directions of a plane, shape (2, samples)."""
-    return np.array([run.evaluate(place.dot(plane.axes[label])) for label in plane.tangents])
+    """Components along the two directions of a plane, shape (2, instants)."""
+    t = instants(run)
+    return np.array([run.evaluate(place.dot(plane.axes[name]), t) for name in plane.tangents])
 
 
 def _angle(run: Trajectory, support: Plane) -> Array:
     """Angle by which a support has turned since the start, rad."""
-    turned: Array = cumulative_simpson(run.evaluate(support.turning), x=run.t, initial=0.0)
+    t = instants(run)
+    turned: Array = cumulative_simpson(run.evaluate(support.turning, t), x=t, initial=0.0)
     return turned
 
 
-def _drawn(axes: Axes, paths: dict[str, Array], directions: tuple[str, str]) -> list[Line2D]:
+def _drawn(ax: Axes | None, paths: dict[str, Array], plane: Plane) -> list[Line2D]:
+    across, up = (1, 0) if _climbs(plane) else (0, 1)
     scale = scale_for("m", largest(*paths.values()))
-    lines = [
-        axes.plot(*(path * scale.factor), label=name, **line_style(i))[0]
-        for i, (name, path) in enumerate(paths.items())
-    ]
-    for i, path in enumerate(paths.values()):
-        axes.plot(*(path[:, 0] * scale.factor), "o", markersize=4, color=COLOURS[i], zorder=3)
+    together = np.concatenate(list(paths.values()), axis=1)[[across, up]]
+    axes = axes_or_new(ax, _height(together))
+    lines = []
+    for i, (name, path) in enumerate(paths.items()):
+        shown = path[[across, up]] * scale.factor
+        width = 1.4 - 0.5 * i
+        lines += axes.plot(*shown, label=name, color=COLOURS[i], linewidth=width)
+        axes.plot(*shown[:, 0], "o", markersize=4, color=COLOURS[i], zorder=3)
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(0.06)
-    for axis, name in zip((axes.xaxis, axes.yaxis), directions, strict=True):
-        axis.set_label_text(label(f"${name}$" if name.isalpha() else f"$x_{name}$", scale))
+    axes.set_xlabel(label(_symbol(plane.tangents[across]), scale))
+    axes.set_ylabel(label(_symbol(plane.tangents[up]), scale))
+    if across > up and not axes.xaxis_inverted():
+        axes.invert_xaxis()
     legend_above(axes)
     return lines
+
+
+def _climbs(plane: Plane) -> bool:
+    """Whether the first direction in the plane alone points up a slope."""
+    root = plane.axes.root
+    vertical = root[root.labels[2]]
+    first, second = (plane.axes[name].dot(vertical) for name in plane.tangents)
+    return bool(first) and not second
+
+
+def _height(points: Array) -> float:
+    """Height in inches of a figure of its usual width that shows points to equal scales."""
+    wide, high = (float(extent) for extent in np.ptp(points, axis=1))
+    return min(3.5, max(1.7, _MARGIN + (WIDTH - _MARGIN) * high / (wide or 1.0)))
+
+
+def _symbol(direction: str) -> str:
+    return f"${direction}$" if direction.isalpha() else f"$x_{direction}$"

@@ -6,12 +6,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from polhode.view._quantities import Array
+from polhode.view._style import INK
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.lines import Line2D
+
+Mask = NDArray[np.bool_]
 
 _BEHIND = 0.28  # opacity of what is hidden
 
@@ -60,15 +64,26 @@ def draw_on(
     return axes.plot(*front, **style)[0], axes.plot(*behind, **hidden)[0]
 
 
-def _grown(mask: Array) -> Array:
+def _grown(mask: Mask) -> Mask:
     """One sample longer at each end, so that front and back meet."""
-    grown: Array = mask | np.roll(mask, 1)
+    grown: Mask = mask | np.roll(mask, 1)
     grown[0] = mask[0]
     return grown
+
+
+def arrow(axes: Axes, view: View, along: Array, name: str) -> None:
+    """A labelled arrow out of a surface, from the first point of `along` to the second."""
+    foot, tip = view.project(along).T
+    style = {"arrowstyle": "-|>", "color": INK, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 0}
+    axes.annotate("", tip, foot, arrowprops=style)
+    beyond = tip + 0.07 * (tip - foot) / np.linalg.norm(tip - foot)
+    axes.annotate(name, beyond, color=INK, ha="center", va="center")
+    axes.update_datalim([tip, beyond])
 
 
 def bare(axes: Axes) -> None:
     """No frame, no ticks, equal scales."""
     axes.set_aspect("equal")
     axes.set_axis_off()
-    axes.margins(0.05)
+    axes.margins(0.04)
+    axes.autoscale_view()

@@ -11,24 +11,33 @@ from polhode.simulate import Trajectory
 from polhode.view._quantities import (
     Array,
     Quantity,
-    Scale,
     common_unit,
+    instants,
     label,
     largest,
     quantity,
     scale_for,
 )
-from polhode.view._style import axes_or_new, line_style
+from polhode.view._style import axes_or_new, house_style, line_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.lines import Line2D
 
+_SHARED = {
+    "rad": "angle",
+    "m": "position",
+    "m/s": "velocity",
+    "rad/s": "angular velocity",
+    "N": "force",
+    "N m": "torque",
+}
 _ROUNDING = 1e-11  # relative spread below which a quantity counts as constant
 _SLIGHT = 1e-3  # relative spread below which only the change is worth showing
 _DISPARATE = 25.0  # ratio of sizes that do not share an axis
 
 
+@house_style()
 def history(run: Trajectory, names: Sequence[str], *, ax: Axes | None = None) -> list[Line2D]:
     """Named quantities of one unit against time; angles in degrees, or turns where many.
 
@@ -40,24 +49,32 @@ def history(run: Trajectory, names: Sequence[str], *, ax: Axes | None = None) ->
     """
     axes = axes_or_new(ax)
     quantities = [quantity(run, name) for name in names]
-    values = [run.evaluate(name) for name in names]
+    t = instants(run)
+    values = [run.evaluate(name, t) for name in names]
     unit = common_unit(quantities)
-    symbols = ", ".join(q.symbol for q in quantities)
-    if len(values) == 1 and _hardly_changes(values[0]):
-        values = [values[0] - values[0][0]]
-        symbols = f"${symbols.strip('$')} - {symbols.strip('$')}(0)$"
+    shown = _SHARED.get(unit, ", ".join(q.symbol for q in quantities))
+    if len(values) == 1:
+        shown = quantities[0].symbol
+        if _hardly_changes(values[0]):
+            values = [values[0] - values[0][0]]
+            shown = f"${shown.strip('$')} - {shown.strip('$')}(0)$"
     scale = scale_for(unit, largest(*values))
     lines = [
-        axes.plot(run.t, value * scale.factor, label=q.symbol, **line_style(i))[0]
+        axes.plot(t, value * scale.factor, label=q.symbol, **line_style(i))[0]
         for i, (q, value) in enumerate(zip(quantities, values, strict=True))
     ]
-    _widen(axes, values, scale)
-    axes.set_xlim(0, run.duration)
-    axes.set_xlabel("$t$ (s)")
-    axes.set_ylabel(label(symbols, scale))
+    widen(axes, np.concatenate(values) * scale.factor)
+    time_axis(axes, t)
+    axes.set_ylabel(label(shown, scale))
     if len(lines) > 1:
         legend_above(axes)
     return lines
+
+
+def time_axis(axes: Axes, t: Array) -> None:
+    """Time from the first instant to the last."""
+    axes.set_xlim(t[0], t[-1])
+    axes.set_xlabel("$t$ (s)")
 
 
 def legend_above(axes: Axes) -> None:
@@ -70,7 +87,7 @@ def panels(run: Trajectory, names: Sequence[str]) -> list[list[str]]:
     """A group of names split into what can share an axis: one unit, sizes that compare."""
     found: list[list[tuple[Quantity, float, str]]] = []
     for name in names:
-        one, size = quantity(run, name), largest(run.evaluate(name))
+        one, size = quantity(run, name), largest(run.evaluate(name, instants(run)))
         home = next((group for group in found if _fits(one, size, group)), None)
         if home is None:
             found.append([(one, size, name)])
@@ -90,10 +107,9 @@ def _hardly_changes(values: Array) -> bool:
     return _ROUNDING * size < spread < _SLIGHT * size
 
 
-def _widen(axes: Axes, values: Sequence[Array], scale: Scale) -> None:
+def widen(axes: Axes, values: Array) -> None:
     """Limits about a constant that do not blow rounding up to the height of the panel."""
-    together = np.concatenate(values) * scale.factor
-    size = largest(together)
-    if float(np.ptp(together)) <= _ROUNDING * size or not size:
-        middle, room = float(np.mean(together)), 0.2 * size or 1.0
+    size = largest(values)
+    if float(np.ptp(values)) <= _ROUNDING * size or not size:
+        middle, room = float(np.mean(values)), 0.2 * size or 1.0
         axes.set_ylim(middle - room, middle + room)

@@ -10,9 +10,9 @@ from polhode.algebra import Vector
 from polhode.base import DeclarationError
 from polhode.model import About, Relative
 from polhode.simulate import Trajectory
-from polhode.view._globe import View, bare, draw_on
-from polhode.view._quantities import Array, equations_of
-from polhode.view._style import COLOURS, FAINT, INK, MUTED, axes_or_new
+from polhode.view._globe import View, arrow, bare, draw_on
+from polhode.view._quantities import Array, equations_of, instants
+from polhode.view._style import COLOURS, FAINT, MUTED, axes_or_new, house_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,6 +22,7 @@ _VIEW = View(azimuth=-60, elevation=28)
 _CIRCLE = np.linspace(0, 2 * np.pi, 361)
 
 
+@house_style()
 def nutation(
     run: Trajectory, *, axis: Vector | None = None, ax: Axes | None = None
 ) -> tuple[Line2D, Line2D]:
@@ -40,9 +41,10 @@ def nutation(
     axes = axes_or_new(ax, 3.8)
     root = equations_of(run).system.root
     direction = (axis or _spin_axis(run)).express(root)
-    points = np.array([run.evaluate(component) for component in direction.components])
-    _globe(axes)
-    for height in {float(np.min(points[2])), float(np.max(points[2]))}:
+    t = instants(run)
+    points = np.array([run.evaluate(component, t) for component in direction.components])
+    _globe(axes, root.labels[2])
+    for height in (float(np.min(points[2])), float(np.max(points[2]))):
         _draw(axes, _parallel(height), color=MUTED, linewidth=0.8, linestyle=(0, (4, 3)))
     trace = _draw(axes, points, color=COLOURS[0], linewidth=1.4)
     start = _VIEW.project(points[:, :1])
@@ -62,7 +64,7 @@ def _spin_axis(run: Trajectory) -> Vector:
     )
 
 
-def _globe(axes: Axes) -> None:
+def _globe(axes: Axes, vertical: str) -> None:
     for height in np.sin(np.radians([-60, -30, 0, 30, 60])):
         _draw(axes, _parallel(height), color=FAINT, linewidth=0.6)
     for turn in np.radians(np.arange(0, 180, 30)):
@@ -71,9 +73,7 @@ def _globe(axes: Axes) -> None:
         )
         _draw(axes, meridian, color=FAINT, linewidth=0.6)
     axes.plot(np.cos(_CIRCLE), np.sin(_CIRCLE), color=MUTED, linewidth=0.8)
-    tip = _VIEW.project(np.array([[0.0, 0.0], [0.0, 0.0], [1.0, 1.28]]))
-    axes.annotate("", tip[:, 1], tip[:, 0], arrowprops={"arrowstyle": "-|>", "color": INK, "lw": 0.9})
-    axes.annotate("$z$", tip[:, 1], xytext=(4, -3), textcoords="offset points", color=INK)
+    arrow(axes, _VIEW, np.array([[0.0, 0.0], [0.0, 0.0], [1.0, 1.25]]), f"${vertical}$")
 
 
 def _parallel(height: float) -> Array:

@@ -5,14 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polhode.simulate import Trajectory
-from polhode.view._quantities import largest, quantity, scale_for
-from polhode.view._style import COLOURS, axes_or_new
+from polhode.view._quantities import instants, largest, quantity, scale_for
+from polhode.view._style import COLOURS, axes_or_new, house_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.lines import Line2D
 
 
+@house_style()
 def phase_portrait(run: Trajectory, name: str, *, ax: Axes | None = None) -> Line2D:
     """The rate of a coordinate against the coordinate; a dot marks the start.
 
@@ -22,7 +23,7 @@ def phase_portrait(run: Trajectory, name: str, *, ax: Axes | None = None) -> Lin
     axes = axes_or_new(ax, 3.0)
     shown = []
     for place, one in zip("xy", (quantity(run, name), quantity(run, f"{name}_dot")), strict=True):
-        values = run.evaluate(one.name)
+        values = run.evaluate(one.name, instants(run))
         scale = scale_for(one.unit, largest(values))
         axes.set(**{f"{place}label": one.label(scale)})
         shown.append(values * scale.factor)

@@ -9,9 +9,9 @@ import numpy as np
 from polhode.base import DeclarationError
 from polhode.model import Body, Components
 from polhode.simulate import Trajectory
-from polhode.view._globe import View, bare, draw_on
-from polhode.view._quantities import Array, equations_of
-from polhode.view._style import COLOURS, FAINT, INK, MUTED, axes_or_new
+from polhode.view._globe import View, arrow, bare, draw_on
+from polhode.view._quantities import Array, equations_of, instants
+from polhode.view._style import COLOURS, FAINT, MUTED, axes_or_new, house_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,6 +22,7 @@ _ROUND = np.linspace(0, 2 * np.pi, 241)
 _FAMILY = 4  # polhodes drawn about each stable axis
 
 
+@house_style()
 def polhodes(run: Trajectory, *, ax: Axes | None = None) -> tuple[Line2D, Line2D]:
     """Polhodes of a free body on its inertia ellipsoid, I₁ω₁² + I₂ω₂² + I₃ω₃² = 2T.
 
@@ -35,7 +36,8 @@ def polhodes(run: Trajectory, *, ax: Axes | None = None) -> tuple[Line2D, Line2D
     axes = axes_or_new(ax, 3.8)
     body = _free_body(run)
     moments = _moments(run, body)
-    rates = np.array([run.evaluate(c) for c in body.angular_velocity.components])
+    t = instants(run)
+    rates = np.array([run.evaluate(c, t) for c in body.angular_velocity.components])
     unit = rates * np.sqrt(moments)[:, None]  # on a ball, 2T its radius squared
     unit = unit / np.sqrt(np.sum(unit**2, axis=0))
     stretch = np.sqrt(np.min(moments) / moments)[:, None]
@@ -76,7 +78,9 @@ def _family(moments: Array) -> list[Array]:
     least, middle, greatest = np.sort(moments)
     share = (np.arange(_FAMILY) + 0.5) / _FAMILY
     ratios = [*(least + (middle - least) * share**2), *(greatest + (middle - greatest) * share**2)]
-    return [sign * curve for ratio in ratios for curve in [_polhode(moments, ratio)] for sign in _SIGNS]
+    return [
+        sign * curve for ratio in ratios for curve in [_polhode(moments, ratio)] for sign in _SIGNS
+    ]
 
 
 _SIGNS = (-1, 1)
@@ -133,8 +137,6 @@ def _outline(axes: Axes, stretch: Array) -> None:
 
 def _principal_axes(axes: Axes, stretch: Array, labels: tuple[str, ...]) -> None:
     for i, name in enumerate(labels):
-        ends = np.zeros((3, 2))
-        ends[i] = stretch[i, 0], stretch[i, 0] + 0.22
-        root, tip = _VIEW.project(ends).T
-        axes.annotate("", tip, root, arrowprops={"arrowstyle": "-|>", "color": INK, "lw": 0.8})
-        axes.annotate(name, tip, xytext=(3, 3), textcoords="offset points", color=INK)
+        along = np.zeros((3, 2))
+        along[i] = stretch[i, 0], stretch[i, 0] + 0.22
+        arrow(axes, _VIEW, along, name)

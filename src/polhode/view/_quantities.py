@@ -35,6 +35,7 @@ _UNITS = {
 }
 _PREFIXES = ((1e-2, 1e-3, "m"), (1e-5, 1e-6, "µ"), (1e-8, 1e-9, "n"), (1e-11, 1e-12, "p"))
 _TURN = 2 * np.pi
+_FINE = 4001  # instants that a smooth curve is drawn through, at least
 
 
 @dataclass(frozen=True)
@@ -128,6 +129,14 @@ def scale_for(unit: str, largest: float) -> Scale:
         if largest >= least * 0.1:
             return Scale(prefix + unit, 1 / size)
     return Scale(unit, 1.0)
+
+
+def instants(run: Trajectory) -> Array:
+    """Times to draw curves through: the samples, or finer ones over the same stretch, s."""
+    if len(run.t) >= _FINE:
+        return run.t
+    fine: Array = np.linspace(run.t[0], run.t[-1], _FINE)
+    return fine
 
 
 def largest(*values: Array) -> float:

@@ -14,12 +14,13 @@ from polhode.view._quantities import (
     Quantity,
     common_unit,
     equations_of,
+    instants,
     largest,
     math,
     quantity,
     scale_for,
 )
-from polhode.view._style import COLOURS, MUTED, axes_or_new
+from polhode.view._style import COLOURS, MUTED, axes_or_new, house_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from matplotlib.lines import Line2D
 
 
+@house_style()
 def reactions(run: Trajectory, contact: str, *, ax: Axes | None = None) -> list[Line2D]:
     """Components of the force of one contact or joint on its body against time, N.
 
@@ -39,6 +41,7 @@ def reactions(run: Trajectory, contact: str, *, ax: Axes | None = None) -> list[
     return history(run, [r.name for r in restraints if not r.is_couple], ax=ax)
 
 
+@house_style()
 def reaction_ranges(run: Trajectory, *, ax: Axes | None = None) -> LineCollection:
     """Least to greatest value of every force component along the motion, N; a dot at the start.
 
@@ -67,8 +70,9 @@ def reaction_ranges(run: Trajectory, *, ax: Axes | None = None) -> LineCollectio
 
 def _forces(run: Trajectory) -> list[tuple[Quantity, Array]]:
     equations = equations_of(run)
+    t = instants(run)
     names = [line.name for line in equations.lines if not line.restraint.is_couple]
-    return [(_named(run, name), run.evaluate(equations.least[name])) for name in names]
+    return [(_named(run, name), run.evaluate(equations.least[name], t)) for name in names]
 
 
 def _named(run: Trajectory, name: str) -> Quantity:

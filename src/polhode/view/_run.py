@@ -16,6 +16,7 @@ _PANEL = 1.35  # height in inches
 _FOOT = 0.45
 
 
+@house_style()
 def figure_of_run(run: Trajectory, groups: Sequence[Sequence[str]]) -> Figure:
     """Named quantities against time, one panel for each group.
 
@@ -25,11 +26,10 @@ def figure_of_run(run: Trajectory, groups: Sequence[Sequence[str]]) -> Figure:
         DeclarationError: for a name the run does not have.
     """
     stacked = [panel for group in groups for panel in panels(run, group)]
-    with house_style():
-        figure = new_figure(_FOOT + _PANEL * len(stacked))
-        column = figure.subplots(len(stacked), 1, sharex=True, squeeze=False)[:, 0]
-        for axes, names in zip(column, stacked, strict=True):
-            history(run, names, ax=axes)
-            axes.label_outer()
-        figure.align_ylabels(column)
+    figure = new_figure(_FOOT + _PANEL * len(stacked))
+    column = figure.subplots(len(stacked), 1, sharex=True, squeeze=False)[:, 0]
+    for axes, names in zip(column, stacked, strict=True):
+        history(run, names, ax=axes)
+        axes.label_outer()
+    figure.align_ylabels(column)
     return figure

@@ -32,7 +32,7 @@ _DARK = {
     COLOURS[3]: "#db92c8",
 }
 
-_RULES: dict[str, Any] = {
+_RULES: Any = {
     "font.family": "STIXGeneral",
     "font.size": 10,
     "mathtext.fontset": "stix",
@@ -83,28 +83,28 @@ _RULES: dict[str, Any] = {
 
 @contextmanager
 def house_style() -> Iterator[None]:
-    """Everything drawn or saved within looks as figures of this house do."""
+    """Everything drawn or saved within looks as figures of this house do; also a decorator."""
     from matplotlib import rc_context
 
     with rc_context(_RULES):
         yield
 
 
+@house_style()
 def new_figure(height: float, width: float = WIDTH) -> Figure:
     """An empty figure of a size in inches."""
     from matplotlib.figure import Figure as New
 
-    with house_style():
-        return New(figsize=(width, height))
+    return New(figsize=(width, height))
 
 
+@house_style()
 def axes_or_new(ax: Axes | None, height: float = 2.6) -> Axes:
     """The axes given, or those of a new figure."""
     if ax is not None:
         return ax
-    with house_style():
-        axes: Axes = new_figure(height).subplots()
-        return axes
+    axes: Axes = new_figure(height).subplots()
+    return axes
 
 
 def line_style(number: int) -> dict[str, Any]:

@@ -1,0 +1,105 @@
+"""Fictitious forces in a turning frame: on one element of mass, and their torque on a body."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from polhode.algebra import Expr, Matrix, Vector
+from polhode.derive import Equations
+from polhode.model import Body, Frame
+
+
+@dataclass(frozen=True)
+class Fictitious:
+    """What the motion of a frame adds to Newton's laws.
+
+    On an element they are forces per unit mass (N/kg); on a body, torques about its centre of
+    mass (N m). All vanish for a frame at rest.
+
+    Attributes:
+        centrifugal: -Ω × (Ω × r).
+        coriolis: -2 Ω × v, with v relative to the frame.
+        euler: -Ω̇ × r, also called azimuthal.
+        coordinate: minus the acceleration of the frame's origin; no torque on a body whose
+            centre of mass is that origin.
+    """
+
+    centrifugal: Vector
+    coriolis: Vector
+    euler: Vector
+    coordinate: Vector
+
+    @property
+    def total(self) -> Vector:
+        """Their sum."""
+        return self.centrifugal + self.coriolis + self.euler + self.coordinate
+
+
+def fictitious_force(
+    equations: Equations, body: Body, frame: Frame, element: Vector, relative: Vector
+) -> Fictitious:
+    """Forces per unit mass on an element of a body, in a frame carried by its centre of mass.
+
+    Args:
+        equations: of the system.
+        body: the body the element belongs to.
+        frame: turning directions, with their origin at the centre of mass.
+        element: from the centre of mass to the element, m.
+        relative: velocity of the element relative to the frame, m/s.
+    """
+    turning, change = _turning(equations, frame)
+    acceleration = equations.kinetics.derivative(equations.kinetics.velocities[body][0])
+    place = element.express(frame)
+    return Fictitious(
+        -turning.cross(turning.cross(place)),
+        turning.cross(relative.express(frame)) * -2,
+        -change.cross(place),
+        -acceleration.express(frame),
+    )
+
+
+def fictitious_torque(equations: Equations, body: Body, frame: Frame) -> Fictitious:
+    """The same integrated over the body, about its centre of mass.
+
+    With J = ∫ r r dm: centrifugal -Ω × IΩ, Coriolis -2 JΩ × ω', Euler -I Ω̇, where ω' is the
+    rotation of the body relative to the frame.
+    """
+    turning, change = _turning(equations, frame)
+    axes = body.axes
+    spin = equations.kinetics.velocities[body][1] - turning
+    spread = _second_moments(body.inertia)
+    about = turning.express(axes)
+    centrifugal = -about.cross(_times(body.inertia, about, axes))
+    coriolis = _times(spread, about, axes).cross(spin.express(axes)) * -2
+    euler = -_times(body.inertia, change.express(axes), axes)
+    return Fictitious(centrifugal, coriolis, euler, axes.zero)
+
+
+def relative_momentum(equations: Equations, body: Body, frame: Frame) -> Vector:
+    """Angular momentum about the centre of mass relative to a turning frame, kg m²/s."""
+    turning, _ = _turning(equations, frame)
+    spin = equations.kinetics.velocities[body][1] - turning
+    return _times(body.inertia, spin.express(body.axes), body.axes)
+
+
+def relative_rate(equations: Equations, vector: Vector, frame: Frame) -> Vector:
+    """Rate of change of a vector as seen from a turning frame, along the motion."""
+    turning, _ = _turning(equations, frame)
+    return equations.kinetics.derivative(vector) - turning.cross(vector)
+
+
+def _turning(equations: Equations, frame: Frame) -> tuple[Vector, Vector]:
+    turning = equations.kinetics.resolve(frame.angular_velocity)
+    return turning, equations.kinetics.derivative(turning)
+
+
+def _second_moments(inertia: Matrix) -> Matrix:
+    trace = (inertia[0, 0] + inertia[1, 1] + inertia[2, 2]) / 2
+    size = range(3)
+    return Matrix.of(
+        [[(trace if i == j else Expr.of(0)) - inertia[i, j] for j in size] for i in size]
+    )
+
+
+def _times(matrix: Matrix, vector: Vector, axes: Frame) -> Vector:
+    return Vector(matrix.times(vector.express(axes).components), axes)
