@@ -10,9 +10,15 @@ from polhode.analyse._fictitious import fictitious_force as fictitious_force
 from polhode.analyse._fictitious import fictitious_torque as fictitious_torque
 from polhode.analyse._fictitious import relative_momentum as relative_momentum
 from polhode.analyse._fictitious import relative_rate as relative_rate
+from polhode.analyse._friction import ContactForces as ContactForces
+from polhode.analyse._friction import contact_forces as contact_forces
 from polhode.analyse._invariants import Invariant as Invariant
 from polhode.analyse._invariants import Invariants as Invariants
 from polhode.analyse._invariants import invariants as invariants
+from polhode.analyse._linear_integrals import LinearIntegrals as LinearIntegrals
+from polhode.analyse._linear_integrals import linear_integrals as linear_integrals
+from polhode.analyse._numbers import SteadyValues as SteadyValues
+from polhode.analyse._numbers import steady_values as steady_values
 from polhode.analyse._reduced import Reduced as Reduced
 from polhode.analyse._reduced import reduced as reduced
 from polhode.analyse._stability import PROVES as PROVES

@@ -4,7 +4,7 @@ from polhode.catalogue._ball_on_paper import BALL_ON_PAPER
 from polhode.catalogue._entry import Entry as Entry
 from polhode.catalogue._entry import Parameter as Parameter
 from polhode.catalogue._gyrocompass import GYROCOMPASS, MOTOR_DRIVEN
-from polhode.catalogue._gyroscope import GYROSCOPE, HELD, IN_VERTICAL_PLANE
+from polhode.catalogue._gyroscope import GYROSCOPE, HELD, IN_VERTICAL_PLANE, UPRIGHT
 from polhode.catalogue._marble_on_turntable import MARBLE_ON_TURNTABLE, TILTED
 from polhode.catalogue._rolling_disk import ROLLING_DISK
 from polhode.catalogue._spinning_coin import SPINNING_COIN
@@ -23,6 +23,7 @@ CATALOGUE: dict[str, Entry] = {
         TENNIS_RACQUET,
         BALL_ON_PAPER,
         GYROSCOPE,
+        UPRIGHT,
         HELD,
         IN_VERTICAL_PLANE,
     )

@@ -25,6 +25,17 @@ def _free() -> ph.System:
     return ph.System(*_top(), name="gyroscope")
 
 
+def _upright() -> ph.System:
+    """Two tilts about horizontal axes: no angles are singular when the axle is vertical."""
+    mass, a, first, second, g = ph.symbols("M a I_1 I_2 g", positive=True)
+    alpha, beta = ph.coordinates("alpha beta")
+    axes = ph.Frame("lab").rotated(alpha, "x").rotated(beta, "y", labels="2 3 1", name="axes")
+    moments = (second, second, first)
+    top = ph.Body("gyroscope", mass=mass, inertia=moments, axes=axes, spin_about="1")
+    pivot = ph.Pivot(top, at=axes["1"] * -a)
+    return ph.System(top, pivot, ph.Gravity(g), name="gyroscope/upright")
+
+
 def _held() -> ph.System:
     return _with_hand("rho phi z", "gyroscope/held")
 
@@ -55,6 +66,20 @@ GYROSCOPE = Entry(
     start={"theta": "60 deg", "omega_1": "150 rad/s"},
     duration="2 s",
     plots=(("theta",), ("phi_dot", "psi_dot"), _FORCES),
+)
+
+UPRIGHT = Entry(
+    name="gyroscope/upright",
+    title="Sleeping top",
+    about=(
+        "The same top described by two tilts α and β of its axle about horizontal axes, for "
+        "motions near the vertical, where θ and φ are singular. Axis 1 runs along the axle."
+    ),
+    build=_upright,
+    parameters=_PARAMETERS,
+    start={"alpha": "1 deg", "omega_1": "150 rad/s"},
+    duration="2 s",
+    plots=(("alpha", "beta"), ("F_x", "F_y", "F_z")),
 )
 
 HELD = Entry(

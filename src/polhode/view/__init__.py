@@ -4,6 +4,7 @@ from polhode.view._energy import energies as energies
 from polhode.view._energy import energy_drift as energy_drift
 from polhode.view._floor import floor_path as floor_path
 from polhode.view._floor import support_trace as support_trace
+from polhode.view._friction import friction_needed as friction_needed
 from polhode.view._history import history as history
 from polhode.view._nutation import nutation as nutation
 from polhode.view._phase import phase_portrait as phase_portrait

@@ -28,7 +28,7 @@ def energies(run: Trajectory, *, ax: Axes | None = None) -> list[Line2D]:
     Kinetic energy is that in inertial space. Potential energy and work are drawn where there
     are any.
     """
-    axes = axes_or_new(ax)
+    axes = axes_or_new(ax, 2.0)
     t = instants(run)
     changes = _changes(run, t)
     scale = scale_for("J", largest(*changes.values()))
@@ -50,7 +50,7 @@ def energy_drift(run: Trajectory, *, ax: Axes | None = None) -> FillBetweenPolyC
     Largest |E - E₀ - W| of short intervals over the largest |T| + |V| + |W| of the motion, on a
     logarithmic scale; the dashed line is the rounding of one number.
     """
-    axes = axes_or_new(ax)
+    axes = axes_or_new(ax, 2.0)
     t = instants(run)
     departure = _departure(run, t)
     parts = [np.max(part) for part in np.array_split(departure, _INTERVALS)]

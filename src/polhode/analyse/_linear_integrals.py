@@ -1,0 +1,124 @@
+"""Integrals that are no elementary functions: speeds that obey a linear equation in an angle.
+
+For a disk or any solid of revolution that rolls on a plane, the rates of steering and spinning
+change only as the tilt does: du/dt = (dθ/dt) A(θ) u, so that u as a function of θ alone solves
+du/dθ = A(θ) u (Chaplygin 1897; Legendre or hypergeometric functions). Its constants of
+integration are first integrals.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from polhode.algebra import Compiled, Expr, Matrix, Symbol, compile_program, linear_parts, variables
+from polhode.analyse._reduced import reduced
+from polhode.base import NumericError
+from polhode.derive import Equations
+
+
+@dataclass(frozen=True)
+class LinearIntegrals:
+    """Speeds u with du/dθ = A(θ) u along every motion.
+
+    Attributes:
+        angle: θ.
+        speeds: u, as many as there are integrals.
+        matrix: A, in terms of θ and parameters.
+    """
+
+    angle: Symbol
+    speeds: tuple[Symbol, ...]
+    matrix: Matrix
+
+    @cached_property
+    def _parameters(self) -> tuple[Symbol, ...]:
+        used = variables(e for row in self.matrix.rows for e in row) - {self.angle}
+        return tuple(sorted(used, key=lambda s: s.published))
+
+    @cached_property
+    def _entries(self) -> Compiled:
+        entries = [entry for row in self.matrix.rows for entry in row]
+        return compile_program(entries, (self.angle, *self._parameters)).function()
+
+    def values(self, parameters: Mapping[str, float], state: Mapping[str, Any], at: float) -> Any:
+        """The integrals: what the speeds are when the angle passes `at`, rad/s.
+
+        Args:
+            parameters: by published name, SI.
+            state: the angle and the speeds by published name, one value each.
+            at: the angle to refer them to, rad, with no singular angle in between.
+        """
+        import numpy as np
+        from scipy.integrate import solve_ivp
+
+        constants = [parameters[s.published] for s in self._parameters]
+        size = len(self.speeds)
+
+        def slope(angle: float, speeds: Any) -> Any:
+            entries = np.reshape(self._entries(angle, *constants), (size, size))
+            return entries @ speeds
+
+        start = np.array([state[s.published] for s in self.speeds], dtype=float)
+        here = float(state[self.angle.published])
+        if here == at:
+            return start
+        done = solve_ivp(slope, (here, at), start, method="DOP853", rtol=1e-13, atol=1e-14)
+        if not done.success:
+            raise NumericError(
+                f"the integrals between {self.angle.published} = {here} and {at}",
+                expected="angles with no singular one between them",
+                advice="refer them to an angle that the motion passes",
+            )
+        return done.y[:, -1]
+
+    def latex(self) -> str:
+        """The differential equation."""
+        angle = Expr.generator(self.angle).latex()
+        column = r" \\ ".join(Expr.generator(s).latex() for s in self.speeds)
+        vector = rf"\begin{{bmatrix}} {column} \end{{bmatrix}}"
+        return rf"\frac{{d}}{{d {angle}}} {vector} = {self.matrix.latex()} {vector}"
+
+
+def linear_integrals(equations: Equations) -> LinearIntegrals | None:
+    """Speeds that obey a linear equation in an essential angle; None where there are none."""
+    system = reduced(equations)
+    for angle in system.essential:
+        rate = angle.derivative()
+        if rate in system.speeds:
+            found = _closed(equations, angle, rate)
+            if found is not None:
+                return found
+    return None
+
+
+def _closed(equations: Equations, angle: Symbol, rate: Symbol) -> LinearIntegrals | None:
+    """The largest set of speeds whose slopes are linear in the set itself."""
+    slopes = {
+        speed: equations.accelerations[speed.derivative()] / Expr.generator(rate)
+        for speed in equations.speeds
+        if speed != rate
+    }
+    kept = tuple(slopes)
+    while kept:
+        rows = {s: _row(slopes[s], kept, angle) for s in kept}
+        good = tuple(s for s, row in rows.items() if row is not None)
+        if good == kept:
+            break
+        kept = good
+    moving = [s for s in kept if slopes[s]]
+    if not moving:
+        return None
+    matrix = Matrix(tuple(row for s in kept if (row := rows[s]) is not None))
+    return LinearIntegrals(angle, kept, matrix)
+
+
+def _row(slope: Expr, speeds: tuple[Symbol, ...], angle: Symbol) -> tuple[Expr, ...] | None:
+    try:
+        row, rest = linear_parts(slope, speeds)
+    except NumericError:
+        return None
+    varying = {s for entry in row for s in entry.symbols() if s.kind.varies}
+    return None if rest or varying - {angle} else row
