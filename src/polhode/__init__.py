@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from polhode.algebra import cos as cos
     from polhode.algebra import cosh as cosh
     from polhode.algebra import exp as exp
+    from polhode.algebra import from_sympy as from_sympy
     from polhode.algebra import functions as functions
     from polhode.algebra import integrate as integrate
     from polhode.algebra import is_positive as is_positive
@@ -39,16 +40,25 @@ if TYPE_CHECKING:
     from polhode.algebra import tanh as tanh
     from polhode.algebra import taylor as taylor
     from polhode.algebra import time as time
+    from polhode.algebra import to_sympy as to_sympy
     from polhode.analyse import Ansatz as Ansatz
     from polhode.analyse import Condition as Condition
     from polhode.analyse import Invariant as Invariant
     from polhode.analyse import Invariants as Invariants
+    from polhode.analyse import LinearIntegrals as LinearIntegrals
     from polhode.analyse import Stability as Stability
     from polhode.analyse import SteadyMotion as SteadyMotion
+    from polhode.analyse import SteadyValues as SteadyValues
     from polhode.analyse import Truth as Truth
+    from polhode.analyse import contact_forces as contact_forces
+    from polhode.analyse import expand as expand
+    from polhode.analyse import fictitious_force as fictitious_force
+    from polhode.analyse import fictitious_torque as fictitious_torque
     from polhode.analyse import invariants as invariants
+    from polhode.analyse import linear_integrals as linear_integrals
     from polhode.analyse import stability as stability
     from polhode.analyse import steady as steady
+    from polhode.analyse import steady_values as steady_values
     from polhode.base import ConstraintError as ConstraintError
     from polhode.base import DeclarationError as DeclarationError
     from polhode.base import NumericError as NumericError
@@ -108,6 +118,14 @@ _ROOMS = {
         "simulate",
     ),
     "analyse": (
+        "steady_values",
+        "linear_integrals",
+        "fictitious_torque",
+        "fictitious_force",
+        "expand",
+        "contact_forces",
+        "SteadyValues",
+        "LinearIntegrals",
         "Ansatz",
         "Condition",
         "Invariant",
@@ -120,6 +138,8 @@ _ROOMS = {
         "steady",
     ),
     "algebra": (
+        "to_sympy",
+        "from_sympy",
         "is_positive",
         "compile_program",
         "Expr",

@@ -102,6 +102,7 @@ def steady(
     """
     system = reduced(equations)
     given = {as_symbol(symbol): Expr.of(value) for symbol, value in (at or {}).items()}
+    _refuse_strangers(equations, given)
     rows = [row.subs(given) for row in (*system.rates, *equations.forcing)]
     found = [
         SteadyMotion(system, {**given, **fixed}, relations)
@@ -115,6 +116,18 @@ def steady(
             advice="give other values, or none",
         )
     return families
+
+
+def _refuse_strangers(equations: Equations, given: Values) -> None:
+    known = {*equations.coordinates, *equations.speeds, *equations.parameters}
+    rates = {q.derivative() for q in equations.coordinates}
+    strangers = [s.published for s in given if s not in known | rates]
+    if strangers:
+        raise NumericError(
+            f"a value for {', '.join(strangers)}, which {equations.system.name} does not have",
+            expected="values of its coordinates, speeds and parameters",
+            advice=", ".join(sorted(s.published for s in known)),
+        )
 
 
 def _families(

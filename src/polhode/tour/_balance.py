@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from polhode.algebra import Vector
 from polhode.derive import Equations
-from polhode.model import Body
+from polhode.model import Body, Frame
 from polhode.simulate import Trajectory
 
 Array = NDArray[np.float64]
@@ -40,7 +40,7 @@ class Account:
 def momentum(run: Trajectory, equations: Equations) -> Account:
     """Momentum of every body against the impulse of loads and reactions, kg m/s."""
     return _worst(
-        _account(run, velocity * body.mass, _force(equations, body))
+        _account(run, body.axes.root, velocity * body.mass, _force(equations, body))
         for body, (velocity, _) in equations.kinetics.velocities.items()
     )
 
@@ -48,7 +48,7 @@ def momentum(run: Trajectory, equations: Equations) -> Account:
 def spin(run: Trajectory, equations: Equations) -> Account:
     """Angular momentum about every centre of mass against that of the torques, kg m²/s."""
     return _worst(
-        _account(run, _angular_momentum(body, angular), _torque(equations, body))
+        _account(run, body.axes.root, _angular_momentum(body, angular), _torque(equations, body))
         for body, (_, angular) in equations.kinetics.velocities.items()
     )
 
@@ -59,7 +59,8 @@ def travel(run: Trajectory, equations: Equations) -> Account:
     """
     motion = equations.kinetics
     return _worst(
-        _account(run, place, motion.velocities[body][0]) for body, place in motion.places.items()
+        _account(run, body.axes.root, place, motion.velocities[body][0])
+        for body, place in motion.places.items()
     )
 
 
@@ -67,9 +68,8 @@ def _worst(accounts: Iterable[Account]) -> Account:
     return max(accounts, key=lambda account: account.relative)
 
 
-def _account(run: Trajectory, gained: Vector, rate: Vector) -> Account:
+def _account(run: Trajectory, root: Frame, gained: Vector, rate: Vector) -> Account:
     """Both along the root frame, which turns if it is the Earth."""
-    root = rate.triad.root
     carried = root.angular_velocity
     held = gained.express(root)
     flow = (rate.express(root) - carried.cross(held)).components

@@ -6,7 +6,7 @@ the Lagrangian, or Gibbs' energy of acceleration.
 
 from __future__ import annotations
 
-from polhode.algebra import ZERO, Expr, Symbol, solve
+from polhode.algebra import ZERO, Expr, Symbol, Vector, solve
 from polhode.derive import Equations
 from polhode.model import Body
 
@@ -59,12 +59,16 @@ def _gibbs(equations: Equations, body: Body) -> Expr:
     motion = equations.kinetics
     velocity, angular = motion.velocities[body]
     linear, turning = motion.derivative(velocity), motion.derivative(angular)
-    swirl = angular.cross(angular.triad.vector(*body.inertia.times(angular.components)))
+    spin = _inertia_times(body, angular)
     return (
         body.mass * linear.dot(linear) / 2
-        + turning.dot(turning.triad.vector(*body.inertia.times(turning.components))) / 2
-        + turning.dot(swirl)
+        + turning.dot(_inertia_times(body, turning)) / 2
+        + turning.dot(angular.cross(spin))
     )
+
+
+def _inertia_times(body: Body, vector: Vector) -> Vector:
+    return body.axes.vector(*body.inertia.times(vector.express(body.axes).components))
 
 
 def _moving(equations: Equations) -> dict[Symbol, Expr]:
@@ -80,7 +84,7 @@ def _moving(equations: Equations) -> dict[Symbol, Expr]:
 def _speeds_in_rates(equations: Equations, rates: dict[Symbol, Expr]) -> dict[Symbol, Expr]:
     speeds = equations.speeds
     matrix = [[rate.diff(speed) for speed in speeds] for rate in rates.values()]
-    still = {speed: 0 for speed in speeds}
+    still = dict.fromkeys(speeds, 0)
     right = [Expr.generator(symbol) - rate.subs(still) for symbol, rate in rates.items()]
     return dict(zip(speeds, solve(matrix, right), strict=True))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _SAMPLES = 4001
+_SHOWN = {"rolling-disk": 1.0}  # seconds of a run whose swings would not be told apart
 
 
 @dataclass(frozen=True)
@@ -55,55 +56,119 @@ def _histories(entry: Entry) -> Picture:
     seconds = _SHOWN.get(entry.name)
     if seconds is None:
         return Picture("run", "The run.", lambda run: figure_of_run(run, entry.plots))
-    return Picture(
-        "run",
-        f"The first {seconds:g} s of the run.",
-        lambda run: figure_of_run(_first(run, seconds), entry.plots),
-    )
-
-
-def _first(run: Trajectory, seconds: float) -> Trajectory:
-    return replace(run, t=np.linspace(0.0, seconds, _SAMPLES))
+    caption = f"The first {seconds:g} s of the run."
+    times = np.linspace(0.0, seconds, _SAMPLES)
+    return Picture("run", caption, lambda run: figure_of_run(replace(run, t=times), entry.plots))
 
 
 @house_style()
 def _energy_account(run: Trajectory) -> Figure:
-    figure = new_figure(3.6)
-    upper, lower = figure.subplots(2, 1)
+    figure = new_figure(3.4)
+    upper, lower = figure.subplots(2, 1, sharex=True)
     energies(run, ax=upper)
     energy_drift(run, ax=lower)
+    upper.label_outer()
     figure.align_ylabels([upper, lower])
     return figure
 
 
-def _path(run: Trajectory) -> Figure:
-    return _whole(floor_path(run)[0].get_figure())
+def _one(draw: Callable[..., object], height: float, *what: str) -> Callable[[Trajectory], Figure]:
+    """A figure of one panel, its height in inches."""
+
+    @house_style()
+    def figure_of(run: Trajectory) -> Figure:
+        figure = new_figure(height)
+        draw(run, *what, ax=figure.subplots())
+        return figure
+
+    return figure_of
 
 
-def _trace(run: Trajectory) -> Figure:
-    return _whole(support_trace(run)[0].get_figure())
+_ENERGY = Picture(
+    "energy",
+    "Above: where the energy goes. Below: how far the computed energy strays from what the work "
+    "done accounts for; the dashed line is the rounding of a single number.",
+    _energy_account,
+)
+_FRICTION = Picture(
+    "friction",
+    "The coefficient of friction that rolling without slipping takes.",
+    _one(friction_needed, 1.9),
+)
+_PHASE: dict[str, Any] = {"name": "phase", "draw": _one(phase_portrait, 3.0, "theta")}
 
-
-def _friction(run: Trajectory) -> Figure:
-    return _whole(friction_needed(run).get_figure())
-
-
-def _phase(run: Trajectory) -> Figure:
-    return _whole(phase_portrait(run, "theta").get_figure())
-
-
-def _sphere(run: Trajectory) -> Figure:
-    return _whole(nutation(run)[0].get_figure())
-
-
-def _ellipsoid(run: Trajectory) -> Figure:
-    return _whole(polhodes(run)[0].get_figure())
-
-
-def _ranges(run: Trajectory) -> Figure:
-    return _whole(reaction_ranges(run).get_figure())
-
-
-def _whole(figure: Figure | None) -> Figure:
-    assert figure is not None
-    return figure
+_SPECIAL: dict[str, tuple[Picture, ...]] = {
+    "spinning-coin": (
+        Picture(
+            "path",
+            "From above: without friction the centre stays where it is, and the point of contact "
+            "runs about under it.",
+            _one(floor_path, 3.5),
+        ),
+        Picture(**_PHASE, caption="The tilt swings for ever between the same two limits."),
+    ),
+    "rolling-disk": (
+        Picture(
+            "path",
+            "From above: spinning fast and leaning a little, the disk rolls round a circle.",
+            _one(floor_path, 3.5),
+        ),
+        Picture(**_PHASE, caption="The lean nods about that of steady rolling."),
+        _FRICTION,
+    ),
+    "marble-on-turntable": (
+        Picture("path", "Seen from the laboratory: a circle.", _one(floor_path, 3.5)),
+        Picture(
+            "trace", "The same seen by one who turns with the table.", _one(support_trace, 3.5)
+        ),
+        _FRICTION,
+    ),
+    "marble-on-turntable/tilted": (
+        Picture(
+            "path",
+            "Seen from above, up the slope being up: the circle drifts sideways, not down.",
+            _one(floor_path, 1.9),
+        ),
+        Picture("trace", "The trace left on the turning table.", _one(support_trace, 3.5)),
+        _FRICTION,
+    ),
+    "gyrocompass": (Picture(**_PHASE, caption="The axle swings about the north like a pendulum."),),
+    "gyrocompass/motor": (Picture(**_PHASE, caption="The swing about the north."),),
+    "tennis-racquet": (
+        Picture(
+            "polhodes",
+            "The angular velocity on the inertia ellipsoid. The run's own polhode (bold) hugs the "
+            "separatrix (dashed), which passes through the middle axis: hence the flips.",
+            _one(polhodes, 3.5),
+        ),
+    ),
+    "ball-on-paper": (
+        Picture("path", "The ball's path over the table.", _one(floor_path, 1.7)),
+        Picture("trace", "The trace it leaves on the moving paper.", _one(support_trace, 1.7)),
+        _FRICTION,
+    ),
+    "gyroscope": (
+        Picture(
+            "sphere",
+            "Where the axle points: released from rest, it falls, swerves and comes to rest again "
+            "in cusps, between the two dashed circles.",
+            _one(nutation, 3.8),
+        ),
+        Picture(**_PHASE, caption="One nod of the axle."),
+        Picture("reactions", "The range of the pivot's force.", _one(reaction_ranges, 1.7)),
+    ),
+    "gyroscope/held": (
+        Picture(
+            "reactions",
+            "Forces of pivot and hand. Rings mark what Newton's laws leave open; shown is the "
+            "choice with the smallest sum of squares.",
+            _one(reaction_ranges, 2.6),
+        ),
+    ),
+    "gyroscope/vertical-plane": (
+        Picture(**_PHASE, caption="The fall through the lowest point and up the other side."),
+        Picture(
+            "reactions", "The range of the forces of pivot and guide.", _one(reaction_ranges, 2.0)
+        ),
+    ),
+}

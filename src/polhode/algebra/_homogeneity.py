@@ -1,0 +1,59 @@
+"""The dimension of an expression whose symbols have known ones."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+
+from polhode.algebra._expression import Expr
+from polhode.algebra._functions import pi
+from polhode.algebra._generators import Generator, Symbol
+from polhode.base import PURE, TIME, Dimension, UnitError
+
+
+def dimension_of(expression: Expr, known: Mapping[Symbol, Dimension]) -> Dimension | None:
+    """The dimension that all terms of an expression have; None for a bare number.
+
+    A bare number that is added to other terms is SI of whatever they are.
+
+    Args:
+        expression: what is asked about.
+        known: dimension of every symbol that has one; rates follow from what they are rates of.
+
+    Raises:
+        UnitError: where terms of different dimensions are added.
+    """
+    if expression.symbols() <= pi.symbols():
+        return None
+    above, below = (_of_sum(part, known) for part in (expression.numerator, expression.denominator))
+    return above / below
+
+
+def _of_sum(polynomial: Expr, known: Mapping[Symbol, Dimension]) -> Dimension:
+    products = (powers for powers, _ in polynomial.terms())
+    found = dict.fromkeys(_of_product(powers, known) for powers in products if not _bare(powers))
+    if len(found) > 1:
+        raise UnitError(
+            f"{polynomial} adds quantities in {' and '.join(map(str, found))}",
+            expected="terms of one dimension",
+        )
+    return next(iter(found), PURE)
+
+
+def _bare(powers: Mapping[Generator, int]) -> bool:
+    return all(g.symbols() <= pi.symbols() for g in powers)
+
+
+def _of_product(powers: Mapping[Generator, int], known: Mapping[Symbol, Dimension]) -> Dimension:
+    total = PURE
+    for generator, power in powers.items():
+        total = total * _of_factor(generator, known) ** power
+    return total
+
+
+def _of_factor(generator: Generator, known: Mapping[Symbol, Dimension]) -> Dimension:
+    if isinstance(generator, Symbol):
+        return known.get(generator.base(), PURE) / TIME**generator.order
+    if generator.depth and generator.partner() is None:  # a root
+        return (dimension_of(generator.arguments[0], known) or PURE) ** Fraction(1, 2)
+    return PURE

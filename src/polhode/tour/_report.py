@@ -1,0 +1,101 @@
+"""What the tour prints."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from polhode.tour._work import Worked
+
+
+@dataclass(frozen=True)
+class Row:
+    """One system in the closing table.
+
+    Attributes:
+        system: name in the catalogue.
+        equations: number of equations of motion.
+        reactions: number of reaction components.
+        passed: checks that hold.
+        checks: checks made.
+        energy_drift: largest along the run, relative to the energy.
+        constraint_drift: largest along the run, m.
+        seconds: spent on deriving, checking, running and drawing.
+    """
+
+    system: str
+    equations: int
+    reactions: int
+    passed: int
+    checks: int
+    energy_drift: float
+    constraint_drift: float
+    seconds: float
+
+    @property
+    def cells(self) -> tuple[str, ...]:
+        """As printed."""
+        return (
+            self.system,
+            str(self.equations),
+            str(self.reactions),
+            f"{self.passed} of {self.checks}",
+            f"{self.energy_drift:.1e}",
+            f"{self.constraint_drift:.1e}",
+            f"{self.seconds:.1f}",
+        )
+
+
+HEADER = ("system", "equations", "reactions", "checks", "energy drift", "constraint drift/m", "s")
+
+
+@dataclass(frozen=True)
+class TourReport:
+    """The tour at its end.
+
+    Attributes:
+        page: the page written.
+        rows: one for each system.
+    """
+
+    page: Path
+    rows: tuple[Row, ...]
+
+    @property
+    def all_hold(self) -> bool:
+        """Whether every check of every system holds."""
+        return all(row.passed == row.checks for row in self.rows)
+
+    def table(self) -> str:
+        """The rows under their header, aligned."""
+        lines = [HEADER, *(row.cells for row in self.rows)]
+        widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+        return "\n".join(_aligned(cells, widths) for cells in lines)
+
+
+def row_of(worked: Worked) -> Row:
+    """The row of a system."""
+    return Row(
+        system=worked.entry.name,
+        equations=len(worked.equations.motion),
+        reactions=len(worked.equations.components),
+        passed=worked.passed,
+        checks=len(worked.checks),
+        energy_drift=worked.run.drift.energy,
+        constraint_drift=worked.constraint_drift,
+        seconds=worked.seconds,
+    )
+
+
+def text_of(worked: Worked) -> str:
+    """A system as the terminal shows it: equations, reactions, checks."""
+    entry = worked.entry
+    marks = {True: "✓", False: "✗"}
+    checks = (f"  {marks[check.passed]} {check.name}: {check.found}" for check in worked.checks)
+    title = f"{entry.title} ({entry.name})"
+    return "\n".join([title, "─" * len(title), str(worked.equations), "Checks", *checks, ""])
+
+
+def _aligned(cells: tuple[str, ...], widths: list[int]) -> str:
+    first, *others = (f"{cell:>{width}}" for cell, width in zip(cells, widths, strict=True))
+    return "  ".join([f"{first.strip():<{widths[0]}}", *others])

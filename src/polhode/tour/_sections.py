@@ -1,0 +1,202 @@
+"""The parts of the page that tell of one system."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from polhode.algebra import Expr, Symbol, symbol
+from polhode.tour._declaration import source_of
+from polhode.tour._formulas import equation, inline, listed
+from polhode.tour._html import Markup, joined, table, tag
+from polhode.tour._work import Drawing, Worked
+
+_IDEALS = {
+    "Rolling": "rolls without slipping; the support gives whatever friction that takes.",
+    "Smooth": "touches without friction; the support pushes only along its normal.",
+    "Coulomb": "slides with Coulomb's friction.",
+    "Pivot": "is held at a point, which turns freely.",
+    "Hold": "is kept at rest at a point, which turns freely.",
+    "Guide": "keeps its axis in a plane; the guide turns no other way.",
+    "Motor": "is kept at a constant rate by a motor.",
+}
+ZERO = Expr.constant(0)
+
+
+def section(worked: Worked, figures: Markup) -> Markup:
+    """All of one system."""
+    entry = worked.entry
+    return tag(
+        "section",
+        tag("h2", entry.title),
+        tag("p", tag("code", f"polhode run {entry.name}", class_="command")),
+        tag("p", entry.about),
+        tag("h3", "Declaration"),
+        tag("pre", tag("code", source_of(entry.build)), tabindex="0"),
+        *_assumptions(worked),
+        *_kinematics(worked),
+        tag("h3", "Equations of motion"),
+        *(equation(row, ZERO) for row in worked.equations.motion),
+        *_reactions(worked),
+        *_energy(worked),
+        tag("h3", "The default run"),
+        _numbers(worked),
+        figures,
+        tag("h3", "Checks"),
+        _checks(worked),
+        id=anchor(worked),
+    )
+
+
+def anchor(worked: Worked) -> str:
+    """The fragment of the page's address where the system stands."""
+    return worked.entry.name.replace("/", "-")
+
+
+def picture(worked: Worked, drawing: Drawing, folder: str) -> Markup:
+    """A figure with its caption; a page in the dark shows its dark twin."""
+    width, height = _size(drawing.svg)
+    image = tag(
+        "img",
+        src=f"{folder}/{drawing.name}.svg",
+        alt=f"{worked.entry.title}: {drawing.caption}",
+        width=width,
+        height=height,
+        loading="lazy",
+    )
+    dark = tag(
+        "source",
+        media="(prefers-color-scheme: dark)",
+        srcset=f"{folder}/{drawing.name}-dark.svg",
+    )
+    return tag("figure", tag("picture", dark, image), tag("figcaption", drawing.caption))
+
+
+def _size(svg: str) -> tuple[str, str]:
+    """Width and height in the units of the drawing."""
+    box = svg.partition('viewBox="')[2].partition('"')[0].split()
+    return f"{float(box[2]):.0f}", f"{float(box[3]):.0f}"
+
+
+def _assumptions(worked: Worked) -> Iterator[Markup]:
+    system, equations = worked.equations.system, worked.equations
+    told: list[Markup] = [
+        tag("li", f"{element.bodies[0].name.capitalize()}, {element.name}: {ideal}")
+        for element in system.elements
+        for ideal in [_IDEALS[type(element).__name__]]
+    ]
+    told += [
+        tag("li", inline(positive), " is taken to be positive.")
+        for positive in equations.assumed_positive
+    ]
+    yield tag("h3", "Assumptions")
+    yield tag("ul", tag("li", "All bodies are rigid."), *told)
+
+
+def _kinematics(worked: Worked) -> Iterator[Markup]:
+    equations = worked.equations
+    yield tag("h3", "Coordinates and speeds")
+    yield tag(
+        "p",
+        "Coordinates ",
+        listed(equations.coordinates),
+        "; independent speeds ",
+        listed(equations.speeds),
+        ".",
+    )
+    told = {s: e for s, e in equations.kinematics.items() if s not in equations.speeds}
+    told |= equations.dependent
+    yield from (equation(Expr.generator(s), e) for s, e in told.items())
+
+
+def _reactions(worked: Worked) -> Iterator[Markup]:
+    equations = worked.equations
+    components = equations.components
+    yield tag("h3", "Reactions")
+    for element, restraints in equations.kinetics.restraints.items():
+        yield tag("p", f"Of the {element} on the {restraints[0].body.name}:")
+        yield from _assigned({r.name: components[r.name] for r in restraints})
+    if equations.undetermined:
+        names = equations.undetermined
+        yield tag(
+            "p",
+            "Newton’s laws leave open ",
+            listed(map(Symbol, names)),
+            ". The choice with the smallest sum of squares is",
+        )
+        yield from _assigned({name: equations.least[name] for name in names})
+
+
+def _assigned(values: dict[str, Expr]) -> Iterator[Markup]:
+    return (equation(Expr.generator(Symbol(name)), value) for name, value in values.items())
+
+
+def _energy(worked: Worked) -> Iterator[Markup]:
+    equations = worked.equations
+    yield tag("h3", "Energy")
+    yield equation(symbol("T"), equations.kinetic_energy)
+    if equations.potential_energy:
+        yield equation(symbol("V"), equations.potential_energy)
+    if equations.power:
+        yield tag("p", "Supports or motors do work at the rate")
+        yield equation(symbol("P"), equations.power)
+    else:
+        yield tag("p", "Nothing does work but what the potential accounts for.")
+
+
+def _numbers(worked: Worked) -> Markup:
+    entry, run = worked.entry, worked.run
+    known = run.quantities
+    rows: list[tuple[str, ...]] = []
+    for parameter in entry.parameters:
+        name = parameter.name
+        value = parameter.default
+        if any(sign in value for sign in "*/") and name in run.parameters and parameter.unit:
+            value = f"{run.parameters[name]:.4g} {parameter.unit}"
+        rows.append((inline(known.get(name, symbol(name))), parameter.meaning, _unit(value)))
+    rows += [
+        (inline(known[name]), "at the start", _unit(value)) for name, value in entry.start.items()
+    ]
+    rows += [
+        (inline(Expr.generator(s)), "prescribed", inline(motion))
+        for s, motion in run.dynamics.prescribed.items()
+    ]
+    rows.append((inline(symbol("t")), "duration", entry.duration))
+    resting = [known[name] for name in run.assumed]
+    also = (tag("p", "All else starts at zero."),) if resting else ()
+    return joined([table(("", "", "value"), rows, class_="numbers"), *also])
+
+
+def _unit(text: str) -> str:
+    return text.replace("^2", "²").replace("^3", "³")
+
+
+def _checks(worked: Worked) -> Markup:
+    rows = ((check.name, check.how, _verdict(check.passed), check.found) for check in worked.checks)
+    return table(("check", "what is compared", "", "found"), rows)
+
+
+def _verdict(passed: bool) -> Markup:
+    return tag("span", "holds", class_="good") if passed else tag("span", "fails", class_="bad")
+
+
+def summary(all_worked: Iterable[Worked]) -> Markup:
+    """A row for every system, linked to where it stands."""
+    rows = (
+        (
+            tag("a", worked.entry.title, href=f"#{anchor(worked)}"),
+            str(len(worked.equations.motion)),
+            str(len(worked.equations.components)),
+            _passed(worked),
+            f"{worked.run.drift.energy:.1e}",
+            f"{worked.constraint_drift:.1e} m",
+        )
+        for worked in all_worked
+    )
+    header = ("system", "equations", "reactions", "checks", "energy drift", "constraint drift")
+    return table(header, rows, class_="numbers")
+
+
+def _passed(worked: Worked) -> Markup:
+    all_hold = worked.passed == len(worked.checks)
+    kind = "good" if all_hold else "bad"
+    return tag("span", f"{worked.passed} of {len(worked.checks)}", class_=kind)

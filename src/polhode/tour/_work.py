@@ -1,0 +1,141 @@
+"""Working through one system: derive, check, simulate, draw."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import polhode as ph
+from polhode.catalogue import Entry, default_numbers
+from polhode.derive import Equations
+from polhode.simulate import Trajectory, simulate
+from polhode.tour import _balance as balance
+from polhode.tour._checks import Check, decided, measured
+from polhode.tour._formulations import appell, is_conservative, is_holonomic, lagrange
+from polhode.tour._pictures import pictures_of
+from polhode.view import origin_of, svg_of
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A picture as text of an SVG file.
+
+    Attributes:
+        name: of the file, without ending.
+        caption: what it shows.
+        svg: the picture, for a light page.
+    """
+
+    name: str
+    caption: str
+    svg: str
+
+
+@dataclass(frozen=True)
+class Worked:
+    """A system of the catalogue, worked through.
+
+    Attributes:
+        entry: the system.
+        equations: derived anew.
+        run: the default run.
+        checks: all of them, passed or not.
+        constraint_drift: largest distance between a centre of mass and where the velocities that
+            the constraints allow would have taken it, or gap of a closed loop, m.
+        drawings: of the run.
+        seconds: all this took.
+    """
+
+    entry: Entry
+    equations: Equations
+    run: Trajectory
+    checks: tuple[Check, ...]
+    constraint_drift: float
+    drawings: tuple[Drawing, ...]
+    seconds: float
+
+    @property
+    def passed(self) -> int:
+        """Number of checks that hold."""
+        return sum(check.passed for check in self.checks)
+
+
+def work_through(entry: Entry) -> Worked:
+    """Derive, check, simulate and draw a system of the catalogue."""
+    began = time.perf_counter()
+    equations = ph.derive(entry.build())
+    run = default_run(entry, equations)
+    travel = balance.travel(run, equations)
+    checks = (*exact_checks(equations), *numeric_checks(run, equations, travel))
+    drawings = tuple(_drawings(entry, run))
+    drift = max(travel.defect, run.drift.constraint)
+    seconds = time.perf_counter() - began
+    return Worked(entry, equations, run, checks, drift, drawings, seconds)
+
+
+def default_run(entry: Entry, equations: Equations) -> Trajectory:
+    """The run of the catalogue's default numbers."""
+    numbers = default_numbers(entry)
+    return simulate(
+        equations, numbers.parameters, numbers.start, entry.duration, forcing=numbers.forcing
+    )
+
+
+def exact_checks(equations: Equations) -> Iterator[Check]:
+    """Checks that the algebra decides."""
+    yield decided(
+        "Power balance",
+        "dE/dt along the motion is the power of supports, motors and drives",
+        [equations.rate(equations.energy) - equations.on_shell(equations.power)],
+    )
+    yield decided(
+        "Constraints",
+        "every held or touching point moves with what holds it",
+        equations.slips.values(),
+    )
+    if is_conservative(equations) and is_holonomic(equations):
+        yield decided(
+            "Lagrange's equations",
+            "d/dt ∂L/∂q̇ − ∂L/∂q, formed from T − V alone, vanishes on the derived motion",
+            lagrange(equations),
+        )
+    elif is_conservative(equations):
+        yield decided(
+            "Gibbs–Appell equations",
+            "∂S/∂u̇ = Q, formed from the energy of acceleration, are the derived equations",
+            appell(equations),
+        )
+
+
+def numeric_checks(
+    run: Trajectory, equations: Equations, travel: balance.Account
+) -> Iterator[Check]:
+    """Checks of the computed motion, each a defect relative to the size of what is compared."""
+    yield measured(
+        "Energy of the run",
+        "energy against its start and the work done",
+        run.drift.energy,
+    )
+    yield measured(
+        "Constraints of the run",
+        "distance covered against the integral of the velocity the constraints leave",
+        travel.relative,
+    )
+    yield measured(
+        "Momentum of the run",
+        "momentum gained against the impulse of loads and derived reactions",
+        balance.momentum(run, equations).relative,
+    )
+    yield measured(
+        "Angular momentum of the run",
+        "gain about the centre of mass against the integral of the torques",
+        balance.spin(run, equations).relative,
+    )
+
+
+def _drawings(entry: Entry, run: Trajectory) -> Iterator[Drawing]:
+    stem, origin = entry.name.replace("/", "-"), origin_of(run)
+    for picture in pictures_of(entry):
+        svg = svg_of(picture.draw(run), origin=origin)
+        yield Drawing(f"{stem}-{picture.name}", picture.caption, svg)
