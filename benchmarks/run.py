@@ -23,6 +23,9 @@ from typing import Any
 HERE = Path(__file__).parent
 SAME = 1e-9  # if the answers of the two sides differ by more, they did not do the same thing
 
+# As a user has it: compiled modules are kept. Those of the peers were compiled when installed.
+ENVIRONMENT = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
+
 Command = tuple[str, ...]
 Samples = Mapping[Command, list[dict[str, Any]]]
 
@@ -131,7 +134,11 @@ def run(command: Command) -> dict[str, Any]:
     script, *options = command
     started = perf_counter()
     done = subprocess.run(
-        [sys.executable, str(HERE / script), *options], capture_output=True, text=True, check=False
+        [sys.executable, str(HERE / script), *options],
+        capture_output=True,
+        text=True,
+        check=False,
+        env=ENVIRONMENT,
     )
     wall = perf_counter() - started
     if done.returncode:

@@ -15,8 +15,21 @@ def main() -> None:
     assert files("polhode").joinpath("py.typed").is_file()
     assert ph.__version__ == base.provenance()["versions"]["polhode"]
     refuses_a_wrong_dimension()
+    derives_and_simulates()
     heyoka = "with" if find_spec("heyoka") else "without"
     print(f"polhode {ph.__version__} works from its wheel, {heyoka} heyoka")
+
+
+def derives_and_simulates() -> None:
+    from polhode.catalogue import CATALOGUE
+
+    equations = ph.derive(CATALOGUE["rolling-disk"].build())
+    assert len(equations.motion) == 3
+    numbers = {"m": "0.2 kg", "a": "30 mm", "g": 9.81}
+    run = ph.simulate(equations, numbers, {"theta": "80 deg", "omega_3": 40}, "1 s")
+    assert run.integrator.startswith("heyoka") == bool(find_spec("heyoka")), run.integrator
+    assert run.drift.energy < 1e-11, run.drift
+    assert run["F_z"].min() > 0
 
 
 def refuses_a_wrong_dimension() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from common import along, report
+
 from polhode.algebra import Expr
 from polhode.catalogue import CATALOGUE
 from polhode.derive import Equations

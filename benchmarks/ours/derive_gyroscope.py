@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from common import report
+
 from polhode.catalogue import CATALOGUE
 
 if __name__ == "__main__":

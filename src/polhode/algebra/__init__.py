@@ -26,6 +26,7 @@ from polhode.algebra._latex import latex as latex
 from polhode.algebra._latex import latex_of_symbol as latex_of_symbol
 from polhode.algebra._latex import mathml as mathml
 from polhode.algebra._layout import layout as layout
+from polhode.algebra._homogeneity import dimension_of as dimension_of
 from polhode.algebra._linear import Elimination as Elimination
 from polhode.algebra._linear import Matrix as Matrix
 from polhode.algebra._linear import Row as Row
@@ -42,6 +43,7 @@ from polhode.algebra._program import Compiled as Compiled
 from polhode.algebra._program import Op as Op
 from polhode.algebra._program import Program as Program
 from polhode.algebra._program import arrays as arrays
+from polhode.algebra._reading import read_expression as read_expression
 from polhode.algebra._roots import absolute as absolute
 from polhode.algebra._roots import factors as factors
 from polhode.algebra._roots import is_positive as is_positive

@@ -7,39 +7,24 @@ tried.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from difflib import get_close_matches
 from fractions import Fraction
-from math import comb, prod
 
-from polhode.algebra import _functions as functions
+from polhode.algebra._bounded import FUNCTIONS, add, apply, multiply, raise_to
 from polhode.algebra._expression import Expr
-from polhode.algebra._roots import sqrt
+from polhode.algebra._functions import pi
 from polhode.algebra._symbols import time
 from polhode.base import NumericError, ParseError
 
 LONGEST = 1000  # characters
 SHOWN = 40  # of them, in messages
 DEEPEST = 50  # nested brackets, signs and powers
-HIGHEST = 64  # power
 HIGHEST_OF_TEN = 400  # in a number such as 1e-3
-MOST_TERMS = 2000  # of an expression multiplied out
-MOST_BITS = 4096  # of a whole number raised to a power
-MOST_BITS_OF_ROOT = 160  # of a whole number that is factorised to take a root
 
-_CONSTANTS = {"pi": functions.pi, "t": time}
-_FUNCTIONS: dict[str, Callable[[Expr], Expr]] = {
-    "sin": functions.sin,
-    "cos": functions.cos,
-    "tan": functions.tan,
-    "sqrt": sqrt,
-    "exp": functions.exp,
-    "sinh": functions.sinh,
-    "cosh": functions.cosh,
-    "tanh": functions.tanh,
-}
+_CONSTANTS = {"pi": pi, "t": time}
 _TOKEN = re.compile(
     r"""\s*(?:
         (?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)
@@ -101,7 +86,7 @@ class _Reader:
             sign = self._take()
             term = self._product()
             with self._worked_out(sign):
-                total = _sum(total, term if sign.text == "+" else -term)
+                total = add(total, term if sign.text == "+" else -term)
         return total
 
     def _product(self) -> Expr:
@@ -110,7 +95,7 @@ class _Reader:
             sign = self._take()
             factor = self._signed()
             with self._worked_out(sign):
-                total = _product(total, factor if sign.text == "*" else factor.reciprocal())
+                total = multiply(total, factor if sign.text == "*" else factor.reciprocal())
         return total
 
     def _signed(self) -> Expr:
@@ -129,7 +114,7 @@ class _Reader:
         with self._deeper(sign):
             exponent = self._signed()
         with self._worked_out(sign):
-            return _power(base, exponent)
+            return raise_to(base, exponent)
 
     def _atom(self) -> Expr:
         token = self._token
@@ -160,11 +145,11 @@ class _Reader:
     def _named(self, token: _Token) -> Expr:
         if token.text in self._names:
             return self._names[token.text]
-        if token.text in _FUNCTIONS and self._token.text == "(":
+        if token.text in FUNCTIONS and self._token.text == "(":
             argument = self._bracket()
             with self._worked_out(token):
-                return _call(token.text, argument)
-        if token.text in _FUNCTIONS:
+                return apply(token.text, argument)
+        if token.text in FUNCTIONS:
             raise self._unexpected(f"the argument of {token.text} in brackets")
         raise self._unknown(token)
 
@@ -201,11 +186,11 @@ class _Reader:
         return self._refusal(token, what, expected)
 
     def _unknown(self, token: _Token) -> ParseError:
-        near = get_close_matches(token.text, [*self._names, *_FUNCTIONS], n=3)
+        near = get_close_matches(token.text, [*self._names, *FUNCTIONS], n=3)
         return self._refusal(
             token,
             f"{token.text!r} is not known",
-            f"a number or one of {', '.join([*self._names, *_FUNCTIONS])}",
+            f"a number or one of {', '.join([*self._names, *FUNCTIONS])}",
             f"did you mean {' or '.join(near)}?" if near else "",
         )
 
@@ -226,76 +211,3 @@ def _shown(text: str, place: int) -> str:
         return repr(text)
     start = max(0, min(place - SHOWN // 2, len(text) - SHOWN))
     return f"...{text[start : start + SHOWN]!r}..."
-
-
-# -- operations, refused where the result would be too large ------------------------------------
-
-
-def _sum(first: Expr, second: Expr) -> Expr:
-    _refuse_many(max(_size(first) * _below(second), _size(second) * _below(first)))
-    return _small(first + second)
-
-
-def _product(first: Expr, second: Expr) -> Expr:
-    _refuse_many(_size(first) * _size(second))
-    return _small(first * second)
-
-
-def _power(base: Expr, exponent: Expr) -> Expr:
-    power = exponent.rational
-    if power is None or abs(power) > HIGHEST:
-        raise NumericError(
-            "a power that is too high or no number", expected=f"one from -{HIGHEST} to {HIGHEST}"
-        )
-    times = abs(power.numerator)
-    _refuse_many(comb(_size(base) + times - 1, times))
-    _refuse_long(_bits(base) * times, MOST_BITS)
-    if power.denominator > 1:
-        _refuse_hard_root(base)
-    return _small(base**power)
-
-
-def _call(name: str, argument: Expr) -> Expr:
-    if name == "sqrt":
-        _refuse_hard_root(argument)
-    else:  # sines of sums and multiples are written out in those of the parts
-        _refuse_many(prod(2 * min(abs(c.numerator), 8) for _, c in argument.terms()))
-    return _small(_FUNCTIONS[name](argument))
-
-
-def _refuse_hard_root(radicand: Expr) -> None:
-    _refuse_many(_size(radicand) ** 2)
-    _refuse_long(_bits(radicand), MOST_BITS_OF_ROOT)
-
-
-def _small(expression: Expr) -> Expr:
-    _refuse_many(_size(expression))
-    return expression
-
-
-def _refuse_many(terms: int) -> None:
-    if terms > MOST_TERMS:
-        raise NumericError("a result that may be very long", expected=f"at most {MOST_TERMS} terms")
-
-
-def _refuse_long(bits: int, most: int) -> None:
-    if bits > most:
-        raise NumericError(
-            f"a number of {round(bits * 0.30103)} digits",
-            expected=f"at most {round(most * 0.30103)} digits",
-        )
-
-
-def _size(expression: Expr) -> int:
-    """Number of terms above or below the bar, whichever is more."""
-    return max(sum(1 for _ in expression.terms()), _below(expression))
-
-
-def _below(expression: Expr) -> int:
-    return sum(1 for _ in expression.denominator.terms())
-
-
-def _bits(expression: Expr) -> int:
-    """Length of the longest coefficient, numerator and denominator together."""
-    numbers = [c for part in (expression, expression.denominator) for _, c in part.terms()]
-    return max((c.numerator.bit_length() + c.denominator.bit_length() for c in numbers), default=0)

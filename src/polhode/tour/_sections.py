@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from polhode.algebra import Expr, Symbol, symbol
+from polhode.algebra import Expr, Symbol, symbol, time
 from polhode.tour._declaration import source_of
 from polhode.tour._formulas import equation, inline, listed
 from polhode.tour._html import Markup, joined, table, tag
@@ -160,7 +160,7 @@ def _numbers(worked: Worked) -> Markup:
         (inline(Expr.generator(s)), "prescribed", inline(motion))
         for s, motion in run.dynamics.prescribed.items()
     ]
-    rows.append((inline(symbol("t")), "duration", entry.duration))
+    rows.append((inline(time), "duration", entry.duration))
     resting = [known[name] for name in run.assumed]
     also = (tag("p", "All else starts at zero."),) if resting else ()
     return joined([table(("", "", "value"), rows, class_="numbers"), *also])
