@@ -40,6 +40,7 @@ check: $(READY)
 	$(BIN)/mypy --strict src
 
 bench: $(READY)
+	@$(BIN)/python -m pip install $(QUIETLY) -r benchmarks/requirements.txt
 	@$(BIN)/python benchmarks/run.py
 
 proof: $(READY)

@@ -143,29 +143,45 @@ def sums_and_products(inner: st.SearchStrategy) -> st.SearchStrategy:
     )
 
 
-def anything(inner: st.SearchStrategy) -> st.SearchStrategy:
-    """Recipes one level higher; radicands are positive by construction."""
-    positive = inner.map(lambda r: ("+", ("*", r, r), ("name", "a")))
+def of_positive(sign: str) -> Callable[[tuple], tuple]:
+    """Makes a recipe of one that is positive by construction."""
+    return lambda recipe: ("+", ("*", recipe, recipe), ("name", sign))
+
+
+#: What it is divided by: short, since a denominator is multiplied by all its conjugates.
+simple = st.one_of(
+    numbers,
+    symbols,
+    st.sampled_from([(f, ("name", angle)) for f in ("sin", "cos") for angle in ("theta", "phi")]),
+    st.just(("cosh", ("name", "x"))),
+    symbols.map(lambda name: ("sqrt", of_positive("a")(name))),
+)
+divisors = st.one_of(simple, st.tuples(st.sampled_from("+-*"), simple, simple))
+
+
+def smooth_ones(inner: st.SearchStrategy) -> st.SearchStrategy:
+    """Recipes one level higher that can be differentiated everywhere."""
     return st.one_of(
         sums_and_products(inner),
         sums_and_products(inner),
-        st.tuples(st.just("/"), inner, inner),
-        st.tuples(st.just("sqrt"), positive),
-        st.tuples(st.just("abs"), inner),
+        st.tuples(st.just("/"), inner, divisors),
+        st.tuples(st.just("sqrt"), symbols.map(of_positive("b"))),
     )
 
 
-polynomials = st.recursive(leaves, sums_and_products, max_leaves=6)
-smooth = st.recursive(
-    st.one_of(leaves, growing),
-    lambda inner: st.one_of(
-        sums_and_products(inner),
-        st.tuples(st.just("/"), inner, inner),
-        st.tuples(st.just("sqrt"), inner.map(lambda r: ("+", ("*", r, r), ("name", "b")))),
-    ),
-    max_leaves=4,
-)
-recipes = st.recursive(st.one_of(leaves, growing), anything, max_leaves=5)
+def all_kinds(inner: st.SearchStrategy) -> st.SearchStrategy:
+    """Recipes one level higher, of any kind."""
+    return st.one_of(
+        smooth_ones(inner),
+        smooth_ones(inner),
+        st.tuples(st.just("sqrt"), simple.map(of_positive("a"))),
+        st.tuples(st.just("abs"), divisors),
+    )
+
+
+polynomials = st.recursive(leaves, sums_and_products, max_leaves=5)
+smooth = st.recursive(st.one_of(leaves, growing), smooth_ones, max_leaves=4)
+recipes = st.recursive(st.one_of(leaves, growing), all_kinds, max_leaves=4)
 
 
 def expression_of(recipe: tuple) -> Expr | None:

@@ -147,15 +147,15 @@ def _ring_of(generators: frozenset[Generator], positive: frozenset[str]) -> Ring
 
 
 def _ordered(generators: set[Generator]) -> tuple[Generator, ...]:
-    ordered = tuple(sorted(generators, key=lambda g: g.key))
-    for first, second in pairwise(ordered):
+    symbols = sorted(frozenset().union(*(g.symbols() for g in generators)), key=lambda s: s.key)
+    for first, second in pairwise(symbols):
         if first.key == second.key:
             raise DeclarationError(
                 f"two different quantities are both called {first.key!r}",
                 expected="one meaning for one name",
                 advice="rename one of them",
             )
-    return ordered
+    return tuple(sorted(generators, key=lambda g: g.key))
 
 
 @lru_cache(maxsize=16384)

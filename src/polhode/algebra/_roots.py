@@ -77,7 +77,7 @@ def sqrt(x: ExprLike) -> Expr:
     for factor, exponent in known.items():
         result = result * (_root(factor) if exponent % 2 else ONE) * factor ** (exponent // 2)
     for factor, exponent in squares.items():
-        result = result * absolute(factor) ** (exponent // 2)
+        result = result * _size(factor) ** (exponent // 2)
     return result * _root_of_unknown_sign(1 if number > 0 else -1, open_)
 
 
@@ -95,13 +95,18 @@ def principal_root(x: ExprLike) -> Expr:
 
 
 def absolute(x: ExprLike) -> Expr:
-    """|x|, resolved where the sign is known."""
+    """|x|, resolved where the sign is known; of a product it is the product."""
     x = Expr.of(x)
-    if is_positive(x):
+    if x.is_zero:
         return x
-    if is_positive(-x):
-        return -x
-    return _root(x * x) if x.is_polynomial else absolute(x.numerator) / absolute(x.denominator)
+    number, powers = factors(x)
+    return prod((_size(f) ** e for f, e in powers.items()), start=Expr.constant(abs(number)))
+
+
+def _size(factor: Expr) -> Expr:
+    if is_positive(factor):
+        return factor
+    return -factor if is_positive(-factor) else _root(factor * factor)
 
 
 def is_positive(x: Expr) -> bool:
@@ -155,5 +160,5 @@ def _root_of_unknown_sign(sign: int, powers: dict[Expr, int]) -> Expr:
     if len(powers) == 1:
         ((factor, exponent),) = powers.items()
         return _root(factor * sign) ** exponent
-    below = prod((absolute(f) ** ((1 - e) // 2) for f, e in powers.items()), start=ONE)
+    below = prod((_size(f) ** ((1 - e) // 2) for f, e in powers.items()), start=ONE)
     return _root(prod(powers, start=Expr.constant(sign))) / below

@@ -1,6 +1,7 @@
 """What follows from the equations exactly: integrals, steady motions, stability."""
 
 from polhode.analyse._ansatz import Ansatz as Ansatz
+from polhode.analyse._conditions import ALWAYS as ALWAYS
 from polhode.analyse._conditions import Condition as Condition
 from polhode.analyse._conditions import Truth as Truth
 from polhode.analyse._expansion import Expansion as Expansion

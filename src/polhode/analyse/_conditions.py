@@ -44,6 +44,10 @@ class Condition:
         return self.truth.value if self.truth is not Truth.OPEN else f"{self.expression} > 0"
 
 
+#: The condition that always holds.
+ALWAYS = Condition(ONE)
+
+
 def positive(expression: Expr, assumed: Collection[Expr] = ()) -> Condition:
     """The condition that an expression is positive, `assumed` ones being so already."""
     if expression.is_zero:

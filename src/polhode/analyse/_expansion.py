@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from polhode.algebra import Expr, ExprLike, Symbol, as_symbol, taylor
 
@@ -30,7 +31,7 @@ def expand(
     small: Expr | Symbol,
     order: int = 1,
     *,
-    about: Mapping[Expr | Symbol, ExprLike] | None = None,
+    about: Mapping[Any, ExprLike] | None = None,
 ) -> Expansion:
     """Expand in a small quantity.
 

@@ -32,7 +32,7 @@ class SteadyValues:
     degree: int
 
 
-def steady_values(family: SteadyMotion, at: Mapping[Expr | Symbol, ExprLike]) -> SteadyValues:
+def steady_values(family: SteadyMotion, at: Mapping[Any, ExprLike]) -> SteadyValues:
     """Every value that one quantity can have when all others are given numbers.
 
     The roots are isolated in exact arithmetic: none is missed and none is spurious.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
+from typing import Any
 
 from polhode.algebra import ONE, ZERO, Expr, ExprLike, Row, Symbol, as_symbol, eliminate, sqrt
 from polhode.analyse._conditions import Condition, Truth, positive
@@ -117,9 +118,7 @@ class Stability:
         return "stable" if self.truth is Truth.ALWAYS else "unstable"
 
 
-def stability(
-    family: SteadyMotion, at: Mapping[Expr | Symbol, ExprLike] | None = None
-) -> Stability:
+def stability(family: SteadyMotion, at: Mapping[Any, ExprLike] | None = None) -> Stability:
     """Linearise about a family of steady motions.
 
     Args:

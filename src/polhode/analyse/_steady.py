@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 from polhode.algebra import (
     ONE,
@@ -71,6 +72,16 @@ class SteadyMotion:
             return ()
         return tuple(_branches(self.relations[0], self.reduced))
 
+    @property
+    def conditions(self) -> tuple[Expr, ...]:
+        """What vanishes on the family, each an expression equal to zero."""
+        fixed = (
+            Expr.generator(symbol) - value
+            for symbol, value in self.fixed.items()
+            if not self._is_rate(symbol)
+        )
+        return (*fixed, *self.relations)
+
     def latex(self) -> str:
         """LaTeX of what holds on the family."""
         pieces = [
@@ -90,7 +101,7 @@ class SteadyMotion:
 
 
 def steady(
-    equations: Equations, at: Mapping[Expr | Symbol, ExprLike] | None = None
+    equations: Equations, at: Mapping[Any, ExprLike] | None = None
 ) -> tuple[SteadyMotion, ...]:
     """All families of steady motions.
 

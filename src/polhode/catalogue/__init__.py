@@ -3,12 +3,16 @@
 from polhode.catalogue._ball_on_paper import BALL_ON_PAPER
 from polhode.catalogue._entry import Entry as Entry
 from polhode.catalogue._entry import Parameter as Parameter
+from polhode.catalogue._exact import exact_values as exact_values
 from polhode.catalogue._gyrocompass import GYROCOMPASS, MOTOR_DRIVEN
 from polhode.catalogue._gyroscope import GYROSCOPE, HELD, IN_VERTICAL_PLANE, UPRIGHT
 from polhode.catalogue._marble_on_turntable import MARBLE_ON_TURNTABLE, TILTED
+from polhode.catalogue._numbers import Numbers as Numbers
+from polhode.catalogue._numbers import numbers_of as numbers_of
 from polhode.catalogue._rolling_disk import ROLLING_DISK
 from polhode.catalogue._spinning_coin import SPINNING_COIN
 from polhode.catalogue._tennis_racquet import TENNIS_RACQUET
+from polhode.catalogue._values import look_up as look_up
 
 #: Every catalogue system, in the order of the problem set.
 CATALOGUE: dict[str, Entry] = {

@@ -6,9 +6,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from graphlib import CycleError, TopologicalSorter
 from types import MappingProxyType
+from typing import Any
 
-from polhode.algebra import Expr, Kind, Symbol
-from polhode.base import TIME, DeclarationError, Dimension, UnitError, read_unit, to_si
+from polhode.algebra import Expr, Kind, Symbol, dimension_of
+from polhode.base import PURE, TIME, DeclarationError, Dimension, UnitError, read_unit
 from polhode.catalogue._entry import Entry
 from polhode.catalogue._values import in_si, look_up, read_value
 from polhode.derive import Equations
@@ -27,9 +28,9 @@ class Numbers:
         duration: s.
     """
 
-    parameters: Mapping[str, float]
-    forcing: Mapping[str, Expr]
-    start: Mapping[str, float]
+    parameters: Mapping[Any, float]
+    forcing: Mapping[Any, Expr]
+    start: Mapping[Any, float]
     duration: float
 
 
@@ -93,7 +94,9 @@ def _defaults(entry: Entry) -> dict[str, str]:
 def _dimensions(
     entry: Entry, equations: Equations, constants: Mapping[str, Symbol]
 ) -> dict[Symbol, Dimension]:
-    stated = {constants[p.name]: read_unit(p.unit).dimension for p in entry.parameters if p.unit}
+    stated = {
+        constants[p.name]: read_unit(p.unit).dimension if p.unit else PURE for p in entry.parameters
+    }
     return {**equations.dimensions, **stated}
 
 
@@ -163,24 +166,24 @@ def _start(
     values: Mapping[Symbol, float],
 ) -> dict[str, float]:
     states = (*equations.coordinates, *equations.speeds)
-    rates = (*equations.kinematics, *equations.dependent)
-    known = {symbol.published: symbol for symbol in (*states, *rates)}
+    known = {s.published: s for s in (*states, *equations.kinematics, *equations.dependent)}
     found = {}
     for name, text in texts.items():
         symbol = look_up(name, known, f"coordinate or speed of {equations.system.name}")
         value = read_value(name, text, constants)
         _refuse_unvalued(name, value, values)
-        found[name] = in_si(
-            name, value, _dimension_of_state(symbol, dimensions), dimensions, values
-        )
+        dimension = _dimension_of_state(symbol, equations, dimensions)
+        found[name] = in_si(name, value, dimension, dimensions, values)
     return found
 
 
 def _dimension_of_state(
-    symbol: Symbol, dimensions: Mapping[Symbol, Dimension]
+    symbol: Symbol, equations: Equations, dimensions: Mapping[Symbol, Dimension]
 ) -> Dimension | None:
-    base = dimensions.get(symbol.base())
-    return None if base is None else base / TIME**symbol.order
+    if symbol.base() in dimensions:
+        return dimensions[symbol.base()] / TIME**symbol.order
+    meaning = equations.dependent.get(symbol)
+    return None if meaning is None else dimension_of(meaning, dimensions)
 
 
 def _duration(text: str) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from difflib import get_close_matches
+from typing import TypeVar
 
 from polhode.algebra import (
     FLOATS,
@@ -24,6 +25,9 @@ from polhode.base import (
     read_quantity,
     to_si,
 )
+
+Known = TypeVar("Known")
+Refused = TypeVar("Refused", ParseError, UnitError)
 
 _NUMBER_THEN_UNIT = re.compile(
     r"\s*[+\-−]?\s*(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?\s*[^\W\d_]|.*°"
@@ -86,7 +90,7 @@ def in_si(
     return to_si(_evaluated(name, value, known), PURE, name)
 
 
-def look_up[Known](name: str, known: Mapping[str, Known], what: str) -> Known:
+def look_up(name: str, known: Mapping[str, Known], what: str) -> Known:
     """What is known under a name.
 
     Raises:
@@ -121,5 +125,5 @@ def _evaluated(name: str, value: Expr, known: Mapping[Symbol, float]) -> float:
         ) from error
 
 
-def _about[Refused: (ParseError, UnitError)](name: str, error: Refused) -> Refused:
+def _about(name: str, error: Refused) -> Refused:
     return type(error)(f"{name}: {error.given}", expected=error.expected, advice=error.advice)

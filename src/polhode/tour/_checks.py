@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from polhode.algebra import Expr
+from polhode.tour._numerals import power_of_ten
 
 ALLOWED = 1e-10
 """Largest relative defect of a computed motion that still passes."""
@@ -19,7 +20,7 @@ class Check:
         name: short.
         how: what was compared with what.
         passed: whether it holds.
-        found: the outcome in words or as a number.
+        found: the difference in words or as a number.
     """
 
     name: str
@@ -31,10 +32,9 @@ class Check:
 def decided(name: str, how: str, residuals: Iterable[Expr]) -> Check:
     """A check that expressions vanish identically, which the algebra decides."""
     left = [residual for residual in residuals if not residual.is_zero]
-    found = f"differs by {left[0].pretty()}" if left else "exactly zero"
-    return Check(name, how, not left, found)
+    return Check(name, how, not left, left[0].pretty() if left else "exactly zero")
 
 
 def measured(name: str, how: str, defect: float) -> Check:
     """A check that a relative defect of a computed motion is of the size of rounding."""
-    return Check(name, how, defect <= ALLOWED, f"{defect:.1e}")
+    return Check(name, how, defect <= ALLOWED, power_of_ten(defect))

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from html import escape
 
+_LEVEL = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "−0123456789")
 _VOID = frozenset({"br", "hr", "img", "link", "meta", "source"})
 
 
@@ -30,6 +32,14 @@ def joined(parts: Iterable[str], between: str = "") -> Markup:
 def markup(text: str) -> Markup:
     """Text as HTML."""
     return text if isinstance(text, Markup) else Markup(escape(text, quote=False))
+
+
+def raised(text: str) -> Markup:
+    """Text whose raised figures are set by the page's own font, all of one height."""
+    pieces = re.split("([⁻⁰¹²³⁴-⁹]+)", text)
+    return joined(
+        tag("sup", piece.translate(_LEVEL)) if i % 2 else piece for i, piece in enumerate(pieces)
+    )
 
 
 def table(header: Iterable[str], rows: Iterable[Iterable[str]], **attributes: str) -> Markup:

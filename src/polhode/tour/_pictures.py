@@ -49,25 +49,28 @@ class Picture:
 
 def pictures_of(entry: Entry) -> tuple[Picture, ...]:
     """All pictures of a system of the catalogue."""
-    return (_histories(entry), *_SPECIAL.get(entry.name, ()), _ENERGY)
-
-
-def _histories(entry: Entry) -> Picture:
     seconds = _SHOWN.get(entry.name)
+    opening = "The run." if seconds is None else f"The first {seconds:g} s of the run."
+    return (
+        Picture("run", opening, lambda run: figure_of_run(_first(run, seconds), entry.plots)),
+        *_SPECIAL.get(entry.name, ()),
+        Picture("energy", _ENERGY, lambda run: _energy_account(run, seconds)),
+    )
+
+
+def _first(run: Trajectory, seconds: float | None) -> Trajectory:
+    """The beginning of a run, or all of it."""
     if seconds is None:
-        return Picture("run", "The run.", lambda run: figure_of_run(run, entry.plots))
-    caption = f"The first {seconds:g} s of the run."
-    times = np.linspace(0.0, seconds, _SAMPLES)
-    return Picture("run", caption, lambda run: figure_of_run(replace(run, t=times), entry.plots))
+        return run
+    return replace(run, t=np.linspace(0.0, seconds, _SAMPLES))
 
 
 @house_style()
-def _energy_account(run: Trajectory) -> Figure:
-    figure = new_figure(3.4)
-    upper, lower = figure.subplots(2, 1, sharex=True)
-    energies(run, ax=upper)
+def _energy_account(run: Trajectory, seconds: float | None) -> Figure:
+    figure = new_figure(4.1)
+    upper, lower = figure.subplots(2, 1)
+    energies(_first(run, seconds), ax=upper)
     energy_drift(run, ax=lower)
-    upper.label_outer()
     figure.align_ylabels([upper, lower])
     return figure
 
@@ -84,11 +87,9 @@ def _one(draw: Callable[..., object], height: float, *what: str) -> Callable[[Tr
     return figure_of
 
 
-_ENERGY = Picture(
-    "energy",
+_ENERGY = (
     "Above: where the energy goes. Below: how far the computed energy strays from what the work "
-    "done accounts for; the dashed line is the rounding of a single number.",
-    _energy_account,
+    "done accounts for; the dashed line is the rounding of a single number."
 )
 _FRICTION = Picture(
     "friction",
@@ -114,7 +115,11 @@ _SPECIAL: dict[str, tuple[Picture, ...]] = {
             _one(floor_path, 3.5),
         ),
         Picture(**_PHASE, caption="The lean nods about that of steady rolling."),
-        _FRICTION,
+        Picture(
+            "friction",
+            "The coefficient of friction that rolling takes, over the first second.",
+            lambda run: _one(friction_needed, 1.9)(_first(run, 1.0)),
+        ),
     ),
     "marble-on-turntable": (
         Picture("path", "Seen from the laboratory: a circle.", _one(floor_path, 3.5)),
@@ -139,7 +144,7 @@ _SPECIAL: dict[str, tuple[Picture, ...]] = {
             "polhodes",
             "The angular velocity on the inertia ellipsoid. The run's own polhode (bold) hugs the "
             "separatrix (dashed), which passes through the middle axis: hence the flips.",
-            _one(polhodes, 3.5),
+            _one(polhodes, 3.0),
         ),
     ),
     "ball-on-paper": (
@@ -155,6 +160,9 @@ _SPECIAL: dict[str, tuple[Picture, ...]] = {
             _one(nutation, 3.8),
         ),
         Picture(**_PHASE, caption="One nod of the axle."),
+        Picture("reactions", "The range of the pivot's force.", _one(reaction_ranges, 1.7)),
+    ),
+    "gyroscope/upright": (
         Picture("reactions", "The range of the pivot's force.", _one(reaction_ranges, 1.7)),
     ),
     "gyroscope/held": (

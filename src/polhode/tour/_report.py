@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from polhode.tour._numerals import power_of_ten
 from polhode.tour._work import Worked
 
 
@@ -40,13 +41,13 @@ class Row:
             str(self.equations),
             str(self.reactions),
             f"{self.passed} of {self.checks}",
-            f"{self.energy_drift:.1e}",
-            f"{self.constraint_drift:.1e}",
+            power_of_ten(self.energy_drift),
+            power_of_ten(self.constraint_drift, "m"),
             f"{self.seconds:.1f}",
         )
 
 
-HEADER = ("system", "equations", "reactions", "checks", "energy drift", "constraint drift/m", "s")
+HEADER = ("system", "equations", "reactions", "checks", "energy drift", "constraint drift", "s")
 
 
 @dataclass(frozen=True)

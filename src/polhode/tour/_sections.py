@@ -6,18 +6,21 @@ from collections.abc import Iterable, Iterator
 
 from polhode.algebra import Expr, Symbol, symbol, time
 from polhode.tour._declaration import source_of
-from polhode.tour._formulas import equation, inline, listed
-from polhode.tour._html import Markup, joined, table, tag
+from polhode.tour._formulas import equation, inline, listed, with_formulas
+from polhode.tour._html import Markup, joined, raised, table, tag
+from polhode.tour._numerals import power_of_ten
 from polhode.tour._work import Drawing, Worked
 
 _IDEALS = {
-    "Rolling": "rolls without slipping; the support gives whatever friction that takes.",
-    "Smooth": "touches without friction; the support pushes only along its normal.",
-    "Coulomb": "slides with Coulomb's friction.",
-    "Pivot": "is held at a point, which turns freely.",
-    "Hold": "is kept at rest at a point, which turns freely.",
-    "Guide": "keeps its axis in a plane; the guide turns no other way.",
-    "Motor": "is kept at a constant rate by a motor.",
+    "Rolling": "rolls on it without slipping; it gives whatever friction that takes.",
+    "Smooth": "touches it without friction; it pushes only along its normal.",
+    "Coulomb": "slides on it with Coulomb’s friction.",
+    "Pivot": "is held at one point, about which it turns freely.",
+    "Hold": "is kept from moving, at one point, along the directions of the force.",
+    "Hinge": "turns about one axis.",
+    "Universal": "turns about two axes that cross at right angles.",
+    "Guide": "has its axis kept in a plane, and is otherwise free to turn.",
+    "Motor": "is turned at a constant rate.",
 }
 ZERO = Expr.constant(0)
 
@@ -29,7 +32,7 @@ def section(worked: Worked, figures: Markup) -> Markup:
         "section",
         tag("h2", entry.title),
         tag("p", tag("code", f"polhode run {entry.name}", class_="command")),
-        tag("p", entry.about),
+        tag("p", with_formulas(entry.about)),
         tag("h3", "Declaration"),
         tag("pre", tag("code", source_of(entry.build)), tabindex="0"),
         *_assumptions(worked),
@@ -80,7 +83,7 @@ def _size(svg: str) -> tuple[str, str]:
 def _assumptions(worked: Worked) -> Iterator[Markup]:
     system, equations = worked.equations.system, worked.equations
     told: list[Markup] = [
-        tag("li", f"{element.bodies[0].name.capitalize()}, {element.name}: {ideal}")
+        tag("li", tag("em", element.name), f": the {element.bodies[0].name} {ideal}")
         for element in system.elements
         for ideal in [_IDEALS[type(element).__name__]]
     ]
@@ -113,7 +116,7 @@ def _reactions(worked: Worked) -> Iterator[Markup]:
     components = equations.components
     yield tag("h3", "Reactions")
     for element, restraints in equations.kinetics.restraints.items():
-        yield tag("p", f"Of the {element} on the {restraints[0].body.name}:")
+        yield tag("p", f"On the {restraints[0].body.name}, by ", tag("em", element), ":")
         yield from _assigned({r.name: components[r.name] for r in restraints})
     if equations.undetermined:
         names = equations.undetermined
@@ -151,10 +154,12 @@ def _numbers(worked: Worked) -> Markup:
         name = parameter.name
         value = parameter.default
         if any(sign in value for sign in "*/") and name in run.parameters and parameter.unit:
-            value = f"{run.parameters[name]:.4g} {parameter.unit}"
-        rows.append((inline(known.get(name, symbol(name))), parameter.meaning, _unit(value)))
+            value = power_of_ten(run.parameters[name], parameter.unit, 3)
+        rows.append(
+            (inline(known.get(name, symbol(name))), _raised(parameter.meaning), _raised(value))
+        )
     rows += [
-        (inline(known[name]), "at the start", _unit(value)) for name, value in entry.start.items()
+        (inline(known[name]), "at the start", _raised(value)) for name, value in entry.start.items()
     ]
     rows += [
         (inline(Expr.generator(s)), "prescribed", inline(motion))
@@ -163,16 +168,19 @@ def _numbers(worked: Worked) -> Markup:
     rows.append((inline(time), "duration", entry.duration))
     resting = [known[name] for name in run.assumed]
     also = (tag("p", "All else starts at zero."),) if resting else ()
-    return joined([table(("", "", "value"), rows, class_="numbers"), *also])
+    return joined([table(("symbol", "meaning", "value"), rows, class_="values"), *also])
 
 
-def _unit(text: str) -> str:
-    return text.replace("^2", "²").replace("^3", "³")
+def _raised(text: str) -> Markup:
+    return raised(text.replace("^2", "²").replace("^3", "³"))
 
 
 def _checks(worked: Worked) -> Markup:
-    rows = ((check.name, check.how, _verdict(check.passed), check.found) for check in worked.checks)
-    return table(("check", "what is compared", "", "found"), rows)
+    rows = (
+        (check.name, check.how, _verdict(check.passed), raised(check.found))
+        for check in worked.checks
+    )
+    return table(("check", "what is compared", "verdict", "difference"), rows)
 
 
 def _verdict(passed: bool) -> Markup:
@@ -187,8 +195,8 @@ def summary(all_worked: Iterable[Worked]) -> Markup:
             str(len(worked.equations.motion)),
             str(len(worked.equations.components)),
             _passed(worked),
-            f"{worked.run.drift.energy:.1e}",
-            f"{worked.constraint_drift:.1e} m",
+            raised(power_of_ten(worked.run.drift.energy)),
+            raised(power_of_ten(worked.constraint_drift, "m")),
         )
         for worked in all_worked
     )

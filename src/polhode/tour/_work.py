@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import polhode as ph
-from polhode.catalogue import Entry, default_numbers
+from polhode.catalogue import Entry, numbers_of
 from polhode.derive import Equations
 from polhode.simulate import Trajectory, simulate
 from polhode.tour import _balance as balance
@@ -76,9 +76,13 @@ def work_through(entry: Entry) -> Worked:
 
 def default_run(entry: Entry, equations: Equations) -> Trajectory:
     """The run of the catalogue's default numbers."""
-    numbers = default_numbers(entry)
+    numbers = numbers_of(entry, equations)
     return simulate(
-        equations, numbers.parameters, numbers.start, entry.duration, forcing=numbers.forcing
+        equations,
+        {**numbers.parameters},
+        {**numbers.start},
+        numbers.duration,
+        forcing={**numbers.forcing},
     )
 
 
@@ -97,13 +101,13 @@ def exact_checks(equations: Equations) -> Iterator[Check]:
     if is_conservative(equations) and is_holonomic(equations):
         yield decided(
             "Lagrange's equations",
-            "d/dt ∂L/∂q̇ − ∂L/∂q, formed from T − V alone, vanishes on the derived motion",
+            "formed anew from T − V alone, they hold on the derived motion",
             lagrange(equations),
         )
     elif is_conservative(equations):
         yield decided(
             "Gibbs–Appell equations",
-            "∂S/∂u̇ = Q, formed from the energy of acceleration, are the derived equations",
+            "formed anew from the energy of acceleration alone, they are the derived ones",
             appell(equations),
         )
 

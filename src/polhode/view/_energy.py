@@ -7,44 +7,46 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from polhode.simulate import Trajectory
-from polhode.view._history import legend_above, time_axis, widen
+from polhode.view._history import legend_above, time_axis
 from polhode.view._quantities import Array, equations_of, instants, largest, scale_for
 from polhode.view._style import COLOURS, MUTED, axes_or_new, house_style, line_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.collections import FillBetweenPolyCollection
     from matplotlib.lines import Line2D
 
 ROUNDING = float(np.finfo(float).eps)
 _FLOOR = ROUNDING / 30  # what is smaller is drawn here
 _INTERVALS = 240
+_CONSTANT = 1e-12  # relative change that is rounding
 
 
 @house_style()
 def energies(run: Trajectory, *, ax: Axes | None = None) -> list[Line2D]:
     """Change of kinetic, potential and total energy since the start, and the work done, J.
 
-    Kinetic energy is that in inertial space. Potential energy and work are drawn where there
-    are any.
+    Kinetic energy is that in inertial space. Potential energy and work are drawn where they
+    change.
     """
     axes = axes_or_new(ax, 2.0)
     t = instants(run)
-    changes = _changes(run, t)
-    scale = scale_for("J", largest(*changes.values()))
+    changes, size = _changes(run, t), _size(run, t)
+    steady = largest(*changes.values()) <= _CONSTANT * size
+    scale = scale_for("J", 0.1 * size if steady else largest(*changes.values()))
     lines = [
         axes.plot(t, values * scale.factor, label=f"${symbol}$", **line_style(i))[0]
         for i, (symbol, values) in enumerate(changes.items())
     ]
-    widen(axes, np.concatenate(list(changes.values())) * scale.factor)
+    if steady:
+        axes.set_ylim(-0.1 * size * scale.factor, 0.1 * size * scale.factor)
     time_axis(axes, t)
-    axes.set_ylabel(f"change of energy ({scale.unit})")
+    axes.set_ylabel(f"energy change ({scale.unit})")
     legend_above(axes)
     return lines
 
 
 @house_style()
-def energy_drift(run: Trajectory, *, ax: Axes | None = None) -> FillBetweenPolyCollection:
+def energy_drift(run: Trajectory, *, ax: Axes | None = None) -> Line2D:
     """Departure of the energy from what the work done accounts for, relative to its size.
 
     Largest |E - E₀ - W| of short intervals over the largest |T| + |V| + |W| of the motion, on a
@@ -56,19 +58,19 @@ def energy_drift(run: Trajectory, *, ax: Axes | None = None) -> FillBetweenPolyC
     parts = [np.max(part) for part in np.array_split(departure, _INTERVALS)]
     middles = [np.mean(part) for part in np.array_split(t, _INTERVALS)]
     tops = np.maximum(parts, _FLOOR)
-    area = axes.fill_between(middles, tops, _FLOOR / 2, step="mid", color=COLOURS[0], linewidth=0)
+    (line,) = axes.plot(middles, tops, drawstyle="steps-mid", color=COLOURS[0], linewidth=1.0)
     axes.axhline(ROUNDING, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
     axes.set_yscale("log")
     axes.set_ylim(_FLOOR / 2, max(1e-13, 10 * float(np.max(departure))))
     time_axis(axes, t)
     axes.set_ylabel(r"$|E - E_0 - W|\,/\,E_{\rm max}$")
-    return area
+    return line
 
 
 def _changes(run: Trajectory, t: Array) -> dict[str, Array]:
     kinetic, potential, work = _shares(run, t)
     changes = {r"\Delta T": kinetic - kinetic[0]}
-    if np.any(potential):
+    if float(np.ptp(potential)):
         changes[r"\Delta V"] = potential - potential[0]
         changes[r"\Delta T + \Delta V"] = kinetic + potential - kinetic[0] - potential[0]
     return changes | ({"W": work} if np.any(work) else {})
@@ -77,9 +79,12 @@ def _changes(run: Trajectory, t: Array) -> dict[str, Array]:
 def _departure(run: Trajectory, t: Array) -> Array:
     kinetic, potential, work = _shares(run, t)
     total = kinetic + potential
-    size = np.max(np.abs(kinetic) + np.abs(potential) + np.abs(work)) or 1.0
-    departure: Array = np.abs(total - total[0] - work) / size
+    departure: Array = np.abs(total - total[0] - work) / _size(run, t)
     return departure
+
+
+def _size(run: Trajectory, t: Array) -> float:
+    return float(np.max(sum(map(np.abs, _shares(run, t))))) or 1.0
 
 
 def _shares(run: Trajectory, t: Array) -> tuple[Array, Array, Array]:

@@ -35,8 +35,9 @@ def friction_needed(run: Trajectory, *, ax: Axes | None = None) -> Line2D:
     along, across = (
         run.evaluate(force.dot(contact.on.axes[name]), t) for name in contact.on.tangents
     )
-    (line,) = axes.plot(t, np.hypot(along, across) / np.abs(normal), color=COLOURS[0])
-    axes.set_ylim(bottom=0)
+    needed = np.hypot(along, across) / np.abs(normal)
+    (line,) = axes.plot(t, needed, color=COLOURS[0])
+    axes.set_ylim(0, 1.15 * float(np.max(needed)) or 1.0)
     time_axis(axes, t)
     axes.set_ylabel(r"$\mu$ needed")
     return line

@@ -28,7 +28,7 @@ _SHARED = {
     "rad": "angle",
     "m": "position",
     "m/s": "velocity",
-    "rad/s": "angular velocity",
+    "rad/s": "rate",
     "N": "force",
     "N m": "torque",
 }

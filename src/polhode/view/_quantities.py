@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.algebra import Expr, Generator, Symbol
+from polhode.algebra import Expr, Symbol, dimension_of
 from polhode.base import LENGTH, MASS, PURE, TIME, DeclarationError, Dimension, UnitError
 from polhode.derive import Equations
 from polhode.simulate import Trajectory
@@ -149,32 +148,4 @@ def _dimension(equations: Equations, name: str, expression: Expr) -> Dimension:
     for line in equations.lines:
         if line.name == name:
             return ENERGY if line.restraint.is_couple else FORCE
-    return dimension_of(expression, equations.dimensions)
-
-
-def dimension_of(expression: Expr, known: Mapping[Symbol, Dimension]) -> Dimension:
-    """Dimension of a homogeneous expression; symbols of no known dimension count as numbers."""
-    if not expression:
-        return PURE
-    above, below = (
-        _dimension_of_term(next(part.terms())[0], known)
-        for part in (expression.numerator, expression.denominator)
-    )
-    return above / below
-
-
-def _dimension_of_term(
-    powers: Mapping[Generator, int], known: Mapping[Symbol, Dimension]
-) -> Dimension:
-    total = PURE
-    for generator, power in powers.items():
-        total = total * _dimension_of_factor(generator, known) ** power
-    return total
-
-
-def _dimension_of_factor(generator: Generator, known: Mapping[Symbol, Dimension]) -> Dimension:
-    if isinstance(generator, Symbol):
-        return known.get(generator.base(), PURE) / TIME**generator.order
-    if generator.depth and generator.partner() is None:  # a root
-        return dimension_of(generator.arguments[0], known) ** Fraction(1, 2)
-    return PURE
+    return dimension_of(expression, equations.dimensions) or PURE

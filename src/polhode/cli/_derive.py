@@ -1,0 +1,89 @@
+"""Exact equations of motion and every reaction of a system."""
+
+from __future__ import annotations
+
+import time
+from argparse import Namespace
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from polhode.algebra import Expr, Symbol
+from polhode.catalogue import Entry
+from polhode.cli._document import print_document, printed
+from polhode.cli._parser import Parser
+from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.cli._text import wrapped
+from polhode.derive import Equations, derive
+
+
+def configure(parser: Parser) -> None:
+    """Add the options of the command."""
+    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
+    parser.add_argument("--json", action="store_true", help="print one JSON document")
+
+
+def run(options: Namespace) -> int:
+    """Derive one system and print its equations."""
+    entry = entry_of(options.name)
+    system = entry.build()
+    began = time.perf_counter()
+    equations = derive(system)
+    reactions = equations.components
+    seconds = time.perf_counter() - began
+    if options.json:
+        print_document(_document(entry, equations, reactions) | {"seconds": seconds})
+    else:
+        print("\n".join(_told(entry, equations)))
+        print(f"\nDerived in {seconds:.3f} s.")
+    return 0
+
+
+def _document(entry: Entry, equations: Equations, reactions: Mapping[str, Expr]) -> dict[str, Any]:
+    return {
+        "system": entry.name,
+        "coordinates": _names(equations.coordinates),
+        "speeds": _names(equations.speeds),
+        "motion": [printed(row) for row in equations.motion],
+        "reactions": {name: printed(value) for name, value in reactions.items()},
+        "kinematics": {s.published: printed(rate) for s, rate in equations.kinematics.items()},
+        "dependent": {s.published: printed(speed) for s, speed in equations.dependent.items()},
+        "energy": printed(equations.energy),
+        "undetermined": list(equations.undetermined),
+        "least": {name: printed(equations.least[name]) for name in equations.undetermined},
+        "positive": [printed(sign) for sign in equations.assumed_positive],
+        "parameters": _names(equations.parameters),
+        "functions": _names(equations.functions),
+    }
+
+
+def _told(entry: Entry, equations: Equations) -> Iterator[str]:
+    yield f"{entry.title} ({entry.name})"
+    yield from wrapped("coordinates", _names(equations.coordinates))
+    yield from wrapped("speeds", _names(equations.speeds))
+    yield from wrapped("parameters", _names(equations.parameters))
+    if equations.functions:
+        yield from wrapped("functions of t", _names(equations.functions))
+    yield ""
+    yield str(equations)
+    if equations.undetermined:
+        yield "  of which the least forces are"
+        yield from (
+            f"  {name} = {equations.least[name].pretty()}" for name in equations.undetermined
+        )
+    others = {s: e for s, e in equations.dependent.items() if s not in equations.kinematics}
+    if others:
+        yield "Speeds that the constraints give"
+        yield from _assigned(others)
+    yield f"Energy\n  E = {equations.energy.pretty()}"
+    if equations.assumed_positive:
+        yield "Assumed"
+        yield from (f"  {sign.pretty()} > 0" for sign in equations.assumed_positive)
+
+
+def _assigned(values: Mapping[Symbol, Expr]) -> Iterator[str]:
+    for symbol, value in values.items():
+        yield f"  {Expr.generator(symbol).pretty()} = {value.pretty()}"
+
+
+def _names(symbols: Iterable[Symbol]) -> list[str]:
+    return [symbol.published for symbol in symbols]

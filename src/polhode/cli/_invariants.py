@@ -1,0 +1,40 @@
+"""The first integrals of a system, each verified exactly."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+
+from polhode.analyse import Invariant, invariants
+from polhode.cli._document import print_document, printed
+from polhode.cli._parser import Parser
+from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.derive import derive
+
+
+def configure(parser: Parser) -> None:
+    """Add the options of the command."""
+    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
+    parser.add_argument("--json", action="store_true", help="print one JSON document")
+
+
+def run(options: Namespace) -> int:
+    """Find the integrals of one system and print them."""
+    entry = entry_of(options.name)
+    found = invariants(derive(entry.build()))
+    if options.json:
+        described = [_document(invariant) for invariant in found]
+        print_document({"system": entry.name, "invariants": described, "ansatz": found.ansatz})
+        return 0
+    print(f"Integrals of {entry.name}")
+    for invariant in found:
+        print(f"  {invariant.name} = {invariant.expression.pretty()}    ({invariant.meaning})")
+    print(f"Searched: {found.ansatz}. Nothing outside it is excluded.")
+    return 0
+
+
+def _document(invariant: Invariant) -> dict[str, str]:
+    return {
+        "name": invariant.name,
+        **printed(invariant.expression),
+        "meaning": invariant.meaning,
+    }

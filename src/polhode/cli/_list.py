@@ -1,0 +1,48 @@
+"""The systems of the catalogue: names, coordinates, speeds, reactions, parameters."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from collections.abc import Iterator
+from dataclasses import asdict
+from typing import Any
+
+from polhode.catalogue import CATALOGUE, Entry
+from polhode.cli._document import print_document
+from polhode.cli._parser import Parser
+from polhode.cli._text import wrapped
+from polhode.derive import derive
+
+
+def configure(parser: Parser) -> None:
+    """Add the options of the command."""
+    parser.add_argument("--json", action="store_true", help="print one JSON document")
+
+
+def run(options: Namespace) -> int:
+    """Print the catalogue."""
+    systems = [_described(entry) for entry in CATALOGUE.values()]
+    if options.json:
+        print_document({"systems": systems})
+    else:
+        print("\n\n".join("\n".join(_told(system)) for system in systems))
+    return 0
+
+
+def _described(entry: Entry) -> dict[str, Any]:
+    equations = derive(entry.build())
+    return {
+        "name": entry.name,
+        "title": entry.title,
+        "coordinates": [symbol.published for symbol in equations.coordinates],
+        "speeds": [symbol.published for symbol in equations.speeds],
+        "reactions": list(equations.components),
+        "parameters": [asdict(parameter) for parameter in entry.parameters],
+    }
+
+
+def _told(system: dict[str, Any]) -> Iterator[str]:
+    yield f"{system['name']:<28}{system['title']}"
+    for what in ("coordinates", "speeds", "reactions"):
+        yield from wrapped(what, system[what])
+    yield from wrapped("parameters", [f"{p['name']}={p['default']}," for p in system["parameters"]])

@@ -1,0 +1,70 @@
+"""The command `polhode`: finds the command that was asked for, runs it, and tells what failed."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from contextlib import suppress
+from importlib import import_module
+
+from polhode.base import installed_version
+from polhode.cli._failure import report
+from polhode.cli._parser import Parser
+
+COMMANDS = {
+    "list": "the systems of the catalogue",
+    "derive": "equations of motion and reactions of a system",
+    "run": "simulate a system",
+    "steady": "steady motions of a system, and their stability",
+    "invariants": "first integrals of a system",
+    "tour": "work through the whole catalogue and write a page of it",
+    "cache": "the cache of compiled systems",
+}
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one command; returns its exit code.
+
+    Args:
+        argv: what follows the word `polhode`; by default what the process was started with.
+    """
+    _print_whatever_the_terminal_can()
+    arguments = sys.argv[1:] if argv is None else list(argv)
+    try:
+        options = _parser(arguments).parse_args(arguments)
+        code = int(options.run(options))
+        sys.stdout.flush()
+    except SystemExit as leaving:  # how argparse ends after --help and --version
+        return int(leaving.code or 0)
+    except BaseException as error:
+        return report(error)
+    return code
+
+
+def _parser(arguments: Sequence[str]) -> Parser:
+    """The parser; only the command that is asked for is loaded."""
+    parser = Parser(
+        prog="polhode",
+        description="Rigid-body mechanics: declare once, derive exactly, check, simulate, look.",
+        epilog="See 'polhode COMMAND --help' for one command, and 'polhode list' for the systems.",
+    )
+    parser.add_argument("--version", action="version", version=f"polhode {_version()}")
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    for name, summary in COMMANDS.items():
+        command = commands.add_parser(name, help=summary)
+        if name in arguments[:1]:
+            module = import_module(f"polhode.cli._{name}")
+            command.description = module.__doc__
+            module.configure(command)
+            command.set_defaults(run=module.run)
+    return parser
+
+
+def _version() -> str:
+    return installed_version("polhode") or "(not installed)"
+
+
+def _print_whatever_the_terminal_can() -> None:
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(AttributeError):  # a stream put in place of the terminal's
+            stream.reconfigure(errors="replace")  # type: ignore[union-attr]

@@ -1,0 +1,51 @@
+"""The files of a run: a table of samples and a figure, each whole or not there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from polhode.base import StoreError
+from polhode.catalogue import Entry
+from polhode.simulate import Trajectory
+from polhode.view import figure_of_run, origin_of, save_figure
+
+
+def write_run(folder: Path, entry: Entry, trajectory: Trajectory) -> list[Path]:
+    """Write the samples and a figure of a run into a folder, made if it is not there.
+
+    Raises:
+        StoreError: where a file cannot be written.
+    """
+    _make(folder)
+    stem = entry.name.rpartition(":")[2].replace("/", "-")
+    table, picture = folder / f"{stem}.csv", folder / f"{stem}.png"
+    trajectory.to_csv(table)
+    try:
+        figure = figure_of_run(trajectory, entry.plots or _everything(trajectory))
+        save_figure(figure, picture, origin=origin_of(trajectory))
+    except KeyboardInterrupt as interrupt:
+        interrupt.add_note(f"kept {table}")
+        raise
+    return [table, picture]
+
+
+def _everything(trajectory: Trajectory) -> Sequence[Sequence[str]]:
+    equations = trajectory.equations
+    groups = (
+        [symbol.published for symbol in equations.coordinates],
+        [symbol.published for symbol in equations.speeds],
+        trajectory.reactions,
+    )
+    return [group for group in groups if group]
+
+
+def _make(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise StoreError(
+            f"the folder {folder} cannot be made ({error.strerror})",
+            expected="a place where a folder can be made",
+            advice="give --out another one",
+        ) from error

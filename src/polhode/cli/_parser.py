@@ -1,0 +1,46 @@
+"""Reading of the command line by argparse, with values that may begin with a minus sign."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, RawDescriptionHelpFormatter
+from collections.abc import Iterable
+from typing import Any, NoReturn
+
+from polhode.base import ParseError
+
+
+class Parser(ArgumentParser):
+    """An argument parser that raises `ParseError`, takes no abbreviations, and reads ``-2*a``.
+
+    Options are the words that begin with two dashes, and those declared with one.
+    """
+
+    def __init__(self, **settings: Any) -> None:
+        settings.setdefault("formatter_class", RawDescriptionHelpFormatter)
+        super().__init__(allow_abbrev=False, **settings)
+
+    def error(self, message: str) -> NoReturn:
+        """Refuse the command line."""
+        raise ParseError(message, advice=f"see '{self.prog} --help'")
+
+    def _parse_optional(self, arg_string: str) -> Any:
+        if not arg_string.startswith("--") and arg_string not in self._option_string_actions:
+            return None
+        return super()._parse_optional(arg_string)
+
+
+def assignments(texts: Iterable[str]) -> dict[str, str]:
+    """The values of ``name=value`` options, by name.
+
+    Raises:
+        ParseError: for text without "=", or a name that comes twice.
+    """
+    values: dict[str, str] = {}
+    for text in texts:
+        name, equals, value = (part.strip() for part in text.partition("="))
+        if not (name and equals and value):
+            raise ParseError(f"{text!r}", expected="name=value, such as theta=80deg")
+        if name in values:
+            raise ParseError(f"{name} is given twice", expected="one value for it")
+        values[name] = value
+    return values

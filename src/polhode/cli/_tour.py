@@ -1,0 +1,29 @@
+"""Work through the whole catalogue: derive, check, simulate, draw, and write a page of it."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from pathlib import Path
+
+from polhode.base import Exit, terminal_progress
+from polhode.cli._parser import Parser
+from polhode.tour import write_tour
+
+
+def configure(parser: Parser) -> None:
+    """Add the options of the command."""
+    parser.add_argument(
+        "directory",
+        metavar="DIR",
+        nargs="?",
+        default="tour",
+        help="where index.html and its figures go (default: tour)",
+    )
+
+
+def run(options: Namespace) -> int:
+    """Write the tour and print what it shows; a check that does not hold is a failure."""
+    report = write_tour(Path(options.directory), terminal_progress(), print)
+    print(report.table())
+    print(f"\nwritten to {report.page}")
+    return Exit.DONE if report.all_hold else Exit.FAILED
