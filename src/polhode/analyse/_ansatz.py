@@ -30,7 +30,7 @@ from polhode.algebra import (
     time,
     variables,
 )
-from polhode.analyse._points import exact_function, random_values
+from polhode.analyse._points import Point, random_values
 from polhode.analyse._reduced import reduced
 from polhode.base import NumericError
 from polhode.derive import Equations
@@ -78,10 +78,7 @@ def search(equations: Equations, ansatz: Ansatz) -> Iterator[Expr]:
 def _monomials(equations: Equations, essential: tuple[Symbol, ...], ansatz: Ansatz) -> list[Expr]:
     angles = [q for q in essential if _is_angle(equations, q)]
     lengths = [q for q in equations.coordinates if not _is_angle(equations, q)]
-    waves = [ONE]
-    for angle in angles:
-        q = Expr.generator(angle)
-        waves = [w * t for w in waves for t in _waves(q, ansatz.trigonometric)]
+    waves = _waves([Expr.generator(angle) for angle in angles], ansatz.trigonometric)
     places = _products([Expr.generator(q) for q in lengths], ansatz.lengths)
     speeds = _products([Expr.generator(u) for u in equations.speeds], ansatz.speeds)
     found = dict.fromkeys(u * w for u in speeds for w in waves)
@@ -89,9 +86,19 @@ def _monomials(equations: Equations, essential: tuple[Symbol, ...], ansatz: Ansa
     return list(found)
 
 
-def _waves(angle: Expr, degree: int) -> list[Expr]:
-    s, c = sin(angle), cos(angle)
-    return [s**j * c**i for i in (0, 1) for j in range(degree + 1 - i)]
+def _waves(angles: Sequence[Expr], degree: int) -> list[Expr]:
+    """Products of sines and cosines; cos² is left out, being 1 - sin²."""
+    found = {0: [ONE]}
+    for angle in angles:
+        s, c = sin(angle), cos(angle)
+        own = [(j + i, s**j * c**i) for i in (0, 1) for j in range(degree + 1 - i)]
+        wider: dict[int, list[Expr]] = {}
+        for power, waves in found.items():
+            for extra, wave in own:
+                if power + extra <= degree:
+                    wider.setdefault(power + extra, []).extend(w * wave for w in waves)
+        found = wider
+    return [wave for waves in found.values() for wave in waves]
 
 
 def _products(factors: Sequence[Expr], degree: int) -> list[Expr]:
@@ -113,10 +120,11 @@ def _supports(rates: Sequence[Expr]) -> Iterator[list[int]]:
     """Positions of the monomials in each independent solution, at random parameters."""
     symbols = sorted(variables(rates), key=lambda s: (s.kind is Kind.PARAMETER, s.published))
     varying = sum(s.kind is not Kind.PARAMETER for s in symbols)
-    evaluate, random = exact_function(rates, symbols), Random(7)
-    constants = random_values(len(symbols) - varying, random)
+    random = Random(7)
+    constants = random_values(symbols[varying:], random)
     rows = [
-        list(evaluate([*random_values(varying, random), *constants])) for _ in range(len(rates) + 4)
+        Point({**random_values(symbols[:varying], random), **constants}).all(rates)
+        for _ in range(len(rates) + 4)
     ]
     echelon, rank = fmpq_mat(rows).rref()
     columns = range(len(rates))

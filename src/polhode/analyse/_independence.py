@@ -1,26 +1,33 @@
-"""Whether an expression is a function of others, by the rank of their gradients."""
+"""Whether expressions are functions of one another, by the rank of their gradients."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from random import Random
 
 from flint import fmpq_mat
 
-from polhode.algebra import Expr, Kind, variables
-from polhode.analyse._points import exact_function, random_values
+from polhode.algebra import Expr, Symbol
+from polhode.analyse._points import Point, Rational, random_values
 
 
-def independent(expression: Expr, known: list[Expr]) -> bool:
-    """Whether an expression is independent of the known ones as functions of the state.
+class Independent:
+    """A growing set of functions of the state none of which is a function of the others.
 
-    Decided at a random rational point: rank can only be lost there by a rare accident.
+    Decided at one random rational point: rank can only be lost there by a rare accident.
     """
-    everything = [*known, expression]
-    symbols = sorted(variables(everything), key=lambda s: s.published)
-    varying = [s for s in symbols if s.kind is not Kind.PARAMETER]
-    if not varying or not expression.symbols() & set(varying):
-        return False
-    gradients = exact_function([e.diff(s) for e in everything for s in varying], symbols)
-    values = gradients(random_values(len(symbols), Random(20261121)))
-    matrix = fmpq_mat(len(everything), len(varying), list(values))
-    return bool(matrix.rank() == len(everything))
+
+    def __init__(self, state: Iterable[Symbol], constants: Iterable[Symbol]) -> None:
+        self._state = tuple(state)
+        symbols = (*self._state, *constants)
+        self._point = Point(random_values(symbols, Random(20261121)))
+        self._gradients: list[list[Rational]] = []
+
+    def takes(self, expression: Expr) -> bool:
+        """Add an expression if it is independent of those taken before."""
+        gradient = self._point.all(expression.diff(symbol) for symbol in self._state)
+        table = fmpq_mat([*self._gradients, gradient])
+        if table.rank() == len(self._gradients):
+            return False
+        self._gradients.append(gradient)
+        return True

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from polhode.algebra import Expr, Vector, dot
+from polhode.algebra import Expr, Symbol, Vector, dot, pi, time
 from polhode.analyse._ansatz import Ansatz, search
-from polhode.analyse._independence import independent
+from polhode.analyse._independence import Independent
 from polhode.derive import Equations
 
 
@@ -57,12 +57,24 @@ def invariants(equations: Equations, ansatz: Ansatz | None = None) -> Invariants
     """
     chosen = ansatz or Ansatz()
     found: list[Invariant] = []
+    independent = Independent(*_symbols(equations))
     for candidate in (*_named(equations), *_searched(equations, chosen)):
-        known = [i.expression for i in found]
-        if not equations.rate(candidate.expression) and independent(candidate.expression, known):
+        constant = not equations.rate(candidate.expression)
+        if constant and independent.takes(candidate.expression):
             found.append(candidate)
     numbered = _numbered(found)
     return Invariants(numbered, f"energy, momenta and speeds; {chosen.describe()}")
+
+
+def _symbols(equations: Equations) -> tuple[list[Symbol], list[Symbol]]:
+    """What integrals may vary with, and the constants in them."""
+    driven = [
+        rate
+        for f in equations.functions
+        for rate in (f, f.derivative(), f.derivative().derivative())
+    ]
+    state = [*equations.coordinates, *equations.speeds, *driven]
+    return state, [*equations.parameters, *time.symbols(), *pi.symbols()]
 
 
 def _named(equations: Equations) -> Iterator[Invariant]:

@@ -1,54 +1,61 @@
-"""Exact evaluation at rational points, with sines and cosines on the unit circle."""
+"""Exact evaluation at random rational points, with sines and cosines on the unit circle."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from random import Random
 from typing import Any
 
 from flint import fmpq
 
-from polhode.algebra import Arithmetic, Expr, Op, Symbol, compile_program
+from polhode.algebra import Expr, Generator, Symbol
 from polhode.base import NumericError
 
-Values = tuple[Any, ...]
+Rational = Any  # flint.fmpq
+Values = Mapping[Symbol, Rational]
 
 
-def exact_function(
-    expressions: Sequence[Expr], symbols: Sequence[Symbol]
-) -> Callable[[Sequence[Any]], Values]:
-    """The values of expressions at rational arguments.
+class Point:
+    """A rational value for every symbol, and what generators are there.
 
-    Stands sin x → 2x/(1 + x²) and cos x → (1 - x²)/(1 + x²) in for the sine and cosine: other
+    sin x → 2x/(1 + x²) and cos x → (1 - x²)/(1 + x²) stand in for the sine and cosine: other
     points, but with every algebraic relation intact, which is all that identities ask for.
     """
-    program = compile_program(expressions, symbols)
-    function = program.function(_RATIONAL)
-    return lambda values: tuple(fmpq(v) for v in function(*values))
+
+    def __init__(self, values: Values) -> None:
+        self._known: dict[Generator, Rational] = dict(values.items())
+
+    def __call__(self, expression: Expr) -> Rational:
+        """The exact value of an expression."""
+        values = [self._value(generator) for generator in expression.ring.generators]
+        return fmpq(expression.num(*values)) / fmpq(expression.den(*values))
+
+    def all(self, expressions: Iterable[Expr]) -> list[Rational]:
+        """The exact values of several expressions."""
+        return [self(expression) for expression in expressions]
+
+    def _value(self, generator: Generator) -> Rational:
+        if generator not in self._known:
+            self._known[generator] = self._function(generator)
+        return self._known[generator]
+
+    def _function(self, generator: Generator) -> Rational:
+        even = next((g for g in generator.companions() if g.partner()), None)
+        partner = even.partner() if even is not None else None
+        if partner is None:
+            if isinstance(generator, Symbol):
+                return fmpq(1)  # in the ring, but not in the expression
+            raise NumericError(
+                "a square root or an exponential in a search for integrals",
+                expected="equations in polynomials, sines and cosines",
+                advice="the named candidates are still tried",
+            )
+        sign = partner[1]
+        x = self(generator.arguments[0])
+        above = 1 + sign * x * x if generator == even else 2 * x
+        return above / (1 - sign * x * x)
 
 
-def random_values(count: int, random: Random) -> list[Any]:
-    """Rational numbers between 1/50 and 50."""
-    return [fmpq(random.randint(2, 97), random.randint(2, 97)) for _ in range(count)]
-
-
-def _no_rational_value(_: Any) -> Any:
-    raise NumericError(
-        "a square root or an exponential in a search for integrals",
-        expected="equations in polynomials, sines and cosines",
-        advice="the named candidates are still tried",
-    )
-
-
-_RATIONAL = Arithmetic(
-    number=lambda value: fmpq(value.numerator, value.denominator),
-    pi=fmpq(22, 7),
-    functions={
-        Op.SIN: lambda x: 2 * x / (1 + x * x),
-        Op.COS: lambda x: (1 - x * x) / (1 + x * x),
-        Op.SINH: lambda x: 2 * x / (1 - x * x),
-        Op.COSH: lambda x: (1 + x * x) / (1 - x * x),
-        Op.SQRT: _no_rational_value,
-        Op.EXP: _no_rational_value,
-    },
-)
+def random_values(symbols: Sequence[Symbol], random: Random) -> dict[Symbol, Rational]:
+    """Rational numbers between 0 and 1, where no sine or cosine vanishes."""
+    return {s: fmpq(random.randint(2, 97), random.randint(101, 197)) for s in symbols}

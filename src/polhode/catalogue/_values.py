@@ -30,7 +30,12 @@ Known = TypeVar("Known")
 Refused = TypeVar("Refused", ParseError, UnitError)
 
 _NUMBER_THEN_UNIT = re.compile(
-    r"\s*[+\-−]?\s*(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?\s*[^\W\d_]|.*°"
+    r"""\s*[+\-−]?\s*(?:
+        (?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?\s*[^\W\d_]
+      | (?:nan|inf|infinity)\s*$
+      | .*°
+    )""",
+    re.VERBOSE | re.IGNORECASE,
 )
 
 

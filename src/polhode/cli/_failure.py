@@ -28,8 +28,7 @@ def _told(error: BaseException) -> str:
         case PolhodeError():
             return " ".join(str(error).split())
         case KeyboardInterrupt():
-            kept = getattr(error, "__notes__", None) or ["nothing was written"]
-            return "; ".join(["interrupted", *kept])
+            return "; ".join(["interrupted", *getattr(error, "__notes__", ())])
         case _:
             what = " ".join(f"{type(error).__name__}: {error}".split())
             return f"unexpected {what} (POLHODE_DEBUG=1 shows where; please report it)"

@@ -6,6 +6,7 @@ import sys
 from collections.abc import Sequence
 from contextlib import suppress
 from importlib import import_module
+from warnings import catch_warnings, simplefilter
 
 from polhode.base import installed_version
 from polhode.cli._failure import report
@@ -31,8 +32,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     _print_whatever_the_terminal_can()
     arguments = sys.argv[1:] if argv is None else list(argv)
     try:
-        options = _parser(arguments).parse_args(arguments)
-        code = int(options.run(options))
+        with catch_warnings():
+            simplefilter("ignore")  # what matters of them comes as an error
+            options = _parser(arguments).parse_args(arguments)
+            code = int(options.run(options))
         sys.stdout.flush()
     except SystemExit as leaving:  # how argparse ends after --help and --version
         return int(leaving.code or 0)

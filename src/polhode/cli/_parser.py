@@ -23,6 +23,13 @@ class Parser(ArgumentParser):
         """Refuse the command line."""
         raise ParseError(message, advice=f"see '{self.prog} --help'")
 
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """As it was, but with nothing left over: so a command refuses what is not its own."""
+        known, unknown = super().parse_known_args(args, namespace)
+        if unknown:
+            self.error(f"unrecognized arguments: {' '.join(unknown)}")
+        return known, unknown
+
     def _parse_optional(self, arg_string: str) -> Any:
         if not arg_string.startswith("--") and arg_string not in self._option_string_actions:
             return None

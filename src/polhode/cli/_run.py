@@ -6,6 +6,7 @@ import time
 from argparse import Namespace
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -75,6 +76,7 @@ def run(options: Namespace) -> int:
         progress=terminal_progress(),
     )
     document = _document(entry, trajectory, numbers.start, seconds)
+    _refuse_overflow(document["final"] | document["drift"])
     files = _written(options.out, entry, trajectory) if options.out else []
     if options.json:
         print_document(document | {"files": [str(path) for path in files]})
@@ -112,6 +114,16 @@ def _document(
         "integrator": trajectory.integrator,
         "seconds": {**trajectory.seconds, "derive": derived + trajectory.seconds["derive"]},
     }
+
+
+def _refuse_overflow(results: Mapping[str, Any]) -> None:
+    for name, value in results.items():
+        if isinstance(value, float) and not isfinite(value):
+            raise NumericError(
+                f"{name} has no finite value along the motion",
+                expected="numbers that can be squared and summed",
+                advice="check the sizes of the parameters and of the start",
+            )
 
 
 def _told(entry: Entry, document: Mapping[str, Any], files: Sequence[Path]) -> Iterator[str]:

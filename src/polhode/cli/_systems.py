@@ -25,7 +25,11 @@ def entry_of(name: str) -> Entry:
         return _declared(name, Path(path), variable)
     if name.endswith(".py"):
         return _declared(name, Path(name), "")
-    return look_up(name, CATALOGUE, "system of the catalogue, or path/to/file.py:name of one")
+    try:
+        return look_up(name, CATALOGUE, "system of the catalogue")
+    except DeclarationError as error:
+        expected = f"{error.expected}, or path/to/file.py:name"
+        raise DeclarationError(error.given, expected=expected, advice=error.advice) from error
 
 
 def _declared(name: str, path: Path, variable: str) -> Entry:

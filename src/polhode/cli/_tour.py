@@ -23,7 +23,13 @@ def configure(parser: Parser) -> None:
 
 def run(options: Namespace) -> int:
     """Write the tour and print what it shows; a check that does not hold is a failure."""
-    report = write_tour(Path(options.directory), terminal_progress(), print)
+    progress = terminal_progress()
+
+    def tell(text: str) -> None:
+        progress.finish()  # wipes its line, which the next step writes anew
+        print(text, flush=True)
+
+    report = write_tour(Path(options.directory), progress, tell)
     print(report.table())
     print(f"\nwritten to {report.page}")
     return Exit.DONE if report.all_hold else Exit.FAILED

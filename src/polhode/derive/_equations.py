@@ -142,7 +142,12 @@ class Equations:
     def rate(self, expression: Expr) -> Expr:
         """Time derivative along true motions."""
         settled = self.kinetics.on_speeds(expression)
-        return self.on_shell(settled.chain(self.kinetics.rate))
+        return settled.chain(self._true_rate)
+
+    def _true_rate(self, symbol: Symbol) -> Expr:
+        if symbol in self.speeds:
+            return self.accelerations[symbol.derivative()]
+        return self.kinetics.rate(symbol)
 
     # -- reactions ------------------------------------------------------------------------------
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from polhode.algebra import Expr, Symbol, symbol, time
+from polhode.catalogue import Parameter
 from polhode.tour._declaration import source_of
 from polhode.tour._formulas import equation, inline, listed, with_formulas
 from polhode.tour._html import Markup, joined, raised, table, tag
-from polhode.tour._numerals import power_of_ten
+from polhode.tour._numerals import power_of_ten, scientific
 from polhode.tour._work import Drawing, Worked
 
 _IDEALS = {
@@ -152,12 +153,8 @@ def _numbers(worked: Worked) -> Markup:
     rows: list[tuple[str, ...]] = []
     for parameter in entry.parameters:
         name = parameter.name
-        value = parameter.default
-        if any(sign in value for sign in "*/") and name in run.parameters and parameter.unit:
-            value = power_of_ten(run.parameters[name], parameter.unit, 3)
-        rows.append(
-            (inline(known.get(name, symbol(name))), _raised(parameter.meaning), _raised(value))
-        )
+        meaning, value = _raised(parameter.meaning), _value(parameter, run.parameters)
+        rows.append((inline(known.get(name, symbol(name))), meaning, value))
     rows += [
         (inline(known[name]), "at the start", _raised(value)) for name, value in entry.start.items()
     ]
@@ -171,8 +168,16 @@ def _numbers(worked: Worked) -> Markup:
     return joined([table(("symbol", "meaning", "value"), rows, class_="values"), *also])
 
 
+def _value(parameter: Parameter, values: Mapping[str, float]) -> Markup:
+    """The default as it is written, or its value where it follows from other parameters."""
+    if "*" not in parameter.default or parameter.name not in values:
+        return _raised(parameter.default)
+    return _raised(f"{values[parameter.name]:.3g} {parameter.unit}")
+
+
 def _raised(text: str) -> Markup:
-    return raised(text.replace("^2", "²").replace("^3", "³"))
+    """Powers raised, as in m/s² and 10⁻⁵."""
+    return raised(scientific(text.replace("^2", "²").replace("^3", "³")))
 
 
 def _checks(worked: Worked) -> Markup:

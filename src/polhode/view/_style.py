@@ -46,7 +46,6 @@ _RULES: Any = {
     "axes.grid": True,
     "axes.axisbelow": True,
     "axes.formatter.useoffset": False,
-    "axes.formatter.use_mathtext": True,
     "axes.formatter.limits": (-4, 5),
     "axes.xmargin": 0,
     "axes.ymargin": 0.08,
