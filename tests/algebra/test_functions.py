@@ -4,6 +4,9 @@ from fractions import Fraction
 
 import mpmath
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
 from algebra.worlds import (
     KERNEL,
     POINT,
@@ -20,9 +23,6 @@ from algebra.worlds import (
     x,
     y,
 )
-from hypothesis import given
-from hypothesis import strategies as st
-
 from polhode.algebra import (
     Expr,
     absolute,

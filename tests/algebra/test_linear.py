@@ -3,10 +3,10 @@
 from itertools import pairwise
 
 import pytest
-from algebra.worlds import KERNEL, a, b, cooked, numbers, phi, simple, theta, x, y
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from algebra.worlds import a, b, phi, theta, x, y
 from polhode.algebra import (
     ONE,
     ZERO,
@@ -24,13 +24,11 @@ from polhode.algebra import (
 
 UNIT = Matrix.diagonal([1, 1, 1])
 
-entries = st.one_of(numbers, numbers, simple).map(lambda recipe: cooked(recipe, KERNEL))
+entries = st.sampled_from([ZERO, ZERO, ONE, -ONE, Expr.of(2) / 3, a, x, sin(theta), cos(theta)])
 
 
 def square(size: int) -> st.SearchStrategy:
-    return st.lists(
-        st.lists(entries, min_size=size, max_size=size), min_size=size, max_size=size
-    )
+    return st.lists(st.lists(entries, min_size=size, max_size=size), min_size=size, max_size=size)
 
 
 @settings(max_examples=40)
@@ -51,7 +49,7 @@ def test_rows_that_say_nothing_new_and_rows_that_contradict():
     rows = [[ONE, a], [a, a**2], [Expr.of(2), 2 * a]]
     outcome = eliminate(rows, [x, a * x, y])
     assert outcome.free == (1,)
-    assert outcome.redundant == (1,)
+    assert outcome.leftover == {1: 0, 2: y - 2 * x}
     assert outcome.contradictory == (2,)
 
 
@@ -88,14 +86,12 @@ def test_solving_with_cosines_and_roots():
 def test_matrices():
     matrix = Matrix.of([[1, x], [sin(theta), 0], [2, 3]])
     assert matrix.shape == (3, 2)
-    assert matrix.T.T == matrix
+    assert matrix == matrix.T.T
     assert matrix.T[1, 0] == x
-    assert (matrix.T @ matrix).T == matrix.T @ matrix
+    assert matrix.T @ matrix == (matrix.T @ matrix).T
     assert matrix.times([y, ONE]) == (y + x, y * sin(theta), 2 * y + 3)
     assert Matrix.of([]).shape == (0, 0)
-    assert matrix.latex() == (
-        r"\begin{bmatrix} 1 & x \\ \sin\theta & 0 \\ 2 & 3 \end{bmatrix}"
-    )
+    assert matrix.latex() == (r"\begin{bmatrix} 1 & x \\ \sin\theta & 0 \\ 2 & 3 \end{bmatrix}")
     assert variables([*matrix.rows[0], *matrix.rows[1]]) == {x.symbol, theta.symbol}
 
 

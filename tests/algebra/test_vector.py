@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 
 import pytest
-from algebra.worlds import KERNEL, a, cooked, phi, simple, theta, theta_dot, x, y
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from algebra.worlds import KERNEL, a, cooked, phi, simple, theta, theta_dot, x, y
 from polhode.algebra import ZERO, Expr, Matrix, Vector, cos, rotation, sin, sqrt, zero_vector
 
 

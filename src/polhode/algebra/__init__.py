@@ -22,11 +22,11 @@ from polhode.algebra._functions import tanh as tanh
 from polhode.algebra._generators import Generator as Generator
 from polhode.algebra._generators import Kind as Kind
 from polhode.algebra._generators import Symbol as Symbol
+from polhode.algebra._homogeneity import dimension_of as dimension_of
 from polhode.algebra._latex import latex as latex
 from polhode.algebra._latex import latex_of_symbol as latex_of_symbol
 from polhode.algebra._latex import mathml as mathml
 from polhode.algebra._layout import layout as layout
-from polhode.algebra._homogeneity import dimension_of as dimension_of
 from polhode.algebra._linear import Elimination as Elimination
 from polhode.algebra._linear import Matrix as Matrix
 from polhode.algebra._linear import Row as Row

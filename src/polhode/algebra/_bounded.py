@@ -7,7 +7,7 @@ from math import comb, prod
 
 from polhode.algebra import _functions as functions
 from polhode.algebra._expression import Expr
-from polhode.algebra._roots import sqrt
+from polhode.algebra._roots import absolute, sqrt
 from polhode.base import NumericError
 
 HIGHEST = 64  # power
@@ -20,6 +20,7 @@ FUNCTIONS: dict[str, Callable[[Expr], Expr]] = {
     "cos": functions.cos,
     "tan": functions.tan,
     "sqrt": sqrt,
+    "abs": absolute,
     "exp": functions.exp,
     "sinh": functions.sinh,
     "cosh": functions.cosh,
@@ -57,7 +58,7 @@ def raise_to(base: Expr, exponent: Expr) -> Expr:
 
 def apply(name: str, argument: Expr) -> Expr:
     """A function of `FUNCTIONS`."""
-    if name == "sqrt":
+    if name in ("sqrt", "abs"):
         _refuse_hard_root(argument)
     else:  # sines of sums and multiples are written out in those of the parts
         _refuse_many(prod(2 * min(abs(c.numerator), 8) for _, c in argument.terms()))

@@ -37,7 +37,8 @@ def _conjugated(ring: Ring, quotient: Quotient, generator: Generator) -> Quotien
     if num.degrees()[position] != 1:
         return quotient
     even, odd = ring.split(num, position)
-    conjugate = even - odd * ring.variable(generator)
+    variable = ring.variable(generator)
+    conjugate = even - odd * variable if even != 0 else variable
     above, below = ring.reduce(num * conjugate), ring.reduce(den * conjugate)
     return _cancelled(above, below) if above != 0 else quotient
 

@@ -40,7 +40,7 @@ def read_expression(text: str, names: Mapping[str, Expr]) -> Expr:
     """The exact expression that a text spells.
 
     It may hold decimal numbers (taken as the exact fraction they spell), ``+ - * / ** ^``, round
-    brackets, ``sin cos tan sqrt exp sinh cosh tanh``, ``pi``, the time ``t`` and names.
+    brackets, ``sin cos tan sqrt abs exp sinh cosh tanh``, ``pi``, the time ``t`` and names.
 
     Args:
         text: what was typed.

@@ -52,7 +52,7 @@ def _failures_located(path: Path) -> Iterator[None]:
     try:
         yield
     except SyntaxError as error:
-        place = f"{error.filename}, line {error.lineno}"
+        place = f"{error.filename}, line {error.lineno}" if error.filename else str(path)
         raise ParseError(f"{place}: {error.msg}", expected="a Python file") from error
     except PolhodeError as error:
         given = f"{_place(path, error)}: {error.given}"

@@ -299,6 +299,9 @@ class Equations:
         return units.infer(units.uses_of(self.kinetics, energy, forces))
 
     def _of_kind(self, kind: Kind) -> tuple[Symbol, ...]:
-        used = variables((*self.rows, self.energy, *self.kinematics.values(), *self.closures))
+        needs = (v for need in self.demands.values() for v in (need.force, need.couple))
+        balances = [component for vector in needs for component in vector.components]
+        rates = self.kinematics.values()
+        used = variables((*self.rows, *balances, self.energy, *rates, *self.closures))
         found = (s for s in used if s.kind is kind and s.name != "pi")
         return tuple(sorted(found, key=lambda s: s.published))

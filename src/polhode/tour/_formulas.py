@@ -30,8 +30,10 @@ def inline(expression: Expr) -> Markup:
 
 
 def listed(symbols: Iterable[Symbol]) -> Markup:
-    """Symbols separated by commas."""
-    return joined((inline(Expr.generator(symbol)) for symbol in symbols), ", ")
+    """Symbols separated by commas, none of which begins a line."""
+    first, *others = (inline(Expr.generator(symbol)) for symbol in reversed(list(symbols)))
+    kept = (tag("span", symbol, ",", class_="keep") for symbol in reversed(others))
+    return joined([*kept, first], " ")
 
 
 def with_formulas(text: str) -> Markup:

@@ -42,6 +42,7 @@ def section(worked: Worked, figures: Markup) -> Markup:
         *(equation(row, ZERO) for row in worked.equations.motion),
         *_reactions(worked),
         *_energy(worked),
+        *_conserved(worked),
         tag("h3", "The default run"),
         _numbers(worked),
         figures,
@@ -131,7 +132,9 @@ def _reactions(worked: Worked) -> Iterator[Markup]:
 
 
 def _assigned(values: dict[str, Expr]) -> Iterator[Markup]:
-    return (equation(Expr.generator(Symbol(name)), value) for name, value in values.items())
+    """What each component is; those that stay open as themselves are left out."""
+    named = ((Expr.generator(Symbol(name)), value) for name, value in values.items())
+    return (equation(name, value) for name, value in named if value != name)
 
 
 def _energy(worked: Worked) -> Iterator[Markup]:
@@ -145,6 +148,18 @@ def _energy(worked: Worked) -> Iterator[Markup]:
         yield equation(symbol("P"), equations.power)
     else:
         yield tag("p", "Nothing does work but what the potential accounts for.")
+
+
+def _conserved(worked: Worked) -> Iterator[Markup]:
+    speeds = {i.name: s for i in worked.conserved if (s := i.expression.symbol)}
+    if len(worked.conserved):
+        yield tag("h3", "Conserved")
+    for invariant in worked.conserved:
+        if invariant.name not in speeds:
+            yield equation(symbol(invariant.name), invariant.expression)
+    if speeds:
+        are = "is" if len(speeds) == 1 else "are"
+        yield tag("p", listed(speeds.values()), f" {are} constant.")
 
 
 def _numbers(worked: Worked) -> Markup:
@@ -185,7 +200,8 @@ def _checks(worked: Worked) -> Markup:
         (check.name, check.how, _verdict(check.passed), raised(check.found))
         for check in worked.checks
     )
-    return table(("check", "what is compared", "verdict", "difference"), rows)
+    header = ("check", "what is compared", "verdict", "difference")
+    return table(header, rows, class_="checks")
 
 
 def _verdict(passed: bool) -> Markup:

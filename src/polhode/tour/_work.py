@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import polhode as ph
+from polhode.analyse import Invariant, Invariants, invariants
 from polhode.catalogue import Entry, numbers_of
 from polhode.derive import Equations
 from polhode.simulate import Trajectory, simulate
@@ -39,6 +40,7 @@ class Worked:
     Attributes:
         entry: the system.
         equations: derived anew.
+        conserved: its integrals, each verified exactly.
         run: the default run.
         checks: all of them, passed or not.
         constraint_drift: largest distance between a centre of mass and where the velocities that
@@ -49,6 +51,7 @@ class Worked:
 
     entry: Entry
     equations: Equations
+    conserved: Invariants
     run: Trajectory
     checks: tuple[Check, ...]
     constraint_drift: float
@@ -65,17 +68,20 @@ def work_through(entry: Entry) -> Worked:
     """Derive, check, simulate and draw a system of the catalogue."""
     began = time.perf_counter()
     equations = ph.derive(entry.build())
-    run = default_run(entry, equations)
+    conserved = invariants(equations)
+    run = default_run(entry, equations, conserved)
     travel = balance.travel(run, equations)
     checks = (*exact_checks(equations), *numeric_checks(run, equations, travel))
     drawings = tuple(_drawings(entry, run))
     drift = max(travel.defect, run.drift.constraint)
     seconds = time.perf_counter() - began
-    return Worked(entry, equations, run, checks, drift, drawings, seconds)
+    return Worked(entry, equations, conserved, run, checks, drift, drawings, seconds)
 
 
-def default_run(entry: Entry, equations: Equations) -> Trajectory:
-    """The run of the catalogue's default numbers."""
+def default_run(
+    entry: Entry, equations: Equations, conserved: Iterable[Invariant] = ()
+) -> Trajectory:
+    """The run of the catalogue's default numbers, with an eye on what it should conserve."""
     numbers = numbers_of(entry, equations)
     return simulate(
         equations,
@@ -83,6 +89,7 @@ def default_run(entry: Entry, equations: Equations) -> Trajectory:
         {**numbers.start},
         numbers.duration,
         forcing={**numbers.forcing},
+        invariants={invariant.name: invariant.expression for invariant in conserved},
     )
 
 
@@ -136,6 +143,12 @@ def numeric_checks(
         "gain about the centre of mass against the integral of the torques",
         balance.spin(run, equations).relative,
     )
+    if run.drift.invariants:
+        yield measured(
+            "Conserved quantities of the run",
+            "each integral against its value at the start",
+            max(run.drift.invariants.values()),
+        )
 
 
 def _drawings(entry: Entry, run: Trajectory) -> Iterator[Drawing]:

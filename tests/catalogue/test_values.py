@@ -1,0 +1,74 @@
+"""Values as typed: units, expressions, and which of the two a text is."""
+
+import math
+
+import pytest
+
+import polhode as ph
+from polhode.base import LENGTH, MASS, PURE, TIME, ParseError, PolhodeError, UnitError
+from polhode.catalogue._values import in_si, look_up, read_value
+
+SYMBOLS = {"m": ph.Symbol("m"), "a": ph.Symbol("a")}
+DIMENSIONS = {SYMBOLS["m"]: MASS, SYMBOLS["a"]: LENGTH}
+KNOWN = {SYMBOLS["m"]: 2.0, SYMBOLS["a"]: 0.5}
+
+
+def value(text, dimension):
+    read = read_value("q", text, SYMBOLS)
+    return in_si("q", read, dimension, DIMENSIONS, KNOWN)
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "expected"),
+    [
+        ("80deg", PURE, math.radians(80)),
+        ("80°", PURE, math.radians(80)),
+        ("pi/2", PURE, math.pi / 2),
+        ("-pi/2", PURE, -math.pi / 2),
+        ("0.2m", LENGTH, 0.2),
+        ("0.2 m", LENGTH, 0.2),
+        ("12 mm", LENGTH, 0.012),
+        ("3000rpm", PURE / TIME, 100 * math.pi),
+        ("2 pi rad/s", PURE / TIME, 2 * math.pi),
+        ("9.81 m/s^2", LENGTH / TIME**2, 9.81),
+        ("5/s", PURE / TIME, 5.0),
+        ("-1.5", LENGTH, -1.5),
+        ("2*m", MASS, 4.0),
+        ("2m", LENGTH, 2.0),
+        ("2*kg", MASS, 2.0),
+        ("2*m*a**2/5", MASS * LENGTH**2, 0.2),
+        ("a + 0.5", LENGTH, 1.0),
+        ("sqrt(2)", PURE, math.sqrt(2)),
+        ("a*sin(0.3)", LENGTH, 0.5 * math.sin(0.3)),
+    ],
+)
+def test_a_value_in_si(text, dimension, expected):
+    assert value(text, dimension) == pytest.approx(expected, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "said"),
+    [
+        ("3m", UnitError, "q = '3m' is a quantity in m; expected a quantity in kg"),
+        ("m*a", UnitError, "q = m*a is in kg m; expected an expression in kg"),
+        ("m + a", UnitError, "adds quantities in"),
+        ("3 furlong", UnitError, "q: the unit 'furlong' is not known"),
+        ("2*b", ParseError, "q: at character 3 of '2*b': 'b' is not known"),
+        ("nan", UnitError, "expected a finite number"),
+        ("-inf", UnitError, "expected a finite number"),
+        ("1e400", UnitError, "expected a finite number"),
+        ("m*a/(a - 0.5)", UnitError, "no finite value"),
+        ("", ParseError, "the text ends"),
+    ],
+)
+def test_what_is_no_value_is_refused_by_name(text, kind, said):
+    with pytest.raises(kind) as refusal:
+        value(text, MASS)
+    assert said in str(refusal.value)
+    assert str(refusal.value).startswith("q")
+
+
+def test_an_unknown_name_is_met_with_the_nearest():
+    assert look_up("theta", {"theta": 1}, "coordinate") == 1
+    with pytest.raises(PolhodeError, match=r"'thta' is no coordinate.*did you mean theta\?"):
+        look_up("thta", {"theta": 1, "x": 2}, "coordinate")

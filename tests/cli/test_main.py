@@ -1,0 +1,116 @@
+"""The command as a process: help, versions, failures nobody foresaw, interruptions, pipes."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from importlib.metadata import version
+
+import pytest
+
+from polhode import base
+from polhode.cli import _output, _parser, main
+
+POLHODE = (sys.executable, "-m", "polhode")
+
+
+def test_the_installed_command_and_the_module_are_one():
+    script = os.path.join(os.path.dirname(sys.executable), "polhode")
+    for command in ((script,), POLHODE):
+        run = subprocess.run([*command, "--version"], capture_output=True, text=True)
+        assert (run.returncode, run.stdout) == (0, f"polhode {version('polhode')}\n")
+
+
+@pytest.mark.parametrize("command", [(), ("list",), ("derive",), ("run",), ("tour",), ("cache",)])
+def test_help_is_help(polhode, command):
+    code, out, err = polhode(*command, "--help")
+    assert (code, err) == (0, "")
+    assert out.startswith(" ".join(["usage: polhode", *command]))
+
+
+def test_help_names_every_command(polhode):
+    _, out, _ = polhode("--help")
+    for command in ("list", "derive", "run", "tour", "cache"):
+        assert f"\n    {command} " in out
+
+
+def test_values_and_formulas_may_begin_with_a_minus_sign():
+    parser = _parser.Parser()
+    parser.add_argument("formula")
+    parser.add_argument("--given")
+    parser.add_argument("-o")
+    read = parser.parse_args(["-M g \\hat z", "--given", "-2*a", "-o", "-file"])
+    assert (read.formula, read.given, read.o) == ("-M g \\hat z", "-2*a", "-file")
+
+
+def fail(*_):
+    raise RuntimeError("something\nnobody foresaw")
+
+
+def test_an_unforeseen_failure_is_one_line(polhode, monkeypatch):
+    monkeypatch.setattr(base.cache, "clear", fail)
+    code, out, err = polhode("cache", "clear")
+    assert (code, out) == (2, "")
+    assert err.startswith("polhode: unexpected RuntimeError: something nobody foresaw")
+    assert err.count("\n") == 1
+
+
+def test_an_unforeseen_failure_is_shown_to_those_who_ask(polhode, monkeypatch):
+    monkeypatch.setattr(base.cache, "clear", fail)
+    monkeypatch.setenv("POLHODE_DEBUG", "1")
+    code, _, err = polhode("cache", "clear")
+    assert code == 2
+    assert err.startswith("Traceback")
+    assert 'raise RuntimeError("something' in err
+
+
+def test_warnings_of_libraries_are_not_shown(polhode):
+    code, _, err = polhode("run", "rolling-disk", "--set", "m=1e308", "--duration", "0.1s")
+    assert code == 2
+    assert "Warning" not in err
+
+
+def test_an_interrupted_run_ends_with_130():
+    words = (*POLHODE, "run", "rolling-disk", "--duration", "1e6")
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
+        time.sleep(3)
+        run.send_signal(signal.SIGINT)
+        out, err = run.communicate(timeout=60)
+    assert (run.returncode, out) == (130, "")
+    assert err == "polhode: interrupted\n"
+
+
+def test_what_an_interrupted_run_had_written_is_told(polhode, monkeypatch, tmp_path):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(_output, "figure_of_run", interrupt)
+    code, out, err = polhode("run", "spinning-coin", "--duration", "0.1s", "--out", str(tmp_path))
+    table = tmp_path / "spinning-coin.csv"
+    assert (code, out, err) == (130, "", f"polhode: interrupted; kept {table}\n")
+    assert list(tmp_path.iterdir()) == [table]
+
+
+def test_a_reader_may_leave_early():
+    words = f"{' '.join(POLHODE)} list --json | head -n 1; echo ${{PIPESTATUS[@]}}"
+    run = subprocess.run(["bash", "-c", words], capture_output=True, text=True)
+    assert run.stderr == ""
+    assert run.stdout.startswith("{\n")
+
+
+def test_a_terminal_without_greek_still_gets_an_answer():
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    words = (*POLHODE, "derive", "rolling-disk")
+    run = subprocess.run(words, capture_output=True, env=environment)
+    assert (run.returncode, run.stderr) == (0, b"")
+
+
+def test_the_cache_is_cleared(polhode):
+    main(["cache", "clear"])
+    base.cache.get_or_make("key", lambda: b"x" * 1000)
+    code, out, _ = polhode("cache", "clear")
+    assert code == 0
+    freed = int(out.splitlines()[-1].split()[1])
+    assert freed >= 1000
+    assert polhode("cache", "clear")[1].startswith("freed 0 bytes")

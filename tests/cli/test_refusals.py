@@ -1,0 +1,68 @@
+"""Bad input: one clear line, exit code 2, nothing on standard output and nothing written."""
+
+import pytest
+
+REFUSALS = [
+    ("list --jso", "unrecognized arguments: --jso"),
+    ("nothing", "invalid choice: 'nothing'"),
+    ("", "the following arguments are required: COMMAND"),
+    ("derive", "the following arguments are required: NAME"),
+    ("derive rolling-disc", "did you mean rolling-disk"),
+    ("derive a b", "unrecognized arguments: b"),
+    ("run", "see 'polhode run --help'"),
+    ("run rolling-disk --page x.html", "unrecognized arguments: --page x.html"),
+    ("run rolling-disk --save x", "unrecognized arguments: --save x; see 'polhode run --help'"),
+    ("run rolling-disk --dur 1s", "unrecognized arguments: --dur 1s"),
+    ("run rolling-disk --set", "argument --set: expected one argument"),
+    ("run rolling-disk --set m", "'m'; expected name=value"),
+    ("run rolling-disk --set =1", "expected name=value"),
+    ("run rolling-disk --set m=", "expected name=value"),
+    ("run rolling-disk --set m=1 --set m=2", "m is given twice"),
+    ("run rolling-disk --set m=-1", "m = -1; expected a positive value"),
+    ("run rolling-disk --set m=0", "m = 0; expected a positive value"),
+    ("run rolling-disk --set m=nan", "m: 'nan' is not a value; expected a finite number"),
+    ("run rolling-disk --set m=inf", "expected a finite number"),
+    ("run rolling-disk --set m=1e999kg", "expected a finite number"),
+    ("run rolling-disk --set m=1e308", "no finite value"),
+    ("run rolling-disk --set m=3m", "m = '3m' is a quantity in m; expected a quantity in kg"),
+    ("run rolling-disk --set M=1", "'M' is no parameter of rolling-disk; expected one of m, a, g"),
+    ("run rolling-disk --set m=__import__('os')", "m: at character 1"),
+    ("run rolling-disk --start thta=1", "did you mean theta"),
+    ("run rolling-disk --start theta=0", "sin(theta) = 0 at the start"),
+    ("run rolling-disk --start omega_3=1e300", "cannot be continued"),
+    (
+        "run rolling-disk --start psi_dot=3 --start omega_3=4 --start phi_dot=1",
+        "psi_dot = 3 at the start contradicts the constraints",
+    ),
+    ("run rolling-disk --duration -5s", "a duration of -5 s; expected a positive one"),
+    ("run rolling-disk --duration 0", "a duration of 0 s"),
+    ("run rolling-disk --duration inf", "expected a finite number"),
+    ("run rolling-disk --duration 3kg", "expected a quantity in s"),
+    ("run tennis-racquet --set I_3=1", "triangle inequality"),
+    ("run ball-on-paper --set X=sin(q)", "X: at character 5 of 'sin(q)': 'q' is not known"),
+    ("run ball-on-paper --set X=1/t", "no finite solution at the start"),
+    ("cache", "the following arguments are required"),
+    ("cache empty", "invalid choice: 'empty'"),
+]
+
+
+@pytest.mark.parametrize(("line", "said"), REFUSALS)
+def test_bad_input_is_refused_in_one_line(polhode, tmp_path, line, said):
+    out_folder = ("--out", str(tmp_path / "out")) if line.startswith("run rolling-disk ") else ()
+    words = line.split()
+    code, out, err = polhode(*words[:2], *out_folder, *words[2:])
+    assert code == 2
+    assert out == ""
+    assert err.startswith("polhode: ")
+    assert said in err
+    assert err.count("\n") == 1
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_folder_that_cannot_be_made(polhode, tmp_path):
+    (tmp_path / "file").write_text("kept")
+    place = ("--out", str(tmp_path / "file"))
+    code, out, err = polhode("run", "rolling-disk", "--duration", "0.1s", *place)
+    assert (code, out) == (2, "")
+    assert "cannot be made" in err
+    assert (tmp_path / "file").read_text() == "kept"

@@ -1,0 +1,81 @@
+"""`polhode run`: numbers in, a motion out, and files that are whole."""
+
+import csv
+import math
+
+import pytest
+
+from cli.shapes import RUN, misshapen
+from polhode.catalogue import CATALOGUE
+
+
+def table(path):
+    with path.open(encoding="utf-8") as stream:
+        next(stream)
+        return list(csv.DictReader(stream))
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_the_document_of_every_system(document, name):
+    found = document("run", name, "--duration", "50 ms")
+    assert [*misshapen(found, RUN)] == []
+    assert (found["system"], found["duration"]) == (name, 0.05)
+    assert found["drift"]["energy"] < 1e-12
+    assert [event["kind"] for event in found["events"]] == ["start", "end"]
+    assert found["files"] == []
+
+
+def test_what_is_set_and_started_is_what_runs(document):
+    found = document(
+        *("run", "rolling-disk", "--duration", "0.1s"),
+        *("--set", "m=2*a/a", "--set", "a = 20mm"),
+        *("--start", "theta=pi/2", "--start", "omega_3=-600rpm"),
+    )
+    assert found["parameters"] == {"m": 2.0, "a": 0.02, "g": 9.81}
+    spin = -20 * math.pi
+    assert found["start"] == {"theta": math.pi / 2, "omega_3": pytest.approx(spin)}
+    assert found["assumed"].keys() == {"phi", "psi", "x", "y", "phi_dot", "theta_dot"}
+    final = found["final"]
+    assert final["theta"] == pytest.approx(math.pi / 2)
+    assert final["x"] == pytest.approx(-0.02 * spin * 0.1)
+    assert final["F_z"] == pytest.approx(2 * 9.81)
+
+
+def test_constants_of_the_motion_are_watched(document):
+    drifts = document("run", "gyroscope", "--duration", "0.2s")["drift"]["invariants"]
+    assert drifts.keys() == {"E", "omega_1", "L_z"}
+    assert max(drifts.values()) < 1e-13
+
+
+def test_a_prescribed_motion_is_a_formula(document):
+    """The ball takes 2/7 of every change of the sheet's velocity (a uniform ball, problem 6)."""
+    still = ("run", "ball-on-paper", "--duration", "1s", "--set", "Y=0")
+    assert document(*still, "--set", "X=0")["final"]["x"] == pytest.approx(0.2)
+    moved = document(*still, "--set", "X=-sin(t)/10")["final"]["x"]
+    assert moved == pytest.approx(0.2 + 2 / 70 * (1 - math.sin(1)), rel=1e-13)
+
+
+def test_files_hold_the_samples_and_a_figure(document, tmp_path):
+    folder = tmp_path / "new" / "results"
+    found = document("run", "gyroscope/held", "--duration", "0.1s", "--out", str(folder))
+    assert found["files"] == [str(folder / f"gyroscope-held.{kind}") for kind in ("csv", "png")]
+    assert sorted(path.name for path in folder.iterdir()) == [
+        "gyroscope-held.csv",
+        "gyroscope-held.png",
+    ]
+    rows = table(folder / "gyroscope-held.csv")
+    assert float(rows[-1]["t"]) == 0.1
+    assert float(rows[-1]["psi"]) == pytest.approx(found["final"]["psi"], rel=1e-15)
+    assert (folder / "gyroscope-held.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_people_are_told_where_it_ends_and_how_exact_that_is(polhode):
+    code, out, err = polhode("run", "rolling-disk", "--duration", "1s")
+    assert (code, err) == (0, "")
+    assert out.startswith("Rolling disk (rolling-disk), 1 s, in SI units\n")
+    for word in ("parameters", "start", "assumed", "final", "drift", "events", "seconds"):
+        assert f"\n  {word} " in out
+
+
+def test_without_a_duration_the_catalogues_is_taken(document):
+    assert document("run", "spinning-coin")["duration"] == 1.0

@@ -1,0 +1,243 @@
+"""Single figures: that they show what the mechanics says."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from polhode import view
+from polhode.base import DeclarationError, UnitError
+from polhode.view._globe import View
+from polhode.view._nutation import _VIEW as SKY
+from polhode.view._polhodes import _polhode, _separatrices
+
+
+def test_a_history_is_the_quantity_in_the_unit_of_the_label(run_of):
+    run = run_of("rolling-disk")
+    (line,) = view.history(run, ["theta"])
+    assert line.axes.get_ylabel() == r"$\theta$ (deg)"
+    np.testing.assert_allclose(
+        line.get_ydata(), np.degrees(run.evaluate("theta", line.get_xdata()))
+    )
+
+
+def test_small_values_get_a_prefix(run_of):
+    (line,) = view.history(run_of("marble-on-turntable"), ["F_z"])
+    assert line.axes.get_ylabel() == "$F_z$ (mN)"
+    np.testing.assert_allclose(line.get_ydata(), 5 * 9.81)
+
+
+def test_a_quantity_that_hardly_changes_is_shown_by_its_change(run_of):
+    run = run_of("gyrocompass")
+    (line,) = view.history(run, ["omega"])
+    assert line.axes.get_ylabel() == r"$\omega - \omega(0)$ (µrad/s)"
+    change = run.evaluate("omega", line.get_xdata()) - run["omega"][0]
+    np.testing.assert_allclose(line.get_ydata(), change * 1e6)
+
+
+def test_a_constant_is_not_blown_up_to_its_rounding(run_of):
+    (line,) = view.history(run_of("spinning-coin"), ["omega_3"])
+    low, high = line.axes.get_ylim()
+    assert low < 1.7
+    assert high > 2.3
+
+
+def test_many_turns_are_counted_in_turns(run_of):
+    (line,) = view.history(run_of("gyroscope"), ["psi"])
+    assert line.axes.get_ylabel() == r"$\psi$ (turns)"
+    assert np.max(line.get_ydata()) == pytest.approx(2 * 150 / (2 * np.pi), rel=0.05)
+
+
+def test_one_axis_has_one_unit(run_of):
+    with pytest.raises(UnitError, match="theta in rad, omega_3 in rad/s on one axis"):
+        view.history(run_of("rolling-disk"), ["theta", "omega_3"])
+
+
+def test_a_quantity_that_is_not_there_is_named(run_of):
+    with pytest.raises(DeclarationError, match="'omega_9' is no quantity of rolling-disk"):
+        view.history(run_of("rolling-disk"), ["omega_9"])
+
+
+def test_a_group_of_several_units_gets_several_panels(run_of):
+    figure = view.figure_of_run(run_of("rolling-disk"), [("theta", "omega_3"), ("F_x", "F_z")])
+    assert [axes.get_ylabel() for axes in figure.axes] == [
+        r"$\theta$ (deg)",
+        r"$\omega_3$ (rad/s)",
+        "force (N)",
+    ]
+
+
+def test_forces_of_unlike_size_get_panels_of_their_own(run_of):
+    figure = view.figure_of_run(run_of("marble-on-turntable"), [("F_x", "F_y", "F_z")])
+    assert [axes.get_ylabel() for axes in figure.axes] == ["force (µN)", "$F_z$ (mN)"]
+
+
+def test_lines_of_a_panel_differ_in_dashes_too(run_of):
+    lines = view.history(run_of("rolling-disk"), ["F_x", "F_y", "F_z"])
+    assert len({line.get_color() for line in lines}) == 3
+    assert len({str(line._dash_pattern) for line in lines}) == 3
+    assert [text.get_text() for text in lines[0].axes.get_legend().get_texts()] == [
+        "$F_x$",
+        "$F_y$",
+        "$F_z$",
+    ]
+
+
+def test_figures_are_drawn_in_the_axes_given(run_of):
+    run = run_of("rolling-disk")
+    axes = view.new_figure(3.0).subplots(2, 3).ravel()
+    drawn = [
+        view.history(run, ["theta"], ax=axes[0])[0],
+        view.energies(run, ax=axes[1])[0],
+        view.energy_drift(run, ax=axes[2]),
+        view.floor_path(run, ax=axes[3])[0],
+        view.phase_portrait(run, "theta", ax=axes[4]),
+        view.reaction_ranges(run, ax=axes[5]),
+    ]
+    assert [artist.axes for artist in drawn] == list(axes)
+
+
+def test_a_stretch_of_a_run_is_shown_alone(run_of):
+    run = replace(run_of("rolling-disk"), t=np.linspace(2.0, 3.0, 50))
+    (line,) = view.history(run, ["theta"])
+    assert line.axes.get_xlim() == (2.0, 3.0)
+    assert len(line.get_xdata()) > 1000  # a smooth curve, however few the samples
+
+
+def test_energy_lost_by_one_form_is_gained_by_the_other(run_of):
+    kinetic, potential, total = view.energies(run_of("spinning-coin"))
+    np.testing.assert_allclose(kinetic.get_ydata(), -potential.get_ydata(), atol=1e-9)
+    np.testing.assert_allclose(total.get_ydata(), 0, atol=1e-9)
+    assert kinetic.axes.get_ylabel() == "energy change (µJ)"
+
+
+def test_a_moving_support_shows_up_as_work(run_of):
+    kinetic, work = view.energies(run_of("ball-on-paper"))
+    np.testing.assert_allclose(kinetic.get_ydata(), work.get_ydata(), atol=1e-9)
+
+
+def test_energy_that_does_not_change_is_a_flat_line(run_of):
+    (line,) = view.energies(run_of("tennis-racquet"))
+    low, high = line.axes.get_ylim()
+    assert np.max(np.abs(line.get_ydata())) < 1e-6 * (high - low)
+
+
+def test_the_drift_shown_is_that_of_the_run(run_of):
+    run = run_of("rolling-disk")
+    line = view.energy_drift(run)
+    shown = np.max(line.get_ydata())
+    assert shown == pytest.approx(run.drift.energy, rel=0.3)
+    assert line.axes.get_yscale() == "log"
+
+
+def test_the_marble_runs_round_its_circle(run_of):
+    """Centre and radius as in equation 8: 2/7 of the table's rate, through x = 0.1 m."""
+    (line,) = view.floor_path(run_of("marble-on-turntable"))
+    rate = 2 / 7 * 33 * 2 * np.pi / 60
+    x, y = line.get_xdata(), line.get_ydata()
+    radius = 0.05 / rate
+    np.testing.assert_allclose(np.hypot(x - 0.1 + radius, y), radius, rtol=1e-9)
+
+
+def test_a_marble_at_rest_in_the_laboratory_leaves_a_circle_on_the_table(run_of):
+    run = run_of("marble-on-turntable")
+    (line,) = view.support_trace(run)
+    path = run.table(["x", "y"], line_times(run, line))
+    np.testing.assert_allclose(
+        np.hypot(line.get_xdata(), line.get_ydata()), np.hypot(path["x"], path["y"]), atol=1e-9
+    )
+    turned = np.unwrap(
+        np.arctan2(path["y"], path["x"]) - np.arctan2(line.get_ydata(), line.get_xdata())
+    )
+    times = line_times(run, line)
+    np.testing.assert_allclose(turned - turned[0], 33 * 2 * np.pi / 60 * times, atol=1e-6)
+
+
+def line_times(run, line):
+    return np.linspace(0, run.duration, len(line.get_xdata()))
+
+
+def test_up_the_slope_is_up_the_page(run_of):
+    (line,) = view.floor_path(run_of("marble-on-turntable/tilted"))
+    assert line.axes.get_ylabel() == "$x_2$ (m)"
+    assert line.axes.get_xlabel() == "$x_3$ (m)"
+    assert line.axes.xaxis_inverted()
+
+
+def test_the_phase_portrait_closes_on_a_swing(run_of):
+    line = view.phase_portrait(run_of("gyroscope"), "theta")
+    assert line.axes.get_xlabel() == r"$\theta$ (deg)"
+    assert line.axes.get_ylabel() == r"$\dot{\theta}$ (rad/s)"
+    assert np.min(line.get_xdata()) == pytest.approx(60, abs=1e-6)
+
+
+def test_the_axle_is_traced_on_the_sphere(run_of):
+    run = run_of("gyroscope")
+    front, behind = view.nutation(run)
+    axle = np.array(
+        [
+            run.evaluate(run.equations.system.body("gyroscope").axes["1"].dot(d))
+            for d in run.equations.system.root.directions
+        ]
+    )
+    page = SKY.project(axle)
+    drawn = np.array([front.get_xydata(), behind.get_xydata()])
+    assert np.nanmax(np.hypot(*np.moveaxis(drawn, -1, 0))) <= 1 + 1e-12
+    both = np.where(np.isnan(drawn[0]), drawn[1], drawn[0])
+    np.testing.assert_allclose(both[0], page[:, 0], atol=1e-12)
+    assert not np.any(np.isnan(both))
+
+
+def test_a_body_without_an_axle_is_refused_unless_told_what_to_follow(run_of):
+    run = run_of("tennis-racquet")
+    with pytest.raises(DeclarationError, match="say which axis to follow"):
+        view.nutation(run)
+    axes = run.equations.system.body("racquet").axes
+    assert view.nutation(run, axis=axes["2"])
+
+
+@pytest.mark.parametrize("share", [0.01, 0.3, 0.7, 0.99])
+@pytest.mark.parametrize("moments", [(1.0, 2.0, 5.0), (5.0, 1.0, 2.0)])
+def test_a_polhode_keeps_energy_and_angular_momentum(moments, share):
+    inertia = np.array(moments)
+    ratio = 1 + 4 * share
+    curve = _polhode(inertia, ratio)
+    np.testing.assert_allclose(np.sum(curve**2, axis=0), 1)
+    np.testing.assert_allclose(inertia @ curve**2, ratio)
+
+
+def test_separatrices_cross_at_the_middle_axis():
+    inertia = np.array([5.0, 1.0, 2.0])
+    for curve in _separatrices(inertia):
+        np.testing.assert_allclose(np.sum(curve**2, axis=0), 1)
+        np.testing.assert_allclose(inertia @ curve**2, 2)
+        np.testing.assert_allclose(np.abs(curve[:, 0]), [0, 0, 1], atol=1e-12)
+
+
+def test_polhodes_need_a_body_that_turns_freely(run_of):
+    with pytest.raises(DeclarationError, match="the polhodes of gyroscope"):
+        view.polhodes(run_of("gyroscope"))
+    assert view.polhodes(run_of("tennis-racquet"))
+
+
+def test_reactions_of_one_joint(run_of):
+    lines = view.reactions(run_of("gyroscope"), "pivot")
+    assert lines[0].axes.get_ylabel() == "force (N)"
+    assert len(lines) == 3
+
+
+def test_open_reactions_are_told_apart(run_of):
+    bars = view.reaction_ranges(run_of("gyroscope/held"))
+    faces = [line.get_markerfacecolor() for line in bars.axes.lines if line.get_marker() == "o"]
+    assert faces.count("none") == 4
+    assert len(faces) == 6
+
+
+def test_the_view_is_a_rotation():
+    eye = View(azimuth=37, elevation=21)
+    flat = eye.project(np.eye(3))
+    square = np.vstack([flat, eye.towards])
+    np.testing.assert_allclose(square @ square.T, np.eye(3), atol=1e-12)
+    assert np.linalg.det(square) == pytest.approx(1)
+    assert flat[0, 2] == 0
+    assert flat[1, 2] > 0
