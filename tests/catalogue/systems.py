@@ -3,7 +3,6 @@
 from functools import cache
 
 from derive.states import Numeric
-
 from polhode.catalogue import CATALOGUE
 from polhode.derive import derive
 

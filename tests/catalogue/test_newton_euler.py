@@ -8,10 +8,10 @@ from math import cos, sin
 
 import numpy as np
 import pytest
+
 from catalogue.systems import numeric
 from derive.states import Numeric, Values, agree, draw
 from oracles import balls, disks, gyroscopes
-
 from polhode.catalogue import CATALOGUE
 
 Comparison = Callable[[Numeric, int], None]
@@ -145,7 +145,7 @@ def upright_gyroscope(system: Numeric, seed: int) -> None:
     found = system.at(**tilts)
     axle, velocity, acceleration = path(tilted, found, "alpha", "beta")
     theta, phi = np.arccos(axle[2]), np.arctan2(axle[1], axle[0])
-    state = {name: tilts[name] for name in "M a I_1 I_2 g psi omega_1".split()}
+    state = {name: tilts[name] for name in ["M", "a", "I_1", "I_2", "g", "psi", "omega_1"]}
     state |= {"theta": theta, "phi": phi, "theta_dot": -velocity[2] / sin(theta)}
     state["phi_dot"] = (axle[0] * velocity[1] - axle[1] * velocity[0]) / sin(theta) ** 2
     expected = gyroscopes.gyroscope(**state)

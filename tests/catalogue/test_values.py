@@ -5,8 +5,8 @@ import math
 import pytest
 
 import polhode as ph
-from polhode.base import LENGTH, MASS, PURE, TIME, ParseError, PolhodeError, UnitError
-from polhode.catalogue._values import in_si, look_up, read_value
+from polhode.base import LENGTH, MASS, PURE, TIME, ParseError, PolhodeError, UnitError, look_up
+from polhode.catalogue._values import in_si, read_value
 
 SYMBOLS = {"m": ph.Symbol("m"), "a": ph.Symbol("a")}
 DIMENSIONS = {SYMBOLS["m"]: MASS, SYMBOLS["a"]: LENGTH}

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import cmath
+from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 import pytest
 
-from polhode.algebra import Expr, Symbol, compile_program, eliminate, variables
+from polhode.algebra import FLOATS, Arithmetic, Expr, Symbol, compile_program, variables
 from polhode.derive import Equations
 
-Values = Mapping[str, float]
+Values = Mapping[str, Any]
+Evaluator = Callable[[Values], tuple[Any, ...]]
+Named = Callable[[Values], dict[str, Any]]
+COMPLEX = Arithmetic.of(cmath)
 
 
 class Numeric:
@@ -22,47 +26,70 @@ class Numeric:
         self.equations = equations
 
     def at(self, **values: float) -> dict[str, float]:
-        """Rates, dependent speeds, accelerations, reactions, and the rates of both energies.
+        """Rates, dependent speeds, accelerations, reactions, power, and both energies' rates.
 
         Reactions that are not determined are the least ones.
         """
-        system = self._system(values)
+        known = values | self._accelerations(values)
+        known |= self._told(known)
+        known |= {rate_name(name): rate for name, rate in self._changes(known).items()}
+        return known | self._told_forces(known)
+
+    def _accelerations(self, values: Values) -> dict[str, float]:
+        system = np.array(self._system(values))
         size = len(self.equations.speeds)
-        mass, forcing = np.array(system[: size * size]), np.array(system[size * size :])
-        found = np.linalg.solve(mass.reshape(size, size), forcing) if size else forcing
-        names = (s.published for s in self.equations.acceleration_symbols)
-        known = {**values, **dict(zip(names, map(float, found), strict=True))}
-        return known | dict(zip(self._answers, self._read(known), strict=True))
+        mass, forcing = system[: size * size].reshape(size, size), system[size * size :]
+        names = [s.published for s in self.equations.acceleration_symbols]
+        return dict(zip(names, np.linalg.solve(mass, forcing).tolist(), strict=True))
+
+    def _changes(self, known: Values) -> dict[str, float]:
+        """Rates along the motion of all that is told, by a complex step: exact to rounding."""
+        step = 1e-30
+        ahead = {n: v + 1j * step * known.get(rate_name(n), 0.0) for n, v in known.items()}
+        moved = self._moved(ahead)
+        return {name: later.imag / step for name, later in moved.items()}
 
     @cached_property
-    def _system(self) -> Any:
+    def _system(self) -> Evaluator:
         entries = [e for row in self.equations.mass.rows for e in row]
         return evaluator([*entries, *self.equations.forcing])
 
     @cached_property
-    def _read(self) -> Any:
-        return evaluator(self._answers.values())
-
-    @cached_property
-    def _answers(self) -> dict[str, Expr]:
-        equations, motion = self.equations, self.equations.kinetics
+    def _moving(self) -> dict[str, Expr]:
+        equations = self.equations
         told = {**equations.kinematics, **equations.dependent}
         named = {s.published: e for s, e in told.items() if s not in equations.speeds}
-        rates = {
-            s.derivative().published: e.chain(motion.rate)
-            for s, e in told.items()
-            if s not in equations.speeds
-        }
-        energies = {"T": equations.kinetic_energy, "V": equations.potential_energy}
-        changes = {f"{name}_dot": e.chain(motion.rate) for name, e in energies.items()}
-        return named | rates | energies | changes | equations.least | {"power": equations.power}
+        return named | {"T": equations.kinetic_energy, "V": equations.potential_energy}
+
+    @cached_property
+    def _told(self) -> Named:
+        return by_name(self._moving)
+
+    @cached_property
+    def _moved(self) -> Named:
+        return by_name(self._moving, COMPLEX)
+
+    @cached_property
+    def _told_forces(self) -> Named:
+        return by_name({**self.equations.least, "power": self.equations.power})
 
 
-def evaluator(expressions: Iterable[Expr]) -> Any:
+def rate_name(name: str) -> str:
+    """x → x_dot, x_dot → x_ddot, omega_3 → omega_3_dot."""
+    return f"{name.removesuffix('_dot')}_ddot" if name.endswith("_dot") else f"{name}_dot"
+
+
+def by_name(expressions: Mapping[str, Expr], numbers: Arithmetic = FLOATS) -> Named:
+    """Named expressions as a function of a dictionary of numbers to another."""
+    found = evaluator(expressions.values(), numbers)
+    return lambda values: dict(zip(expressions, found(values), strict=True))
+
+
+def evaluator(expressions: Iterable[Expr], numbers: Arithmetic = FLOATS) -> Evaluator:
     """The expressions as a function of a dictionary of numbers, by published name."""
     wanted = list(expressions)
     arguments = sorted(variables(wanted) - {Symbol("pi")}, key=lambda s: s.published)
-    program = compile_program(wanted, arguments).function()
+    program = compile_program(wanted, arguments).function(numbers)
     return lambda values: program(*(values[s.published] for s in arguments))
 
 
@@ -100,41 +127,3 @@ def _one(name: str, rng: np.random.Generator) -> float:
     if name.endswith(("_dot", "_ddot")) or name.split("_")[0] in (*PLACES, *MOVING, "theta"):
         return float(rng.uniform(-3, 3))
     return float(rng.uniform(0.3, 2))
-
-
-def lagrange(equations: Equations) -> tuple[Expr, ...]:
-    """Lagrange's equations of a holonomic system, one for every independent speed.
-
-    d/dt ∂L/∂q̇ - ∂L/∂q for every coordinate, summed with the rate of it that a unit of the speed
-    makes: virtual work in the motions that the speed alone makes.
-    """
-    motion = equations.kinetics
-    on_rates = equations.lagrangian.subs(_speeds_in_rates(equations))
-    coordinates = {s: Expr.generator(s) for s in equations.coordinates}
-    forces = {s: on_rates.diff(q.dt()).dt() - on_rates.diff(q) for s, q in coordinates.items()}
-    settled = {s: _on_speeds(force, equations) for s, force in forces.items()}
-    return tuple(
-        sum(
-            (settled[s] * motion.kinematics[s.derivative()].diff(u) for s in coordinates),
-            Expr.constant(0),
-        )
-        for u in equations.speeds
-    )
-
-
-def _on_speeds(expression: Expr, equations: Equations) -> Expr:
-    """With rates of coordinates, and rates of those, put in terms of speeds and accelerations."""
-    rates = {s: e for s, e in equations.kinematics.items() if s not in equations.speeds}
-    second = {s.derivative(): e.chain(equations.kinetics.rate) for s, e in rates.items()}
-    return expression.subs({**rates, **second})
-
-
-def _speeds_in_rates(equations: Equations) -> dict[Symbol, Expr]:
-    """The independent speeds as the rates of coordinates make them."""
-    still = dict.fromkeys(equations.speeds, 0)
-    rows = {r: [e.diff(u) for u in equations.speeds] for r, e in equations.kinematics.items()}
-    carried = {r: e.subs(still) for r, e in equations.kinematics.items()}
-    moving = [r for r, row in rows.items() if any(row)]
-    right = [Expr.generator(r) - carried[r] for r in moving]
-    solved = eliminate([rows[r] for r in moving], right).solved
-    return {u: solved[i][1] for i, u in enumerate(equations.speeds)}

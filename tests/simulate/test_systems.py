@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from polhode.algebra import coordinates, sin, symbols, time
-from polhode.base import DeclarationError
+from polhode.base import DeclarationError, UnitError
 from polhode.catalogue._ball_on_paper import BALL_ON_PAPER
 from polhode.catalogue._rolling_disk import ROLLING_DISK
 from polhode.model import Body, Frame, Pivot, System
@@ -45,7 +45,7 @@ def test_the_ball_on_moved_paper_ends_as_it_began(integrator):
     [
         ({"I_1": 1, "I_2": 1, "I_3": 3, "M": 1}, "triangle inequality"),
         ({"I_1": 1, "I_2": 1, "I_3": -1, "M": 1}, "I_3|negative"),
-        ({"I_1": 1, "I_2": 2, "I_3": 2, "M": -1}, "mass -1"),
+        ({"I_1": 1, "I_2": 2, "I_3": 2, "M": -1}, "mass of body"),
     ],
 )
 def test_numbers_that_no_body_can_have_are_refused(numbers, said):
@@ -55,3 +55,12 @@ def test_numbers_that_no_body_can_have_are_refused(numbers, said):
     racquet = Body("racquet", mass=mass, inertia=moments, axes=axes)
     with pytest.raises(DeclarationError, match=said):
         simulate(System(racquet, Pivot(racquet)), numbers, {"theta": 1}, 1)
+
+
+def test_a_rate_has_the_dimension_of_its_order():
+    disk = ROLLING_DISK.build()
+    numbers = {"m": 0.2, "a": 0.03, "g": 9.81}
+    with pytest.raises(UnitError, match="phi_dot"):
+        simulate(disk, numbers, {"phi_dot": "3 kg"}, 1)
+    run = simulate(disk, numbers, {"theta": "80 deg", "phi_dot": "60 rpm", "omega_3": 40}, 0.1)
+    assert run["phi_dot"][0] == pytest.approx(2 * 3.141592653589793)

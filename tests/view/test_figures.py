@@ -139,7 +139,7 @@ def test_the_marble_runs_round_its_circle(run_of):
     np.testing.assert_allclose(np.hypot(x - 0.1 + radius, y), radius, rtol=1e-9)
 
 
-def test_a_marble_at_rest_in_the_laboratory_leaves_a_circle_on_the_table(run_of):
+def test_the_trace_on_the_table_is_the_path_turned_back(run_of):
     run = run_of("marble-on-turntable")
     (line,) = view.support_trace(run)
     path = run.table(["x", "y"], line_times(run, line))

@@ -6,7 +6,7 @@ import re
 import pytest
 
 from polhode import view
-from polhode.base import SCHEMA, StoreError
+from polhode.base import SCHEMA, StoreError, write_whole
 from polhode.view import _style as style
 
 
@@ -65,7 +65,7 @@ def test_a_failed_write_keeps_the_old_file(tmp_path, monkeypatch):
 
     monkeypatch.setattr("os.replace", full)
     with pytest.raises(StoreError, match="No space left"):
-        view.write_whole(target, b"new")
+        write_whole(target, b"new")
     assert target.read_text() == "old"
     assert list(tmp_path.iterdir()) == [target]
 

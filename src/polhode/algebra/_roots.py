@@ -46,6 +46,11 @@ class Root(Generator):
     def square(self, ring: Ring) -> Polynomial:
         return ring.lift(self.radicand.ring, self.radicand.num)
 
+    def refined(self, others: tuple[Generator, ...]) -> Expr | None:
+        pairs = ((g, g.refined(others)) for g in self.radicand.generators)
+        finer = {g: unit for g, unit in pairs if unit is not None}
+        return sqrt(self.radicand.recast(finer)) if finer else None
+
     @property
     def arguments(self) -> tuple[Expr, ...]:
         return (self.radicand,)

@@ -7,21 +7,18 @@ from collections.abc import Callable, Sequence
 from math import comb
 from typing import Any
 
-from polhode.algebra._arrange import is_constant
 from polhode.algebra._generators import Generator
 from polhode.algebra._ring import Monomial, Polynomial, Ring
 
 #: Coefficients by half the powers of (odd, even).
-Binary = dict[tuple[int, int], Polynomial]
+Binary = dict[tuple[int, int], Any]
 
 
 def in_shortest_squares(ring: Ring, polynomial: Polynomial) -> Polynomial:
     """The form with fewest terms: I₁ sin²θ + I₃ cos²θ for I₃ + (I₁ - I₃) sin²θ.
 
-    Among equals one sign is preferred: 1 + 4 cos²θ for 5 - 4 sin²θ.
-
     The choice is made anew for everything that stands with a square; the result is in general
-    not reduced.
+    not reduced. Among equals one sign is preferred: 1 + 4 cos²θ for 5 - 4 sin²θ.
     """
     polynomial = ring.reduce(polynomial)
     for even in ring.generators:
@@ -34,39 +31,36 @@ def in_shortest_squares(ring: Ring, polynomial: Polynomial) -> Polynomial:
 def _rewritten(
     ring: Ring, polynomial: Polynomial, even: Generator, odd: Generator, sign: int
 ) -> Polynomial:
-    varies = [g in (even, odd) or not is_constant(g) for g in ring.generators]
     position = ring.index[odd]
-    cofactors: dict[Monomial, dict[int, dict[Monomial, Any]]] = defaultdict(
-        lambda: defaultdict(dict)
-    )
+    cofactors: dict[Monomial, dict[int, Any]] = defaultdict(dict)
     for monomial, coefficient in polynomial.to_dict().items():
         half, rest = divmod(monomial[position], 2)
-        kept = (*monomial[:position], rest, *monomial[position + 1 :])
-        pairs = list(zip(kept, varies, strict=True))
-        inner = tuple(0 if v else p for p, v in pairs)
-        cofactors[tuple(p if v else 0 for p, v in pairs)][half][inner] = coefficient
+        cofactor = (*monomial[:position], rest, *monomial[position + 1 :])
+        cofactors[cofactor][half] = coefficient
     squares = ring.variable(odd) ** 2, ring.variable(even) ** 2
     result = ring.zero
-    for outer, halves in cofactors.items():
-        parts = [ring.context.from_dict(halves.get(k, {})) for k in range(max(halves) + 1)]
+    for cofactor, halves in cofactors.items():
+        parts = [halves.get(k, 0) for k in range(max(halves) + 1)]
         best = min((form(parts, sign) for form in _FORMS), key=_length)
-        factor = ring.context.from_dict({outer: 1})
-        for (odds, evens), part in best.items():
-            result += factor * part * squares[0] ** odds * squares[1] ** evens
+        square = sum(
+            (c * squares[0] ** odds * squares[1] ** evens for (odds, evens), c in best.items()),
+            ring.zero,
+        )
+        result += ring.context.from_dict({cofactor: 1}) * square
     return result
 
 
 def _length(form: Binary) -> tuple[int, int]:
     """Terms in all, and those that break the common sign."""
-    signs = [coefficient > 0 for part in form.values() for coefficient in part.coeffs()]
+    signs = [coefficient > 0 for coefficient in form.values() if coefficient != 0]
     return len(signs), min(sum(signs), len(signs) - sum(signs))
 
 
-def _in_odd(parts: Sequence[Polynomial], sign: int) -> Binary:
+def _in_odd(parts: Sequence[Any], sign: int) -> Binary:
     return {(k, 0): part for k, part in enumerate(parts)}
 
 
-def _in_even(parts: Sequence[Polynomial], sign: int) -> Binary:
+def _in_even(parts: Sequence[Any], sign: int) -> Binary:
     """odd² = sign · (even² - 1)."""
     return {
         (0, m): sum(comb(k, m) * (-1) ** (k - m) * sign**k * parts[k] for k in range(m, len(parts)))
@@ -74,7 +68,7 @@ def _in_even(parts: Sequence[Polynomial], sign: int) -> Binary:
     }
 
 
-def _in_both(parts: Sequence[Polynomial], sign: int) -> Binary:
+def _in_both(parts: Sequence[Any], sign: int) -> Binary:
     """1 = even² - sign · odd², until all terms have one degree."""
     top = len(parts) - 1
     return {
@@ -85,4 +79,4 @@ def _in_both(parts: Sequence[Polynomial], sign: int) -> Binary:
     }
 
 
-_FORMS: tuple[Callable[[Sequence[Polynomial], int], Binary], ...] = (_in_odd, _in_even, _in_both)
+_FORMS: tuple[Callable[[Sequence[Any], int], Binary], ...] = (_in_odd, _in_even, _in_both)

@@ -13,6 +13,8 @@ from polhode.base._errors import (
     UnitError,
     exit_code,
 )
+from polhode.base._files import write_whole
+from polhode.base._lookup import look_up
 from polhode.base._progress import Progress, SilentProgress, terminal_progress
 from polhode.base._quantity import Quantity, Value, read_quantity, to_si
 from polhode.base._schema import SCHEMA, Provenance, installed_version, provenance
@@ -43,9 +45,11 @@ __all__ = [
     "cache",
     "exit_code",
     "installed_version",
+    "look_up",
     "provenance",
     "read_quantity",
     "read_unit",
     "terminal_progress",
     "to_si",
+    "write_whole",
 ]

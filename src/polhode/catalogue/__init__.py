@@ -12,7 +12,6 @@ from polhode.catalogue._numbers import numbers_of as numbers_of
 from polhode.catalogue._rolling_disk import ROLLING_DISK
 from polhode.catalogue._spinning_coin import SPINNING_COIN
 from polhode.catalogue._tennis_racquet import TENNIS_RACQUET
-from polhode.catalogue._values import look_up as look_up
 
 #: Every catalogue system, in the order of the problem set.
 CATALOGUE: dict[str, Entry] = {

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from fractions import Fraction
 
 from polhode.algebra import Expr, Symbol, pi
-from polhode.base import PURE, TIME, Quantity, UnitError, read_quantity
-from polhode.catalogue._values import look_up, read_value
+from polhode.base import PURE, TIME, Quantity, UnitError, look_up, read_quantity
+from polhode.catalogue._values import read_value
 from polhode.derive import Equations
 
 #: Angles in these fractions of π have sines that are square roots; others are kept as decimals.

@@ -9,9 +9,9 @@ from types import MappingProxyType
 from typing import Any
 
 from polhode.algebra import Expr, Kind, Symbol, dimension_of
-from polhode.base import PURE, TIME, DeclarationError, Dimension, UnitError, read_unit
+from polhode.base import PURE, TIME, DeclarationError, Dimension, UnitError, look_up, read_unit
 from polhode.catalogue._entry import Entry
-from polhode.catalogue._values import in_si, look_up, read_value
+from polhode.catalogue._values import in_si, read_value
 from polhode.derive import Equations
 
 _NOTHING: Mapping[str, str] = MappingProxyType({})

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from difflib import get_close_matches
 from typing import TypeVar
 
 from polhode.algebra import (
@@ -18,7 +17,6 @@ from polhode.algebra import (
 )
 from polhode.base import (
     PURE,
-    DeclarationError,
     Dimension,
     ParseError,
     UnitError,
@@ -26,7 +24,6 @@ from polhode.base import (
     to_si,
 )
 
-Known = TypeVar("Known")
 Refused = TypeVar("Refused", ParseError, UnitError)
 
 _NUMBER_THEN_UNIT = re.compile(
@@ -93,22 +90,6 @@ def in_si(
             advice=f"check the formula for {name}",
         )
     return to_si(_evaluated(name, value, known), PURE, name)
-
-
-def look_up(name: str, known: Mapping[str, Known], what: str) -> Known:
-    """What is known under a name.
-
-    Raises:
-        DeclarationError: for a name that is not known, with the nearest ones that are.
-    """
-    if name in known:
-        return known[name]
-    near = get_close_matches(name, known, n=3, cutoff=0.5)
-    raise DeclarationError(
-        f"{name!r} is no {what}",
-        expected=f"one of {', '.join(known)}" if known else "",
-        advice=f"did you mean {' or '.join(near)}?" if near else "",
-    )
 
 
 def _checked(name: str, text: str) -> str:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from polhode.base import DeclarationError
-from polhode.catalogue import CATALOGUE, Entry, look_up
+from polhode.base import DeclarationError, look_up
+from polhode.catalogue import CATALOGUE, Entry
 from polhode.cli._user_file import load
 from polhode.model import System
 

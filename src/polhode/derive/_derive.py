@@ -8,6 +8,7 @@ from polhode.algebra import ZERO, Expr, Matrix, Symbol, Vector, linear_parts
 from polhode.derive._balance import Wrench, demands
 from polhode.derive._equations import Equations
 from polhode.derive._motion import Motion, motion_of
+from polhode.derive._names import refuse_shared_names
 from polhode.derive._reactions import Line, lines, solve_reactions
 from polhode.model import Body, System
 
@@ -18,10 +19,13 @@ def derive(system: System) -> Equations:
     Newton's and Euler's equations of every body are projected on the motions that the velocity
     constraints allow (Jourdain's principle), which removes all reactions that do no work.
 
-    Raises `ConstraintError` for constraints that contradict one another.
+    Raises:
+        ConstraintError: for constraints that contradict one another.
+        DeclarationError: for bodies that share coordinates or reactions that share names.
     """
     motion = motion_of(system)
     needs = demands(motion)
+    refuse_shared_names(motion, needs)
     columns = lines(motion)
     rows = _projected(motion, needs)
     rubbing = [c for c in columns if c.direction != c.restraint.direction]

@@ -13,7 +13,7 @@ from polhode.algebra import (
     Row,
     Symbol,
     Vector,
-    solve,
+    eliminate,
     variables,
 )
 from polhode.base import Dimension, NumericError
@@ -121,7 +121,8 @@ class Equations:
     def accelerations(self) -> dict[Symbol, Expr]:
         """Every acceleration, solved for.
 
-        Raises `NumericError` beyond five speeds, where only the blocks are kept.
+        Raises `NumericError` beyond five speeds, where only the blocks are kept, and for motions
+        that nothing resists.
         """
         if len(self.speeds) > LARGEST_SYMBOLIC:
             raise NumericError(
@@ -129,7 +130,15 @@ class Equations:
                 expected=f"at most {LARGEST_SYMBOLIC}",
                 advice="use mass and forcing, which are factorised numerically",
             )
-        solved = solve(self.mass.rows, self.forcing)
+        outcome = eliminate(self.mass.rows, self.forcing)
+        if outcome.free:
+            loose = ", ".join(self.speeds[j].published for j in outcome.free)
+            raise NumericError(
+                f"accelerations of {loose}, which no mass or inertia resists",
+                expected="a mass matrix that can be inverted",
+                advice="give the body its inertia, or hold it",
+            )
+        solved = (value for _, (_, value) in sorted(outcome.solved.items()))
         return dict(zip(self.acceleration_symbols, solved, strict=True))
 
     def on_shell(self, expression: Expr) -> Expr:
@@ -235,8 +244,7 @@ class Equations:
 
     def load_power(self, name: str) -> Expr:
         """Rate of work of one load, W."""
-        load = next(load for load in self.system.loads if load.name == name)
-        return energies.load_power(self.kinetics, load)
+        return energies.load_power(self.kinetics, self.system.load(name))
 
     @property
     def linear_momentum(self) -> Vector:

@@ -10,14 +10,12 @@ from polhode.algebra import (
     Expr,
     Kind,
     Matrix,
-    Row,
     Symbol,
     Vector,
-    eliminate,
-    linear_parts,
     variables,
 )
-from polhode.base import ConstraintError
+from polhode.base import ConstraintError, DeclarationError
+from polhode.derive._constraints import against, dependent_speeds
 from polhode.model import Body, Element, Restraint, System
 
 
@@ -82,13 +80,19 @@ class Motion:
 
     def slip(self, restraint: Restraint) -> Vector:
         """Velocity of the restrained point (or of the body's rotation) against its support."""
-        own = _against(restraint, self.velocities)
+        own = against(restraint, self.velocities)
         return own - self.resolve(restraint.velocity)
 
 
 def motion_of(system: System) -> Motion:
-    """Place every body, gather coordinates and speeds, and solve the velocity constraints."""
+    """Place every body, gather coordinates and speeds, and solve the velocity constraints.
+
+    Raises:
+        DeclarationError: for bodies that share coordinates, or independent speeds that are none.
+        ConstraintError: for constraints that contradict one another.
+    """
     elements, places, brought = _placed(system)
+    _refuse_gaps(elements, places)
     given = _given_rates(system, brought)
     coordinates = _coordinates(system, places, given)
     bare = tuple(q.derivative() for q in coordinates if q not in given)
@@ -98,7 +102,7 @@ def motion_of(system: System) -> Motion:
     restraints = {e.name: e.restraints(places) for e in elements}
     speeds = bare + quasi
     prescribed = [r for group in restraints.values() for r in group]
-    dependent = _dependent(prescribed, raw, rates, speeds, _ranks(system, bare, quasi, brought))
+    dependent = dependent_speeds(prescribed, raw, rates, _ranks(system, bare, quasi, brought))
     independent = tuple(s for s in speeds if s not in dependent)
     kinematics = {q.derivative(): Expr.generator(q.derivative()) for q in coordinates} | rates
     return Motion(
@@ -132,7 +136,9 @@ def _placed(system: System) -> tuple[tuple[Element, ...], dict[Body, Vector], Br
                 places[body] = centre
                 progress = True
                 for coordinate, rate in element.rates().items():
-                    brought[_symbol(coordinate)] = (body, rate)
+                    first, _ = brought.setdefault(_symbol(coordinate), (body, rate))
+                    if first != body:
+                        raise _shared(f"coordinate {coordinate}", first, body)
         return progress
 
     while len(places) < len(system.bodies):
@@ -141,6 +147,26 @@ def _placed(system: System) -> tuple[tuple[Element, ...], dict[Body, Vector], Br
             flights += waiting
             place(waiting)
     return system.elements + flights, places, brought
+
+
+def _shared(what: str, first: Body, second: Body) -> DeclarationError:
+    return DeclarationError(
+        f"the {what} of both {first.name!r} and {second.name!r}",
+        expected="coordinates and speeds of its own for every body that moves by itself",
+        advice="give one of them a tag, such as tag='2'",
+    )
+
+
+def _refuse_gaps(elements: Iterable[Element], places: Mapping[Body, Vector]) -> None:
+    """A loop that no configuration closes."""
+    for element in elements:
+        for gap in element.closures(places):
+            if not any(s.kind is Kind.COORDINATE for s in gap.symbols()):
+                raise ConstraintError(
+                    f"{element.name!r}, which never closes: {gap} would have to vanish",
+                    expected="bodies that can be where all contacts and joints want them",
+                    advice="check lengths and places, or leave this one out",
+                )
 
 
 def _symbol(expression: Expr) -> Symbol:
@@ -175,8 +201,13 @@ def _published(symbol: Symbol) -> str:
 
 
 def _quasi_speeds(system: System, brought: Brought) -> dict[Symbol, None]:
-    rotational = [s for body in system.bodies for s in body.speeds]
-    return dict.fromkeys(_symbol(s) for s in [*rotational, *(r for _, r in brought.values())])
+    rotational: dict[Symbol, Body] = {}
+    for body in system.bodies:
+        for speed in map(_symbol, body.speeds):
+            first = rotational.setdefault(speed, body)
+            if (first.axes, first.spin) != (body.axes, body.spin):
+                raise _shared(f"speed {speed.published}", first, body)
+    return dict.fromkeys([*rotational, *(_symbol(rate) for _, rate in brought.values())])
 
 
 def _raw_velocity(body: Body, place: Vector, rates: Mapping[Symbol, Expr]) -> tuple[Vector, Vector]:
@@ -184,17 +215,6 @@ def _raw_velocity(body: Body, place: Vector, rates: Mapping[Symbol, Expr]) -> tu
     moved = Vector(tuple(c.subs(rates) for c in velocity.components), velocity.triad)
     angular = body.angular_velocity
     return moved, Vector(tuple(c.subs(rates) for c in angular.components), angular.triad)
-
-
-def _against(restraint: Restraint, velocities: Mapping[Body, tuple[Vector, Vector]]) -> Vector:
-    def of(body: Body, arm: Vector | None) -> Vector:
-        velocity, angular = velocities[body]
-        return angular if arm is None else velocity + angular.cross(arm)
-
-    own = of(restraint.body, restraint.arm)
-    if restraint.other is None:
-        return own
-    return own - of(restraint.other, restraint.other_arm)
 
 
 def _ranks(
@@ -210,39 +230,18 @@ def _ranks(
     ranks = dict.fromkeys(bare, 3) | dict.fromkeys(quasi, 1)
     for body, rate in brought.values():
         ranks[_symbol(rate)] = 2 if body.is_isotropic else 0
+    _refuse_unknown(system.independent, ranks)
     return ranks | dict.fromkeys(system.independent, 4)
 
 
-def _dependent(
-    restraints: list[Restraint],
-    velocities: Mapping[Body, tuple[Vector, Vector]],
-    rates: Mapping[Symbol, Expr],
-    speeds: tuple[Symbol, ...],
-    ranks: Mapping[Symbol, int],
-) -> dict[Symbol, Expr]:
-    rows: list[Row] = []
-    right: list[Expr] = []
-    names: list[str] = []
-    for restraint in restraints:
-        slip = (_against(restraint, velocities) - restraint.velocity).dot(restraint.direction)
-        coefficients, rest = linear_parts(slip.subs(rates), speeds)
-        if any(coefficients) or rest:
-            rows.append(coefficients)
-            right.append(-rest)
-            names.append(restraint.name)
-    outcome = eliminate(rows, right, [ranks[s] for s in speeds])
-    if outcome.contradictory:
-        named = ", ".join(names[i] for i in outcome.contradictory)
-        raise ConstraintError(
-            f"constraints that contradict one another, at {named}",
-            expected="constraints that some motion obeys",
-            advice="remove one of them, or let the support move as the others demand",
-        )
-    free = [Expr.generator(speeds[j]) for j in outcome.free]
-    return {
-        speeds[j]: sum((c * u for c, u in zip(row, free, strict=True)), constant)
-        for j, (row, constant) in outcome.solved.items()
-    }
+def _refuse_unknown(wanted: Iterable[Symbol], speeds: Mapping[Symbol, int]) -> None:
+    for symbol in wanted:
+        if symbol not in speeds:
+            raise DeclarationError(
+                f"independent={symbol.published}",
+                expected=f"one of the speeds {', '.join(s.published for s in speeds)}",
+                advice="name the rate of a coordinate, as in theta.dt()",
+            )
 
 
 def _settled(

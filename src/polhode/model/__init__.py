@@ -2,8 +2,6 @@
 
 from polhode.model._body import Body as Body
 from polhode.model._body import BodyPoint as BodyPoint
-from polhode.model._body import check_inertia as check_inertia
-from polhode.model._body import check_mass as check_mass
 from polhode.model._contacts import Contact as Contact
 from polhode.model._contacts import Coulomb as Coulomb
 from polhode.model._contacts import Rolling as Rolling
@@ -16,11 +14,11 @@ from polhode.model._flight import Flight as Flight
 from polhode.model._frame import Frame as Frame
 from polhode.model._frame import earth as earth
 from polhode.model._frame import upright as upright
+from polhode.model._inertia import check_inertia as check_inertia
+from polhode.model._inertia import check_mass as check_mass
 from polhode.model._joints import Guide as Guide
 from polhode.model._joints import Hinge as Hinge
-from polhode.model._joints import Hold as Hold
 from polhode.model._joints import Motor as Motor
-from polhode.model._joints import Pivot as Pivot
 from polhode.model._joints import Universal as Universal
 from polhode.model._loads import Action as Action
 from polhode.model._loads import Damper as Damper
@@ -30,6 +28,9 @@ from polhode.model._loads import Load as Load
 from polhode.model._loads import Spring as Spring
 from polhode.model._loads import Torque as Torque
 from polhode.model._loads import Velocities as Velocities
+from polhode.model._pivots import Hold as Hold
+from polhode.model._pivots import Pivot as Pivot
+from polhode.model._pivots import Weld as Weld
 from polhode.model._shapes import cylinder as cylinder
 from polhode.model._shapes import disk as disk
 from polhode.model._shapes import ellipsoid as ellipsoid

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
 from polhode.algebra import Expr, ExprLike, Matrix, Vector
 from polhode.base import DeclarationError
+from polhode.model._checks import of_type, quantity
 from polhode.model._frame import Frame
+from polhode.model._inertia import InertiaLike, check_inertia, check_mass, is_symmetric
 from polhode.model._spin import About, Spin, WithAxes
 from polhode.model._surface import Rim, Surface
-
-InertiaLike = Sequence[ExprLike] | Sequence[Sequence[ExprLike]]
 
 
 @dataclass(frozen=True)
@@ -33,6 +31,10 @@ class Body:
         rim: short for a thin circular edge of this radius about the spin axis, m.
         surface: what it touches supports with.
         tag: appended to the names of its coordinates and speeds; tells bodies apart.
+
+    Raises:
+        DeclarationError: for a mass or inertia that no body can have, and for a body that is not
+            symmetric about an axis that it spins on while its axes do not.
     """
 
     name: str
@@ -56,13 +58,16 @@ class Body:
         surface: Surface | None = None,
         tag: str = "",
     ) -> None:
+        of_type(axes, Frame, f"axes of body {name!r}", "give the frame of its inertia")
         chosen = spin or (About(spin_about) if spin_about else WithAxes())
+        of_type(chosen, Spin, f"spin of body {name!r}", "to spin about axis 3 say spin_about='3'")
         if rim is not None:
-            surface = Rim(Expr.of(rim), spin_about or _symmetry_axis(chosen, name))
+            radius = quantity(rim, f"rim of body {name!r}")
+            surface = Rim(radius, spin_about or _symmetry_axis(chosen, name))
         values: dict[str, Any] = {
             "name": name,
-            "mass": Expr.of(mass),
-            "inertia": _inertia(name, inertia),
+            "mass": check_mass(name, mass),
+            "inertia": check_inertia(name, inertia),
             "axes": axes,
             "spin": chosen,
             "surface": surface,
@@ -70,8 +75,19 @@ class Body:
         }
         for field, value in values.items():
             object.__setattr__(self, field, value)
-        check_mass(name, self.mass.rational)
-        check_inertia(name, [self.inertia[i, i].rational for i in range(3)])
+        for axis in chosen.loose(axes):
+            self._refuse_lopsided(axis)
+
+    def _refuse_lopsided(self, axis: str) -> None:
+        position = self.axes.position(axis)
+        round_ = self.surface is None or self.surface.is_symmetric(self.axes, position)
+        if not (round_ and is_symmetric(self.inertia, position)):
+            what = "inertia" if round_ else "surface"
+            raise DeclarationError(
+                f"body {self.name!r}, which turns about {axis} while its axes do not",
+                expected=f"its {what} to be symmetric about that axis",
+                advice="turn the axes with the body by one more angle, or use spin=Components()",
+            )
 
     def __hash__(self) -> int:
         return hash((self.name, self.axes, self.tag))
@@ -114,6 +130,22 @@ class BodyPoint:
     body: Body
     offset: Vector
 
+    def require_fixed(self, what: str) -> None:
+        """Refuse a point that moves through the body.
+
+        On a body that spins while its axes do not, that is every point off the axis of spin.
+        """
+        axes = self.body.fixed_axes
+        parts = self.offset.components if axes is None else self.offset.express(axes).components
+        moving = any(s.kind.varies for part in parts for s in part.symbols())
+        if moving or (axes is None and any(parts)):
+            raise DeclarationError(
+                f"{what}, ({', '.join(map(str, self.offset.components))}) "
+                f"from the centre of body {self.body.name!r}",
+                expected="a point that is fixed in the body",
+                advice="turn the axes with the body by one more angle, or take a point on its axis",
+            )
+
 
 def _symmetry_axis(spin: Spin, name: str) -> str:
     axis = getattr(spin, "axis", "")
@@ -124,42 +156,3 @@ def _symmetry_axis(spin: Spin, name: str) -> str:
             advice="say spin_about='3', or give surface=Rim(radius, axis)",
         )
     return str(axis)
-
-
-def _inertia(name: str, given: InertiaLike | Matrix) -> Matrix:
-    if isinstance(given, Matrix):
-        return given
-    rows = [entry for entry in given if isinstance(entry, Sequence)]
-    if len(given) == 3 and not rows:
-        return Matrix.diagonal(list(given))
-    if len(given) == 3 and [len(row) for row in rows] == [3, 3, 3]:
-        matrix = Matrix.of(rows)
-        if matrix == matrix.T:
-            return matrix
-    raise DeclarationError(
-        f"inertia {given!r} of body {name!r}",
-        expected="three principal moments or a symmetric 3 by 3 matrix, in kg m^2",
-    )
-
-
-def check_mass(name: str, mass: float | Fraction | None) -> None:
-    """Refuse a mass that is known and not positive."""
-    if mass is not None and mass <= 0:
-        raise DeclarationError(
-            f"mass {mass} of body {name!r}", expected="a positive mass in kg", advice=""
-        )
-
-
-def check_inertia(name: str, moments: Sequence[float | Fraction | None]) -> None:
-    """Refuse principal moments no distribution of mass can have."""
-    known = [float(m) for m in moments if m is not None]
-    if any(m < 0 for m in known):
-        raise DeclarationError(
-            f"moments of inertia {known} of body {name!r}", expected="none of them negative"
-        )
-    if len(known) == 3 and 2 * max(known) > sum(known) * (1 + 1e-12):
-        raise DeclarationError(
-            f"moments of inertia {known} of body {name!r}",
-            expected="each at most the sum of the other two (the triangle inequality)",
-            advice="check the moments: no body can have these",
-        )

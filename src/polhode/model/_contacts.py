@@ -9,6 +9,7 @@ from functools import cached_property
 from polhode.algebra import Expr, ExprLike, Vector, coordinate, speed
 from polhode.base import DeclarationError
 from polhode.model._body import Body
+from polhode.model._checks import not_negative, of_type
 from polhode.model._element import Element, Friction, Places, Restraint
 from polhode.model._supports import Plane
 from polhode.model._surface import Surface
@@ -24,7 +25,7 @@ class Contact(Element):
     Args:
         body: the body, with a surface.
         on: the support.
-        name: what to call the contact.
+        name: what to call the contact; contact, with the tag of the body, by default.
         force: letter of the reaction's components: F_x, F_y, F_z.
     """
 
@@ -33,14 +34,18 @@ class Contact(Element):
     name: str
     force: str
 
-    def __init__(self, body: Body, *, on: Plane, name: str = "contact", force: str = "F") -> None:
+    def __init__(
+        self, body: Body, *, on: Plane | None = None, name: str = "", force: str = "F"
+    ) -> None:
+        of_type(body, Body, "what touches", "name the body first: Rolling(disk, on=Plane(lab))")
+        called = name or f"contact{body.tag}"
         if not isinstance(on, Plane):
             raise DeclarationError(
-                f"contact {name!r} of body {body.name!r} with {on!r}",
+                f"contact {called!r} of body {body.name!r} with {_described(on)}",
                 expected="a support: Plane, Turntable or Sheet",
                 advice="say on=Plane(lab)",
             )
-        for field, value in (("body", body), ("on", on), ("name", name), ("force", force)):
+        for field, value in (("body", body), ("on", on), ("name", called), ("force", force)):
             object.__setattr__(self, field, value)
         self._surface()
 
@@ -123,18 +128,14 @@ class Coulomb(Contact):
         self,
         body: Body,
         *,
-        on: Plane,
+        on: Plane | None = None,
         mu: ExprLike,
-        name: str = "contact",
+        name: str = "",
         force: str = "F",
     ) -> None:
         super().__init__(body, on=on, name=name, force=force)
-        object.__setattr__(self, "mu", Expr.of(mu))
-        value = self.mu.rational
-        if value is not None and value < 0:
-            raise DeclarationError(
-                f"friction coefficient {value} of contact {name!r}", expected="zero or more"
-            )
+        what = f"friction coefficient of contact {self.name!r}"
+        object.__setattr__(self, "mu", not_negative(mu, what))
 
     def friction(self, places: Places) -> tuple[Friction, ...]:
         first, second = self.on.tangents
@@ -144,3 +145,7 @@ class Coulomb(Contact):
         )
         normal = self._restraint(self.on.normal, places)
         return (Friction(normal, self.mu, (directions[0], directions[1])),)
+
+
+def _described(support: object) -> str:
+    return "nothing" if support is None else f"a {type(support).__name__}"

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from polhode.algebra import Expr, Vector
+from polhode.base import DeclarationError
 from polhode.model._body import Body
 
 #: Position of the centre of mass of every body placed so far, from the origin of the root frame.
@@ -93,3 +94,12 @@ class Element(ABC):
     def assumed_positive(self) -> tuple[Expr, ...]:
         """Expressions whose sign had to be taken as positive."""
         return ()
+
+
+def require_two(name: str, body: Body, other: Body) -> None:
+    """Refuse a joint of a body to itself."""
+    if body == other:
+        raise DeclarationError(
+            f"{name!r}, which joins body {body.name!r} to itself",
+            expected="another body, or none for the ground",
+        )

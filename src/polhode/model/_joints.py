@@ -1,158 +1,14 @@
-"""Joints: what holds a body at a point, about an axis, in a plane, or at a rate."""
+"""Joints by couples: what holds a body to an axis, in a plane, or at a rate."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 from polhode.algebra import Expr, ExprLike, Vector
-from polhode.model._body import Body, BodyPoint
-from polhode.model._element import Element, Places, Restraint
+from polhode.model._body import Body
+from polhode.model._checks import quantity, unit_vector
+from polhode.model._element import Element, Places, Restraint, require_two
 from polhode.model._frame import Frame
-
-
-@dataclass(frozen=True, init=False)
-class Pivot(Element):
-    """A point of a body held at a point of the ground or of another body.
-
-    Args:
-        body: the body held.
-        at: from its centre of mass to the point, m.
-        to: the point: from the origin of the root frame (m; it may move with time), or a point of
-            another body; the origin by default.
-        along: frame whose directions name the components of the reaction.
-        only: labels of the directions in which it holds; all three by default.
-        force: letter of the components.
-    """
-
-    body: Body
-    at: Vector
-    to: Vector | BodyPoint
-    along: Frame
-    only: tuple[str, ...]
-    name: str
-    force: str
-
-    def __init__(
-        self,
-        body: Body,
-        *,
-        at: Vector | None = None,
-        to: Vector | BodyPoint | None = None,
-        along: Frame | None = None,
-        only: str = "",
-        name: str = "pivot",
-        force: str = "F",
-    ) -> None:
-        root = body.axes.root
-        axes = along or root
-        values = {
-            "body": body,
-            "at": at if at is not None else body.axes.zero,
-            "to": to if to is not None else root.zero,
-            "along": axes,
-            "only": tuple(only.split()) or axes.labels,
-            "name": name,
-            "force": force,
-        }
-        for field, value in values.items():
-            object.__setattr__(self, field, value)
-
-    @property
-    def other(self) -> Body | None:
-        """The body that holds, if it is not the ground."""
-        return self.to.body if isinstance(self.to, BodyPoint) else None
-
-    @property
-    def bodies(self) -> tuple[Body, ...]:
-        return (self.body,) if self.other is None else (self.body, self.other)
-
-    def _target(self, places: Places) -> Vector:
-        if isinstance(self.to, BodyPoint):
-            return places[self.to.body] + self.to.offset
-        return self.to
-
-    def centre(self, places: Places) -> Mapping[Body, Vector]:
-        partial = set(self.only) != set(self.along.labels)
-        if partial or (self.other is not None and self.other not in places):
-            return {}
-        return {self.body: self._target(places) - self.at}
-
-    def closures(self, places: Places) -> tuple[Expr, ...]:
-        gap = places[self.body] + self.at - self._target(places)
-        return tuple(c for label in self.only if (c := gap.dot(self.along[label])))
-
-    def restraints(self, places: Places) -> tuple[Restraint, ...]:
-        held = isinstance(self.to, BodyPoint)
-        velocity = self.body.axes.zero if held else self._target(places).dt()
-        arm = self.to.offset if isinstance(self.to, BodyPoint) else None
-        return tuple(
-            Restraint(
-                f"{self.force}_{label}{self.body.tag}",
-                self.body,
-                self.along[label],
-                velocity,
-                self.at,
-                self.other,
-                arm,
-            )
-            for label in self.only
-        )
-
-
-@dataclass(frozen=True, init=False)
-class Hold(Element):
-    """A point of a body kept at rest wherever it happens to be, along some directions or all.
-
-    Args:
-        body: the body held.
-        at: from its centre of mass to the point, m.
-        along: frame whose directions name the components of the reaction.
-        only: labels of the directions in which it holds; all three by default.
-        force: letter of the components.
-    """
-
-    body: Body
-    at: Vector
-    along: Frame
-    only: tuple[str, ...]
-    name: str
-    force: str
-
-    def __init__(
-        self,
-        body: Body,
-        *,
-        at: Vector,
-        along: Frame | None = None,
-        only: str = "",
-        name: str = "hold",
-        force: str = "Fprime",
-    ) -> None:
-        axes = along or body.axes.root
-        values = {
-            "body": body,
-            "at": at,
-            "along": axes,
-            "only": tuple(only.split()) or axes.labels,
-            "name": name,
-            "force": force,
-        }
-        for field, value in values.items():
-            object.__setattr__(self, field, value)
-
-    @property
-    def bodies(self) -> tuple[Body, ...]:
-        return (self.body,)
-
-    def restraints(self, places: Places) -> tuple[Restraint, ...]:
-        point = places[self.body] + self.at
-        carried = self.body.axes.root.angular_velocity.cross(point)
-        tag = self.body.tag
-        return tuple(
-            Restraint(f"{self.force}_{label}{tag}", self.body, self.along[label], carried, self.at)
-            for label in self.only
-        )
 
 
 @dataclass(frozen=True)
@@ -163,6 +19,10 @@ class _Couple(Element):
     to: Body | None
     name: str
     torque: str
+
+    def __post_init__(self) -> None:
+        if self.to is not None:
+            require_two(self.name, self.body, self.to)
 
     @property
     def bodies(self) -> tuple[Body, ...]:
@@ -197,10 +57,10 @@ class Hinge(_Couple):
         *,
         axis: str,
         to: Body | None = None,
-        name: str = "hinge",
+        name: str = "",
         torque: str = "tau",
     ) -> None:
-        super().__init__(body, to, name, torque)
+        super().__init__(body, to, name or f"hinge{body.tag}", torque)
         body.axes[axis]
         object.__setattr__(self, "axis", axis)
 
@@ -232,12 +92,12 @@ class Universal(_Couple):
         arm: Vector,
         other_arm: Vector,
         to: Body | None = None,
-        name: str = "universal",
+        name: str = "",
         torque: str = "tau",
     ) -> None:
-        super().__init__(body, to, name, torque)
-        object.__setattr__(self, "arm", arm)
-        object.__setattr__(self, "other_arm", other_arm)
+        super().__init__(body, to, name or f"universal{body.tag}", torque)
+        for field, vector in (("arm", arm), ("other_arm", other_arm)):
+            object.__setattr__(self, field, unit_vector(vector, f"{field} of {self.name!r}"))
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
         across = self.arm.cross(self.other_arm)
@@ -272,10 +132,12 @@ class Guide(_Couple):
         axis: str,
         normal: Vector,
         label: str,
-        name: str = "guide",
+        name: str = "",
         torque: str = "tau",
     ) -> None:
-        super().__init__(body, None, name, torque)
+        super().__init__(body, None, name or f"guide{body.tag}", torque)
+        unit_vector(normal, f"normal of {self.name!r}")
+        body.axes[axis]
         for field, value in (("axis", axis), ("normal", normal), ("label", label)):
             object.__setattr__(self, field, value)
 
@@ -313,12 +175,14 @@ class Motor(_Couple):
         rate: ExprLike,
         relative_to: Frame | None = None,
         to: Body | None = None,
-        name: str = "motor",
+        name: str = "",
         torque: str = "tau",
     ) -> None:
-        super().__init__(body, to, name, torque)
+        super().__init__(body, to, name or f"motor{body.tag}", torque)
         frame = body.axes if relative_to is None else relative_to
-        values = {"axis": axis, "rate": Expr.of(rate), "relative_to": frame}
+        body.axes[axis]
+        turned = quantity(rate, f"rate of {self.name!r}")
+        values = {"axis": axis, "rate": turned, "relative_to": frame}
         for field, value in values.items():
             object.__setattr__(self, field, value)
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, ExprLike, Vector
 from polhode.model._body import Body, BodyPoint
+from polhode.model._checks import not_negative, quantity, unit_vector
 from polhode.model._element import Places
 
 #: Velocity of the centre of mass and angular velocity of every body.
@@ -45,6 +46,11 @@ class Load(ABC):
 
     name: str
 
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        """The bodies it names."""
+        return ()
+
     def actions(
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
     ) -> tuple[Action, ...]:
@@ -70,7 +76,9 @@ class Gravity(Load):
     name: str
 
     def __init__(self, g: ExprLike, *, up: Vector | None = None, name: str = "gravity") -> None:
-        for field, value in (("g", Expr.of(g)), ("up", up), ("name", name)):
+        if up is not None:
+            unit_vector(up, f"the direction up of {name!r}")
+        for field, value in (("g", quantity(g, f"g of {name!r}")), ("up", up), ("name", name)):
             object.__setattr__(self, field, value)
 
     def _up(self, body: Body) -> Vector:
@@ -98,6 +106,10 @@ class Force(Load):
     force: Vector
     name: str = "force"
 
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        return (self.at.body,)
+
     def actions(
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
     ) -> tuple[Action, ...]:
@@ -112,6 +124,10 @@ class Torque(Load):
     torque: Vector
     reaction_on: Body | None = None
     name: str = "torque"
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        return (self.body,) if self.reaction_on is None else (self.body, self.reaction_on)
 
     def actions(
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
@@ -151,12 +167,19 @@ class Spring(Load):
         values = {
             "start": start,
             "end": end,
-            "stiffness": Expr.of(stiffness),
-            "length": Expr.of(length),
+            "stiffness": quantity(stiffness, f"stiffness of {name!r}"),
+            "length": not_negative(length, f"length of {name!r}"),
             "name": name,
         }
         for field, value in values.items():
             object.__setattr__(self, field, value)
+        for point in (start, end):
+            if isinstance(point, BodyPoint):
+                point.require_fixed(f"end of {name!r}")
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        return _bodies(self.start, self.end)
 
     def _stretch(self, places: Places) -> Vector:
         return _place(self.start, places) - _place(self.end, places)
@@ -202,15 +225,24 @@ class Damper(Load):
         damping: ExprLike,
         name: str = "damper",
     ) -> None:
-        values = {"start": start, "end": end, "damping": Expr.of(damping), "name": name}
+        resistance = quantity(damping, f"damping of {name!r}")
+        values = {"start": start, "end": end, "damping": resistance, "name": name}
         for field, value in values.items():
             object.__setattr__(self, field, value)
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        return _bodies(self.start, self.end)
 
     def actions(
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
     ) -> tuple[Action, ...]:
         relative = _velocity(self.start, velocities) - _velocity(self.end, velocities)
         return _pair(self.start, self.end, relative * -self.damping)
+
+
+def _bodies(*ends: BodyPoint | Vector) -> tuple[Body, ...]:
+    return tuple(end.body for end in ends if isinstance(end, BodyPoint))
 
 
 def _place(point: BodyPoint | Vector, places: Places) -> Vector:

@@ -69,10 +69,10 @@ def ellipsoid(
     **more: Any,
 ) -> Body:
     """A uniform solid ellipsoid with half-axes along its axes: m (b² + c²)/5 and so on."""
-    a, b, c = (Expr.of(h) ** 2 for h in half_axes)
-    moments = [Expr.of(mass) * s / 5 for s in (b + c, c + a, a + b)]
-    first, second, third = (Expr.of(h) for h in half_axes)
+    first, second, third = (Expr.of(half) for half in half_axes)
     surface = Ellipsoidal((first, second, third))
+    a, b, c = (half**2 for half in surface.half_axes)
+    moments = [Expr.of(mass) * s / 5 for s in (b + c, c + a, a + b)]
     return Body(name, mass=mass, inertia=moments, axes=axes, surface=surface, **more)
 
 

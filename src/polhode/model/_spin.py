@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 from polhode.algebra import Expr, Vector, coordinate, solve, speed
+from polhode.base import DeclarationError
 from polhode.model._frame import Frame
 
 
@@ -27,6 +28,10 @@ class Spin(ABC):
     def fixed_axes(self, axes: Frame, tag: str) -> Frame | None:
         """Axes that are fixed in the body, where its attitude is known."""
         return axes
+
+    def loose(self, axes: Frame) -> tuple[str, ...]:
+        """Labels of the axes about which the body turns while they do not."""
+        return ()
 
 
 @dataclass(frozen=True)
@@ -69,6 +74,9 @@ class About(Spin):
     def fixed_axes(self, axes: Frame, tag: str) -> Frame:
         return axes.rotated(coordinate(self.angle + tag), self.axis, name=f"{axes.name} spun")
 
+    def loose(self, axes: Frame) -> tuple[str, ...]:
+        return (self.axis,)
+
 
 @dataclass(frozen=True)
 class Relative(Spin):
@@ -96,6 +104,9 @@ class Relative(Spin):
     def fixed_axes(self, axes: Frame, tag: str) -> Frame:
         return axes.rotated(coordinate(self.angle + tag), self.axis, name=f"{axes.name} spun")
 
+    def loose(self, axes: Frame) -> tuple[str, ...]:
+        return (self.axis,)
+
 
 @dataclass(frozen=True)
 class Components(Spin):
@@ -121,7 +132,15 @@ class Components(Spin):
         still = {angle.dt(): 0 for angle in angles}
         carried = [w.subs(still) for w in axes.turning]
         right = [w - c for w, c in zip(self.speeds(axes, tag), carried, strict=True)]
-        return dict(zip(angles, solve(columns, right), strict=True))
+        try:
+            return dict(zip(angles, solve(columns, right), strict=True))
+        except ZeroDivisionError:
+            raise DeclarationError(
+                f"spin by components along {axes.name!r}, whose rotations do not turn it freely by "
+                + ", ".join(map(str, angles)),
+                expected="axes turned by three angles with these names",
+                advice="say spin=Components(angles=...) with the names that the axes have",
+            ) from None
 
 
 @dataclass(frozen=True)
@@ -136,3 +155,6 @@ class Free(Spin):
 
     def fixed_axes(self, axes: Frame, tag: str) -> None:
         return None
+
+    def loose(self, axes: Frame) -> tuple[str, ...]:
+        return axes.labels

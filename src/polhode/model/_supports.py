@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, ExprLike, Vector
+from polhode.base import DeclarationError
+from polhode.model._checks import quantity
 from polhode.model._frame import Frame
 
 
@@ -75,7 +77,7 @@ class Turntable(Plane):
         self, axes: Frame, Omega: ExprLike, *, normal: str = "z", tilt: ExprLike = 0
     ) -> None:
         super().__init__(axes, normal=normal, tilt=tilt)
-        object.__setattr__(self, "Omega", Expr.of(Omega))
+        object.__setattr__(self, "Omega", quantity(Omega, "Omega of the turntable"))
 
     @property
     def turning(self) -> Expr:
@@ -106,8 +108,13 @@ class Sheet(Plane):
         tilt: ExprLike = 0,
     ) -> None:
         super().__init__(axes, normal=normal, tilt=tilt)
-        object.__setattr__(self, "motion", (Expr.of(motion[0]), Expr.of(motion[1])))
-        object.__setattr__(self, "angle", Expr.of(angle))
+        moved = tuple(quantity(place, "motion of the sheet") for place in motion)
+        if len(moved) != 2:
+            raise DeclarationError(
+                f"motion of the sheet: {motion!r}", expected="its place along two directions"
+            )
+        object.__setattr__(self, "motion", moved)
+        object.__setattr__(self, "angle", quantity(angle, "angle of the sheet"))
 
     def _in_plane(self, first: Expr, second: Expr) -> Vector:
         along, across = (self.axes[label] for label in self.tangents)

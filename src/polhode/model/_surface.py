@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, Vector, principal_root
+from polhode.model._checks import not_negative, positive
 from polhode.model._frame import Frame
 
 
@@ -15,6 +16,10 @@ class Surface(ABC):
     @abstractmethod
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
         """From the centre of mass to the point that touches a plane with this unit normal, m."""
+
+    @abstractmethod
+    def is_symmetric(self, axes: Frame, axis: int) -> bool:
+        """Whether it looks the same however it is turned about this one of the axes."""
 
     def assumed_positive(self, axes: Frame, normal: Vector) -> tuple[Expr, ...]:
         """Expressions whose sign had to be taken as positive."""
@@ -27,8 +32,14 @@ class Round(Surface):
 
     radius: Expr
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "radius", positive(self.radius, "radius"))
+
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
         return normal * -self.radius
+
+    def is_symmetric(self, axes: Frame, axis: int) -> bool:
+        return True
 
 
 @dataclass(frozen=True)
@@ -41,6 +52,12 @@ class Rim(Surface):
     radius: Expr
     axis: str
     offset: Expr = ZERO
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "radius", positive(self.radius, "radius"))
+
+    def is_symmetric(self, axes: Frame, axis: int) -> bool:
+        return axes.position(self.axis) == axis
 
     def _steepest(self, axes: Frame, normal: Vector) -> Vector:
         along = axes[self.axis]
@@ -62,6 +79,13 @@ class Ellipsoidal(Surface):
     """An ellipsoid with these half-axes along the body's axes, centred on the centre of mass."""
 
     half_axes: tuple[Expr, Expr, Expr]
+
+    def __post_init__(self) -> None:
+        halves = tuple(not_negative(half, "half-axis of an ellipsoid") for half in self.half_axes)
+        object.__setattr__(self, "half_axes", halves)
+
+    def is_symmetric(self, axes: Frame, axis: int) -> bool:
+        return self.half_axes[(axis + 1) % 3] == self.half_axes[(axis + 2) % 3]
 
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
         upright = normal.express(axes).components

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Protocol, TypeVar
 
-from polhode.algebra import Expr, Kind, Symbol
+from polhode.algebra import Expr, Kind, Symbol, as_symbol
 from polhode.base import DeclarationError
 from polhode.model._body import Body
 from polhode.model._element import Element
@@ -21,8 +22,8 @@ class System:
     """An immutable declaration; building it computes nothing.
 
     Args:
-        parts: bodies, contacts, joints and loads, in any order. Bodies that a contact or joint
-            names need not be listed again.
+        parts: bodies, contacts, joints and loads, in any order. Bodies that another
+            part names need not be listed again.
         name: short name.
         independent: speeds to keep as independent ones, where the constraints leave a choice.
     """
@@ -46,7 +47,7 @@ class System:
         _refuse_twins("contact or joint", [element.name for element in elements])
         _refuse_twins("load", [load.name for load in loads])
         _root(bodies)
-        kept = tuple(s for e in independent if (s := e.symbol) is not None)
+        kept = tuple(as_symbol(speed) for speed in independent)
         values = {
             "bodies": bodies,
             "elements": elements,
@@ -64,19 +65,15 @@ class System:
 
     def body(self, name: str) -> Body:
         """The body with this name."""
-        for body in self.bodies:
-            if body.name == name:
-                return body
-        known = ", ".join(b.name for b in self.bodies)
-        raise DeclarationError(f"body {name!r}", expected=f"one of {known}")
+        return _named(name, self.bodies, "body")
 
     def element(self, name: str) -> Element:
         """The contact or joint with this name."""
-        for element in self.elements:
-            if element.name == name:
-                return element
-        known = ", ".join(e.name for e in self.elements)
-        raise DeclarationError(f"contact or joint {name!r}", expected=f"one of {known}")
+        return _named(name, self.elements, "contact or joint")
+
+    def load(self, name: str) -> Load:
+        """The load with this name."""
+        return _named(name, self.loads, "load")
 
     def flights(self, placed: Iterable[Body]) -> tuple[Flight, ...]:
         """Free motion for the bodies that nothing places."""
@@ -84,12 +81,28 @@ class System:
         return tuple(Flight(b, f"flight{b.tag}") for b in self.bodies if b not in known)
 
 
+class _Named(Protocol):
+    @property
+    def name(self) -> str: ...
+
+
+Found = TypeVar("Found", bound=_Named)
+
+
+def _named(name: str, things: Iterable[Found], what: str) -> Found:
+    known = {thing.name: thing for thing in things}
+    if name not in known:
+        names = ", ".join(known) or f"none: the system has no {what}"
+        raise DeclarationError(f"{what} {name!r}", expected=f"one of {names}")
+    return known[name]
+
+
 def _bodies(parts: Iterable[Part]) -> tuple[Body, ...]:
     found: dict[Body, None] = {}
     for part in parts:
         if isinstance(part, Body):
             found.setdefault(part)
-        elif isinstance(part, Element):
+        elif isinstance(part, Element | Load):
             for body in part.bodies:
                 found.setdefault(body)
     return tuple(found)
@@ -99,7 +112,7 @@ def _refuse_strangers(parts: Iterable[object]) -> None:
     for part in parts:
         if not isinstance(part, Body | Element | Load):
             raise DeclarationError(
-                f"{part!r} in a system",
+                f"a {type(part).__name__} in a system",
                 expected="bodies, contacts, joints and loads",
                 advice="a support belongs into a contact: Rolling(body, on=Plane(lab))",
             )

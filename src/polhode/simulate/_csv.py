@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
-import os
-import tempfile
 from collections.abc import Mapping
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from polhode.base import StoreError, provenance
+from polhode.base import provenance, write_whole
 from polhode.simulate._integrators import Array
 
 
@@ -26,21 +24,9 @@ def write_csv(path: Path, columns: Mapping[str, Array], origin: Mapping[str, Any
         StoreError: where the file cannot be written; what was there before is kept.
     """
     header = json.dumps({**provenance(), **origin}, sort_keys=True)
-    part = None
-    try:
-        descriptor, part = tempfile.mkstemp(suffix=".part", dir=path.parent)
-        with os.fdopen(descriptor, "w", encoding="utf-8", newline="") as stream:
-            stream.write(f"# polhode {header}\n")
-            writer = csv.writer(stream, lineterminator="\n")
-            writer.writerow(columns)
-            writer.writerows(np.array(list(columns.values())).T.tolist())
-        os.replace(part, path)
-    except OSError as error:
-        raise StoreError(
-            f"{path} cannot be written ({error.strerror})",
-            expected="a file in a folder that exists and can be written",
-        ) from error
-    finally:
-        if part is not None:
-            with suppress(FileNotFoundError):
-                os.unlink(part)
+    stream = io.StringIO(newline="")
+    stream.write(f"# polhode {header}\n")
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows(np.array(list(columns.values())).T.tolist())
+    write_whole(path, stream.getvalue().encode())

@@ -18,6 +18,7 @@ from polhode.base import (
     Progress,
     SilentProgress,
     UnitError,
+    look_up,
     to_si,
 )
 from polhode.derive import derive
@@ -26,7 +27,7 @@ from polhode.simulate._driver import integrate
 from polhode.simulate._dynamics import Dynamics, EquationsOfMotion
 from polhode.simulate._flow import WORK, Flow, flow_of
 from polhode.simulate._integrators import Array, chosen
-from polhode.simulate._names import Name, by_name, look_up, published
+from polhode.simulate._names import Name, by_name, published
 from polhode.simulate._start import Start, read_start
 from polhode.simulate._trajectory import Event, Trajectory
 from polhode.simulate._values import idle_parameters, read_parameters
@@ -109,7 +110,7 @@ def _prescribed(
 ) -> dict[Symbol, Expr]:
     known = by_name(equations.functions)
     given = {
-        look_up(published(name), known, "prescribed function"): Expr.of(motion)
+        look_up(published(name), known, "prescribed function of this system"): Expr.of(motion)
         for name, motion in forcing.items()
     }
     missing = [symbol.published for symbol in equations.functions if symbol not in given]

@@ -11,14 +11,13 @@ from typing import Any
 import numpy as np
 
 from polhode.algebra import ZERO, Expr, Symbol, arrays
-from polhode.base import NumericError
+from polhode.base import NumericError, look_up
 from polhode.simulate._csv import write_csv
 from polhode.simulate._drift import Drift, drift_of
 from polhode.simulate._driver import Solution
 from polhode.simulate._dynamics import CLOCK, Dynamics, EquationsOfMotion
 from polhode.simulate._flow import WORK
 from polhode.simulate._integrators import Array
-from polhode.simulate._names import look_up
 
 _MOST_CHECKED = 20_000  # instants at which the drift is looked at
 
@@ -179,7 +178,7 @@ class Trajectory:
                 expected=f"one of {', '.join(self.reactions)}",
                 advice="evaluate equations.least[...] for the choice of least forces",
             )
-        return look_up(quantity, self.quantities, "quantity")
+        return look_up(quantity, self.quantities, "quantity of this system")
 
     def _times(self, t: float | Array) -> Array:
         times = np.asarray(t, dtype=float)

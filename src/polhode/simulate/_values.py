@@ -11,16 +11,18 @@ import numpy as np
 from polhode.algebra import FLOATS, Expr, Symbol, compile_program
 from polhode.base import (
     PURE,
+    TIME,
     DeclarationError,
     Dimension,
     UnitError,
+    look_up,
     read_quantity,
     read_unit,
     to_si,
 )
 from polhode.model import check_inertia, check_mass
 from polhode.simulate._dynamics import Dynamics, EquationsOfMotion, constants
-from polhode.simulate._names import Name, by_name, look_up, published
+from polhode.simulate._names import Name, by_name, published
 
 Numbers = Mapping[Symbol, float]
 
@@ -51,8 +53,14 @@ def read_values(
         symbol = look_up(name, symbols, what)
         if symbol in values:
             raise DeclarationError(f"{name} is given twice", expected="one value for it")
-        values[symbol] = _number(value, name, dimensions.get(symbol), known)
+        values[symbol] = _number(value, name, _dimension(symbol, dimensions), known)
     return values
+
+
+def _dimension(symbol: Symbol, dimensions: Mapping[Symbol, Dimension]) -> Dimension | None:
+    """Of a quantity, or of the rate of one."""
+    base = dimensions.get(symbol.base())
+    return None if base is None else base / TIME**symbol.order
 
 
 def read_parameters(dynamics: Dynamics, given: Mapping[Name, Any]) -> dict[Symbol, float]:

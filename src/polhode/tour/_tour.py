@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from polhode.base import Progress, StoreError
+from polhode.base import Progress, StoreError, write_whole
 from polhode.catalogue import CATALOGUE
 from polhode.tour._page import FIGURES, page
 from polhode.tour._report import TourReport, row_of, text_of
 from polhode.tour._work import Worked, work_through
-from polhode.view import for_dark_pages, write_whole
+from polhode.view import for_dark_pages
 
 
 def write_tour(

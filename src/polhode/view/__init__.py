@@ -15,7 +15,6 @@ from polhode.view._run import figure_of_run as figure_of_run
 from polhode.view._save import origin_of as origin_of
 from polhode.view._save import save_figure as save_figure
 from polhode.view._save import svg_of as svg_of
-from polhode.view._save import write_whole as write_whole
 from polhode.view._style import WIDTH as WIDTH
 from polhode.view._style import axes_or_new as axes_or_new
 from polhode.view._style import for_dark_pages as for_dark_pages

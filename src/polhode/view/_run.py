@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 _PANEL = 1.35  # height in inches
 _FOOT = 0.45
+_LEAST = 2.3
 
 
 @house_style()
@@ -26,7 +27,7 @@ def figure_of_run(run: Trajectory, groups: Sequence[Sequence[str]]) -> Figure:
         DeclarationError: for a name the run does not have.
     """
     stacked = [panel for group in groups for panel in panels(run, group)]
-    figure = new_figure(_FOOT + _PANEL * len(stacked))
+    figure = new_figure(max(_LEAST, _FOOT + _PANEL * len(stacked)))
     column = figure.subplots(len(stacked), 1, sharex=True, squeeze=False)[:, 0]
     for axes, names in zip(column, stacked, strict=True):
         history(run, names, ax=axes)

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import io
 import json
-import os
-import tempfile
-from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from polhode.base import StoreError, provenance
+from polhode.base import StoreError, provenance, write_whole
 from polhode.simulate import Trajectory
 from polhode.view._style import house_style
 
@@ -73,27 +70,3 @@ def _rendered(figure: Figure, kind: str, origin: str) -> bytes:
     with house_style(), rc_context({"svg.hashsalt": "polhode"}):
         figure.savefig(buffer, format=kind[1:], metadata=metadata)
     return buffer.getvalue()
-
-
-def write_whole(path: Path, content: bytes) -> None:
-    """Write a file in one step: whoever looks sees the old one or the new one.
-
-    Raises:
-        StoreError: where it cannot be written; what was there before is kept.
-    """
-    part = None
-    try:
-        descriptor, part = tempfile.mkstemp(suffix=".part", dir=path.parent)
-        with os.fdopen(descriptor, "wb") as stream:
-            stream.write(content)
-        os.chmod(part, 0o644)
-        os.replace(part, path)
-    except OSError as error:
-        raise StoreError(
-            f"{path} cannot be written ({error.strerror})",
-            expected="a file in a folder that exists and can be written",
-        ) from error
-    finally:
-        if part is not None:
-            with suppress(FileNotFoundError):
-                os.unlink(part)

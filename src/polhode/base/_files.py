@@ -1,0 +1,34 @@
+"""Files written whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from contextlib import suppress
+from pathlib import Path
+
+from polhode.base._errors import StoreError
+
+
+def write_whole(path: Path, content: bytes) -> None:
+    """Write a file in one step: whoever looks sees the old one or the new one.
+
+    Raises:
+        StoreError: where it cannot be written; what was there before is kept.
+    """
+    part = None
+    try:
+        descriptor, part = tempfile.mkstemp(suffix=".part", dir=path.parent)
+        with os.fdopen(descriptor, "wb") as stream:
+            stream.write(content)
+        os.chmod(part, 0o644)
+        os.replace(part, path)
+    except OSError as error:
+        raise StoreError(
+            f"{path} cannot be written ({error.strerror})",
+            expected="a file in a folder that exists and can be written",
+        ) from error
+    finally:
+        if part is not None:
+            with suppress(FileNotFoundError):
+                os.unlink(part)

@@ -1,0 +1,68 @@
+"""What declarations are refused for, so that every message names the quantity it is about."""
+
+from __future__ import annotations
+
+from polhode.algebra import Expr, ExprLike, Vector, is_positive
+from polhode.base import DeclarationError, NumericError
+
+
+def quantity(value: ExprLike, what: str) -> Expr:
+    """The expression that a value stands for.
+
+    Raises `DeclarationError` with the name of the quantity, for NaN or what is no number.
+    """
+    try:
+        return Expr.of(value)
+    except NumericError as error:
+        raise DeclarationError(
+            f"{what}: {error.given}", expected=error.expected, advice=error.advice
+        ) from error
+
+
+def positive(value: ExprLike, what: str) -> Expr:
+    """The same, of a quantity that must not be zero or negative."""
+    expression = quantity(value, what)
+    if expression.is_zero or is_negative(expression):
+        raise DeclarationError(f"{what}: {expression}", expected="a positive value")
+    return expression
+
+
+def not_negative(value: ExprLike, what: str) -> Expr:
+    """The same, of a quantity that may vanish."""
+    expression = quantity(value, what)
+    if is_negative(expression):
+        raise DeclarationError(f"{what}: {expression}", expected="zero or more")
+    return expression
+
+
+def constant(expression: Expr, what: str) -> Expr:
+    """An expression of parameters alone."""
+    varying = sorted(s.published for s in expression.symbols() if s.kind.varies)
+    if varying:
+        raise DeclarationError(
+            f"{what}: {expression}, which varies with {', '.join(varying)}",
+            expected="a constant: bodies are rigid and keep their mass",
+        )
+    return expression
+
+
+def unit_vector(vector: Vector, what: str) -> Vector:
+    """A vector of length one."""
+    if vector.dot(vector) != 1:
+        raise DeclarationError(
+            f"{what}: ({', '.join(map(str, vector.components))})",
+            expected="a unit vector",
+            advice="divide it by its length",
+        )
+    return vector
+
+
+def of_type(value: object, kind: type, what: str, advice: str) -> None:
+    """Refuse a part of a declaration that is of another type."""
+    if not isinstance(value, kind):
+        raise DeclarationError(f"{what}: {value!r}", expected=f"a {kind.__name__}", advice=advice)
+
+
+def is_negative(expression: Expr) -> bool:
+    """Whether it is seen to be negative, as a number or from the signs of its symbols."""
+    return is_positive(-expression)

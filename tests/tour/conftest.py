@@ -1,0 +1,33 @@
+from types import SimpleNamespace
+
+import pytest
+
+import polhode as ph
+from polhode.base import SilentProgress
+from polhode.catalogue import CATALOGUE
+from polhode.tour import write_tour
+from polhode.tour._work import default_run
+
+
+@pytest.fixture(scope="session")
+def worked_out():
+    """Equations and default run of a system, computed once."""
+    known = {}
+
+    def parts(name):
+        if name not in known:
+            equations = ph.derive(CATALOGUE[name].build())
+            known[name] = equations, default_run(CATALOGUE[name], equations)
+        return known[name]
+
+    return parts
+
+
+@pytest.fixture(scope="session")
+def tour(tmp_path_factory):
+    """The whole tour, made once: its folder, page, report and what it told."""
+    folder = tmp_path_factory.mktemp("tour") / "deep" / "tour"
+    told = []
+    report = write_tour(folder, SilentProgress(), told.append)
+    page = (folder / "index.html").read_text("utf-8")
+    return SimpleNamespace(folder=folder, page=page, report=report, told=told)

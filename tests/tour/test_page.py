@@ -1,0 +1,235 @@
+"""The page and what lies beside it: well-formed, complete, and in need of nothing else."""
+
+import json
+import re
+from collections import Counter
+from dataclasses import replace
+from html.parser import HTMLParser
+from xml.etree import ElementTree
+
+import pytest
+
+import polhode as ph
+from polhode.base import SCHEMA, SilentProgress, StoreError
+from polhode.catalogue import CATALOGUE
+from polhode.tour import TourReport, write_tour
+from polhode.tour._declaration import source_of
+from polhode.tour._pictures import pictures_of
+from polhode.tour._work import work_through
+from polhode.view import svg_of
+
+VOID = {"meta", "link", "img", "source", "br", "hr"}
+SYSTEMS = list(CATALOGUE)
+
+
+class Page(HTMLParser):
+    """Reads a page, keeping elements, and refuses tags that do not match."""
+
+    def __init__(self, text):
+        super().__init__(convert_charrefs=True)
+        self.open, self.elements, self.words = [], [], []
+        self.feed(text)
+        self.close()
+        assert self.open == []
+
+    def handle_starttag(self, tag, attrs):
+        names = [name for name, _ in attrs]
+        assert len(names) == len(set(names))
+        self.elements.append((tag, dict(attrs)))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        if self.open and self.open[-1] not in ("style", "script"):
+            self.words.append(data)
+
+    def all(self, tag):
+        return [attributes for name, attributes in self.elements if name == tag]
+
+
+@pytest.fixture(scope="module")
+def page(tour):
+    return Page(tour.page)
+
+
+def section(tour, name):
+    anchor = name.replace("/", "-")
+    (found,) = re.findall(rf'<section id="{anchor}">.*?</section>', tour.page, re.DOTALL)
+    return found
+
+
+def formula_text(markup):
+    return re.sub(r"<[^>]*>|\s", "", markup)
+
+
+def test_every_tag_is_closed_and_every_id_is_unique(page):
+    ids = Counter(attributes["id"] for _, attributes in page.elements if "id" in attributes)
+    assert set(ids.values()) == {1}
+
+
+def test_nothing_is_fetched_from_elsewhere(tour, page):
+    for tag, attributes in page.elements:
+        for name in ("src", "srcset", "href", "action", "data", "poster"):
+            target = attributes.get(name, "#")
+            assert target.startswith(("#", "figures/")) or (tag, target) == ("link", "data:,")
+    style = tour.page.partition("<style>")[2].partition("</style>")[0]
+    assert "url(" not in style
+    assert "@import" not in style
+    assert "http" not in re.sub(r"<script.*?</script>", "", tour.page, flags=re.DOTALL)
+    assert [s for s in page.all("script") if s.get("type") != "application/json"] == []
+
+
+def test_every_link_leads_somewhere(page):
+    ids = {attributes.get("id") for _, attributes in page.elements}
+    targets = [a["href"] for a in page.all("a")]
+    assert len(targets) >= len(SYSTEMS)
+    assert all(target.removeprefix("#") in ids for target in targets)
+
+
+def test_every_picture_is_there_twice_and_described(tour, page):
+    images, sources = page.all("img"), page.all("source")
+    assert len(images) == len(sources) == sum(len(pictures_of(e)) for e in CATALOGUE.values())
+    for image, source in zip(images, sources, strict=True):
+        assert image["alt"]
+        assert source["media"] == "(prefers-color-scheme: dark)"
+        for target in (image["src"], source["srcset"]):
+            root = ElementTree.parse(tour.folder / target).getroot()
+            box = [float(side) for side in root.get("viewBox").split()]
+            assert [float(image["width"]), float(image["height"])] == pytest.approx(
+                box[2:], abs=0.5
+            )
+
+
+def test_no_picture_holds_what_is_not_a_number(tour):
+    files = list((tour.folder / "figures").glob("*.svg"))
+    assert files
+    for path in files:
+        assert not re.search(r"\b(nan|inf)\b", path.read_text("utf-8"), re.IGNORECASE)
+
+
+def test_nothing_is_left_beside_the_page(tour):
+    assert sorted(path.name for path in tour.folder.iterdir()) == ["figures", "index.html"]
+    assert {path.suffix for path in (tour.folder / "figures").iterdir()} == {".svg"}
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_every_formula_is_shown(tour, name):
+    equations = ph.derive(CATALOGUE[name].build())
+    shown = [
+        formula_text(block)
+        for block in re.findall(r'<div class="equation".*?</div>', section(tour, name), re.DOTALL)
+    ]
+    for row in equations.motion:
+        assert formula_text(unescaped(row)) + "=0" in shown
+    for component, value in equations.components.items():
+        if component not in equations.undetermined:
+            symbol = ph.Expr.generator(ph.Symbol(component))
+            assert f"{formula_text(unescaped(symbol))}={formula_text(unescaped(value))}" in shown
+
+
+def unescaped(expression):
+    return ElementTree.tostring(ElementTree.fromstring(expression.mathml()), encoding="unicode")
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_every_system_is_told_whole(tour, name):
+    entry, found = CATALOGUE[name], section(tour, name)
+    headings = re.findall("<h3>(.*?)</h3>", found)
+    assert headings == [
+        "Declaration",
+        "Assumptions",
+        "Coordinates and speeds",
+        "Equations of motion",
+        "Reactions",
+        "Energy",
+        "Conserved",
+        "The default run",
+        "Checks",
+    ]
+    assert f"<h2>{entry.title}</h2>" in found
+    assert all(parameter.meaning.split("^")[0] in found for parameter in entry.parameters)
+    assert found.count("<figure>") == len(pictures_of(entry))
+    assert "fails" not in found
+
+
+def test_the_page_says_what_it_was_made_with(tour):
+    (text,) = re.findall(r'<script type="application/json".*?>(.*?)</script>', tour.page)
+    made_with = json.loads(text)
+    assert made_with["schema"] == SCHEMA
+    assert list(made_with["runs"]) == sorted(SYSTEMS)
+    assert made_with["runs"]["gyroscope"]["parameters"]["a"] == 0.06
+
+
+def test_the_report_has_a_row_for_every_system(tour):
+    report = tour.report
+    assert [row.system for row in report.rows] == SYSTEMS
+    assert report.page == tour.folder / "index.html"
+    assert report.all_hold
+    assert all(row.passed == row.checks >= 7 for row in report.rows)
+    assert all(row.energy_drift < 1e-12 for row in report.rows)
+    assert all(row.constraint_drift < 1e-12 for row in report.rows)
+
+
+def test_the_table_is_aligned(tour):
+    lines = tour.report.table().splitlines()
+    assert len(lines) == len(SYSTEMS) + 1
+    assert len({len(line) for line in lines}) == 1
+    assert lines[0].split()[0] == "system"
+
+
+def test_one_failed_check_spoils_the_report(tour):
+    first, *others = tour.report.rows
+    spoilt = TourReport(tour.report.page, (replace(first, passed=first.passed - 1), *others))
+    assert not spoilt.all_hold
+
+
+def test_every_system_is_told_to_the_terminal(tour):
+    assert len(tour.told) == len(SYSTEMS)
+    for name, text in zip(SYSTEMS, tour.told, strict=True):
+        equations = ph.derive(CATALOGUE[name].build())
+        assert text.startswith(CATALOGUE[name].title)
+        assert all(f"{row.pretty()} = 0" in text for row in equations.motion)
+        assert text.count("✓") == tour.report.rows[SYSTEMS.index(name)].checks
+        assert "✗" not in text
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_the_declaration_shown_is_a_program(name):
+    source = source_of(CATALOGUE[name].build)
+    compile(source, name, "exec")
+    assert f"def {CATALOGUE[name].build.__name__}(" in source
+    called = set(re.findall(r"\b(_?[a-z_]+)\(", source))
+    ours = {"following_axes", "cylindrical_axes", "axle_axes", "_top", "_with_hand"}
+    assert all(f"def {helper}(" in source for helper in called & ours)
+
+
+def test_the_same_system_gives_the_same_pictures():
+    first, second = (work_through(CATALOGUE["ball-on-paper"]) for _ in range(2))
+    assert first.drawings == second.drawings
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_pictures_have_names_of_their_own(name):
+    names = [picture.name for picture in pictures_of(CATALOGUE[name])]
+    assert len(names) == len(set(names))
+    assert names[0] == "run"
+    assert names[-1] == "energy"
+
+
+def test_a_disk_that_nods_fast_is_shown_for_a_moment_only(worked_out):
+    _, run = worked_out("rolling-disk")
+    histories = pictures_of(CATALOGUE["rolling-disk"])[0]
+    figure = histories.draw(run)
+    assert "first 1 s" in histories.caption
+    assert figure.axes[-1].get_xlim() == (0.0, 1.0)
+    assert len(svg_of(figure)) > 1000
+
+
+def test_a_folder_that_cannot_be_made_is_an_error(tmp_path, monkeypatch):
+    (tmp_path / "tour").write_text("in the way")
+    monkeypatch.setattr("polhode.tour._tour.CATALOGUE", {})
+    with pytest.raises(StoreError, match="cannot be made"):
+        write_tour(tmp_path / "tour", SilentProgress())
