@@ -206,3 +206,12 @@ def test_denominators_with_cosines_and_roots_are_decided():
     assert (1 / (a + b * cos(phi))) * (a + b * cos(phi)) == 1
     assert 1 / (sqrt(a) + sqrt(b)) == (sqrt(a) - sqrt(b)) / (a - b)
     assert (1 - sin(phi)) / cos(phi) == cos(phi) / (1 + sin(phi))
+
+
+def test_roots_follow_where_an_angle_is_halved():
+    half = sin(theta / 2)
+    assert half * sqrt(a + sin(theta) ** 2) / half == sqrt(a + sin(theta) ** 2)
+    assert sqrt(1 - cos(theta)) == sqrt(2) * absolute(half)
+    assert (cos(theta / 3) * sqrt(a + sqrt(b + cos(theta) ** 2))) ** 2 == cos(theta / 3) ** 2 * (
+        a + sqrt(b + cos(theta) ** 2)
+    )
