@@ -97,6 +97,7 @@ if TYPE_CHECKING:
     from polhode.model import Torque as Torque
     from polhode.model import Turntable as Turntable
     from polhode.model import Universal as Universal
+    from polhode.model import Weld as Weld
     from polhode.model import WithAxes as WithAxes
     from polhode.model import cylinder as cylinder
     from polhode.model import disk as disk
@@ -212,6 +213,7 @@ _ROOMS = {
         "Torque",
         "Turntable",
         "Universal",
+        "Weld",
         "WithAxes",
         "cylinder",
         "disk",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -30,6 +31,7 @@ from polhode.simulate._integrators import Array, chosen
 from polhode.simulate._names import Name, by_name, published
 from polhode.simulate._start import Start, read_start
 from polhode.simulate._trajectory import Event, Trajectory
+from polhode.simulate._validity import pulling_contacts, refuse_lost_side
 from polhode.simulate._values import idle_parameters, read_parameters
 
 SAMPLES = 1001
@@ -90,7 +92,7 @@ def simulate(
         constants = np.array(list(numbers.values()), dtype=float)
         state = _ordered(flow, dynamics, begin)
         solution = integrate(flow, stepper, constants, state, end, shown)
-    return Trajectory(
+    trajectory = Trajectory(
         dynamics=dynamics,
         parameters={symbol.published: value for symbol, value in numbers.items()},
         duration=end,
@@ -103,6 +105,15 @@ def simulate(
         invariants=invariants or {},
         _solution=solution,
     )
+    refuse_lost_side(trajectory)
+    return replace(trajectory, events=_events(trajectory, mode))
+
+
+def _events(trajectory: Trajectory, mode: str) -> tuple[Event, ...]:
+    """Start and end, and where a contact would have had to let go."""
+    pulls = (Event(t, f"{name} pulls", mode, mode) for t, name in pulling_contacts(trajectory))
+    start, end = trajectory.events
+    return (start, *sorted(pulls, key=lambda event: event.time), end)
 
 
 def _prescribed(
