@@ -1,0 +1,342 @@
+"""Declarations that make no sense: each is refused in words that say what and what instead."""
+
+from collections.abc import Callable
+from math import inf, nan
+
+import pytest
+
+import polhode as ph
+
+m, a, g, mu = ph.symbols("m a g mu", positive=True)
+theta, phi = ph.coordinates("theta phi")
+LAB = ph.Frame("lab")
+FLOOR = ph.Plane(LAB)
+AXES = LAB.rotated(phi, "z").rotated(theta, "x", labels="1 2 3", name="axes")
+OTHER = ph.Frame("elsewhere")
+
+
+def body(**changed: object) -> ph.Body:
+    given = {"mass": 2, "inertia": (3, 4, 5), "axes": AXES, **changed}
+    return ph.Body("brick", **given)
+
+
+def wheel(name: str = "wheel", **more: object) -> ph.Body:
+    return ph.disk(name, mass=m, radius=a, axes=AXES, **more)
+
+
+def tilting(name: str, coordinate: str, **more: object) -> ph.Body:
+    """A spinning body with axes of its own."""
+    axes = LAB.rotated(ph.coordinates(coordinate)[0], "x", labels="1 2 3")
+    return ph.Body(name, mass=m, inertia=(m, m, m), axes=axes, spin_about="3", **more)
+
+
+def system(*parts: object, **more: object) -> Callable[[], object]:
+    return lambda: ph.derive(ph.System(*parts, **more))
+
+
+def driven(first: int, second: int) -> Callable[[], object]:
+    """A rolling wheel on two motors."""
+    w = wheel()
+    motors = (
+        ph.Motor(w, axis="3", rate=first, name="slow", torque="tau"),
+        ph.Motor(w, axis="3", rate=second, name="fast", torque="sigma"),
+    )
+    return system(ph.Rolling(w, on=FLOOR), *motors)
+
+
+def rod_between(distance: ph.Expr) -> Callable[[], object]:
+    """A rod of length two that does not turn, held at both ends, which are this far apart."""
+    rod = ph.rod("rod", mass=m, length=2, axes=LAB)
+    ends = (
+        ph.Pivot(rod, at=-LAB["x"]),
+        ph.Pivot(rod, at=LAB["x"], to=LAB["x"] * distance, name="far", force="G"),
+    )
+    return system(*ends)
+
+
+def unheld() -> ph.Body:
+    """A brick that is told to turn about an axis that is not a principal one."""
+    skew = (0, ph.Expr.of(3) / 5, ph.Expr.of(4) / 5)
+    return body(axes=LAB.rotated(theta, skew))
+
+
+Refusal = tuple[Callable[[], object], type[ph.PolhodeError], tuple[str, ...]]
+DECLARATION, CONSTRAINT, NUMERIC = ph.DeclarationError, ph.ConstraintError, ph.NumericError
+
+REFUSALS: dict[str, Refusal] = {
+    # -- mass and inertia
+    "mass negative": (
+        lambda: body(mass=-1),
+        DECLARATION,
+        ("mass of body 'brick'", "-1", "positive mass in kg"),
+    ),
+    "mass zero": (lambda: body(mass=0), DECLARATION, ("mass of body 'brick'", "positive")),
+    "mass a negative symbol": (lambda: body(mass=-m), DECLARATION, ("-m", "positive mass")),
+    "mass NaN": (lambda: body(mass=nan), DECLARATION, ("mass of body 'brick'", "nan", "finite")),
+    "mass infinite": (lambda: body(mass=inf), DECLARATION, ("mass of body 'brick'", "inf")),
+    "mass in words": (
+        lambda: body(mass="2 kg"),
+        DECLARATION,
+        ("mass of body 'brick'", "'2 kg'", "a number, a symbol"),
+    ),
+    "mass that varies": (
+        lambda: body(mass=m + theta),
+        DECLARATION,
+        ("mass of body 'brick'", "varies with theta", "rigid"),
+    ),
+    "moment NaN": (lambda: body(inertia=(1, 1, nan)), DECLARATION, ("inertia of body", "nan")),
+    "moment negative": (
+        lambda: body(inertia=(1, 1, -1)),
+        DECLARATION,
+        ("[1, 1, -1]", "'brick'", "negative"),
+    ),
+    "moments in no triangle": (
+        lambda: body(inertia=(1, 1, 3)),
+        DECLARATION,
+        ("[1, 1, 3]", "triangle inequality", "no body"),
+    ),
+    "moments in no triangle, as symbols": (
+        lambda: body(inertia=(m, m, 3 * m)),
+        DECLARATION,
+        ("3*m", "triangle inequality"),
+    ),
+    "matrix whose principal moments are in no triangle": (
+        lambda: body(inertia=((1, 0.9, 0), (0.9, 1, 0), (0, 0, 1))),
+        DECLARATION,
+        ("9/10", "triangle inequality"),
+    ),
+    "matrix not symmetric": (
+        lambda: body(inertia=((1, 0.1, 0), (0, 1, 0), (0, 0, 1))),
+        DECLARATION,
+        ("inertia of body 'brick'", "symmetric 3 by 3 matrix"),
+    ),
+    "two moments": (lambda: body(inertia=(1, 2)), DECLARATION, ("three principal moments",)),
+    "one moment": (lambda: body(inertia=3), DECLARATION, ("three principal moments",)),
+    # -- axes and spin
+    "no axes": (lambda: body(axes=None), DECLARATION, ("axes of body 'brick'", "Frame")),
+    "spin as a word": (lambda: body(spin="3"), DECLARATION, ("spin of body", "spin_about='3'")),
+    "spin about no axis": (lambda: body(spin_about="7"), DECLARATION, ("'7'", "one of 1, 2, 3")),
+    "lopsided body with axes that only follow it": (
+        lambda: body(spin_about="3"),
+        DECLARATION,
+        ("'brick'", "about 3", "inertia to be symmetric"),
+    ),
+    "elliptic body with axes that only follow it": (
+        lambda: body(inertia=(3, 3, 4), spin_about="3", surface=ph.Ellipsoidal((a, 2 * a, a))),
+        DECLARATION,
+        ("'brick'", "surface to be symmetric"),
+    ),
+    "brick by axes that do not follow it": (
+        lambda: body(spin=ph.Free()),
+        DECLARATION,
+        ("'brick'", "symmetric"),
+    ),
+    "components along axes that cannot turn freely": (
+        system(body(spin=ph.Components())),
+        DECLARATION,
+        ("components", "axes", "phi, theta, psi", "three angles"),
+    ),
+    "labels alike": (lambda: LAB.rotated(theta, "z", labels="1 1 2"), DECLARATION, ("three diff",)),
+    "turn about a longer vector": (
+        lambda: LAB.rotated(theta, (1, 1, 0)),
+        DECLARATION,
+        ("unit vector", "divide"),
+    ),
+    "turn about nothing": (lambda: LAB.rotated(theta, "q"), DECLARATION, ("'q'", "x, y, z")),
+    "left-handed directions": (
+        lambda: ph.earth(1, colatitude=1, directions="east up north"),
+        DECLARATION,
+        ("'east up north'", "right-handed"),
+    ),
+    # -- surfaces and contacts
+    "rim without a spin axis": (lambda: body(rim=1), DECLARATION, ("rim", "spin_about='3'")),
+    "radius negative": (
+        lambda: ph.sphere("ball", mass=1, radius=-1, axes=LAB),
+        DECLARATION,
+        ("radius", "-1", "positive"),
+    ),
+    "no support": (
+        lambda: ph.Rolling(wheel()),
+        DECLARATION,
+        ("contact 'contact'", "'wheel' with nothing", "Plane, Turntable or Sheet"),
+    ),
+    "a frame for a support": (
+        lambda: ph.Rolling(wheel(), on=LAB),
+        DECLARATION,
+        ("with a Frame", "say on=Plane(lab)"),
+    ),
+    "no surface": (
+        lambda: ph.Rolling(body(), on=FLOOR),
+        DECLARATION,
+        ("'brick', which has no surface", "rim= or surface="),
+    ),
+    "a contact of no body": (
+        lambda: ph.Rolling("wheel", on=FLOOR),
+        DECLARATION,
+        ("'wheel'", "Body"),
+    ),
+    "friction negative": (
+        lambda: ph.Coulomb(wheel(), on=FLOOR, mu=-0.1),
+        DECLARATION,
+        ("friction coefficient of contact 'contact'", "-1/10", "zero or more"),
+    ),
+    "friction NaN": (
+        lambda: ph.Coulomb(wheel(), on=FLOOR, mu=nan),
+        DECLARATION,
+        ("friction coefficient", "nan"),
+    ),
+    "friction where nothing slips": (
+        system(
+            ph.Rolling(wheel(), on=FLOOR, name="grip", force="G"),
+            ph.Coulomb(wheel(), on=FLOOR, mu=mu),
+        ),
+        CONSTRAINT,
+        ("friction at F_z", "cannot slip", "Rolling"),
+    ),
+    "turntable without a rate": (lambda: ph.Turntable(LAB, None), DECLARATION, ("Omega", "None")),
+    "motion along one direction": (
+        lambda: ph.Sheet(LAB, motion=(1,)),
+        DECLARATION,
+        ("motion of the sheet", "two directions"),
+    ),
+    # -- joints and loads
+    "joint to itself": (
+        lambda: ph.Pivot(wheel(), to=wheel().point(AXES.zero)),
+        DECLARATION,
+        ("joins body 'wheel' to itself", "another body"),
+    ),
+    "hinge to itself": (
+        lambda: ph.Hinge(wheel(), axis="3", to=wheel()),
+        DECLARATION,
+        ("joins body 'wheel' to itself",),
+    ),
+    "hinge about nothing": (lambda: ph.Hinge(wheel(), axis="q"), DECLARATION, ("'q'", "1, 2, 3")),
+    "pivot at a point that spins": (
+        lambda: ph.Pivot(wheel(), at=AXES["1"] * a),
+        DECLARATION,
+        ("point of 'pivot'", "body 'wheel'", "fixed in the body"),
+    ),
+    "spring to a point that spins": (
+        lambda: ph.Spring(wheel().point(AXES["1"] * a), LAB.zero, stiffness=1),
+        DECLARATION,
+        ("end of 'spring'", "fixed in the body"),
+    ),
+    "up that is no unit vector": (
+        lambda: ph.Gravity(g, up=LAB["z"] * 2),
+        DECLARATION,
+        ("up of 'gravity'", "unit vector"),
+    ),
+    "gravity NaN": (lambda: ph.Gravity(nan), DECLARATION, ("g of 'gravity'", "nan")),
+    # -- systems
+    "nothing": (lambda: ph.System(), DECLARATION, ("without a body", "at least one Body")),
+    "gravity alone": (lambda: ph.System(ph.Gravity(g)), DECLARATION, ("without a body",)),
+    "a support in a system": (
+        lambda: ph.System(wheel(), FLOOR),
+        DECLARATION,
+        ("a Plane in a system", "Rolling(body, on=Plane(lab))"),
+    ),
+    "two bodies alike": (
+        lambda: ph.System(wheel(), wheel(tag="2")),
+        DECLARATION,
+        ("both called 'wheel'", "every body"),
+    ),
+    "two contacts alike": (
+        lambda: ph.System(ph.Smooth(wheel(), on=FLOOR), ph.Pivot(wheel(), name="contact")),
+        DECLARATION,
+        ("both called 'contact'", "every contact or joint"),
+    ),
+    "two loads alike": (
+        lambda: ph.System(wheel(), ph.Gravity(g), ph.Gravity(g)),
+        DECLARATION,
+        ("both called 'gravity'", "every load"),
+    ),
+    "bodies from two roots": (
+        lambda: ph.System(wheel(), ph.point_mass("moon", mass=1, axes=OTHER)),
+        DECLARATION,
+        ("different frames", "elsewhere, lab", "one root"),
+    ),
+    "support from another root": (
+        system(ph.Smooth(wheel(), on=ph.Plane(OTHER))),
+        DECLARATION,
+        ("'elsewhere'", "one root"),
+    ),
+    "no such speed to keep": (
+        system(wheel(), independent=(ph.symbol("q"),)),
+        DECLARATION,
+        ("independent=q", "one of the speeds", "omega_3"),
+    ),
+    "no such load": (
+        lambda: ph.derive(ph.System(wheel(), ph.Gravity(g))).load_power("weight"),
+        DECLARATION,
+        ("load 'weight'", "one of gravity"),
+    ),
+    "no such body": (lambda: ph.System(wheel()).body("ball"), DECLARATION, ("'ball'", "wheel")),
+    "no such contact": (
+        lambda: ph.System(wheel()).element("table"),
+        DECLARATION,
+        ("'table'", "no contact or joint"),
+    ),
+    # -- names
+    "coordinates of two bodies": (
+        system(ph.Smooth(wheel(), on=FLOOR), ph.Smooth(wheel("coin"), on=FLOOR, name="second")),
+        DECLARATION,
+        ("coordinate x of both 'wheel' and 'coin'", "tag='2'"),
+    ),
+    "speeds of two bodies": (
+        system(
+            ph.Pivot(tilting("first", "theta")),
+            ph.Pivot(tilting("second", "phi"), name="other", force="G"),
+        ),
+        DECLARATION,
+        ("speed omega_3 of both 'first' and 'second'", "tag"),
+    ),
+    "reactions of one name": (
+        system(ph.Pivot(body()), ph.Hold(body(), at=AXES["3"], force="F")),
+        DECLARATION,
+        ("F_x", "'pivot' and 'hold'", "force='G'"),
+    ),
+    "a force called as a reaction": (
+        system(
+            ph.Smooth(wheel(), on=FLOOR),
+            ph.Force(wheel().point(AXES.zero), LAB["z"] * ph.symbol("F_z")),
+        ),
+        DECLARATION,
+        ("F_z", "'contact'", "symbol", "another letter"),
+    ),
+    "a parameter called as a speed": (
+        system(wheel(), ph.Gravity(ph.symbol("omega_3"))),
+        DECLARATION,
+        ("both called 'omega_3'", "one meaning"),
+    ),
+    # -- constraints
+    "two motors at odds": (
+        driven(1, 2),
+        CONSTRAINT,
+        ("contradict one another", "tau_3, sigma_3", "remove one"),
+    ),
+    "a loop that never closes": (
+        rod_between(ph.Expr.of(3)),
+        CONSTRAINT,
+        ("'far', which never closes", "check lengths"),
+    ),
+    "axes that nothing holds": (
+        lambda: ph.derive(ph.System(ph.Pivot(unheld()), ph.Gravity(g))).components,
+        CONSTRAINT,
+        ("nothing supplies the couple", "brick", "Hinge, Guide, Universal or Motor"),
+    ),
+    "motion that nothing resists": (
+        lambda: ph.derive(ph.System(ph.Pivot(ph.point_mass("p", mass=m, axes=AXES)))).accelerations,
+        NUMERIC,
+        ("phi_dot, theta_dot", "no mass or inertia resists"),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", REFUSALS)
+def test_it_is_refused_in_words(name: str) -> None:
+    declare, kind, words = REFUSALS[name]
+    with pytest.raises(kind) as refused:
+        declare()
+    for word in words:
+        assert word in str(refused.value)
+    assert refused.value.expected
