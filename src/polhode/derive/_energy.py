@@ -50,24 +50,27 @@ def reaction_power(motion: Motion, line: Line, value: Expr) -> Expr:
 
 def supplied_power(motion: Motion, columns: tuple[Line, ...], values: dict[str, Expr]) -> Expr:
     """Rate of change of kinetic plus potential energy, W."""
-    system = motion.system
-    driven = (load for load in system.loads if _potential(motion, load) is None)
-    moving = (_explicit_rate(v) for load in system.loads if (v := _potential(motion, load)))
+    loads = (_supplied_by(motion, load) for load in motion.system.loads)
     reactions = (reaction_power(motion, line, values[line.name]) for line in columns)
-    own = (load_power(motion, load) for load in driven)
-    return sum((*own, *moving, *reactions), ZERO)
+    return sum((*loads, *reactions), ZERO)
 
 
-def _potential(motion: Motion, load: Load) -> Expr | None:
-    return load.potential(motion.system.bodies, motion.places)
+def _supplied_by(motion: Motion, load: Load) -> Expr:
+    """What a load adds to the energy: all its work, less what its own potential loses.
+
+    With a potential that is only the work of moving its sources, such as the far end of a spring.
+    """
+    potential = load.potential(motion.system.bodies, motion.places)
+    if potential is None:
+        return load_power(motion, load)
+    if _is_at_rest(motion, potential):
+        return ZERO
+    return motion.on_speeds(potential).chain(motion.rate) + load_power(motion, load)
 
 
-def _explicit_rate(potential: Expr) -> Expr:
-    """∂V/∂t at fixed coordinates: the work of a support that moves a spring's end."""
-    driven = (Kind.FUNCTION, Kind.TIME)
-    return potential.chain(
-        lambda s: Expr.generator(s).dt() if s.kind in driven else Expr.constant(0)
-    )
+def _is_at_rest(motion: Motion, potential: Expr) -> bool:
+    driven = any(s.kind in (Kind.FUNCTION, Kind.TIME) for s in potential.symbols())
+    return not driven and not any(motion.system.root.turned)
 
 
 def linear_momentum(motion: Motion) -> Vector:
