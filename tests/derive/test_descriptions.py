@@ -95,15 +95,20 @@ def aircraft_angles(attitude: np.ndarray) -> dict[str, float]:
 # -- other speeds ----------------------------------------------------------------------------------
 
 
+@cache
+def wheel_by(*speeds: ph.Expr) -> Numeric:
+    """A rolling wheel described by these speeds."""
+    contact = ph.Rolling(declared.wheel(declared.following(LAB)), on=ph.Plane(LAB))
+    return Numeric(ph.derive(ph.System(contact, ph.Gravity(g), independent=speeds)))
+
+
 @seeds
 def test_a_wheel_may_be_told_by_the_velocity_of_its_centre(seed: int) -> None:
     """Its spin and steering made dependent instead, the wheel does the same."""
-    wheel = ph.Rolling(declared.wheel(declared.following(LAB)), on=ph.Plane(LAB))
-    chosen = (*ph.speeds("v_x v_y"), phi.dt())
-    by_path = Numeric(ph.derive(ph.System(wheel, ph.Gravity(g), independent=chosen)))
+    by_path = wheel_by(*ph.speeds("v_x v_y"), phi.dt())
     assert {s.published for s in by_path.equations.speeds} == {"v_x", "v_y", "phi_dot"}
     state = draw("m a g I_1 I_3 theta phi theta_dot phi_dot omega_3", seed)
-    expected = Numeric(declared.rolling(LAB)).at(**state)
+    expected = wheel_by().at(**state)
     given = ["m", "a", "g", "I_1", "I_3", "theta", "phi", "phi_dot", "v_x", "v_y"]
     found = by_path.at(**{name: expected[name] for name in given})
     agree(found, expected, ["theta_dot", "omega_3"], tolerance=1e-11)

@@ -327,7 +327,7 @@ REFUSALS: dict[str, Refusal] = {
     "motion that nothing resists": (
         lambda: ph.derive(ph.System(ph.Pivot(ph.point_mass("p", mass=m, axes=AXES)))).accelerations,
         NUMERIC,
-        ("phi_dot, theta_dot", "no mass or inertia resists"),
+        ("phi_dot", "no mass or inertia resists"),
     ),
 }
 

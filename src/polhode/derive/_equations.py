@@ -13,21 +13,19 @@ from polhode.algebra import (
     Row,
     Symbol,
     Vector,
-    eliminate,
     variables,
 )
-from polhode.base import Dimension, NumericError
+from polhode.base import Dimension
 from polhode.derive import _dimensions as units
 from polhode.derive import _energy as energies
+from polhode.derive._accelerations import LARGEST_SYMBOLIC as LARGEST_SYMBOLIC
+from polhode.derive._accelerations import solve_accelerations
 from polhode.derive._balance import Wrench
 from polhode.derive._display import equations_latex, equations_text
 from polhode.derive._motion import Motion
 from polhode.derive._reactions import Line, Reactions, solve_reactions
 from polhode.derive._textbook import without_idle_factors
 from polhode.model import Body, System
-
-#: Beyond this many speeds the mass matrix is not inverted symbolically.
-LARGEST_SYMBOLIC = 5
 
 
 @dataclass(frozen=True)
@@ -121,24 +119,10 @@ class Equations:
     def accelerations(self) -> dict[Symbol, Expr]:
         """Every acceleration, solved for.
 
-        Raises `NumericError` beyond five speeds, where only the blocks are kept, and for motions
-        that nothing resists.
+        Raises `NumericError` beyond five coupled speeds, where only the blocks are kept, and for
+        motions that nothing resists.
         """
-        if len(self.speeds) > LARGEST_SYMBOLIC:
-            raise NumericError(
-                f"accelerations of {len(self.speeds)} speeds in closed form",
-                expected=f"at most {LARGEST_SYMBOLIC}",
-                advice="use mass and forcing, which are factorised numerically",
-            )
-        outcome = eliminate(self.mass.rows, self.forcing)
-        if outcome.free:
-            loose = ", ".join(self.speeds[j].published for j in outcome.free)
-            raise NumericError(
-                f"accelerations of {loose}, which no mass or inertia resists",
-                expected="a mass matrix that can be inverted",
-                advice="give the body its inertia, or hold it",
-            )
-        solved = (value for _, (_, value) in sorted(outcome.solved.items()))
+        solved = solve_accelerations(self.speeds, self.mass, self.forcing)
         return dict(zip(self.acceleration_symbols, solved, strict=True))
 
     def on_shell(self, expression: Expr) -> Expr:

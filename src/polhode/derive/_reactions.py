@@ -97,10 +97,15 @@ def friction_lean(motion: Motion, friction: Friction) -> Vector:
 def solve_reactions(
     motion: Motion, demands: Mapping[Body, Wrench], columns: tuple[Line, ...]
 ) -> Reactions:
-    """Every reaction component, from the balance of all bodies."""
+    """Every reaction component, from the balance of all bodies, the last declared first.
+
+    What hangs on others is mostly declared after them, and tells the reactions that carry it.
+    """
     rows: list[Row] = []
     right: list[Expr] = []
-    for body, demand in demands.items():
+    bodies = tuple(demands)[::-1]
+    for body in bodies:
+        demand = demands[body]
         unit = [line.on(body) for line in columns]
         triad = next((w.force.triad for w in unit if w and w.force.components), body.axes)
         forces = demand.force.express(triad).components
@@ -111,7 +116,7 @@ def solve_reactions(
             rows.append(tuple(_part(w.couple, body.axes, i) if w else ZERO for w in unit))
             right.append(demand.couple.components[i])
     outcome = eliminate(rows, right, [0] * len(columns))
-    _refuse_unheld(motion, outcome, demands)
+    _refuse_unheld(motion, outcome, bodies)
     return _named(outcome, [line.name for line in columns])
 
 
@@ -119,12 +124,11 @@ def _part(vector: Vector, triad: object, index: int) -> Expr:
     return vector.express(triad).components[index] if any(vector.components) else ZERO  # type: ignore[arg-type]
 
 
-def _refuse_unheld(motion: Motion, outcome: Elimination, demands: Mapping[Body, Wrench]) -> None:
+def _refuse_unheld(motion: Motion, outcome: Elimination, bodies: tuple[Body, ...]) -> None:
     """Balances left over must be the equations of motion; more of them means a missing support."""
     demanding = outcome.contradictory
     if len(demanding) <= len(motion.speeds):
         return
-    bodies = list(demands)
     held = {r.body for group in motion.restraints.values() for r in group if r.is_couple}
     suspects = [bodies[i // 6].name for i in demanding if bodies[i // 6] not in held]
     names = ", ".join(dict.fromkeys(suspects or [b.name for b in bodies]))

@@ -1,0 +1,51 @@
+"""Accelerations solved for, where the mass matrix lets them stay small."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from polhode.algebra import Expr, Matrix, Row, Symbol, eliminate
+from polhode.base import NumericError
+
+#: A block of the mass matrix that couples more speeds than this is not inverted symbolically.
+LARGEST_SYMBOLIC = 5
+
+
+def solve_accelerations(speeds: tuple[Symbol, ...], mass: Matrix, forcing: Row) -> Row:
+    """The accelerations of all speeds, block by block.
+
+    Raises:
+        NumericError: for a block of more than five speeds, and for motions that nothing resists.
+    """
+    found: dict[int, Expr] = {}
+    for block in _blocks(mass):
+        if len(block) > LARGEST_SYMBOLIC:
+            raise NumericError(
+                f"accelerations of {len(block)} coupled speeds in closed form",
+                expected=f"at most {LARGEST_SYMBOLIC}",
+                advice="use mass and forcing, which are factorised numerically",
+            )
+        outcome = eliminate(
+            [[mass[i, j] for j in block] for i in block], [forcing[i] for i in block]
+        )
+        if outcome.free:
+            loose = ", ".join(speeds[block[k]].published for k in outcome.free)
+            raise NumericError(
+                f"accelerations of {loose}, which no mass or inertia resists",
+                expected="a mass matrix that can be inverted",
+                advice="give the body its inertia, or hold it",
+            )
+        found |= {block[k]: value for k, (_, value) in outcome.solved.items()}
+    return tuple(found[i] for i in range(len(speeds)))
+
+
+def _blocks(mass: Matrix) -> Iterator[list[int]]:
+    """Speeds that the mass matrix couples, directly or by way of others."""
+    pending = list(range(len(mass.rows)))
+    while pending:
+        block = [pending.pop(0)]
+        for i in block:
+            joined = [j for j in pending if mass[i, j] or mass[j, i]]
+            block += joined
+            pending = [j for j in pending if j not in joined]
+        yield sorted(block)
