@@ -1,6 +1,9 @@
 """What follows from the equations exactly: integrals, steady motions, stability."""
 
 from polhode.analyse._ansatz import Ansatz as Ansatz
+from polhode.analyse._closed_form import ClosedForm as ClosedForm
+from polhode.analyse._closed_form import closed_form as closed_form
+from polhode.analyse._closed_form import recognise as recognise
 from polhode.analyse._conditions import ALWAYS as ALWAYS
 from polhode.analyse._conditions import Condition as Condition
 from polhode.analyse._conditions import Truth as Truth

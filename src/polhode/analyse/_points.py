@@ -24,11 +24,16 @@ class Point:
 
     def __init__(self, values: Values) -> None:
         self._known: dict[Generator, Rational] = dict(values.items())
+        self._in_ring: dict[object, list[Rational]] = {}
 
     def __call__(self, expression: Expr) -> Rational:
         """The exact value of an expression."""
-        values = [self._value(generator) for generator in expression.ring.generators]
-        return fmpq(expression.num(*values)) / fmpq(expression.den(*values))
+        ring = expression.ring
+        if ring not in self._in_ring:
+            self._in_ring[ring] = [self._value(generator) for generator in ring.generators]
+        values = self._in_ring[ring]
+        above = fmpq(expression.num(*values))
+        return above if expression.is_polynomial else above / fmpq(expression.den(*values))
 
     def all(self, expressions: Iterable[Expr]) -> list[Rational]:
         """The exact values of several expressions."""

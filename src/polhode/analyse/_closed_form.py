@@ -1,0 +1,238 @@
+"""Closed forms: equations recognised by their structure, and solved from a start."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from polhode.algebra import Expr, Symbol
+from polhode.analyse import _coin, _free_body, _gyrocompass, _heavy_top, _marble, _pendulum
+from polhode.analyse._exact_data import Data, exact_data
+from polhode.analyse._reals import Array, Digits, Doubles, Reals
+from polhode.analyse._solution import Solution, Solvable
+from polhode.analyse._uniform import SteadySolution, Uniform, is_steady, uniform
+from polhode.base import ConstraintError, NumericError
+from polhode.derive import Equations
+
+#: Digits of a double, with one to round by.
+_DOUBLE = 17
+#: Digits beyond those wanted of the relative change by which a sensitivity is found: so small
+#: that it is small beside what tells a motion from the separatrix, too.
+_FINER = 30
+#: Points of a period from which it is found again.
+_STOPS = 8
+
+_FAMILIES: tuple[Callable[[Equations], Solvable | None], ...] = (
+    _free_body.recognise,
+    _heavy_top.recognise,
+    _coin.recognise,
+    _pendulum.recognise,
+    _gyrocompass.recognise,
+    _marble.recognise,
+)
+
+
+@dataclass(frozen=True, repr=False)
+class ClosedForm:
+    """The exact motion from one start.
+
+    Attributes:
+        family: the equations as recognised.
+        data: exact values of parameters and start.
+        solution: its constants, to more digits than are wanted.
+        uniform: what besides changes uniformly.
+        digits: of the values given; None for doubles.
+    """
+
+    family: Solvable
+    data: Data
+    solution: Solution
+    uniform: Uniform
+    digits: int | None
+
+    @property
+    def name(self) -> str:
+        """Of the family."""
+        return self.family.name
+
+    @property
+    def kind(self) -> str:
+        """Which of the family's motions it is, such as "cusps" or "separatrix"."""
+        return self.solution.kind
+
+    def latex(self) -> str:
+        """LaTeX of the closed form and of its constants in terms of the parameters."""
+        parts = [f"{name} = {value.latex()}" for name, value in self.family.parts.items()]
+        return r", \quad ".join([self.family.formula, *parts])
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.latex()}$"
+
+    def __str__(self) -> str:
+        repeats = "no period" if self.solution.period is None else f"period {self.period} s"
+        return f"{self.name}: {self.kind}, {repeats}"
+
+    __repr__ = __str__
+
+    @cached_property
+    def quantities(self) -> tuple[str, ...]:
+        """Published names of what `at` gives."""
+        return tuple(self.at(0))
+
+    def at(self, times: Any) -> dict[str, Array]:
+        """Coordinates and speeds at times (s, any shape), in SI units and arrays of that shape.
+
+        Doubles are correct to rounding; with `digits`, arrays of mpmath numbers.
+        """
+        reals = self._reals
+        times = reals.array(times)
+        return self.solution.at(reals, times) | self.uniform.at(reals, times)
+
+    def besides(self, times: Any) -> dict[str, Array]:
+        """What is none of the system's own quantities, at times, s: a free body's attitude."""
+        reals = self._reals
+        return self.solution.besides(reals, reals.array(times))
+
+    @property
+    def period(self) -> Any:
+        """Of the motion, s.
+
+        Raises `NumericError` on a steady motion and on a separatrix, which have none.
+        """
+        if self.solution.period is None:
+            raise NumericError(
+                f"the period of {self.name}: {self.kind}",
+                expected="a motion that repeats",
+                advice="change the start a little: near a steady motion or a separatrix it does",
+            )
+        return self._reals.number(self.solution.period)
+
+    @property
+    def figures(self) -> dict[str, Any]:
+        """Numbers that sum the motion up, by name, in SI units."""
+        return {name: self._reals.number(v) for name, v in self.solution.figures.items()}
+
+    @cached_property
+    def conditioning(self) -> float | None:
+        """Largest relative change of the period for a relative change of one datum.
+
+        A relative error ε of the data moves the motion, after n periods, by n · conditioning · ε
+        of a period. None where there is no period.
+        """
+        if self.solution.period is None:
+            return None
+        return self._sensitivity(self.data, self.data.values)
+
+    @cached_property
+    def stepwise_conditioning(self) -> float | None:
+        """The same for errors of the state made on the way, as a numerical integration makes them.
+
+        Near a separatrix it is far greater: what tells the motion from the separatrix is least
+        where the motion is fastest. Looked at in eight places of a period.
+        """
+        period = self.solution.period
+        if period is None:
+            return None
+        digits = Digits(self.data.context)
+        stops = digits.array([period * i / _STOPS for i in range(_STOPS)])
+        passed = self.solution.at(digits, stops)
+        tracks = {s: map(digits.exact, passed[s.published]) for s in self.family.state}
+        places = (map(Expr.constant, place) for place in zip(*tracks.values(), strict=True))
+        starts = (self.data.changed(dict(zip(tracks, place, strict=True))) for place in places)
+        return max(self._sensitivity(start, self.family.state) or 0.0 for start in starts)
+
+    def _sensitivity(self, data: Data, symbols: Iterable[Symbol]) -> float | None:
+        period = self.family.solve(data).period
+        if period is None:
+            return None
+        given = (s for s in symbols if data.values[s])
+        return max((self._relative_change(data, s, period) for s in given), default=0.0)
+
+    def _relative_change(self, data: Data, symbol: Symbol, period: Any) -> float:
+        change = Fraction(1, 10 ** (data.digits + _FINER))
+        moved = self.family.solve(data.changed({symbol: data.values[symbol] * (1 + change)})).period
+        return float("inf") if moved is None else float(abs(moved / period - 1) / change)
+
+    @cached_property
+    def _reals(self) -> Reals:
+        return Doubles() if self.digits is None else Digits(self.data.context)
+
+
+def recognise(equations: Equations) -> Solvable:
+    """The family of closed forms that the equations belong to, whatever their symbols are called.
+
+    Raises `NumericError` where none is known.
+    """
+    if _is_autonomous(equations) and _has_accelerations(equations):
+        for family in _FAMILIES:
+            found = family(equations)
+            if found is not None and _gives_all(found, equations):
+                return found
+    raise NumericError(
+        f"{equations.system.name} has no closed form that is known here",
+        expected=(
+            "a free body, a symmetric top, a coin on a smooth table, a pendulum, a gyrocompass "
+            "or a marble on a turntable"
+        ),
+        advice="simulate it",
+    )
+
+
+def _is_autonomous(equations: Equations) -> bool:
+    return not equations.functions
+
+
+def _has_accelerations(equations: Equations) -> bool:
+    """Whether they can be solved for: not so for many coupled speeds."""
+    try:
+        return bool(equations.accelerations)
+    except NumericError:
+        return False
+
+
+def _gives_all(family: Solvable, equations: Equations) -> bool:
+    others = (s for s in equations.speeds if s not in family.state)
+    return not any(equations.accelerations[s.derivative()] for s in others)
+
+
+def closed_form(
+    equations: Equations,
+    parameters: Mapping[Any, Any],
+    start: Mapping[Any, Any],
+    digits: int | None = None,
+) -> ClosedForm:
+    """The exact motion of recognised equations from a start.
+
+    Args:
+        equations: derived equations.
+        parameters: values by name: SI numbers, text with a unit, or constant expressions.
+        start: coordinates and independent speeds at t = 0, also as expressions of parameters;
+            those not given are zero.
+        digits: decimal digits of the values; doubles if not given.
+
+    Raises:
+        NumericError: where there is no closed form for the system or from this start.
+        DeclarationError, UnitError: for values that cannot be read.
+        ConstraintError: for a start outside the side the equations were derived for.
+    """
+    family = recognise(equations)
+    data = exact_data(equations, parameters, start, digits or _DOUBLE)
+    for sign in equations.assumed_positive:
+        _check_side(data, sign)
+    family.check(data)
+    steady = is_steady(equations, data)
+    solution = SteadySolution() if steady else family.solve(data)
+    return ClosedForm(family, data, solution, uniform(equations, data, steady), digits)
+
+
+def _check_side(data: Data, sign: Expr) -> None:
+    value = data.number(sign)
+    if value <= 0:
+        raise ConstraintError(
+            f"{sign} = {float(value):g} at the start",
+            expected="a positive value: the equations were derived for that side",
+            advice="start on the other side, by symmetry",
+        )

@@ -1,0 +1,224 @@
+"""A coin that spins on a smooth table, by quadrature between its turning angles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from polhode.algebra import ZERO, Expr, Symbol, cos, sin
+from polhode.analyse._axle import Axle, Names, axles
+from polhode.analyse._exact_data import Data
+from polhode.analyse._libration import Libration
+from polhode.analyse._reals import Array, Reals
+from polhode.analyse._solution import Solution, Solvable, is_constant
+from polhode.base import NumericError
+from polhode.derive import Equations
+
+
+@dataclass(frozen=True)
+class SpinningCoin(Solvable):
+    """(1 + ε cos² θ) θ̈ = sin θ cos θ (ε θ̇² + φ̇²) - κ n φ̇ sin θ - γ cos θ for an axle.
+
+    Attributes:
+        axle: roles of coordinates and speeds.
+        lift: ε, m a² over the moment of inertia about a diameter.
+        weight: γ, m g a over the latter, 1/s².
+    """
+
+    axle: Axle
+    lift: Expr
+    weight: Expr
+
+    name = "spinning coin"
+    formula = (
+        r"t = \int \frac{\sqrt{1 + \epsilon\cos^2\theta}\,d\theta}{\sqrt{2E - 2\gamma\sin\theta "
+        r"- (\alpha - \beta\cos\theta)^2/\sin^2\theta}}, \quad "
+        r"\dot\phi = \frac{\alpha - \beta\cos\theta}{\sin^2\theta}, \quad \beta = \kappa\omega"
+    )
+
+    @property
+    def parts(self) -> dict[str, Expr]:
+        return {r"\epsilon": self.lift, r"\kappa": self.axle.ratio, r"\gamma": self.weight}
+
+    @property
+    def state(self) -> tuple[Symbol, ...]:
+        return self.axle.state
+
+    def solve(self, data: Data) -> Solution:
+        axle = self.axle
+        theta, phi, theta_dot, phi_dot = map(
+            Expr.generator, (axle.theta, axle.phi, axle.theta_rate, axle.phi_rate)
+        )
+        s, c, beta = sin(theta), cos(theta), axle.ratio * axle.n
+        alpha = phi_dot * s**2 + beta * c
+        swing = (1 + self.lift * c**2) * theta_dot**2
+        energy = swing + (phi_dot * s) ** 2 + 2 * self.weight * s
+        fall = s * c * phi_dot**2 - beta * phi_dot * s - self.weight * c
+        constants = (energy, alpha - beta, alpha + beta, self.weight, self.lift, axle.n)
+        balance = Balance(data.context, *map(data.number, constants))
+        start = data.number(theta)
+        whole = 2 * data.context.pi * data.context.nint(start / (2 * data.context.pi) - 0.25)
+        rates = (data.number(theta_dot), data.number(fall))
+        libration = balance.libration(start - whole, *rates, data.digits)
+        angles = (data.number(phi), data.number(Expr.generator(axle.psi) if axle.psi else ZERO))
+        return Wobble(libration, balance, whole, angles, axle.names)
+
+
+@dataclass(frozen=True)
+class Balance:
+    """Constants of the motion.
+
+    Attributes:
+        energy: twice the energy over the moment about a diameter, less that of the spin, 1/s².
+        lean: α - β, momenta about the vertical and the axis over that moment, 1/s.
+        slant: α + β.
+        weight: γ.
+        lift: ε.
+        spin: n.
+    """
+
+    context: Any
+    energy: Any
+    lean: Any
+    slant: Any
+    weight: Any
+    lift: Any
+    spin: Any
+
+    def azimuth_rate(self, sin: Any, cos: Any) -> Any:
+        """φ̇, also for arrays of any numbers where the constants are such."""
+        return (self.lean * (1 + cos) + self.slant * (1 - cos)) / (2 * sin * sin)
+
+    def square(self, theta: Any) -> Any:
+        """θ̇²."""
+        sin, cos = self.context.sin(theta), self.context.cos(theta)
+        turning = (self.azimuth_rate(sin, cos) * sin) ** 2
+        return (self.energy - turning - 2 * self.weight * sin) / (1 + self.lift * cos**2)
+
+    def carried(self, theta: Any) -> tuple[Any, Any]:
+        """φ̇ and ψ̇."""
+        sin, cos = self.context.sin(theta), self.context.cos(theta)
+        rate = self.azimuth_rate(sin, cos)
+        return rate, self.spin - rate * cos
+
+    def libration(self, theta: Any, theta_dot: Any, fall: Any, digits: int) -> Libration:
+        """The motion between the turning angles on both sides of the start.
+
+        Raises `NumericError` where there are none because the coin falls flat.
+        """
+        context = self.context
+        tangent, roots = context.tan(theta / 2), self._turning_tangents()
+        nearest = min(roots, key=lambda x: abs(x - tangent))
+        below = [x for x in roots if x < tangent and x != nearest]
+        above = [x for x in roots if x > tangent and x != nearest]
+        if abs(nearest - tangent) > context.sqrt(context.eps) * tangent:
+            (below if nearest < tangent else above).append(nearest)
+        else:
+            (below if fall > 0 else above).append(nearest)
+        if not above or not below or (self.lean == 0 and max(below) == 0):
+            raise _falls_flat()
+        low, high = (2 * context.atan(x) for x in (max(below), min(above)))
+        cosine = (low + high - 2 * theta) / (high - low)
+        start = context.acos(max(-1, min(1, cosine)))
+        start = -start if theta_dot < 0 else start
+        return Libration(context, (low, high), self.square, self.carried, start, digits)
+
+    def _turning_tangents(self) -> list[Any]:
+        """tan θ/2 where θ̇ = 0, and 0 where the coin can fall flat to θ = 0."""
+        context, a, b = self.context, self.lean, self.slant
+        sextic = [
+            -(b**2),
+            context.zero,
+            4 * self.energy - 2 * a * b - b**2,
+            -16 * self.weight,
+            4 * self.energy - 2 * a * b - a**2,
+            context.zero,
+            -(a**2),
+        ]
+        sextic = sextic[:-2] if a == 0 else sextic
+        first = next(i for i, coefficient in enumerate(sextic) if coefficient)
+        found = context.polyroots(sextic[first:], maxsteps=500, extraprec=context.prec)
+        small = context.sqrt(context.eps)
+        real = [context.re(x) for x in found if abs(context.im(x)) < small * abs(x)]
+        return [x for x in real if x > 0] + ([context.zero] if a == 0 else [])
+
+
+@dataclass(frozen=True)
+class Wobble(Solution):
+    """The coin nodding between two angles while it turns.
+
+    Attributes:
+        libration: of θ in (0, π), carrying φ and ψ.
+        balance: constants of the motion.
+        whole: turns of θ at the start, rad.
+        start: φ and ψ at t = 0.
+        names: of angles and rates.
+    """
+
+    libration: Libration
+    balance: Balance
+    whole: Any
+    start: tuple[Any, Any]
+    names: Names
+
+    kind = "nutation"
+
+    @property
+    def period(self) -> Any:
+        """Of the nutation, s."""
+        return self.libration.period
+
+    @property
+    def figures(self) -> dict[str, Any]:
+        """Turning angles (rad), and the turn of φ in one nutation (rad)."""
+        low, high = self.libration.ends
+        turn = self.libration.drifts[0] * self.period
+        return {
+            "theta_1": low,
+            "theta_2": high,
+            "precession_per_nutation": turn,
+            "mean_precession": self.libration.drifts[0],
+        }
+
+    def at(self, reals: Reals, times: Array) -> dict[str, Array]:
+        names = self.names
+        angle, rate, (turned, spun) = self.libration.at(reals, times)
+        sine, cosine = reals.sin(angle), reals.cos(angle)
+        lean, slant = reals.number(self.balance.lean), reals.number(self.balance.slant)
+        found = {
+            names.theta: reals.number(self.whole) + angle,
+            names.theta_rate: rate,
+            names.phi: reals.number(self.start[0]) + turned,
+            names.phi_rate: (lean * (1 + cosine) + slant * (1 - cosine)) / (2 * sine * sine),
+        }
+        spins = {names.psi: reals.number(self.start[1]) + spun} if names.psi else {}
+        return found | spins
+
+
+def recognise(equations: Equations) -> SpinningCoin | None:
+    """The equations as those of a disk on a smooth table, in Euler's angles."""
+    found = (_read(equations, axle) for axle in axles(equations))
+    return next((coin for coin in found if coin), None)
+
+
+def _read(equations: Equations, axle: Axle) -> SpinningCoin | None:
+    theta, theta_dot, turning = map(Expr.generator, (axle.theta, axle.theta_rate, axle.phi_rate))
+    s, c = sin(theta), cos(theta)
+    swing = equations.accelerations[axle.theta_rate.derivative()]
+    squared = swing.diff(axle.phi_rate).diff(axle.phi_rate)
+    if not squared:
+        return None
+    inertia = 2 * s * c / squared
+    lift = (inertia - 1) / c**2
+    pull = s * c * (lift * theta_dot**2 + turning**2) - axle.ratio * axle.n * turning * s
+    weight = (pull - inertia * swing) / c
+    return SpinningCoin(axle, lift, weight) if is_constant(lift) and is_constant(weight) else None
+
+
+def _falls_flat() -> NumericError:
+    return NumericError(
+        "a coin that falls flat on the table",
+        expected="a start with both momenta, about the vertical and about the axis, so that it "
+        "rises again",
+        advice="simulate it up to the impact",
+    )

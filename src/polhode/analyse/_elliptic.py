@@ -1,0 +1,70 @@
+"""Jacobi's functions and Legendre's integrals by the complementary parameter m₁ = 1 - k².
+
+Given m₁ itself nothing is lost as the modulus k approaches 1: near a separatrix m₁ is what is known
+exactly, and 1 - m₁ has forgotten it. At m₁ = 0 the functions are tanh and sech.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from polhode.analyse._reals import Array, Reals
+
+#: Moves sn off its zero, where the recurrence divides by it, by less than anything can tell.
+_NUDGE = 1e-100
+
+
+def quarter_period(context: Any, m1: Any) -> Any:
+    """K, the complete integral of the first kind, by Gauss's arithmetic-geometric mean."""
+    return context.pi / (2 * context.agm(1, context.sqrt(m1)))
+
+
+def first_kind(context: Any, sn: Any, cn: Any, m1: Any) -> Any:
+    """The argument u in [-2K, 2K] that has this sn and cn."""
+    dn2 = cn**2 + m1 * sn**2
+    if cn >= 0:
+        return sn * context.elliprf(cn**2, dn2, 1)
+    turned = 2 * quarter_period(context, m1) - abs(sn) * context.elliprf(cn**2, dn2, 1)
+    return turned if sn >= 0 else -turned
+
+
+def third_kind_complete(context: Any, n1: Any, m1: Any) -> Any:
+    """∫₀ᴷ du/(cn² + n₁ sn²)."""
+    return context.elliprf(0, m1, 1) + (1 - n1) / 3 * context.elliprj(0, m1, 1, n1)
+
+
+def third_kind(reals: Reals, u: Array, sn: Array, cn: Array, n1: Any, m1: Any) -> Array:
+    """∫₀ᵘ du/(cn² + n₁ sn²) for |u| ≤ K, given sn u and cn u (DLMF 19.25.14)."""
+    s2, c2 = sn * sn, cn * cn
+    rj = reals.rj(c2, c2 + m1 * s2, reals.number(1), c2 + n1 * s2)
+    return u + (1 - n1) / 3 * sn * s2 * rj
+
+
+def jacobi(reals: Reals, u: Array, m1: Any) -> tuple[Array, Array, Array]:
+    """sn u, cn u, dn u for |u| ≤ 2K, by descending Landen steps (R. Bulirsch, 1965)."""
+    if m1 == 0:
+        decay = reals.exp(-abs(u))
+        sech = 2 * decay / (1 + decay * decay)
+        return reals.tanh(u), sech, sech
+    means = _means(reals, m1)
+    limit = sum(means[-1]) / 2
+    u = limit * (u + _NUDGE)
+    sine = reals.sin(u)
+    a = reals.cos(u) / sine
+    c, dn = limit * a, 1
+    for mean, root in reversed(means):
+        a, c = a * c, c * dn
+        dn = (root + a) / (mean + a)
+        a = c / mean
+    sn = abs(sine) / sine / reals.sqrt(c * c + 1)
+    return sn, c * sn, dn
+
+
+def _means(reals: Reals, m1: Any) -> list[tuple[Any, Any]]:
+    """Arithmetic and geometric means of 1 and √m₁, until the next would agree."""
+    a, b = reals.number(1), reals.sqrt(reals.number(m1))
+    pairs = [(a, b)]
+    while abs(a - b) > a * reals.sqrt(reals.eps):
+        a, b = (a + b) / 2, reals.sqrt(a * b)
+        pairs.append((a, b))
+    return pairs

@@ -1,0 +1,252 @@
+"""A rigid body that turns freely: Jacobi's elliptic functions, and sech and tanh.
+
+A < B < C are the moments of inertia along three axes in that order, and the polhode runs round the
+axis of C, or, with A and C exchanged, round that of A. Then (Landau and Lifshitz, Mechanics, § 37)
+
+    ω_A = a cn u, ω_B = ± b sn u, ω_C = ± c dn u.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any
+
+from polhode.algebra import ZERO, Expr, Symbol
+from polhode.analyse._exact_data import Data
+from polhode.analyse._phase import Phase
+from polhode.analyse._reals import Array, Reals
+from polhode.analyse._solution import Solution, Solvable, is_constant
+from polhode.derive import Equations
+
+Three = tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class FreeBody(Solvable):
+    """Euler's equations without torque.
+
+    Attributes:
+        speeds: ω₁, ω₂, ω₃ along the principal axes.
+        moments: of inertia about them.
+    """
+
+    speeds: tuple[Symbol, Symbol, Symbol]
+    moments: tuple[Expr, Expr, Expr]
+
+    name = "free body"
+    formula = (
+        r"\omega_A = a\operatorname{cn}(\lambda t + u_0), \quad "
+        r"\omega_B = \pm b\operatorname{sn}(\lambda t + u_0), \quad "
+        r"\omega_C = \pm c\operatorname{dn}(\lambda t + u_0), \quad "
+        r"\lambda^2 = \frac{(C - B)(L^2 - 2TA)}{ABC}, \quad "
+        r"k'^2 = \frac{(C - A)(L^2 - 2TB)}{(C - B)(L^2 - 2TA)}"
+    )
+
+    @property
+    def parts(self) -> dict[str, Expr]:
+        return {f"I_{i}": moment for i, moment in enumerate(self.moments, 1)}
+
+    @property
+    def state(self) -> tuple[Symbol, ...]:
+        return self.speeds
+
+    def solve(self, data: Data) -> Solution:
+        return FreeRotation.start(data, self)
+
+    def excess(self, axis: int) -> Expr:
+        """L² - 2 T I for the moment of one axis, in which nothing cancels but between two terms."""
+        terms = (
+            moment * (moment - self.moments[axis]) * Expr.generator(speed) ** 2
+            for moment, speed in zip(self.moments, self.speeds, strict=True)
+        )
+        return sum(terms, start=ZERO)
+
+
+@dataclass(frozen=True)
+class FreeRotation(Solution):
+    """One free rotation.
+
+    The momentum L is at rest in space. Directions across it are counted from the one in which the
+    body's axis that is circled (on a separatrix, the middle one) leans from L at t = 0.
+
+    Attributes:
+        speeds: published names of ω₁, ω₂, ω₃.
+        order: positions of the axes called A, B, C.
+        moments: I₁, I₂, I₃, kg m².
+        amplitudes: of ω along the axes A, B, C with their signs, 1/s.
+        phase: of Jacobi's functions.
+        momentum: L, kg m²/s.
+    """
+
+    context: Any
+    speeds: tuple[str, ...]
+    order: tuple[int, ...]
+    moments: Three
+    amplitudes: Three
+    phase: Phase
+    momentum: Any
+
+    @classmethod
+    def start(cls, data: Data, body: FreeBody) -> FreeRotation:
+        """From a start that is not steady."""
+        moments = tuple(map(data.number, body.moments))
+        order = tuple(sorted(range(3), key=lambda i: moments[i]))
+        if data.number(body.excess(order[1])) < 0:
+            order = order[::-1]
+        first, second, _ = order
+        A, B, C = (moments[i] for i in order)
+        of_a, of_b, of_c = (data.number(body.excess(i)) for i in order)
+        sqrt = data.context.sqrt
+        rate = sqrt((C - B) * of_a / (A * B * C))
+        m1 = (C - A) * of_b / ((C - B) * of_a)
+        sizes = (sqrt(of_c / (A * (A - C))), sqrt(of_c / (B * (B - C))), sqrt(of_a / (C * (C - A))))
+        omega = tuple(data.number(Expr.generator(s)) for s in body.speeds)
+        signs = _signs(order, C > A, omega, m1)
+        amplitudes = tuple(sign * size for sign, size in zip(signs, sizes, strict=True))
+        sn, cn = omega[second] / amplitudes[1], omega[first] / amplitudes[0]
+        return cls(
+            data.context,
+            tuple(s.published for s in body.speeds),
+            order,
+            moments,
+            amplitudes,
+            Phase.through(data.context, rate, sn, cn, m1),
+            sqrt(sum((moment * w) ** 2 for moment, w in zip(moments, omega, strict=True))),
+        )
+
+    @property
+    def kind(self) -> str:
+        if self.phase.m1 == 0:
+            return "separatrix"
+        return f"about axis {self.order[2] + 1}"
+
+    @property
+    def period(self) -> Any:
+        """Of the angular velocity along the body's axes, s."""
+        half = self.phase.half_period
+        return None if half is None else 2 * half
+
+    @property
+    def figures(self) -> dict[str, Any]:
+        """Momentum, complementary parameter, turn about the momentum in a period (rad)."""
+        found = {"momentum": self.momentum, "m_1": self.phase.m1}
+        if self.period is None:
+            return found
+        steady, varying, n1 = self._precession
+        turn = steady * self.period + 2 * varying * self.phase.third_kind_half(n1)
+        return {**found, "precession_per_period": turn}
+
+    def at(self, reals: Reals, times: Array) -> dict[str, Array]:
+        return dict(zip(self.speeds, self._omega(reals, times), strict=True))
+
+    def besides(self, reals: Reals, times: Array) -> dict[str, Array]:
+        """The attitude, and how the axis that is circled goes round the momentum.
+
+        "precession" is the turn of that axis about L since t = 0; "herpolhode_1" and
+        "herpolhode_2" are ω along two fixed directions across L; "attitude", of shape (..., 3, 3),
+        has these directions and that of L as rows, in components along the body's axes.
+        """
+        import numpy
+
+        omega, turned = self._omega(reals, times), self._turned(reals, times)
+        axes = self._axes(reals, omega, turned)
+        first, second, _ = (sum(e * w for e, w in zip(axis, omega, strict=True)) for axis in axes)
+        return {
+            "precession": turned,
+            "herpolhode_1": first,
+            "herpolhode_2": second,
+            "attitude": numpy.stack([numpy.stack(axis, axis=-1) for axis in axes], axis=-2),
+        }
+
+    def _omega(self, reals: Reals, times: Array) -> list[Array]:
+        point = self.phase.at(reals, times)
+        found: list[Array] = [None, None, None]
+        functions = (point.cn, point.sn, point.dn)
+        for position, amplitude, function in zip(
+            self.order, self.amplitudes, functions, strict=True
+        ):
+            found[position] = reals.number(amplitude) * function
+        return found
+
+    @property
+    def _precession(self) -> Three:
+        """χ̇ = first + second/(cn² + third sn²), of the axis of C about L."""
+        A, B, C = (self.moments[i] for i in self.order)
+        return (
+            self.momentum / C,
+            self.momentum * (C - A) / (A * C),
+            B * (C - A) / (A * (C - B)),
+        )
+
+    def _turned(self, reals: Reals, times: Array) -> Array:
+        if self.phase.m1 == 0:
+            return reals.number(self.momentum / self.moments[self.order[1]]) * times
+        steady, varying, n1 = self._precession
+        wobble = reals.number(varying) * self.phase.third_kind(reals, times, n1)
+        return reals.number(steady) * times + wobble
+
+    def _axes(
+        self, reals: Reals, omega: list[Array], turned: Array
+    ) -> tuple[list[Array], list[Array], list[Array]]:
+        """Directions at rest in space along the body's axes: across L, and along it."""
+        lead = self.order[1] if self.phase.m1 == 0 else self.order[2]
+        along = [
+            reals.number(moment / self.momentum) * w
+            for moment, w in zip(self.moments, omega, strict=True)
+        ]
+        others = [i for i in range(3) if i != lead]
+        lean = reals.sqrt(sum(along[i] ** 2 for i in others))
+        out = [-along[lead] * along[i] / lean for i in range(3)]
+        out[lead] = lean
+        side = _cross(along, out)
+        cos, sin = reals.cos(turned), reals.sin(turned)
+        first = [cos * o - sin * s for o, s in zip(out, side, strict=True)]
+        second = [sin * o + cos * s for o, s in zip(out, side, strict=True)]
+        return first, second, along
+
+
+def recognise(equations: Equations) -> FreeBody | None:
+    """Three of the speeds obeying Euler's equations, with the moments of their mass matrix."""
+    for positions in combinations(range(len(equations.speeds)), 3):
+        found = _read(equations, positions)
+        if found is not None:
+            return found
+    return None
+
+
+def _read(equations: Equations, positions: tuple[int, ...]) -> FreeBody | None:
+    i, j, k = positions
+    speeds = (equations.speeds[i], equations.speeds[j], equations.speeds[k])
+    rows = equations.mass.rows
+    moments = (rows[i][i], rows[j][j], rows[k][k])
+    torques = euler_torques(moments, speeds)
+    accelerations = (equations.accelerations[s.derivative()] for s in speeds)
+    agree = all(
+        moment * rate == torque
+        for moment, rate, torque in zip(moments, accelerations, torques, strict=True)
+    )
+    if agree and any(torques) and all(map(is_constant, moments)):
+        return FreeBody(speeds, moments)
+    return None
+
+
+def euler_torques(moments: Three, speeds: Three) -> Three:
+    """I ω̇ of each axis: (I₂ - I₃) ω₂ ω₃ and its like."""
+    (I_1, I_2, I_3), (w1, w2, w3) = moments, map(Expr.generator, speeds)
+    return ((I_2 - I_3) * w2 * w3, (I_3 - I_1) * w3 * w1, (I_1 - I_2) * w1 * w2)
+
+
+def _signs(order: tuple[int, ...], ascending: bool, omega: Three, m1: Any) -> Three:
+    """Of ω along the axes A, B, C where cn, sn and dn are positive.
+
+    That of A may be chosen, but for a separatrix, on which cn never changes sign.
+    """
+    first = -1 if m1 == 0 and omega[order[0]] < 0 else 1
+    third = 1 if omega[order[2]] > 0 else -1
+    right_handed = order in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
+    return first, first * third * (1 if right_handed == ascending else -1), third
+
+
+def _cross(a: list[Array], b: list[Array]) -> list[Array]:
+    return [a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3)]

@@ -1,0 +1,162 @@
+"""A gyrocompass, free or driven by a motor: exact in Ω, and beside it the first order."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import permutations
+from typing import Any
+
+from polhode.algebra import ZERO, Expr, Symbol, cos, sin
+from polhode.analyse._exact_data import Data
+from polhode.analyse._reals import Array, Reals
+from polhode.analyse._solution import Solution, Solvable, is_constant, rates
+from polhode.analyse._swing_solution import SwingSolution
+from polhode.analyse._swing_start import Swinging, swinging
+from polhode.derive import Equations
+
+
+@dataclass(frozen=True)
+class Gyrocompass(Solvable):
+    """θ̈ = sin θ (p + q cos θ + r ω), ω̇ = s θ̇ sin θ.
+
+    The whole spin n = ω + s cos θ is constant, so that θ swings with A = -(p + r n) and
+    B = q - r s. With a motor, or with no rotor at all, ω does not occur.
+
+    Attributes:
+        angle: θ, of the axle from the north.
+        rate: θ̇, a speed of the equations.
+        spin: ω, relative to the Earth; None where a motor keeps it.
+        push: p, 1/s².
+        second: q, 1/s², of the second order in Ω.
+        drag: r, 1/s.
+        gain: s, 1/s.
+    """
+
+    angle: Symbol
+    rate: Symbol
+    spin: Symbol | None
+    push: Expr
+    second: Expr
+    drag: Expr
+    gain: Expr
+
+    name = "gyrocompass"
+    formula = (
+        r"\ddot\theta = -A\sin\theta + B\sin\theta\cos\theta, \quad "
+        r"2\dot x^2 = (E - A)x^4 + 2(E + B)x^2 + (E + A), \quad x = \tan\frac{\theta}{2}"
+    )
+
+    @property
+    def parts(self) -> dict[str, Expr]:
+        return {"A": self._restoring, "B": self.second - self.drag * self.gain}
+
+    @property
+    def state(self) -> tuple[Symbol, ...]:
+        swing = (self.angle, self.rate)
+        return (*swing, self.spin) if self.spin else swing
+
+    @property
+    def _whole_spin(self) -> Expr:
+        if self.spin is None:
+            return ZERO
+        return Expr.generator(self.spin) + self.gain * cos(Expr.generator(self.angle))
+
+    @property
+    def _restoring(self) -> Expr:
+        return -(self.push + self.drag * self._whole_spin)
+
+    @property
+    def first_order(self) -> Expr:
+        """A to the first order in Ω, in which the spin ω is constant."""
+        return -(self.push + (self.drag * Expr.generator(self.spin) if self.spin else ZERO))
+
+    def solve(self, data: Data) -> Solution:
+        theta, rate = (Expr.generator(s) for s in (self.angle, self.rate))
+        A, B = self.parts.values()
+        approximate = None
+        if data.number(self.first_order):
+            approximate = swinging(data, self.first_order, ZERO, theta, rate)
+        return Seeking(
+            self.angle,
+            self.rate,
+            swinging(data, A, B, theta, rate),
+            self.spin,
+            approximate,
+            abs(data.number(A)) - data.number(B),
+            data.number(self._whole_spin),
+            data.number(self.gain),
+        )
+
+
+@dataclass(frozen=True)
+class Seeking(SwingSolution):
+    """The axle swinging about the north.
+
+    Attributes:
+        spin: ω, where it changes.
+        approximate: to the first order in Ω; None where nothing is of the first order.
+        stiffness: square of the frequency of small swings, exact in Ω, 1/s².
+        whole_spin: n = ω + s cos θ, 1/s.
+        gain: s, 1/s.
+    """
+
+    spin: Symbol | None
+    approximate: Swinging | None
+    stiffness: Any
+    whole_spin: Any
+    gain: Any
+
+    @property
+    def figures(self) -> dict[str, Any]:
+        """Also the frequency of small swings, 1/s, and the period to the first order in Ω, s."""
+        found = self.motion.figures
+        if self.stiffness > 0:
+            found |= {"small_swing_frequency": self.motion.swing.phase.context.sqrt(self.stiffness)}
+        period = self.approximate and self.approximate.swing.period
+        return {**found, "first_order_period": period} if period else found
+
+    def at(self, reals: Reals, times: Array) -> dict[str, Array]:
+        found = super().at(reals, times)
+        if self.spin is None:
+            return found
+        cosine = reals.cos(found[self.angle.published])
+        spin = reals.number(self.whole_spin) - reals.number(self.gain) * cosine
+        return {**found, self.spin.published: spin}
+
+    def besides(self, reals: Reals, times: Array) -> dict[str, Array]:
+        """The angle and its rate to the first order in Ω, where ω is constant."""
+        if self.approximate is None:
+            return {}
+        names = (f"first_order_{s.published}" for s in (self.angle, self.rate))
+        return dict(zip(names, self.approximate.at(reals, times), strict=True))
+
+
+def recognise(equations: Equations) -> Gyrocompass | None:
+    """The equations as those of a swing that exchanges spin with a rotor, or has none."""
+    angles = rates(equations)
+    moving = [s for s in equations.speeds if equations.accelerations[s.derivative()]]
+    if len(moving) not in (1, 2):
+        return None
+    for rate, *others in permutations(moving):
+        if rate in angles:
+            found = _read(equations, angles[rate], rate, others[0] if others else None)
+            if found is not None:
+                return found
+    return None
+
+
+def _read(
+    equations: Equations, angle: Symbol, rate: Symbol, spin: Symbol | None
+) -> Gyrocompass | None:
+    theta, velocity = Expr.generator(angle), Expr.generator(rate)
+    pull = equations.accelerations[rate.derivative()] / sin(theta)
+    drag = gain = ZERO
+    if spin is not None:
+        drag = pull.diff(spin)
+        gain = equations.accelerations[spin.derivative()] / (velocity * sin(theta))
+        pull = pull - drag * Expr.generator(spin)
+    second = -pull.diff(angle) / sin(theta)
+    push = pull - second * cos(theta)
+    if all(map(is_constant, (push, second, drag, gain))):
+        return Gyrocompass(angle, rate, spin, push, second, drag, gain)
+    return None

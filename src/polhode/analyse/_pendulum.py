@@ -1,0 +1,85 @@
+"""A body that swings about a fixed axis under gravity, such as a gyroscope in a vertical plane."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from polhode.algebra import ZERO, Expr, Symbol, sin
+from polhode.analyse._exact_data import Data
+from polhode.analyse._solution import Solution, Solvable, is_constant, rates
+from polhode.analyse._swing_solution import SwingSolution
+from polhode.analyse._swing_start import swinging
+from polhode.derive import Equations
+
+
+@dataclass(frozen=True)
+class Pendulum(Solvable):
+    """θ̈ = μ sin θ.
+
+    Attributes:
+        angle: θ, from the upright where μ is positive.
+        rate: θ̇, a speed of the equations.
+        strength: μ, 1/s².
+    """
+
+    angle: Symbol
+    rate: Symbol
+    strength: Expr
+
+    name = "pendulum"
+    formula = (
+        r"\ddot\theta = \mu\sin\theta, \quad "
+        r"\tan\frac{\vartheta}{2} = \frac{k}{k'}\operatorname{cn}(\sqrt{|\mu|}\,t + u_0), "
+        r"\frac{1}{k'}\operatorname{sc}\frac{\sqrt{|\mu|}\,t + u_0}{k} \text{ or } "
+        r"\sinh(\sqrt{|\mu|}\,t + u_0)"
+    )
+
+    @property
+    def parts(self) -> dict[str, Expr]:
+        return {r"\mu": self.strength}
+
+    @property
+    def state(self) -> tuple[Symbol, ...]:
+        return self.angle, self.rate
+
+    def solve(self, data: Data) -> Solution:
+        theta, rate = (Expr.generator(s) for s in (self.angle, self.rate))
+        lowest = data.context.pi if data.number(self.strength) > 0 else data.context.zero
+        return Fall(
+            self.angle, self.rate, swinging(data, -self.strength, ZERO, theta, rate), lowest
+        )
+
+
+@dataclass(frozen=True)
+class Fall(SwingSolution):
+    """A fall from the start, and the swing or the turning over that it is part of.
+
+    Attributes:
+        lowest: θ at the lowest point, rad.
+    """
+
+    lowest: Any
+
+    @property
+    def figures(self) -> dict[str, Any]:
+        """Also the time to the next passage of the horizontal and of the lowest point, s."""
+        quarter = self.motion.swing.phase.context.pi / 2
+        level = [self.motion.first_arrival(self.lowest + side * quarter) for side in (1, -1)]
+        arrivals = {
+            "time_to_horizontal": min((t for t in level if t is not None), default=None),
+            "time_to_lowest": self.motion.first_arrival(self.lowest),
+        }
+        found = {name: time for name, time in arrivals.items() if time is not None}
+        return {**self.motion.figures, **found}
+
+
+def recognise(equations: Equations) -> Pendulum | None:
+    """The equations as those of a pendulum, besides angles and spins that turn uniformly."""
+    angles = rates(equations)
+    moving = [s for s in equations.speeds if equations.accelerations[s.derivative()]]
+    if len(moving) != 1 or moving[0] not in angles:
+        return None
+    angle = angles[moving[0]]
+    strength = equations.accelerations[moving[0].derivative()] / sin(Expr.generator(angle))
+    return Pendulum(angle, moving[0], strength) if is_constant(strength) else None

@@ -1,0 +1,162 @@
+"""The functions that closed forms are written in: for doubles, or for any number of digits.
+
+Both work elementwise on arrays. Constants reach them as mpmath numbers of a higher precision, and
+whole periods are taken off the time without rounding, so that an angle after 1e6 turns is as exact
+as one after the first.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import count
+from typing import Any, NamedTuple, TypeAlias
+
+Array: TypeAlias = Any
+
+
+class Turns(NamedTuple):
+    """A number of turns: a fraction between -1/2 and 1/2, and whole ones."""
+
+    fraction: Array
+    whole: Array
+
+
+class Reals(ABC):
+    """Elementwise functions of one sort of real number.
+
+    Attributes:
+        eps: how far 1 is from the next number.
+        dtype: NumPy's type of the arrays.
+    """
+
+    eps: Any
+    dtype: Any
+    sin: Any
+    cos: Any
+    exp: Any
+    tanh: Any
+    sqrt: Any
+    atan2: Any
+    rj: Any
+
+    @abstractmethod
+    def number(self, value: Any) -> Any:
+        """A constant, rounded once."""
+
+    @abstractmethod
+    def array(self, values: Any) -> Array:
+        """Numbers of any sort as an array."""
+
+    @abstractmethod
+    def turns(self, times: Array, frequency: Any, offset: Any) -> Turns:
+        """frequency · times + offset, the fraction to rounding however many whole turns."""
+
+    @abstractmethod
+    def exact(self, number: Any) -> Fraction:
+        """The binary fraction that a number is."""
+
+    @abstractmethod
+    def harmonics(self, angle: Array) -> Iterator[tuple[Array, Array]]:
+        """sin kx and cos kx for k = 1, 2, … without end."""
+
+
+class Doubles(Reals):
+    """NumPy's doubles."""
+
+    def __init__(self) -> None:
+        import numpy
+        from scipy.special import elliprj
+
+        self.eps, self.dtype = 2.0**-52, float
+        self.sin, self.cos = numpy.sin, numpy.cos
+        self.exp, self.tanh = numpy.exp, numpy.tanh
+        self.sqrt, self.atan2, self.rj = numpy.sqrt, numpy.arctan2, elliprj
+
+    def number(self, value: Any) -> float:
+        return float(value)
+
+    def array(self, values: Any) -> Array:
+        import numpy
+
+        return numpy.asarray(values, dtype=float)
+
+    def turns(self, times: Array, frequency: Any, offset: Any) -> Turns:
+        import numpy
+
+        high = float(frequency)
+        product, error = _exact_product(times, high)
+        whole = numpy.rint(product)
+        start = numpy.rint(float(offset))
+        rest = (product - whole) + (error + times * float(frequency - high))
+        rest = rest + float(offset - float(start))
+        carried = numpy.rint(rest)
+        return Turns(rest - carried, whole + start + carried)
+
+    def exact(self, number: Any) -> Fraction:
+        return Fraction(float(number))
+
+    def harmonics(self, angle: Array) -> Iterator[tuple[Array, Array]]:
+        return ((self.sin(k * angle), self.cos(k * angle)) for k in count(1))
+
+
+class Digits(Reals):
+    """mpmath's numbers, in arrays of objects."""
+
+    def __init__(self, context: Any) -> None:
+        from numpy import frompyfunc
+
+        self._context = context
+        self.eps, self.dtype = context.eps, object
+        for name in ("sin", "cos", "exp", "tanh", "sqrt"):
+            setattr(self, name, frompyfunc(getattr(context, name), 1, 1))
+        self.atan2 = frompyfunc(context.atan2, 2, 1)
+        self.rj = frompyfunc(context.elliprj, 4, 1)
+
+    def number(self, value: Any) -> Any:
+        return self._context.convert(value)
+
+    def array(self, values: Any) -> Array:
+        import numpy
+
+        convert = numpy.frompyfunc(self._context.convert, 1, 1)
+        return numpy.asarray(convert(numpy.asarray(values)), dtype=object)
+
+    def turns(self, times: Array, frequency: Any, offset: Any) -> Turns:
+        from numpy import frompyfunc
+
+        total = times * frequency + offset
+        whole = frompyfunc(self._context.nint, 1, 1)(total)
+        return Turns(total - whole, whole)
+
+    def exact(self, number: Any) -> Fraction:
+        mantissa = Fraction(int(number.man)) * Fraction(2) ** int(number.exp)
+        return -mantissa if number < 0 else mantissa
+
+    def harmonics(self, angle: Array) -> Iterator[tuple[Array, Array]]:
+        """By rotation: the digits to spare bear what the multiplications lose."""
+        first_sin, first_cos = self.sin(angle), self.cos(angle)
+        sin, cos = first_sin, first_cos
+        while True:
+            yield sin, cos
+            sin, cos = sin * first_cos + cos * first_sin, cos * first_cos - sin * first_sin
+
+
+#: Splits a double into two halves whose products are exact (T. J. Dekker, 1971).
+_SPLITTER = 134217729.0
+
+
+def _exact_product(a: Array, b: float) -> tuple[Array, Array]:
+    """A product of doubles and its rounding error."""
+    product = a * b
+    a_high, a_low = _halves(a)
+    b_high, b_low = _halves(b)
+    error = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
+    return product, error
+
+
+def _halves(a: Array) -> tuple[Array, Array]:
+    scaled = _SPLITTER * a
+    high = scaled - (scaled - a)
+    return high, a - high

@@ -1,0 +1,79 @@
+"""What every closed form offers: a recogniser of equations, and solutions from a start."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import Any, ClassVar
+
+from polhode.algebra import Expr, Kind, Symbol
+from polhode.analyse._exact_data import Data
+from polhode.analyse._reals import Array, Reals
+from polhode.derive import Equations
+
+
+class Solution(ABC):
+    """One motion, its constants known to more digits than are wanted."""
+
+    @property
+    @abstractmethod
+    def kind(self) -> str:
+        """Which of the family's motions it is."""
+
+    @property
+    @abstractmethod
+    def period(self) -> Any:
+        """Of the motion, s; None where it does not repeat."""
+
+    @property
+    @abstractmethod
+    def figures(self) -> dict[str, Any]:
+        """Numbers that sum the motion up."""
+
+    @abstractmethod
+    def at(self, reals: Reals, times: Array) -> dict[str, Array]:
+        """Coordinates and speeds by published name at times, s."""
+
+    def besides(self, reals: Reals, times: Array) -> dict[str, Array]:
+        """What else can be said of the motion at times, s."""
+        return {}
+
+
+class Solvable(ABC):
+    """Equations recognised as those of a family that has a closed form.
+
+    Attributes:
+        name: of the family.
+        formula: LaTeX of the closed form.
+    """
+
+    name: ClassVar[str]
+    formula: ClassVar[str]
+
+    @property
+    @abstractmethod
+    def parts(self) -> dict[str, Expr]:
+        """Constants of the formula by their LaTeX, as read off the equations."""
+
+    @property
+    @abstractmethod
+    def state(self) -> tuple[Symbol, ...]:
+        """What determines its own course; all other speeds must be constant."""
+
+    def check(self, data: Data) -> None:
+        """Raise `NumericError` where the start has no closed form and is not steady either."""
+        return None
+
+    @abstractmethod
+    def solve(self, data: Data) -> Solution:
+        """The motion from a start that is not steady."""
+
+
+def is_constant(expression: Expr) -> bool:
+    """Whether only parameters occur."""
+    return all(symbol.kind is Kind.PARAMETER for symbol in expression.symbols())
+
+
+def rates(equations: Equations) -> dict[Symbol, Symbol]:
+    """Every speed that is the rate of a coordinate, with that coordinate."""
+    pairs = {q: equations.kinematics[q.derivative()].symbol for q in equations.coordinates}
+    return {speed: q for q, speed in pairs.items() if speed in equations.speeds}
