@@ -22,6 +22,7 @@ from polhode.algebra._functions import tanh as tanh
 from polhode.algebra._generators import Generator as Generator
 from polhode.algebra._generators import Kind as Kind
 from polhode.algebra._generators import Symbol as Symbol
+from polhode.algebra._half_angles import lowest_numerator as lowest_numerator
 from polhode.algebra._homogeneity import dimension_of as dimension_of
 from polhode.algebra._latex import latex as latex
 from polhode.algebra._latex import latex_of_symbol as latex_of_symbol
@@ -49,6 +50,7 @@ from polhode.algebra._roots import factors as factors
 from polhode.algebra._roots import is_positive as is_positive
 from polhode.algebra._roots import principal_root as principal_root
 from polhode.algebra._roots import sqrt as sqrt
+from polhode.algebra._shapes import SHAPES as SHAPES
 from polhode.algebra._symbols import coordinate as coordinate
 from polhode.algebra._symbols import coordinates as coordinates
 from polhode.algebra._symbols import functions as functions

@@ -16,6 +16,7 @@ from polhode.algebra._expression import ONE, ZERO, Expr
 from polhode.algebra._forms import shortest
 from polhode.algebra._functions import CIRCULAR, Elementary
 from polhode.algebra._generators import Generator, Symbol
+from polhode.algebra._half_angles import Factors, lowest
 from polhode.algebra._linear import Matrix, Row
 from polhode.algebra._program import Op, Program
 from polhode.algebra._ring import Polynomial, Ring
@@ -74,11 +75,16 @@ def compile_program(
 
 
 class _Fraction(NamedTuple):
-    """One way of writing an expression."""
+    """One way of writing an expression, its denominator as powers of factors."""
 
     ring: Ring
     num: Polynomial
-    den: Polynomial
+    below: Factors
+
+    def degree(self, position: int) -> int:
+        """The highest power of a generator that occurs anywhere."""
+        parts = (self.num, *(factor for factor, _ in self.below))
+        return max(int(part.degrees()[position]) for part in parts)
 
 
 class _Writer:
@@ -117,9 +123,8 @@ class _Writer:
     # -- symbols and functions ------------------------------------------------------------------
 
     def _prepare(self, form: _Fraction) -> None:
-        used = zip(form.ring.generators, form.num.degrees(), form.den.degrees(), strict=True)
-        for generator, above, below in used:
-            if max(above, below) > 0 and generator not in self._values:
+        for position, generator in enumerate(form.ring.generators):
+            if generator not in self._values and form.degree(position) > 0:
                 self._values[generator] = self._generator(generator)
 
     def _generator(self, generator: Generator) -> Value:
@@ -168,13 +173,15 @@ class _Writer:
 
     def _fraction(self, form: _Fraction) -> Value:
         content, above = _factored(form.num)
-        divisor, below = _factored(form.den)
-        num = self._product(form.ring, above, content / divisor)
+        below: Factors = []
+        for part, exponent in form.below:
+            divisor, factors = _factored(part)
+            content /= divisor**exponent
+            below += [(factor, power * exponent) for factor, power in factors]
+        num = self._product(form.ring, above, content)
         return self.tape.divide(num, self._product(form.ring, below, Fraction(1)))
 
-    def _product(
-        self, ring: Ring, factors: list[tuple[Polynomial, int]], number: Fraction
-    ) -> Value:
+    def _product(self, ring: Ring, factors: Factors, number: Fraction) -> Value:
         if len(factors) == 1 and factors[0][1] == 1 and len(factors[0][0]) > 1:
             return self._scaled(ring, factors[0][0], number)
         powers = (self.tape.power(self._sum(ring, f), e) for f, e in factors)
@@ -212,6 +219,8 @@ class _Writer:
             if e
         )
         product = reduce(self.tape.multiply, powers, self.tape.one)
+        if coefficient == 1:
+            return product
         return self.tape.multiply(self.tape.constant(_rational(coefficient)), product)
 
 
@@ -228,15 +237,19 @@ def _divided(solve: LinearSolve) -> tuple[Matrix, Row]:
 
 def _forms(expression: Expr) -> Iterator[_Fraction]:
     ring, num, den = expression.ring, expression.num, expression.den
-    yield _Fraction(ring, num, den)
+    cancelled = lowest(expression)
+    if cancelled is not None:
+        yield _Fraction(ring, shortest(ring, cancelled.num), cancelled.factors)
+        return
+    yield _Fraction(ring, num, [(den, 1)])
     above, below = shortest(ring, num), shortest(ring, den)
     if above is num and below is den:
         return
     common = above.gcd(below)
-    yield _Fraction(ring, above / common, below / common)
+    yield _Fraction(ring, above / common, [(below / common, 1)])
 
 
-def _factored(polynomial: Polynomial) -> tuple[Fraction, list[tuple[Polynomial, int]]]:
+def _factored(polynomial: Polynomial) -> tuple[Fraction, Factors]:
     if polynomial == 0:
         return Fraction(0), []
     content, factors = polynomial.factor()

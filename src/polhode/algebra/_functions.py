@@ -17,12 +17,12 @@ from polhode.algebra._expression import ONE, ZERO, Expr, ExprLike
 from polhode.algebra._generators import Generator, Rate, Symbol
 from polhode.algebra._ring import Polynomial, Ring
 from polhode.algebra._special import PI, cosine_of_turn
-from polhode.base import NumericError
 
 #: The ratio of a circle's circumference to its diameter.
 pi = PI
 
 #: Multiples up to this one are expanded (sin 4θ); beyond it the multiple is a unit of its own.
+_LARGEST_RATIO = 64  # of multiples of one angle that are written in a common unit
 _LARGEST_MULTIPLE = 8
 
 Pair = tuple[Expr, Expr]
@@ -127,9 +127,12 @@ class Elementary(Generator):
         return self.family.of(self.argument.replaced(image))[1]
 
     def finest(self, others: tuple[Generator, ...]) -> Fraction:
-        """The largest unit of which all like functions among `others` take whole multiples."""
+        """The largest unit of which like functions among `others` take whole multiples.
+
+        Multiples without a common measure of sensible size are taken as unrelated.
+        """
         units = {g.unit for g in others if isinstance(g, Elementary) and g.kin == self.kin}
-        return reduce(_common_unit, units)
+        return next(unit for group, unit in _related(units | {self.unit}) if self.unit in group)
 
     def refined(self, others: tuple[Generator, ...]) -> Expr | None:
         finest = self.finest(others)
@@ -263,20 +266,32 @@ def _terms(argument: Expr) -> Iterator[tuple[Expr, Fraction]]:
         yield base, coefficient
 
 
+def is_unit_argument(family: Family, base: Expr) -> bool:
+    """Whether functions of multiples of `base` are written in units of it and of nothing else."""
+    exact = family.sign < 0 and base == pi
+    return not exact and list(_terms(base)) == [(base, Fraction(1))]
+
+
 def _unit(factor: Fraction) -> tuple[Fraction, int]:
     if abs(factor.numerator) > _LARGEST_MULTIPLE:
         return abs(factor), (1 if factor > 0 else -1)
     return Fraction(1, factor.denominator), factor.numerator
 
 
+def _related(units: set[Fraction]) -> list[tuple[set[Fraction], Fraction]]:
+    """Units in groups, each with the unit that all in it are small multiples of."""
+    groups: list[tuple[set[Fraction], Fraction]] = []
+    for unit in sorted(units, reverse=True):
+        for i, (group, common) in enumerate(groups):
+            finer = _common_unit(common, unit)
+            if max(group) / finer <= _LARGEST_RATIO:
+                groups[i] = (group | {unit}, finer)
+                break
+        else:
+            groups.append(({unit}, unit))
+    return groups
+
+
 def _common_unit(first: Fraction, second: Fraction) -> Fraction:
     below = lcm(first.denominator, second.denominator)
-    above = gcd(int(first * below), int(second * below))
-    common = Fraction(above, below)
-    if max(first, second) / common > 64:
-        raise NumericError(
-            f"functions of multiples {first} and {second} of one angle in one expression",
-            expected="multiples whose ratio is below 64",
-            advice="",
-        )
-    return common
+    return Fraction(gcd(int(first * below), int(second * below)), below)

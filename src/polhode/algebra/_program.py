@@ -6,7 +6,6 @@ given the arithmetic of those numbers.
 
 from __future__ import annotations
 
-import ast
 import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -39,12 +38,7 @@ class Op(Enum):
 
 
 _GIVEN = (Op.CONST, Op.PI, Op.ARG)
-_BINARY: Mapping[Op, ast.operator] = {
-    Op.ADD: ast.Add(),
-    Op.SUB: ast.Sub(),
-    Op.MUL: ast.Mult(),
-    Op.DIV: ast.Div(),
-}
+_SIGNS: Mapping[Op, str] = {Op.ADD: "+", Op.SUB: "-", Op.MUL: "*", Op.DIV: "/"}
 
 
 class Instruction(NamedTuple):
@@ -92,6 +86,11 @@ class Program:
         """How many sums, products, quotients, signs and function calls one evaluation takes."""
         return sum(step.op not in _GIVEN for step in self.instructions)
 
+    @property
+    def reads(self) -> frozenset[int]:
+        """Positions of the arguments that the outputs depend on."""
+        return frozenset(int(s.value or 0) for s in self.instructions if s.op is Op.ARG)
+
     def function(self, arithmetic: Arithmetic = FLOATS) -> Compiled:
         """A function of the arguments, by position, that returns the outputs as a tuple.
 
@@ -122,21 +121,17 @@ def _numbers(program: Program, arithmetic: Arithmetic) -> dict[str, Any]:
 
 
 def _code(program: Program) -> CodeType:
+    """The steps as Python; every name in it is made here, whatever the symbols are called."""
     slots = _Slots(program)
-    body: list[ast.stmt] = [
-        ast.Assign([ast.Name(slots.taken(i), ast.Store())], value)
-        for i, value in _steps(program, slots)
-    ]
-    results = [_operand(program, slots, i) for i in program.outputs]
-    body.append(ast.Return(ast.Tuple(results, ast.Load())))
-    arguments = [ast.arg(f"a{i}") for i in range(len(program.arguments))]
-    signature = ast.arguments([], arguments, None, [], [], None, [])
-    module = ast.Module([ast.FunctionDef("program", signature, body, [])], [])
-    compiled = compile(ast.fix_missing_locations(module), "<program>", "exec")
+    lines = [f"{slots.taken(i)} = {step}" for i, step in _steps(program, slots)]
+    results = "".join(f"{_operand(program, slots, i)}, " for i in program.outputs)
+    arguments = ", ".join(f"a{i}" for i in range(len(program.arguments)))
+    body = "\n ".join([*lines, f"return ({results})"])
+    compiled = compile(f"def program({arguments}):\n {body}", "<program>", "exec")
     return next(code for code in compiled.co_consts if isinstance(code, CodeType))
 
 
-def _steps(program: Program, slots: _Slots) -> Iterator[tuple[int, ast.expr]]:
+def _steps(program: Program, slots: _Slots) -> Iterator[tuple[int, str]]:
     for i, (op, operands, _) in enumerate(program.instructions):
         if op in _GIVEN:
             continue
@@ -145,26 +140,23 @@ def _steps(program: Program, slots: _Slots) -> Iterator[tuple[int, ast.expr]]:
         yield i, _applied(op, parts)
 
 
-def _applied(op: Op, parts: list[ast.expr]) -> ast.expr:
-    if op in _BINARY:
-        return ast.BinOp(parts[0], _BINARY[op], parts[1])
-    if op is Op.NEG:
-        return ast.UnaryOp(ast.USub(), parts[0])
-    return ast.Call(ast.Name(f"_{op.value}", ast.Load()), parts, [])
+def _applied(op: Op, parts: list[str]) -> str:
+    if op in _SIGNS:
+        return _SIGNS[op].join(parts)
+    return f"-{parts[0]}" if op is Op.NEG else f"_{op.value}({parts[0]})"
 
 
-def _operand(program: Program, slots: _Slots, i: int) -> ast.expr:
+def _operand(program: Program, slots: _Slots, i: int) -> str:
     op, _, position = program.instructions[i]
     match op:
         case Op.CONST:
-            name = f"c{i}"
+            return f"c{i}"
         case Op.PI:
-            name = "pi"
+            return "pi"
         case Op.ARG:
-            name = f"a{position}"
+            return f"a{position}"
         case _:
-            name = slots.name(i)
-    return ast.Name(name, ast.Load())
+            return slots.name(i)
 
 
 class _Slots:

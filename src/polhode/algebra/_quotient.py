@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from math import prod
+
 from polhode.algebra._expression import Expr
 from polhode.algebra._forms import traded
 from polhode.algebra._generators import Generator
+from polhode.algebra._half_angles import Lowest, lowest
 from polhode.algebra._ring import Polynomial, Ring
 
 Quotient = tuple[Polynomial, Polynomial]
@@ -15,11 +18,18 @@ def shortest_quotient(expression: Expr) -> Quotient:
     ring, best = expression.ring, (expression.num, expression.den)
     if expression.is_polynomial:
         return best
+    cancelled = lowest(expression)
+    if cancelled is not None:
+        best = _over_whole_numbers(cancelled)
     for rewrite in (_conjugated, _over_cosines):
         for generator in ring.generators:
             if generator.depth:
                 best = min(best, rewrite(ring, best, generator), key=_bulk)
     return best
+
+
+def _over_whole_numbers(fraction: Lowest) -> Quotient:
+    return _cancelled(fraction.num, prod(factor**e for factor, e in fraction.factors))
 
 
 def _bulk(quotient: Quotient) -> int:

@@ -50,8 +50,13 @@ def functions(names: str) -> tuple[Expr, ...]:
     return tuple(_named(name, Kind.FUNCTION) for name in names.split())
 
 
+def is_name(name: str) -> bool:
+    """Whether it is made of letters, digits and underscores as names are."""
+    return _NAME.fullmatch(name) is not None
+
+
 def _named(name: str, kind: Kind, positive: bool = False) -> Expr:
-    if not _NAME.fullmatch(name) or name == "t" or iskeyword(name):
+    if not is_name(name) or name == "t" or iskeyword(name):
         raise DeclarationError(
             f"the name {name!r}",
             expected="letters and digits with underscores, not t or a word of Python",

@@ -43,9 +43,10 @@ class Tape:
             del self._index[step]
         del self._steps[length:]
 
-    def constant(self, number: Fraction) -> Value:
+    def constant(self, number: Fraction | int) -> Value:
         """An exact number."""
-        return Value(self._record(Op.CONST, value=abs(number)), -1 if number < 0 else 1)
+        sign = -1 if number < 0 else 1
+        return Value(self._record(Op.CONST, value=number * sign), sign)
 
     def pi(self) -> Value:
         """The number π."""
@@ -87,7 +88,7 @@ class Tape:
         """a / b; `ZeroDivisionError` where b is the number zero."""
         divisor = self._number(b)
         if divisor is not None:
-            return self.multiply(a, self.constant(1 / divisor))
+            return self.multiply(a, self.constant(Fraction(1) / divisor))
         sign = a.sign * b.sign
         if self._number(a) == 0:
             return a
@@ -123,9 +124,11 @@ class Tape:
             tuple(places[i] for i in ends),
         )
 
-    def _number(self, value: Value) -> Fraction | None:
-        step = self._steps[value.step]
-        return Fraction(step.value or 0) * value.sign if step.op is Op.CONST else None
+    def _number(self, value: Value) -> Fraction | int | None:
+        op, _, number = self._steps[value.step]
+        if op is not Op.CONST or number is None:
+            return None
+        return number if value.sign > 0 else -number
 
     def _signed(self, value: Value) -> int:
         """A step whose result is the value with its sign."""
@@ -135,7 +138,7 @@ class Tape:
         if op is Op.SUB:
             return self._record(Op.SUB, operands[::-1])
         if op is Op.CONST:
-            return self._record(Op.CONST, value=-Fraction(number or 0))
+            return self._record(Op.CONST, value=-(number or 0))
         return self._record(Op.NEG, (value.step,))
 
     def _record(

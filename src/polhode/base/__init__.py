@@ -15,6 +15,7 @@ from polhode.base._errors import (
 )
 from polhode.base._files import write_whole
 from polhode.base._lookup import look_up
+from polhode.base._plain import Codec, Shape, digest
 from polhode.base._progress import Progress, SilentProgress, terminal_progress
 from polhode.base._quantity import Quantity, Value, read_quantity, to_si
 from polhode.base._schema import SCHEMA, Provenance, installed_version, provenance
@@ -27,6 +28,7 @@ __all__ = [
     "PURE",
     "SCHEMA",
     "TIME",
+    "Codec",
     "ConstraintError",
     "DeclarationError",
     "Dimension",
@@ -37,12 +39,14 @@ __all__ = [
     "Progress",
     "Provenance",
     "Quantity",
+    "Shape",
     "SilentProgress",
     "StoreError",
     "Unit",
     "UnitError",
     "Value",
     "cache",
+    "digest",
     "exit_code",
     "installed_version",
     "look_up",

@@ -75,16 +75,12 @@ def _dimensional(powers: Mapping[Generator, int]) -> _Term:
     """Powers of symbols in a monomial; a root counts as half of the first term under it."""
     found: dict[Symbol, Fraction] = {}
     dimension = PURE
-
-    def count(symbol: Symbol, power: Fraction) -> None:
-        nonlocal dimension
-        base = symbol.base()
-        found[base] = found.get(base, Fraction(0)) + power
-        dimension = dimension * TIME ** (symbol.order * power)
-
     for generator, power in powers.items():
         if isinstance(generator, Symbol):
-            count(generator, Fraction(power))
+            base = generator.base()
+            found[base] = found.get(base, Fraction(0)) + power
+            if generator.order:
+                dimension = dimension * TIME ** (generator.order * power)
         elif generator.depth and generator.partner() is None:
             inner = _dimensional(next(iter(generator.arguments[0].terms()))[0])
             for symbol, exponent in inner.powers.items():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import gcd, lcm
 
-from polhode.algebra import Expr, Kind, Symbol
+from polhode.algebra import Expr, Kind, Symbol, lowest_numerator
 
 
 def without_idle_factors(row: Expr) -> Expr:
@@ -12,7 +12,8 @@ def without_idle_factors(row: Expr) -> Expr:
 
     What is left vanishes wherever the sine does not, and by continuity there too.
     """
-    terms = list(row.numerator.terms())
+    numerator = lowest_numerator(row)
+    terms = list(numerator.terms())
     if not terms:
         return row
     shared = {
@@ -22,7 +23,7 @@ def without_idle_factors(row: Expr) -> Expr:
     }
     above = gcd(*(abs(c.numerator) for _, c in terms))
     below = lcm(*(c.denominator for _, c in terms))
-    result = row.numerator * below / above
+    result = numerator * below / above
     for generator, power in shared.items():
         result = result / Expr.generator(generator) ** power
     return result

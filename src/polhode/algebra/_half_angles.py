@@ -1,0 +1,166 @@
+"""Trigonometric fractions in lowest terms, by way of the tangent of half the angle.
+
+In normal form sin(θ - φ)/sin(θ + φ) has a denominator free of cosines, both multiplied by a sine
+that may be as small as it likes. In t = tan θ/2 every sine and cosine is rational, and what is
+common to both is an ordinary common factor.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+from polhode.algebra._expression import Expr
+from polhode.algebra._functions import CIRCULAR, Even
+from polhode.algebra._ring import Monomial, Polynomial, Ring
+
+#: Longer numerators take longer to divide than the digits are worth.
+_LONGEST = 3000
+
+Factors = list[tuple[Polynomial, int]]
+
+
+class Lowest(NamedTuple):
+    """A fraction with what is common to both taken out, its denominator as powers of factors."""
+
+    num: Polynomial
+    factors: Factors
+
+
+@lru_cache(maxsize=512)
+def lowest(expression: Expr) -> Lowest | None:
+    """A fraction with its trigonometric common factors cancelled; None where it has none."""
+    ring, num, den = expression.ring, expression.num, expression.den
+    angles = _angles_below(ring, den)
+    if not angles or len(num) > _LONGEST:
+        return None
+    degrees = {a: max(a.degree(num), a.degree(den)) for a in angles}
+    above, below = (_in_tangents(p, degrees) for p in (num, den))
+    common = above.gcd(below)
+    left = {a: 2 * degrees[a] - a.power(common) for a in angles}
+    if common.is_constant() or _odd(left):
+        return None
+    return _in_angles(above / common, below / common, left)
+
+
+def lowest_numerator(expression: Expr) -> Expr:
+    """The numerator of the fraction in lowest terms: zero where the expression is."""
+    cancelled = lowest(expression)
+    if cancelled is None:
+        return expression.numerator
+    return Expr(expression.ring, cancelled.num, expression.ring.one)
+
+
+def _in_angles(above: Polynomial, below: Polynomial, degrees: Degrees) -> Lowest | None:
+    """Back in sines and cosines, which takes even degrees; None where there are odd ones."""
+    number, parts = _by_multiplicity(below)
+    missing = {
+        angle: degree - sum(angle.power(part) * exponent for part, exponent in parts)
+        for angle, degree in degrees.items()
+    }
+    powers = [{angle: angle.power(part) for angle in degrees} for part, _ in parts]
+    if any(map(_odd, (missing, *powers))):
+        return None
+    factors = [(_back(p, own), e) for (p, e), own in zip(parts, powers, strict=True)]
+    factors += [(angle.cosine_squared, degree // 2) for angle, degree in missing.items() if degree]
+    return Lowest(_back(above, degrees) / number, factors)
+
+
+def _odd(degrees: Degrees) -> bool:
+    return any(degree % 2 for degree in degrees.values())
+
+
+def _by_multiplicity(polynomial: Polynomial) -> tuple[Any, Factors]:
+    """A number, and the products of all irreducible factors that occur equally often."""
+    number, factors = polynomial.factor()
+    products: dict[int, Polynomial] = {}
+    for factor, exponent in factors:
+        products[exponent] = products.get(exponent, 1) * factor
+    return number, [(product, exponent) for exponent, product in products.items()]
+
+
+@dataclass(frozen=True, eq=False)
+class _Angle:
+    """One angle: where its sine and cosine stand in the ring; its tangent stands for the sine."""
+
+    ring: Ring
+    sine: int
+    cosine: int
+
+    def degree(self, polynomial: Polynomial) -> int:
+        """Highest degree in sine and cosine together."""
+        return max((int(m[self.sine] + m[self.cosine]) for m in polynomial.monoms()), default=0)
+
+    def power(self, polynomial: Polynomial) -> int:
+        """Degree in the tangent."""
+        return int(polynomial.degrees()[self.sine])
+
+    @property
+    def cosine_squared(self) -> Polynomial:
+        """Of half the angle."""
+        return (1 + self.ring.context.gen(self.cosine)) / 2
+
+    @property
+    def sine_squared(self) -> Polynomial:
+        """Of half the angle."""
+        return (1 - self.ring.context.gen(self.cosine)) / 2
+
+    def in_tangent(self, polynomial: Polynomial, degree: int) -> Polynomial:
+        """Times (1 + t²)^degree, with sine 2t/(1 + t²) and cosine (1 - t²)/(1 + t²)."""
+        t = self.ring.context.gen(self.sine)
+        total = self.ring.zero
+        for (p, q), part in self._parts(polynomial).items():
+            rest = (1 - t**2) ** q * (1 + t**2) ** (degree - p - q)
+            total += part * (2 * t) ** p * rest
+        return total
+
+    def back(self, polynomial: Polynomial, degree: int) -> Polynomial:
+        """Times the power `degree`, which is even, of the cosine of half the angle."""
+        sine = self.ring.context.gen(self.sine)
+        total = self.ring.zero
+        for (power, _), part in self._parts(polynomial).items():
+            pairs, odd = divmod(power, 2)
+            rest = self.sine_squared**pairs * self.cosine_squared ** (degree // 2 - pairs - odd)
+            total += part * rest * (sine / 2) ** odd
+        return total
+
+    def _parts(self, polynomial: Polynomial) -> dict[tuple[int, int], Polynomial]:
+        """Coefficients of the powers of the two."""
+        parts: dict[tuple[int, int], dict[Monomial, Any]] = defaultdict(dict)
+        for monomial, coefficient in polynomial.to_dict().items():
+            rest = list(monomial)
+            p, q = rest[self.sine], rest[self.cosine]
+            rest[self.sine] = rest[self.cosine] = 0
+            parts[int(p), int(q)][tuple(rest)] = coefficient
+        return {key: self.ring.context.from_dict(part) for key, part in parts.items()}
+
+
+Degrees = dict[_Angle, int]
+
+
+def _angles_below(ring: Ring, den: Polynomial) -> list[_Angle]:
+    """The angles that share a sum in the denominator with anything else."""
+    if den.is_constant():
+        return []
+    sums = [factor for factor, _ in den.factor()[1] if len(factor) > 1]
+    angles = []
+    for generator in ring.generators:
+        if isinstance(generator, Even) and generator.family == CIRCULAR:
+            sine, cosine = ring.index[generator.partner()[0]], ring.index[generator]
+            if any(factor.degrees()[sine] > 0 for factor in sums):
+                angles.append(_Angle(ring, sine, cosine))
+    return angles
+
+
+def _in_tangents(polynomial: Polynomial, degrees: Degrees) -> Polynomial:
+    for angle, degree in degrees.items():
+        polynomial = angle.in_tangent(polynomial, degree)
+    return polynomial
+
+
+def _back(polynomial: Polynomial, degrees: Degrees) -> Polynomial:
+    for angle, degree in degrees.items():
+        polynomial = angle.back(polynomial, degree)
+    return next(iter(degrees)).ring.reduce(polynomial)

@@ -1,0 +1,196 @@
+"""Declarations as plain JSON: nothing in it can run, and each part is written once.
+
+A document is a list of parts. A part names its shape and its fields; a field is a number, a text,
+nothing, a list, or {"#": k}, which stands for the k-th part before it. So a reader needs no
+recursion, and what it makes is made by the constructors that a user would call.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, NoReturn, TypeVar
+
+from polhode.base._errors import PolhodeError, StoreError
+from polhode.base._schema import SCHEMA
+
+T = TypeVar("T")
+
+_MOST_TEXT = 32 * 1024**2
+_MOST_PARTS = 100_000
+_DEEPEST = 200  # parts that each hold the next
+_DEEPEST_LIST = 6
+_REFERENCE = "#"
+_FORMAT = "polhode declaration"
+
+_UNFIT = (
+    PolhodeError,
+    ArithmeticError,
+    AttributeError,
+    LookupError,
+    RecursionError,
+    TypeError,
+    ValueError,
+)
+"""What constructors may raise when they are given nonsense."""
+
+
+@dataclass(frozen=True)
+class Shape:
+    """How objects are taken apart and put together.
+
+    Attributes:
+        name: in documents.
+        kinds: the classes that are written so.
+        apart: fields of an object: numbers, texts, None, tuples, and objects that have a shape.
+        together: makes the object from those fields, and refuses what does not fit.
+    """
+
+    name: str
+    kinds: tuple[type, ...]
+    apart: Callable[[Any], Mapping[str, Any]]
+    together: Callable[..., Any]
+
+
+class Codec:
+    """Writes and reads objects of known shapes, and of no others."""
+
+    def __init__(self, shapes: Iterable[Shape]) -> None:
+        self._by_name = {shape.name: shape for shape in shapes}
+        self._by_kind = {kind: s for s in self._by_name.values() for kind in s.kinds}
+
+    def write(self, value: object) -> str:
+        """An object as a JSON document, the same one for the same object.
+
+        Raises:
+            StoreError: for an object of a class that is not known.
+        """
+        writer = _Writer(self._by_kind)
+        writer.reference(value)
+        parts = ",\n".join(writer.parts)
+        return f'{{"format": "{_FORMAT}", "schema": {SCHEMA}, "parts": [\n{parts}\n]}}\n'
+
+    def read(self, text: str, kind: type[T]) -> T:
+        """The object that a document stands for.
+
+        Raises:
+            StoreError: for a document that is damaged, of another schema, not of this kind, or
+                larger than any declaration.
+        """
+        made: list[Any] = []
+        depths: list[int] = []
+        for number, part in enumerate(_parts(text)):
+            reader = _Reader(made, depths)
+            try:
+                made.append(self._made(part, reader))
+            except _UNFIT as error:
+                raise _damaged(f"part {number}: {error}") from error
+            depths.append(reader.depth + 1)
+        if not made or not isinstance(made[-1], kind):
+            raise _damaged(f"no {kind.__name__} at its end")
+        return made[-1]
+
+    def _made(self, part: Any, reader: _Reader) -> Any:
+        if not isinstance(part, dict) or part.get("is") not in self._by_name:
+            raise ValueError("of a shape that is not known")
+        fields = {name: reader.value(field) for name, field in part.items() if name != "is"}
+        if reader.depth >= _DEEPEST:
+            raise ValueError("too many parts within one another")
+        return self._by_name[part["is"]].together(**fields)
+
+
+def digest(text: str) -> str:
+    """A short name for a document, different for different ones: SHA-256, hexadecimal."""
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+class _Writer:
+    def __init__(self, shapes: Mapping[type, Shape]) -> None:
+        self.parts: list[str] = []
+        self._shapes = shapes
+        self._known: dict[str, int] = {}
+        self._seen: dict[int, tuple[object, int]] = {}
+
+    def reference(self, value: object) -> dict[str, int]:
+        """Stands for an object, which is written where it has not been yet."""
+        if id(value) not in self._seen:
+            self._seen[id(value)] = (value, self._written(value))  # kept alive: ids are reused
+        return {_REFERENCE: self._seen[id(value)][1]}
+
+    def _written(self, value: object) -> int:
+        shape = self._shapes.get(type(value))
+        if shape is None:
+            raise StoreError(
+                f"a {type(value).__name__} in a declaration",
+                expected="the classes of polhode: others could not be read back",
+            )
+        fields = {name: self._field(field) for name, field in shape.apart(value).items()}
+        part = json.dumps({"is": shape.name, **fields})
+        if part not in self._known:
+            self._known[part] = len(self.parts)
+            self.parts.append(part)
+        return self._known[part]
+
+    def _field(self, value: object) -> object:
+        if value is None or isinstance(value, bool | int | str):
+            return value
+        if isinstance(value, tuple):
+            return [self._field(item) for item in value]
+        return self.reference(value)
+
+
+class _Reader:
+    """Reads the fields of one part, and how deep the parts below it go."""
+
+    def __init__(self, made: list[Any], depths: list[int]) -> None:
+        self.depth = 0
+        self._made = made
+        self._depths = depths
+
+    def value(self, field: Any, nested: int = 0) -> Any:
+        if nested > _DEEPEST_LIST:
+            raise ValueError("lists within lists within lists")
+        if isinstance(field, list):
+            return tuple(self.value(item, nested + 1) for item in field)
+        return self._part(field) if isinstance(field, dict) else field
+
+    def _part(self, field: dict[str, Any]) -> Any:
+        number = field.get(_REFERENCE)
+        if len(field) != 1 or type(number) is not int or not 0 <= number < len(self._made):
+            raise ValueError("a reference to no part before it")
+        self.depth = max(self.depth, self._depths[number])
+        return self._made[number]
+
+
+def _parts(text: str) -> list[Any]:
+    if len(text) > _MOST_TEXT:
+        raise _damaged(f"{len(text)} characters, more than any declaration has")
+    try:
+        document = json.loads(text, parse_float=_no_number, parse_constant=_no_number)
+    except (ValueError, RecursionError) as error:
+        raise _damaged(f"no JSON ({error})") from error
+    if not isinstance(document, dict) or document.get("format") != _FORMAT:
+        raise _damaged("another kind of document")
+    if document.get("schema") != SCHEMA:
+        raise StoreError(
+            f"a declaration of schema {document.get('schema')!r}",
+            expected=f"schema {SCHEMA}",
+            advice="read it with the version of polhode that wrote it",
+        )
+    parts = document.get("parts")
+    if not isinstance(parts, list) or len(parts) > _MOST_PARTS:
+        raise _damaged("no list of parts")
+    return parts
+
+
+def _no_number(text: str) -> NoReturn:
+    raise ValueError(f"{text[:20]}, where only whole numbers occur")
+
+
+def _damaged(what: str) -> StoreError:
+    return StoreError(
+        f"a declaration that cannot be read: {what[:300]}",
+        expected="one that polhode wrote, unchanged",
+    )

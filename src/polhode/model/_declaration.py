@@ -1,0 +1,154 @@
+"""Systems as documents, so that what was computed can be derived again from the file alone."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Mapping
+from dataclasses import fields
+from functools import cache
+from types import UnionType
+from typing import Any, Union, get_args, get_origin, get_type_hints
+
+from polhode.algebra import SHAPES, Expr, Vector
+from polhode.base import Codec, Shape
+from polhode.model import _contacts, _joints, _loads, _pivots, _spin, _supports, _surface
+from polhode.model._body import Body, BodyPoint
+from polhode.model._frame import Frame
+from polhode.model._system import System
+
+_DECLARED = (
+    BodyPoint,
+    _contacts.Coulomb,
+    _contacts.Rolling,
+    _contacts.Smooth,
+    _joints.Guide,
+    _joints.Hinge,
+    _joints.Motor,
+    _joints.Universal,
+    _loads.Damper,
+    _loads.Force,
+    _loads.Gravity,
+    _loads.Spring,
+    _loads.Torque,
+    _pivots.Hold,
+    _pivots.Pivot,
+    _pivots.Weld,
+    _spin.About,
+    _spin.Components,
+    _spin.Free,
+    _spin.Relative,
+    _spin.WithAxes,
+    _supports.Plane,
+    _supports.Sheet,
+    _supports.Turntable,
+    _surface.Ellipsoidal,
+    _surface.Face,
+    _surface.Rim,
+    _surface.Round,
+)
+
+
+def write_declaration(system: System) -> str:
+    """A system as a JSON document, the same one for the same declaration.
+
+    Raises:
+        StoreError: for a system with parts of classes that are not polhode's own.
+    """
+    return _codec().write(system)
+
+
+def read_declaration(text: str) -> System:
+    """The system that a document declares, made and checked as if it were declared anew.
+
+    Nothing in the document is run.
+
+    Raises:
+        StoreError: for a document that is damaged, or declares what cannot be.
+    """
+    return _codec().read(text, System)
+
+
+@cache
+def _codec() -> Codec:
+    own = (
+        Shape("Frame", (Frame,), _fields, _frame),
+        Shape("vector", (Vector,), _vector_apart, _vector),
+        Shape("Body", (Body,), _fields, _body),
+        Shape("System", (System,), _fields, _system),
+    )
+    return Codec((*SHAPES, *own, *(_shape(kind) for kind in _DECLARED)))
+
+
+def _shape(kind: type) -> Shape:
+    return Shape(kind.__name__, (kind,), _fields, lambda **given: _declared(kind, given))
+
+
+def _fields(value: Any) -> dict[str, Any]:
+    return {field.name: getattr(value, field.name) for field in fields(value)}
+
+
+def _declared(kind: type, given: Mapping[str, Any]) -> Any:
+    """An object by its constructor, refused unless that gives the fields that were asked for."""
+    words = {**given, "only": " ".join(given["only"])} if "only" in given else given
+    known = _words(kind)
+    return _confirmed(kind(**{name: words[name] for name in words if name in known}), given)
+
+
+@cache
+def _words(kind: type[Any]) -> frozenset[str]:
+    """What its constructor can be told by name; a weld passes on what a pivot can."""
+    kinds = (kind, _pivots.Pivot) if kind is _pivots.Weld else (kind,)
+    return frozenset(name for one in kinds for name in inspect.signature(one).parameters)
+
+
+def _confirmed(made: Any, given: Mapping[str, Any]) -> Any:
+    hints = get_type_hints(type(made))
+    if {field.name for field in fields(made)} != set(given):
+        raise ValueError(f"fields {', '.join(given)} of a {type(made).__name__}")
+    for name, value in given.items():
+        if not _fits(value, hints[name]) or getattr(made, name) != value:
+            raise ValueError(f"{name} of a {type(made).__name__}")
+    return made
+
+
+def _fits(value: Any, hint: Any) -> bool:
+    """Whether a value is of an annotated type: a class, a tuple, or one of several."""
+    among = get_args(hint)
+    if get_origin(hint) in (Union, UnionType):
+        return any(_fits(value, one) for one in among)
+    if get_origin(hint) is not tuple:
+        return isinstance(value, hint)
+    if not isinstance(value, tuple):
+        return False
+    wanted = among[:1] * len(value) if among[-1] is Ellipsis else among
+    return len(value) == len(wanted) and all(map(_fits, value, wanted))
+
+
+def _frame(**given: Any) -> Frame:
+    frame: Frame = _confirmed(Frame(**given), given)
+    if len(set(frame.labels)) != 3 or len(frame.labels) != 3 or len(frame.turned) != 3:
+        raise ValueError("a frame without three directions")
+    if len(frame.axis) != 3 or sum(part * part for part in frame.axis) != 1:
+        raise ValueError("a frame turned about no direction")
+    return frame
+
+
+def _vector_apart(vector: Vector) -> dict[str, Any]:
+    return {"components": vector.components, "frame": vector.triad}
+
+
+def _vector(components: tuple[Expr, ...], frame: Frame) -> Vector:
+    if not _fits(components, tuple[Expr, Expr, Expr]) or not isinstance(frame, Frame):
+        raise ValueError("a vector without three components along a frame")
+    return Vector(components, frame)
+
+
+def _body(**given: Any) -> Body:
+    named = {**given, "tag": given["tag"].removeprefix("_")}
+    return _confirmed(Body(**named), given)  # type: ignore[no-any-return]
+
+
+def _system(**given: Any) -> System:
+    parts = (*given["bodies"], *given["elements"], *given["loads"])
+    made = System(*parts, name=given["name"], independent=given["independent"])
+    return _confirmed(made, given)  # type: ignore[no-any-return]
