@@ -4,7 +4,8 @@ import pytest
 
 from polhode.algebra import as_symbol, compile_program, coordinates, cos, sin
 from polhode.simulate import Dynamics
-from polhode.simulate._flow import WORK, flow_of, period_in
+from polhode.simulate._dynamics import WORK
+from polhode.simulate._flow import flow_of, period_in
 from simulate.examples import four_bar, oscillator, pendulum, wheel
 
 (U,) = coordinates("u")

@@ -17,7 +17,7 @@ UNITS = {"m": 1, "l": 1, "g": 1}
 
 @pytest.fixture(scope="module")
 def run():
-    return simulate(pendulum(), UNITS, {"theta": 1.2}, 5, samples=11, mode="swinging")
+    return simulate(pendulum(), UNITS, {"theta": 1.2}, 5, samples=11)
 
 
 def test_quantities_are_read_by_name_symbol_and_expression(run):
@@ -40,10 +40,10 @@ def test_several_quantities_are_computed_together(run):
 def test_the_end_is_summed_up(run):
     assert run.final["theta"] == run["theta"][-1]
     assert set(run.final) == {"theta", "theta_dot", "N", "S", "energy", "mode"}
-    assert run.final["mode"] == "swinging"
+    assert run.final["mode"] == "as declared"
     assert [event.as_json() for event in run.events] == [
-        {"time": 0.0, "kind": "start", "from": None, "to": "swinging"},
-        {"time": 5.0, "kind": "end", "from": "swinging", "to": None},
+        {"time": 0.0, "kind": "start", "from": None, "to": "as declared"},
+        {"time": 5.0, "kind": "end", "from": "as declared", "to": None},
     ]
     assert set(run.seconds) == {"derive", "compile", "integrate"}
     json.dumps([run.final, run.drift.as_json(), dict(run.assumed), dict(run.seconds)])

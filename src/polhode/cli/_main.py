@@ -18,6 +18,8 @@ COMMANDS = {
     "run": "simulate a system",
     "steady": "steady motions of a system, and their stability",
     "invariants": "first integrals of a system",
+    "exact": "the closed form of a motion, beside its simulation",
+    "check": "judge a published equation against a system",
     "tour": "work through the whole catalogue and write a page of it",
     "cache": "the cache of compiled systems",
 }

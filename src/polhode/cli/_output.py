@@ -1,4 +1,4 @@
-"""The files of a run: a table of samples and a figure, each whole or not there."""
+"""The files of a run: a table of samples, a figure, a page, each whole or not there."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 from polhode.base import StoreError
 from polhode.catalogue import Entry
 from polhode.simulate import Trajectory
-from polhode.view import figure_of_run, origin_of, save_figure
+from polhode.view import figure_of_run, origin_of, page, save_figure
 
 
 def write_run(folder: Path, entry: Entry, trajectory: Trajectory) -> list[Path]:
@@ -28,6 +28,23 @@ def write_run(folder: Path, entry: Entry, trajectory: Trajectory) -> list[Path]:
         interrupt.add_note(f"kept {table}")
         raise
     return [table, picture]
+
+
+def write_page(path: Path, entry: Entry, trajectory: Trajectory) -> Path:
+    """Write a page that plays a run.
+
+    Raises:
+        StoreError: where the file cannot be written.
+    """
+    page(
+        trajectory,
+        path,
+        title=entry.title,
+        about=entry.about,
+        plots=entry.plots,
+        meanings={parameter.name: parameter.meaning for parameter in entry.parameters},
+    )
+    return path
 
 
 def _everything(trajectory: Trajectory) -> Sequence[Sequence[str]]:

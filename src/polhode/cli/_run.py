@@ -6,6 +6,7 @@ import time
 from argparse import Namespace
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -14,17 +15,22 @@ from polhode.algebra import Expr
 from polhode.analyse import Ansatz, invariants
 from polhode.base import NumericError, terminal_progress
 from polhode.catalogue import Entry, numbers_of
+from polhode.cli._contact_options import declared, sheet_of, watched_for
 from polhode.cli._document import print_document
 from polhode.cli._parser import Parser, assignments
 from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.cli._text import values, wrapped
-from polhode.derive import Equations, derive
-from polhode.simulate import Trajectory, simulate
+from polhode.derive import Equations, automaton
+from polhode.model import System
+from polhode.simulate import EquationsOfMotion, Trajectory, save, simulate
 
+_SHOWN = 12  # events in a line; a bouncing ball has hundreds
 _EXAMPLES = """examples:
   polhode run rolling-disk --duration 10s
   polhode run gyroscope --set M=0.4kg --start theta=pi/3 --start omega_1=1500rpm --duration 2s
   polhode run ball-on-paper --set 'X=sin(3*t)/20' --duration 6s --out results
+  polhode run rolling-disk --page disk.html
+  polhode run ball-on-paper --mu 0.2 --sheet pulled.csv --set edge=0.3m --events
 """
 
 
@@ -49,39 +55,61 @@ def configure(parser: Parser) -> None:
     )
     parser.add_argument("--duration", metavar="T", default="", help="such as 10s")
     parser.add_argument("--out", metavar="DIR", type=Path, help="write a table and a figure there")
+    parser.add_argument("--mu", metavar="MU", default="", help="kinetic friction at the contacts")
+    parser.add_argument("--mu-static", metavar="MU", default="", help="static friction there")
+    parser.add_argument(
+        "--sheet", metavar="FILE.csv", type=Path, help="move the sheet as in this table: t,x,y"
+    )
+    parser.add_argument(
+        "--events",
+        metavar="FORMULA",
+        action="append",
+        nargs="?",
+        const="",
+        default=[],
+        help="list all events; with a formula, also where it passes through zero",
+    )
+    parser.add_argument("--save", metavar="F", type=Path, help="keep the whole motion, F.h5")
+    parser.add_argument("--page", metavar="F", type=Path, help="write a page that plays it, F.html")
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 
 def run(options: Namespace) -> int:
     """Simulate one system and print the outcome."""
     entry = entry_of(options.name)
-    system = entry.build()
+    settings = assignments(options.settings)
     began = time.perf_counter()
-    equations = derive(system)
+    modes = automaton(declared(entry, options, settings))
+    equations = modes.together.equations
     seconds = time.perf_counter() - began
+    sheet = sheet_of(options, equations)
     numbers = numbers_of(
         entry,
         equations,
-        assignments(options.settings),
+        settings,
         assignments(options.start),
         options.duration,
     )
-    trajectory = simulate(
+    trajectory = _kept(
+        simulate(
+            modes,
+            numbers.parameters,
+            numbers.start,
+            numbers.duration,
+            forcing=dict[Any, Any](numbers.forcing) | sheet,
+            invariants=_watched(equations),
+            events=watched_for(options.events, equations),
+            progress=terminal_progress(),
+        ),
         equations,
-        numbers.parameters,
-        numbers.start,
-        numbers.duration,
-        forcing=numbers.forcing,
-        invariants=_watched(equations),
-        progress=terminal_progress(),
     )
     document = _document(entry, trajectory, numbers.start, seconds)
     _refuse_overflow(document["final"] | document["drift"])
-    files = _written(options.out, entry, trajectory) if options.out else []
+    files = _written(options, entry, modes.system, trajectory)
     if options.json:
         print_document(document | {"files": [str(path) for path in files]})
     else:
-        print("\n".join(_told(entry, document, files)))
+        print("\n".join(_told(entry, document, files, everything=bool(options.events))))
     return 0
 
 
@@ -93,10 +121,37 @@ def _watched(equations: Equations) -> dict[str, Expr]:
     return {}
 
 
-def _written(folder: Path, entry: Entry, trajectory: Trajectory) -> list[Path]:
-    from polhode.cli._output import write_run  # loads matplotlib, which a bare run can do without
+def _kept(trajectory: Trajectory, found_in: Equations) -> Trajectory:
+    """Watching only what no contact mode that was visited changes."""
+    visited = {id(s.dynamics): s.dynamics.equations for s in trajectory.segments}.values()
+    kept = {
+        name: expression
+        for name, expression in trajectory.invariants.items()
+        if all(mode is found_in or _is_constant(expression, mode) for mode in visited)
+    }
+    return replace(trajectory, invariants=kept)
 
-    return write_run(folder, entry, trajectory)
+
+def _is_constant(expression: Expr, equations: EquationsOfMotion) -> bool:
+    return isinstance(equations, Equations) and equations.rate(expression).is_zero
+
+
+def _written(
+    options: Namespace, entry: Entry, system: System, trajectory: Trajectory
+) -> list[Path]:
+    files = []
+    if options.save:
+        save(trajectory, system, options.save)
+        files.append(options.save)
+    if not (options.out or options.page):
+        return files
+    from polhode.cli._output import write_page, write_run  # a bare run can do without their load
+
+    if options.out:
+        files += write_run(options.out, entry, trajectory)
+    if options.page:
+        files.append(write_page(options.page, entry, trajectory))
+    return files
 
 
 def _document(
@@ -126,7 +181,9 @@ def _refuse_overflow(results: Mapping[str, Any]) -> None:
             )
 
 
-def _told(entry: Entry, document: Mapping[str, Any], files: Sequence[Path]) -> Iterator[str]:
+def _told(
+    entry: Entry, document: Mapping[str, Any], files: Sequence[Path], *, everything: bool
+) -> Iterator[str]:
     final = {name: value for name, value in document["final"].items() if name != "mode"}
     drift = document["drift"]
     drifts = {"energy": drift["energy"], "constraint": drift["constraint"], **drift["invariants"]}
@@ -136,7 +193,20 @@ def _told(entry: Entry, document: Mapping[str, Any], files: Sequence[Path]) -> I
     yield from wrapped("assumed", values(document["assumed"]))
     yield from wrapped("final", values(final))
     yield from wrapped("drift", [f"{name} {size:.1e}," for name, size in drifts.items()])
-    yield from wrapped("events", [f"{e['time']:g} s {e['kind']}," for e in document["events"]])
+    yield from _events(document["events"], everything)
     yield from wrapped("seconds", [f"{what} {s:.2f}," for what, s in document["seconds"].items()])
     if files:
         yield from wrapped("files", [str(path) for path in files])
+
+
+def _events(events: Sequence[Mapping[str, Any]], everything: bool) -> Iterator[str]:
+    """The first of them in a line, or all in a table."""
+    if everything:
+        yield "events"
+        for event in events:
+            modes = " to ".join(mode for mode in (event["from"], event["to"]) if mode)
+            yield f"  {event['time']:<22.15g} s  {event['kind']}: {modes}"
+        return
+    told = [f"{event['time']:g} s {event['kind']}," for event in events[:_SHOWN]]
+    rest = [f"and {len(events) - _SHOWN} more (--events)"] if len(events) > _SHOWN else []
+    yield from wrapped("events", told + rest)

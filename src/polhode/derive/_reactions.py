@@ -81,8 +81,11 @@ def lines(motion: Motion) -> tuple[Line, ...]:
 
 def friction_lean(motion: Motion, friction: Friction) -> Vector:
     """Friction per unit of normal force: -μ along the slip velocity."""
-    slip = motion.slip(friction.normal)
     (_, first), (_, second) = friction.directions
+    if friction.slip is not None:
+        along, across = friction.slip
+        return (first * along + second * across) * -friction.coefficient
+    slip = motion.slip(friction.normal)
     along, across = slip.dot(first), slip.dot(second)
     speed = (first * along + second * across).norm()
     if not speed:

@@ -2,10 +2,15 @@
 
 from polhode.model._body import Body as Body
 from polhode.model._body import BodyPoint as BodyPoint
+from polhode.model._changes import with_edge as with_edge
+from polhode.model._changes import with_elements as with_elements
+from polhode.model._changes import with_friction as with_friction
 from polhode.model._contacts import Contact as Contact
 from polhode.model._contacts import Coulomb as Coulomb
 from polhode.model._contacts import Rolling as Rolling
 from polhode.model._contacts import Smooth as Smooth
+from polhode.model._declaration import read_declaration as read_declaration
+from polhode.model._declaration import write_declaration as write_declaration
 from polhode.model._element import Element as Element
 from polhode.model._element import Friction as Friction
 from polhode.model._element import Places as Places
@@ -28,6 +33,14 @@ from polhode.model._loads import Load as Load
 from polhode.model._loads import Spring as Spring
 from polhode.model._loads import Torque as Torque
 from polhode.model._loads import Velocities as Velocities
+from polhode.model._phases import FLIGHT as FLIGHT
+from polhode.model._phases import FRICTIONLESS as FRICTIONLESS
+from polhode.model._phases import ROLLING as ROLLING
+from polhode.model._phases import SLIDING as SLIDING
+from polhode.model._phases import Apart as Apart
+from polhode.model._phases import Phase as Phase
+from polhode.model._phases import Sliding as Sliding
+from polhode.model._phases import phases as phases
 from polhode.model._pivots import Hold as Hold
 from polhode.model._pivots import Pivot as Pivot
 from polhode.model._pivots import Weld as Weld
@@ -48,6 +61,7 @@ from polhode.model._supports import Plane as Plane
 from polhode.model._supports import Sheet as Sheet
 from polhode.model._supports import Turntable as Turntable
 from polhode.model._surface import Ellipsoidal as Ellipsoidal
+from polhode.model._surface import Face as Face
 from polhode.model._surface import Rim as Rim
 from polhode.model._surface import Round as Round
 from polhode.model._surface import Surface as Surface

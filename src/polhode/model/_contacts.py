@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Self
 
-from polhode.algebra import Expr, ExprLike, Vector, coordinate, speed
+from polhode.algebra import ZERO, Expr, ExprLike, Vector, coordinate, exp, is_positive, speed
 from polhode.base import DeclarationError
 from polhode.model._body import Body
-from polhode.model._checks import not_negative, of_type
+from polhode.model._checks import not_negative, of_type, positive
 from polhode.model._element import Element, Friction, Places, Restraint
 from polhode.model._supports import Plane
 from polhode.model._surface import Surface
@@ -27,15 +29,24 @@ class Contact(Element):
         on: the support.
         name: what to call the contact; contact, with the tag of the body, by default.
         force: letter of the reaction's components: F_x, F_y, F_z.
+        restitution: part of the energy of compression that a shock gives back, as its square
+            root: 0 for none, 1 for all of it (Stronge's coefficient).
     """
 
     body: Body
     on: Plane
     name: str
     force: str
+    restitution: Expr
 
     def __init__(
-        self, body: Body, *, on: Plane | None = None, name: str = "", force: str = "F"
+        self,
+        body: Body,
+        *,
+        on: Plane | None = None,
+        name: str = "",
+        force: str = "F",
+        restitution: ExprLike = 0,
     ) -> None:
         of_type(body, Body, "what touches", "name the body first: Rolling(disk, on=Plane(lab))")
         called = name or f"contact{body.tag}"
@@ -45,7 +56,14 @@ class Contact(Element):
                 expected="a support: Plane, Turntable or Sheet",
                 advice="say on=Plane(lab)",
             )
-        for field, value in (("body", body), ("on", on), ("name", called), ("force", force)):
+        values = {
+            "body": body,
+            "on": on,
+            "name": called,
+            "force": force,
+            "restitution": restitution_of(restitution, called),
+        }
+        for field, value in values.items():
             object.__setattr__(self, field, value)
         self._surface()
 
@@ -61,6 +79,13 @@ class Contact(Element):
     @property
     def bodies(self) -> tuple[Body, ...]:
         return (self.body,)
+
+    def on_support(self, support: Plane) -> Self:
+        """The same contact on another support."""
+        moved = copy(self)
+        object.__setattr__(moved, "on", support)
+        moved.__dict__.pop("arm", None)
+        return moved
 
     @cached_property
     def arm(self) -> Vector:
@@ -91,15 +116,28 @@ class Contact(Element):
     def assumed_positive(self) -> tuple[Expr, ...]:
         return self._surface().assumed_positive(self.body.axes, self.on.up)
 
-    def _restraint(self, label: str, places: Places) -> Restraint:
+    def component(self, label: str) -> str:
+        """Name of the reaction's component along a direction of the support."""
+        return f"{self.force}_{label}{self.body.tag}"
+
+    def restraint(self, label: str, places: Places) -> Restraint:
+        """The point of contact kept to the support along one of its directions."""
         arm = self.arm
-        point = places[self.body] + arm
-        velocity = self.on.velocity(point)
-        name = f"{self.force}_{label}{self.body.tag}"
-        return Restraint(name, self.body, self.on.axes[label], velocity, arm)
+        velocity = self.on.velocity(places[self.body] + arm)
+        return Restraint(self.component(label), self.body, self.on.axes[label], velocity, arm)
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
-        return (self._restraint(self.on.normal, places),)
+        return (self.restraint(self.on.normal, places), *self._couples())
+
+    def _couples(self) -> tuple[Restraint, ...]:
+        """What a face on the support holds besides: the body's attitude."""
+        if not self._surface().is_face:
+            return ()
+        body, axes = self.body, self.on.axes
+        return tuple(
+            Restraint(f"C_{label}{body.tag}", body, axes[label], axes.angular_velocity)
+            for label in (*self.on.tangents, self.on.normal)
+        )
 
 
 class Rolling(Contact):
@@ -107,7 +145,7 @@ class Rolling(Contact):
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
         labels = (*self.on.tangents, self.on.normal)
-        return tuple(self._restraint(label, places) for label in labels)
+        return (*(self.restraint(label, places) for label in labels), *self._couples())
 
 
 class Smooth(Contact):
@@ -116,13 +154,23 @@ class Smooth(Contact):
 
 @dataclass(frozen=True, init=False)
 class Coulomb(Contact):
-    """Contact that slides, with friction μ times the normal force against the slip velocity.
+    """Contact with dry friction: it sticks up to a limit, and slides against a friction force.
+
+    Sliding, the friction is the normal force times a coefficient, against the slip velocity. The
+    coefficient may depend on the slip speed v: mu + viscous·v + (mu_static − mu) exp(−v/stribeck).
 
     Args:
         mu: coefficient of kinetic friction.
+        mu_static: of the largest friction force at rest; that of kinetic friction by default.
+        viscous: rise of the coefficient with the slip speed, s/m.
+        stribeck: slip speed over which friction falls from static to kinetic, m/s; at once by
+            default.
     """
 
     mu: Expr
+    mu_static: Expr
+    viscous: Expr
+    stribeck: Expr | None
 
     def __init__(
         self,
@@ -130,21 +178,57 @@ class Coulomb(Contact):
         *,
         on: Plane | None = None,
         mu: ExprLike,
+        mu_static: ExprLike | None = None,
+        viscous: ExprLike = 0,
+        stribeck: ExprLike | None = None,
         name: str = "",
         force: str = "F",
+        restitution: ExprLike = 0,
     ) -> None:
-        super().__init__(body, on=on, name=name, force=force)
+        super().__init__(body, on=on, name=name, force=force, restitution=restitution)
         what = f"friction coefficient of contact {self.name!r}"
-        object.__setattr__(self, "mu", not_negative(mu, what))
+        kinetic = not_negative(mu, what)
+        static = kinetic if mu_static is None else not_negative(mu_static, f"static {what}")
+        if is_positive(kinetic - static):
+            raise DeclarationError(
+                f"mu = {kinetic} above mu_static = {static} at contact {self.name!r}",
+                expected="a static coefficient no smaller than the kinetic one",
+            )
+        slow = None if stribeck is None else positive(stribeck, f"Stribeck speed of {self.name!r}")
+        rise = not_negative(viscous, f"viscous part of the {what}")
+        values = {"mu": kinetic, "mu_static": static, "viscous": rise, "stribeck": slow}
+        for field, value in values.items():
+            object.__setattr__(self, field, value)
+
+    def coefficient(self, slip: Expr, slowness: Expr) -> Expr:
+        """Friction over normal force while it slides.
+
+        Args:
+            slip: speed, m/s.
+            slowness: exp(−slip/stribeck), what is left of the static friction.
+        """
+        return self.mu + self.viscous * slip + (self.mu_static - self.mu) * slowness
+
+    def slowness(self, slip: Expr) -> Expr:
+        """Part of the difference of static and kinetic friction that is felt at a slip speed."""
+        return ZERO if self.stribeck is None else exp(-slip / self.stribeck)
+
+    def directions(self) -> tuple[tuple[str, Vector], tuple[str, Vector]]:
+        """Unit vectors along the support, with the names of the friction components."""
+        first, second = ((self.component(label), self.on.axes[label]) for label in self.on.tangents)
+        return first, second
 
     def friction(self, places: Places) -> tuple[Friction, ...]:
-        first, second = self.on.tangents
-        directions = tuple(
-            (f"{self.force}_{label}{self.body.tag}", self.on.axes[label])
-            for label in (first, second)
-        )
-        normal = self._restraint(self.on.normal, places)
-        return (Friction(normal, self.mu, (directions[0], directions[1])),)
+        return (Friction(self.restraint(self.on.normal, places), self.mu, self.directions()),)
+
+
+def restitution_of(value: ExprLike, contact: str) -> Expr:
+    """A coefficient of restitution, refused where it is outside [0, 1]."""
+    what = f"restitution of contact {contact!r}"
+    checked = not_negative(value, what)
+    if is_positive(checked - 1):
+        raise DeclarationError(f"{what}: {checked}", expected="a number from 0 to 1")
+    return checked
 
 
 def _described(support: object) -> str:

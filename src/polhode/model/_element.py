@@ -54,11 +54,13 @@ class Friction:
         normal: the restraint whose reaction presses the surfaces together.
         coefficient: kinetic friction coefficient.
         directions: two unit vectors in the plane of contact, with the names of the components.
+        slip: components of the unit vector along the slip; that of the slip velocity if None.
     """
 
     normal: Restraint
     coefficient: Expr
     directions: tuple[tuple[str, Vector], tuple[str, Vector]]
+    slip: tuple[Expr, Expr] | None = None
 
 
 class Element(ABC):

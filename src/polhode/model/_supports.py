@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, ExprLike, Vector
@@ -55,6 +56,15 @@ class Plane:
         """Angular velocity of the surface about its normal, relative to its frame, rad/s."""
         return ZERO
 
+    @property
+    def beyond(self) -> Plane | None:
+        """What lies beyond its edge, if it has one."""
+        return None
+
+    def reserve(self, point: Vector) -> Expr:
+        """How far a place, given from the origin, is on this side of the edge, m."""
+        return ZERO
+
     def velocity(self, point: Vector) -> Vector:
         """Velocity in inertial space of the surface at a point given from the origin, m/s."""
         spin = self.up * self.turning
@@ -93,10 +103,13 @@ class Sheet(Plane):
         motion: place (X, Y) of the sheet's own origin along the two directions in the plane, m:
             functions of time.
         angle: angle by which the sheet has turned about its origin, rad.
+        edge: where the sheet ends along the first direction, measured from its own origin, m;
+            beyond lies a table at rest.
     """
 
     motion: tuple[Expr, Expr]
     angle: Expr
+    edge: Expr | None
 
     def __init__(
         self,
@@ -104,10 +117,13 @@ class Sheet(Plane):
         *,
         motion: tuple[ExprLike, ExprLike] = (0, 0),
         angle: ExprLike = 0,
+        edge: ExprLike | None = None,
         normal: str = "z",
         tilt: ExprLike = 0,
     ) -> None:
         super().__init__(axes, normal=normal, tilt=tilt)
+        ends = None if edge is None else quantity(edge, "edge of the sheet")
+        object.__setattr__(self, "edge", ends)
         moved = tuple(quantity(place, "motion of the sheet") for place in motion)
         if len(moved) != 2:
             raise DeclarationError(
@@ -123,6 +139,20 @@ class Sheet(Plane):
     @property
     def origin(self) -> Vector:
         return self._in_plane(*self.motion)
+
+    def ending(self, edge: ExprLike) -> Sheet:
+        """The same sheet, cut off at an edge (m)."""
+        cut = copy(self)
+        object.__setattr__(cut, "edge", quantity(edge, "edge of the sheet"))
+        return cut
+
+    @property
+    def beyond(self) -> Plane | None:
+        return None if self.edge is None else Plane(self.axes, normal=self.normal)
+
+    def reserve(self, point: Vector) -> Expr:
+        along = self.axes[self.tangents[0]]
+        return ZERO if self.edge is None else self.edge - (point - self.origin).dot(along)
 
     @property
     def drift(self) -> Vector:

@@ -13,6 +13,11 @@ from polhode.model._frame import Frame
 class Surface(ABC):
     """A convex surface fixed to a body's axes, or symmetric about the axis it spins on."""
 
+    @property
+    def is_face(self) -> bool:
+        """Whether it lies on a support with a whole face, which keeps the body from tilting."""
+        return False
+
     @abstractmethod
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
         """From the centre of mass to the point that touches a plane with this unit normal, m."""
@@ -93,3 +98,26 @@ class Ellipsoidal(Surface):
         support = sum((s * n for s, n in zip(stretched, upright, strict=True)), ZERO)
         height = principal_root(support)
         return Vector(tuple(-s / height for s in stretched), axes)
+
+
+@dataclass(frozen=True)
+class Face(Surface):
+    """A flat face that stays on the support: the body slides but neither tilts nor turns.
+
+    `height` is that of the centre of mass above the face.
+    """
+
+    height: Expr
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "height", not_negative(self.height, "height above the face"))
+
+    @property
+    def is_face(self) -> bool:
+        return True
+
+    def lowest(self, axes: Frame, normal: Vector) -> Vector:
+        return normal * -self.height
+
+    def is_symmetric(self, axes: Frame, axis: int) -> bool:
+        return False

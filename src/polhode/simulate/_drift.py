@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
 from polhode.algebra import Expr
-from polhode.simulate._dynamics import Dynamics
+from polhode.simulate._dynamics import WORK
 from polhode.simulate._integrators import Array
+from polhode.simulate._segment import Segment
+
+_MOST_CHECKED = 20_000  # instants of a segment that are looked at
 
 
 @dataclass(frozen=True)
@@ -38,37 +41,62 @@ class Drift:
         }
 
 
-class Sampled(Protocol):
-    """What is asked of a trajectory at chosen times."""
+def drift_of(segments: Sequence[Segment], invariants: Mapping[str, Expr], samples: Array) -> Drift:
+    """The drift over the steps of the integrator and the samples.
 
-    def __call__(self, expressions: list[Expr]) -> Array:
-        """Values of expressions, shape (expressions, times)."""
-        ...
-
-
-def drift_of(
-    dynamics: Dynamics, invariants: Mapping[str, Expr], work: Array, sampled: Sampled
-) -> Drift:
-    """The drift over the times of the samples, the first of which is the start."""
-    closures = sampled(list(dynamics.equations.closures))
+    The energy is compared with the work done from the start through all contact modes.
+    """
+    looks = [_Look(segment, _instants(segment, samples)) for segment in segments]
     return Drift(
-        energy=_energy(dynamics, work, sampled),
-        constraint=float(np.max(np.abs(closures), initial=0.0)),
-        invariants={name: _constancy(e, sampled) for name, e in invariants.items()},
+        energy=_energy(looks),
+        constraint=max(look.gap() for look in looks),
+        invariants={name: _constancy(e, looks) for name, e in invariants.items()},
     )
 
 
-def _energy(dynamics: Dynamics, work: Array, sampled: Sampled) -> float:
-    energy = dynamics.equations.energy
-    at_rest = energy.subs(dict.fromkeys(dynamics.equations.speeds, 0))
-    total, potential = sampled([energy, at_rest])
-    scale = np.max(np.abs(total - potential) + np.abs(potential) + np.abs(work))
-    return _relative(np.max(np.abs(total - total[0] - work)), scale)
+def _instants(segment: Segment, samples: Array) -> Array:
+    steps = segment.steps
+    picked = steps[:: len(steps) // _MOST_CHECKED + 1]
+    inside = samples[(samples >= segment.begin) & (samples < segment.end)]
+    # Just before its end: at the end itself the next mode has begun.
+    return np.unique(np.concatenate([[segment.begin], picked, inside, [segment.end]]))
 
 
-def _constancy(invariant: Expr, sampled: Sampled) -> float:
-    (values,) = sampled([invariant])
-    scale = np.max(np.sum(np.abs(sampled(_terms(invariant))), axis=0), initial=0.0)
+@dataclass(frozen=True)
+class _Look:
+    """A segment at chosen instants."""
+
+    segment: Segment
+    times: Array
+
+    def values(self, expressions: list[Expr]) -> Array:
+        return self.segment.values(expressions, self.times)
+
+    def gap(self) -> float:
+        closures = list(self.segment.dynamics.equations.closures)
+        return float(np.max(np.abs(self.values(closures)), initial=0.0)) if closures else 0.0
+
+
+def _energy(looks: Sequence[_Look]) -> float:
+    found = [_energies(look) for look in looks]
+    total, potential, work = (np.concatenate(part) for part in zip(*found, strict=True))
+    done = work - work[0]
+    scale = np.max(np.abs(total - potential) + np.abs(potential) + np.abs(done))
+    return _relative(np.max(np.abs(total - total[0] - done)), scale)
+
+
+def _energies(look: _Look) -> tuple[Array, Array, Array]:
+    """Energy, potential energy and work done."""
+    equations = look.segment.dynamics.equations
+    at_rest = equations.energy.subs(dict.fromkeys(equations.speeds, 0))
+    total, potential, work = look.values([equations.energy, at_rest, Expr.generator(WORK)])
+    return total, potential, work
+
+
+def _constancy(invariant: Expr, looks: Sequence[_Look]) -> float:
+    values = np.concatenate([look.values([invariant])[0] for look in looks])
+    sizes = [np.sum(np.abs(look.values(_terms(invariant))), axis=0) for look in looks]
+    scale = max(float(np.max(size, initial=0.0)) for size in sizes)
     return _relative(np.max(np.abs(values - values[0])), scale)
 
 

@@ -1,9 +1,10 @@
-"""Drives an integrator from start to end, and puts its legs together."""
+"""Drives an integrator over a stretch of time, and puts its legs together."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from enum import Enum
 from typing import TypeAlias
 
 import numpy as np
@@ -11,8 +12,9 @@ from numpy.typing import NDArray
 
 from polhode.algebra import Symbol, arrays
 from polhode.base import NumericError, Progress
+from polhode.simulate._crossing import bisected
 from polhode.simulate._flow import Flow, Stage
-from polhode.simulate._integrators import Array, Leg, Stepper
+from polhode.simulate._integrators import Array, Leg, Stepper, broken
 from polhode.simulate._quadrature import Integral, integral
 
 _TURNS = 16  # periods after which an angle is counted from zero again
@@ -22,20 +24,50 @@ _SMALLEST = 1e-14  # length of a step, relative to the whole, that means a singu
 States: TypeAlias = Callable[[Array], Array]
 
 
+class Stop(Enum):
+    """Why an integration came to its end."""
+
+    TIME = "the end was reached"
+    PAUSE = "enough steps to look at"
+    VANISHED = "a vector that was watched vanished or turned round"
+    STUCK = "the motion cannot be continued"
+
+
+@dataclass(frozen=True)
+class Watched:
+    """What to look at while integrating.
+
+    Attributes:
+        pause: steps after which to stop for a look.
+        vectors: places in the core of vectors that stop the integration where they vanish.
+        least: length, m/s, at which such a vector has vanished.
+        passing: the same at an instant at which it turns round, or where steps become too short.
+    """
+
+    pause: int = _MOST_STEPS
+    vectors: tuple[tuple[int, ...], ...] = ()
+    least: float = 0.0
+    passing: float = 0.0
+
+
 @dataclass(frozen=True)
 class Solution:
-    """All states at every instant.
+    """All states at every instant of a stretch of time.
 
     Attributes:
         symbols: the states, in the order of the rows of `at`.
         turned: of large angles: the symbol of the angle less whole turns.
         steps: where the steps of the integrator begin and end, s.
+        stop: why it ends where it does.
+        vanished: which of the vectors watched vanishes at its end.
     """
 
     symbols: tuple[Symbol, ...]
     turned: Mapping[Symbol, Symbol]
     steps: Array
-    _at: States
+    stop: Stop
+    vanished: int | None
+    _at: States = field(repr=False)
 
     def at(self, times: Array) -> Array:
         """States, shape (states, times)."""
@@ -47,27 +79,57 @@ def integrate(
     stepper: Stepper,
     parameters: Array,
     start: Array,
-    duration: float,
+    span: tuple[float, float],
     progress: Progress,
+    watched: Watched | None = None,
 ) -> Solution:
-    """Integrate a flow over [0, duration].
+    """Integrate a flow over a span of time, or as far as it goes.
 
     Args:
         start: of all states, in the order of the flow.
+        watched: what may stop it early.
 
     Raises:
-        NumericError: where the motion cannot be continued.
+        NumericError: where the motion cannot even begin.
     """
     size = len(flow.core.symbols)
-    path = _legs(flow, stepper, parameters, start[:size], duration, progress)
+    watched = watched or Watched()
+    path = _legs(flow, stepper, parameters, start[:size], span, progress, watched)
     steps = np.unique(np.concatenate([leg.times for leg in path.legs]))
+    vanished = None
+    if path.stop is Stop.VANISHED:
+        end, vanished = _vanishing(path, watched, (float(steps[-2]), float(steps[-1])))
+        steps = np.append(steps[:-1], end)
     at: States = path.at
     known = size
     for stage in flow.stages:
         own = start[known : known + len(stage.symbols)]
         at = _with_stage(at, _rates(flow, stage, parameters), own, steps)
         known += len(stage.symbols)
-    return Solution(flow.symbols, flow.turned, steps, at)
+    return Solution(flow.symbols, flow.turned, steps, path.stop, vanished, at)
+
+
+def _vanishing(
+    path: _Path, watched: Watched, step: tuple[float, float]
+) -> tuple[float, int | None]:
+    """When a vector vanishes within the last step, and which; its end if it only turned round."""
+    for k, places in enumerate(watched.vectors):
+        rows = list(places)
+        start = path.at(np.array(step[:1]))[rows, 0]
+
+        def vector(time: float, rows: list[int] = rows) -> Array:
+            return path.at(np.array([time]))[rows, 0]
+
+        def along(time: float, start: Array = start) -> float:
+            return float(start @ vector(time))
+
+        if along(step[1]) <= 0:
+            time = bisected(along, *step)
+            if np.hypot(*vector(time)) <= watched.passing:
+                return time, k
+        elif np.hypot(*vector(step[1])) <= watched.passing:
+            return step[1], k
+    return step[1], None
 
 
 @dataclass(frozen=True)
@@ -81,6 +143,7 @@ class _Path:
     begins: Array
     turned: Array
     periodic: NDArray[np.bool_]
+    stop: Stop
 
     def at(self, times: Array) -> Array:
         which = np.clip(np.searchsorted(self.begins, times, "right") - 1, 0, None)
@@ -96,16 +159,18 @@ def _legs(
     stepper: Stepper,
     parameters: Array,
     state: Array,
-    duration: float,
+    span: tuple[float, float],
     progress: Progress,
+    watched: Watched,
 ) -> _Path:
     """Angles that have grown far are counted from zero again: their rounding would spread."""
+    now, end = span
     periods = np.array([period or np.inf for period in flow.periods])
-    watch = _Watch(_TURNS * periods, duration, progress)
+    watch = _Watch(state, _TURNS * periods, _SMALLEST * (end - now), progress, watched)
     legs, begins, turned = list[Leg](), list[float](), list[Array]()
-    now, offset = 0.0, np.zeros(len(state))
-    while now < duration:
-        leg = stepper.leg(parameters, now, state, duration, watch)
+    offset = np.zeros(len(state))
+    while now < end and watch.stop is None:
+        leg = stepper.leg(parameters, now, state, end, watch)
         legs.append(leg)
         begins.append(now)
         turned.append(offset)
@@ -113,36 +178,65 @@ def _legs(
         state = leg.at(leg.times[-1:])[:, 0]
         whole = np.round(state / periods) * np.where(np.isfinite(periods), periods, 0.0)
         state, offset = state - whole, offset + whole
-    return _Path(legs, np.array(begins), np.array(turned), np.isfinite(periods))
+        if leg.broken:
+            watch.stop = Stop.STUCK
+    stop = watch.stop or Stop.TIME
+    return _Path(legs, np.array(begins), np.array(turned), np.isfinite(periods), stop)
 
 
 class _Watch:
-    """Stops a leg when an angle has grown far; refuses to go on for ever."""
+    """Stops a leg when an angle has grown far, and all of them when there is reason to look."""
 
-    def __init__(self, limits: Array, duration: float, progress: Progress) -> None:
+    def __init__(
+        self, state: Array, limits: Array, least: float, progress: Progress, watched: Watched
+    ) -> None:
+        self.stop: Stop | None = None
         self._limits = limits
-        self._least = _SMALLEST * duration
+        self._least = least
         self._progress = progress
+        self._watched = watched
         self._steps = 0
-        self._before = -np.inf
+        self._time = -np.inf
+        self._vectors = [state[list(places)] for places in watched.vectors]
 
     def __call__(self, time: float, state: Array) -> bool:
         self._steps += 1
         self._progress.advance()
         if self._steps > _MOST_STEPS:
-            raise _endless(time, f"{_MOST_STEPS} steps are not enough to go")
-        if time - self._before < self._least:
-            raise _endless(time, "the steps become too short to go")
-        self._before = time
-        return bool(np.all(np.abs(state) < self._limits))
+            raise endless(time)
+        vanished = [self._vanishes(k, state) for k in range(len(self._vectors))]
+        if any(vanished):
+            self.stop = Stop.VANISHED
+        elif time - self._time < self._least:
+            self.stop = Stop.VANISHED if self._is_small(state) else Stop.STUCK
+        elif self._steps % self._watched.pause == 0:
+            self.stop = Stop.PAUSE
+        self._time = time
+        return self.stop is None and bool(np.all(np.abs(state) < self._limits))
+
+    def _is_small(self, state: Array) -> bool:
+        vectors = (state[list(places)] for places in self._watched.vectors)
+        return any(float(np.hypot(*vector)) <= self._watched.passing for vector in vectors)
+
+    def _vanishes(self, k: int, state: Array) -> bool:
+        before, now = self._vectors[k], state[list(self._watched.vectors[k])]
+        self._vectors[k] = now
+        turned = float(before @ now) <= 0.0
+        return turned or float(np.hypot(*now)) <= self._watched.least
 
 
-def _endless(time: float, why: str) -> NumericError:
+def endless(time: float) -> NumericError:
+    """The motion takes more steps than can be kept."""
     return NumericError(
-        f"{why} beyond t = {time:.9g} s",
+        f"{_MOST_STEPS} steps are not enough to go beyond t = {time:.9g} s",
         expected="a motion without singular positions, over a duration that can be kept in memory",
         advice="end before that time, or start elsewhere",
     )
+
+
+def stuck(solution: Solution) -> NumericError:
+    """The motion cannot be continued beyond the end of a solution."""
+    return broken(float(solution.steps[-1]))
 
 
 def _with_stage(

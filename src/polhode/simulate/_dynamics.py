@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any, Protocol
 
 from polhode.algebra import (
+    ZERO,
     Compiled,
     Expr,
     Kind,
@@ -59,6 +60,8 @@ class EquationsOfMotion(Protocol):
 
 
 CLOCK = time.symbol or Symbol("t", Kind.TIME)
+#: Stands for the work done by everything that is not in the potential, J.
+WORK = Symbol("work done", Kind.COORDINATE)
 
 
 def constants(expressions: Iterable[Expr]) -> Iterator[Symbol]:
@@ -77,16 +80,23 @@ class Dynamics:
         equations: exact equations of motion.
         prescribed: every prescribed function as an expression of time.
         idle: parameters of the declaration that dropped out of the equations but have values.
+        carried: quantities that are integrated although they follow from the others, with their
+            rates: near zero they would drown in the rounding of what they follow from.
+        meanings: what other symbols of the equations stand for.
+        lifted: coordinates and speeds of other modes that follow from those of this one.
     """
 
     equations: EquationsOfMotion
     prescribed: Mapping[Symbol, Expr]
     idle: tuple[Symbol, ...] = ()
+    carried: Mapping[Symbol, Expr] = field(default_factory=dict)
+    meanings: Mapping[Symbol, Expr] = field(default_factory=dict)
+    lifted: Mapping[Symbol, Expr] = field(default_factory=dict)
 
     @cached_property
     def states(self) -> tuple[Symbol, ...]:
-        """Coordinates, then independent speeds."""
-        return (*self.equations.coordinates, *self.equations.speeds)
+        """Coordinates, independent speeds, and what is carried besides."""
+        return (*self.equations.coordinates, *self.equations.speeds, *self.carried)
 
     @cached_property
     def parameters(self) -> tuple[Symbol, ...]:
@@ -102,7 +112,12 @@ class Dynamics:
     @cached_property
     def rates(self) -> tuple[Expr, ...]:
         """Time derivatives of the states."""
-        return tuple(Expr.generator(symbol.derivative()) for symbol in self.states)
+        equations = self.equations
+        own = (*equations.coordinates, *equations.speeds)
+        return (
+            *(Expr.generator(symbol.derivative()) for symbol in own),
+            *self.carried.values(),
+        )
 
     @cached_property
     def accelerations(self) -> LinearSolve:
@@ -119,15 +134,34 @@ class Dynamics:
         """Steps that compute expressions in any symbol of the system."""
         return compile_program(expressions, arguments, self.meaning, (self.accelerations,), turned)
 
-    def function(self, expressions: Iterable[Expr]) -> Compiled:
-        """Expressions as a function of NumPy arrays of the `arguments`."""
-        return self.program(expressions, self.arguments).function(arrays())
+    def function(
+        self,
+        expressions: Iterable[Expr],
+        arguments: tuple[Symbol, ...] | None = None,
+        turned: Mapping[Symbol, Symbol] = MappingProxyType({}),
+    ) -> Compiled:
+        """Expressions as a function of NumPy arrays: of the `arguments`, or of others.
+
+        The same one is made only once.
+        """
+        key = (tuple(expressions), arguments or self.arguments, tuple(turned.items()))
+        if key not in self._made:
+            wanted, given, _ = key
+            self._made[key] = self.program(wanted, given, turned).function(arrays())
+        return self._made[key]
+
+    @cached_property
+    def _made(self) -> dict[Any, Compiled]:
+        return {}
 
     def meaning(self, symbol: Symbol) -> Expr | None:
         """What a symbol that is neither state, parameter nor acceleration stands for."""
-        for table in (self.equations.kinematics, self.equations.dependent, self.prescribed):
+        equations = self.equations
+        for table in (equations.kinematics, equations.dependent, self.prescribed, self.meanings):
             if symbol in table:
                 return table[symbol]
+        if symbol == WORK:
+            return ZERO
         if symbol.kind is Kind.FUNCTION and not symbol.order:
             raise DeclarationError(
                 f"the motion {symbol.published}(t) is not given",

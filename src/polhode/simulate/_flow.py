@@ -12,10 +12,7 @@ from fractions import Fraction
 from math import lcm, pi
 
 from polhode.algebra import Expr, Kind, Op, Program, Symbol
-from polhode.simulate._dynamics import CLOCK, Dynamics
-
-#: Stands for the work done by everything that is not in the potential, J.
-WORK = Symbol("work done", Kind.COORDINATE)
+from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
 
 
 @dataclass(frozen=True)
@@ -67,7 +64,7 @@ class Flow:
 def flow_of(dynamics: Dynamics, *, reduced: bool) -> Flow:
     """The flow of all states and of the work done; `reduced` to the smallest core or whole."""
     rates = dict(zip(dynamics.states, dynamics.rates, strict=True))
-    if dynamics.equations.power:
+    if dynamics.equations.power or not rates:
         rates[WORK] = dynamics.equations.power
     peeled = list(_peeled(_influences(dynamics, rates))) if reduced else []
     layers = tuple(reversed(peeled))

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 
 from polhode.algebra import Arithmetic
-from polhode.base import NumericError, StoreError, cache
+from polhode.base import StoreError, cache
 from polhode.simulate._flow import Flow
-from polhode.simulate._integrators import Array, Leg, Stepper, Watch
+from polhode.simulate._integrators import Array, Leg, Stepper, Watch, broken
 
 _importing = Lock()
 
@@ -58,20 +58,20 @@ class _TaylorStepper:
         taylor.state[:] = state
         taylor.pars[:] = parameters[: len(taylor.pars)]
         outcome, *_, output, _ = taylor.propagate_until(
-            end, c_output=True, callback=lambda t: watch(t.time, t.state)
+            end,
+            max_delta_t=end - begin,  # where all series end the step would be infinite
+            c_output=True,
+            callback=lambda t: watch(t.time, t.state),
         )
-        if outcome.name not in ("time_limit", "cb_stop") or output is None:
-            raise NumericError(
-                f"the motion cannot be continued beyond t = {taylor.time:.9g} s",
-                expected="finite accelerations",
-                advice="it runs into a singular position there: end before, or start elsewhere",
-            )
-        return _TaylorLeg(output)
+        if output is None:
+            raise broken(taylor.time)
+        return _TaylorLeg(output, outcome.name not in ("time_limit", "cb_stop"))
 
 
 @dataclass(frozen=True)
 class _TaylorLeg:
     output: Any
+    broken: bool
 
     @property
     def times(self) -> Array:

@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.base import DeclarationError
+from polhode.base import DeclarationError, NumericError
 from polhode.simulate._flow import Flow
 
 Array = NDArray[np.float64]
@@ -30,6 +30,11 @@ class Leg(Protocol):
     """A solution over a stretch of time, known at every instant of it."""
 
     @property
+    def broken(self) -> bool:
+        """Whether it cannot be continued: an acceleration is not finite."""
+        ...
+
+    @property
     def times(self) -> Array:
         """Where its steps begin and end, s."""
         ...
@@ -43,10 +48,10 @@ class Stepper(Protocol):
     """A compiled flow, ready to be integrated from any state with any parameters."""
 
     def leg(self, parameters: Array, begin: float, state: Array, end: float, watch: Watch) -> Leg:
-        """Integrate the core from `begin` to `end`, or until `watch` says no.
+        """Integrate the core from `begin` to `end`, until `watch` says no, or as far as it goes.
 
         Raises:
-            NumericError: where the motion cannot be continued.
+            NumericError: where the motion cannot even begin.
         """
         ...
 
@@ -87,3 +92,12 @@ def chosen() -> Integrator:
     from polhode.simulate._scipy import DormandPrince
 
     return DormandPrince()
+
+
+def broken(time: float) -> NumericError:
+    """The motion cannot be continued."""
+    return NumericError(
+        f"the motion cannot be continued beyond t = {time:.9g} s",
+        expected="finite accelerations",
+        advice="it runs into a singular position there: end before, or start elsewhere",
+    )

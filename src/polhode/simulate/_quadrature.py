@@ -20,6 +20,7 @@ _ANALYSIS = (
 _CONVERGED = 1e-14  # last coefficients, relative to the largest value anywhere
 _NOISE = 1e-8  # last coefficients below this that no longer fall are rounding
 _FALLING = 0.25  # what is left of them when a piece that is not yet resolved is halved
+_SHORTEST = 1e-11  # length of a piece over the time: the digits of shorter ones are rounding
 _MOST = 100_000  # new pieces at a time; nothing smooth needs more
 
 
@@ -54,9 +55,7 @@ def integral(function: Callable[[Array], Array], knots: Array) -> Integral:
         function: values at some times, shape (functions, times).
         knots: first guess of pieces on which 16 nodes may do, s.
     """
-    left, right, coefficients = _resolved(function, knots)
-    order = np.argsort(left)
-    left, right, coefficients = left[order], right[order], coefficients[:, order]
+    left, right, coefficients = resolved(function, knots)
     halves = (right - left) / 2
     series = _antiderivatives(coefficients) * halves[None, :, None]
     pieces = 2 * halves * coefficients[:, :, 0]
@@ -65,8 +64,8 @@ def integral(function: Callable[[Array], Array], knots: Array) -> Integral:
     return Integral(np.append(left, right[-1:]), np.hstack([start, totals]), series)
 
 
-def _resolved(function: Callable[[Array], Array], knots: Array) -> tuple[Array, Array, Array]:
-    """Pieces on which the Legendre coefficients have died out, and the coefficients."""
+def resolved(function: Callable[[Array], Array], knots: Array) -> tuple[Array, Array, Array]:
+    """Pieces on which the Legendre coefficients have died out, in order, and the coefficients."""
     left, right = knots[:-1], knots[1:]
     before = np.full(len(left), np.inf)
     done: list[tuple[Array, Array, Array]] = []
@@ -78,13 +77,15 @@ def _resolved(function: Callable[[Array], Array], knots: Array) -> tuple[Array, 
         tails = np.abs(coefficients[:, :, -2:]) / np.where(scale > 0, scale, 1.0)
         tail = np.max(tails, axis=(0, 2), initial=0.0)
         rough = (tail > _CONVERGED) & ((tail > _NOISE) | (tail < _FALLING * before))
-        rough &= np.sum(rough) < _MOST
+        rough &= (right - left > _SHORTEST * np.abs(right)) & (np.sum(rough) < _MOST)
         done.append((left[~rough], right[~rough], coefficients[:, ~rough]))
         middle = (left[rough] + right[rough]) / 2
         left, right = np.append(left[rough], middle), np.append(middle, right[rough])
         before = np.tile(tail[rough], 2)
-    lefts, rights, parts = zip(*done, strict=True)
-    return np.concatenate(lefts), np.concatenate(rights), np.concatenate(parts, axis=1)
+    lefts, rights, parts = (list(column) for column in zip(*done, strict=True))
+    left, right = np.concatenate(lefts), np.concatenate(rights)
+    order = np.argsort(left)
+    return left[order], right[order], np.concatenate(parts, axis=1)[:, order]
 
 
 def _coefficients(function: Callable[[Array], Array], left: Array, right: Array) -> Array:

@@ -9,9 +9,8 @@ import numpy as np
 from scipy.integrate import DOP853, OdeSolution
 
 from polhode.algebra import Compiled
-from polhode.base import NumericError
 from polhode.simulate._flow import Flow
-from polhode.simulate._integrators import Array, Leg, Stepper, Watch
+from polhode.simulate._integrators import Array, Leg, Stepper, Watch, broken
 
 _TIGHTEST = 1e-13  # relative; below it rounding rules the choice of steps
 _ABSOLUTE = 1e-15
@@ -48,20 +47,19 @@ class _RungeKuttaStepper:
         while method.status == "running" and going:
             method.step()
             if method.status == "failed" or not np.all(np.isfinite(method.y)):
-                raise NumericError(
-                    f"the motion cannot be continued beyond t = {method.t:.9g} s",
-                    expected="finite accelerations",
-                    advice="it runs into a singular position there: end before, or start elsewhere",
-                )
+                break
             times.append(method.t)
             pieces.append(method.dense_output())
             going = watch(method.t, method.y)
-        return _RungeKuttaLeg(OdeSolution(times, pieces))
+        if not pieces:
+            raise broken(begin)
+        return _RungeKuttaLeg(OdeSolution(times, pieces), going and times[-1] < end)
 
 
 @dataclass(frozen=True)
 class _RungeKuttaLeg:
     solution: Any
+    broken: bool
 
     @property
     def times(self) -> Array:

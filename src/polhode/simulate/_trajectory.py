@@ -3,28 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from polhode.algebra import ZERO, Expr, Symbol, arrays
+from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError, look_up
 from polhode.simulate._csv import write_csv
 from polhode.simulate._drift import Drift, drift_of
-from polhode.simulate._driver import Solution
-from polhode.simulate._dynamics import CLOCK, Dynamics, EquationsOfMotion
-from polhode.simulate._flow import WORK
+from polhode.simulate._dynamics import Dynamics, EquationsOfMotion
 from polhode.simulate._integrators import Array
-
-_MOST_CHECKED = 20_000  # instants at which the drift is looked at
+from polhode.simulate._readable import readable
+from polhode.simulate._segment import Segment
 
 
 @dataclass(frozen=True)
 class Event:
-    """A change of contact mode, or the start or end of the motion (then one mode is None)."""
+    """A change of contact mode, or the start or end of the motion (then one mode is None).
+
+    Attributes:
+        time: s.
+        kind: what happened: start, slips, sticks, lifts off, touches down, bounces, goes flat, end,
+            or the name of an event that was asked for.
+        before: name of the mode up to then.
+        after: name of the mode from then on.
+    """
 
     time: float
     kind: str
@@ -43,20 +49,22 @@ class Trajectory:
     Quantities are read by published name (`run["theta"]`, `run["F_z"]`, `run["energy"]`) or as
     any expression in symbols of the system. All are in SI units.
 
+    At an instant at which the mode changes, the values are those just after it.
+
     Attributes:
-        dynamics: the equations of motion and prescribed functions behind it.
+        segments: one per contact mode that was visited, in order.
         parameters: value of every parameter by name.
-        duration: s.
+        duration: s; less than was asked for where the motion could not go on.
         t: times of the samples, s.
-        mode: name of the contact mode.
-        events: start and end.
+        mode: name of the contact mode it ends in.
+        events: start, changes of contact mode, events asked for, end.
         assumed: start values that were not given, by name.
         seconds: time spent to derive, compile and integrate.
         integrator: what integrated it.
         invariants: expressions that the motion should keep constant, watched by `drift`.
     """
 
-    dynamics: Dynamics
+    segments: tuple[Segment, ...]
     parameters: Mapping[str, float]
     duration: float
     t: Array
@@ -66,31 +74,35 @@ class Trajectory:
     seconds: Mapping[str, float]
     integrator: str
     invariants: Mapping[str, Expr]
-    _solution: Solution = field(repr=False)
+
+    @property
+    def dynamics(self) -> Dynamics:
+        """The equations of the first mode and the prescribed functions."""
+        return self.segments[0].dynamics
 
     @property
     def equations(self) -> EquationsOfMotion:
-        """The equations of motion."""
+        """The equations of motion of the first mode."""
         return self.dynamics.equations
 
     @cached_property
     def quantities(self) -> dict[str, Expr]:
-        """Everything that can be read by name.
+        """Everything that can be read by name, as it is in the first mode.
 
         "power" is that of all that is not in the potential, "work" what it did since the start.
         """
-        equations = self.equations
-        rates = (*equations.speeds, *equations.kinematics, *equations.dependent)
-        moving = (*equations.coordinates, *rates, *(rate.derivative() for rate in rates))
-        symbols = (CLOCK, *moving, *self.dynamics.parameters, *equations.functions)
-        return {
-            **{symbol.published: Expr.generator(symbol) for symbol in symbols},
-            **equations.components,
-            "energy": equations.energy,
-            "power": equations.power,
-            "work": Expr.generator(WORK) if WORK in self._solution.symbols else ZERO,
-            **self.invariants,
-        }
+        return self._readable[0]
+
+    @cached_property
+    def _readable(self) -> list[dict[str, Expr]]:
+        """By segment."""
+        known: dict[int, dict[str, Expr]] = {}
+        for segment in self.segments:
+            if id(segment.dynamics) not in known:
+                known[id(segment.dynamics)] = readable(segment.dynamics, self.invariants)
+        tables = [known[id(segment.dynamics)] for segment in self.segments]
+        names = {name: None for table in tables for name in table}
+        return [{name: table.get(name, _NOTHING) for name in names} for table in tables]
 
     def at(self, t: float | Array) -> dict[str, Array]:
         """Coordinates, speeds and rates at one or more times, by name; shaped like `t`."""
@@ -103,24 +115,30 @@ class Trajectory:
     def evaluate(self, quantity: str | Symbol | Expr, t: float | Array | None = None) -> Array:
         """A quantity, by name or as an expression, at some times (the samples); shaped like them.
 
+        A reaction of a contact that is open is zero.
+
         Raises:
             DeclarationError: for a name or symbol that the system does not have.
             NumericError: for a time outside the motion, or an undetermined reaction.
         """
         times = self.t if t is None else self._times(t)
-        return np.asarray(self._values([self._expression(quantity)], times)[0])
+        return np.asarray(self._values([quantity], times)[0])
 
     def table(self, names: Iterable[str], t: float | Array | None = None) -> dict[str, Array]:
         """Several quantities by name, computed together."""
         times, names = self.t if t is None else self._times(t), list(names)
-        values = self._values([self._expression(name) for name in names], times)
-        return dict(zip(names, values, strict=True))
+        return dict(zip(names, self._values(names, times), strict=True))
 
     @property
     def reactions(self) -> tuple[str, ...]:
-        """Names of the reaction components that Newton's laws determine."""
-        loose = self.equations.undetermined
-        return tuple(name for name in self.equations.components if name not in loose)
+        """Names of the reaction components that Newton's laws determine, of all modes."""
+        found: dict[str, None] = {}
+        for segment in self.segments:
+            equations = segment.dynamics.equations
+            found |= dict.fromkeys(
+                n for n in equations.components if n not in equations.undetermined
+            )
+        return tuple(found)
 
     @cached_property
     def final(self) -> dict[str, Any]:
@@ -132,15 +150,7 @@ class Trajectory:
     @cached_property
     def drift(self) -> Drift:
         """Largest drift of energy, constraints and invariants over the steps and samples."""
-        steps = self._solution.steps
-        picked = steps[:: len(steps) // _MOST_CHECKED + 1]
-        times = np.unique(np.concatenate([[0.0], picked, self.t, [self.duration]]))
-        return drift_of(
-            self.dynamics,
-            self.invariants,
-            self.evaluate("work", times),
-            lambda expressions: self._values(expressions, times),
-        )
+        return drift_of(self.segments, self.invariants, self.t)
 
     def to_csv(self, path: str | Path, names: Iterable[str] | None = None) -> None:
         """Write the samples: by default coordinates, speeds, rates, reactions and energy.
@@ -163,22 +173,27 @@ class Trajectory:
 
     @cached_property
     def _states(self) -> tuple[str, ...]:
-        equations = self.equations
-        symbols = (*self.dynamics.states, *equations.kinematics, *equations.dependent)
-        return tuple(dict.fromkeys(symbol.published for symbol in symbols))
+        """Coordinates, speeds and rates, of all modes."""
+        found: dict[str, None] = {}
+        for segment in self.segments:
+            equations = segment.dynamics.equations
+            own = (*equations.coordinates, *equations.speeds)
+            for symbol in (*own, *equations.kinematics, *equations.dependent):
+                found.setdefault(symbol.published)
+        return tuple(found)
 
-    def _expression(self, quantity: str | Symbol | Expr) -> Expr:
+    def _expression(self, quantity: str | Symbol | Expr, segment: int) -> Expr:
         if isinstance(quantity, Symbol):
-            return Expr.generator(quantity)
+            return self._readable[segment].get(quantity.published, Expr.generator(quantity))
         if not isinstance(quantity, str):
             return Expr.of(quantity)
-        if quantity in self.equations.undetermined:
+        if quantity in self.segments[segment].dynamics.equations.undetermined:
             raise NumericError(
                 f"the reaction {quantity} is not determined by Newton's laws",
                 expected=f"one of {', '.join(self.reactions)}",
                 advice="evaluate equations.least[...] for the choice of least forces",
             )
-        return look_up(quantity, self.quantities, "quantity of this system")
+        return look_up(quantity, self._readable[segment], "quantity of this system")
 
     def _times(self, t: float | Array) -> Array:
         times = np.asarray(t, dtype=float)
@@ -189,11 +204,18 @@ class Trajectory:
             )
         return times
 
-    def _values(self, expressions: Iterable[Expr], times: Array) -> Array:
-        """Values of expressions, shape (expressions, *shape of times)."""
-        arguments = (*self._solution.symbols, *self.dynamics.parameters, CLOCK)
-        program = self.dynamics.program(expressions, arguments, self._solution.turned)
-        states = self._solution.at(times.ravel()).reshape(-1, *times.shape)
-        with np.errstate(all="ignore"):
-            values = program.function(arrays())(*states, *self.parameters.values(), times)
-        return np.array([np.broadcast_to(value, times.shape) for value in values])
+    def _values(self, quantities: Iterable[str | Symbol | Expr], times: Array) -> Array:
+        """Values of quantities, shape (quantities, *shape of times)."""
+        wanted, flat = list(quantities), times.ravel()
+        begins = np.array([segment.begin for segment in self.segments])
+        which = np.clip(np.searchsorted(begins, flat, "right") - 1, 0, None)
+        found = np.empty((len(wanted), len(flat)))
+        for i in np.unique(which):
+            here = which == i
+            expressions = [self._expression(quantity, int(i)) for quantity in wanted]
+            found[:, here] = self.segments[i].values(expressions, flat[here])
+        return found.reshape(len(wanted), *times.shape)
+
+
+#: What a quantity is in a mode that does not have it, such as the force of an open contact.
+_NOTHING = Expr.of(0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import suppress
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -63,15 +64,17 @@ def _dimension(symbol: Symbol, dimensions: Mapping[Symbol, Dimension]) -> Dimens
     return None if base is None else base / TIME**symbol.order
 
 
-def read_parameters(dynamics: Dynamics, given: Mapping[Name, Any]) -> dict[Symbol, float]:
-    """The value of every parameter.
+def read_parameters(
+    dynamics: Dynamics, given: Mapping[Name, Any], supplied: Numbers = MappingProxyType({})
+) -> dict[Symbol, float]:
+    """The value of every parameter; those `supplied` by prescribed motions are not asked for.
 
     Raises:
         DeclarationError: for a name that is not known, a parameter without a value, or values
             that no body can have.
         UnitError: for a value that cannot be read or has the wrong dimension.
     """
-    wanted = dynamics.parameters
+    wanted = [symbol for symbol in dynamics.parameters if symbol not in supplied]
     dimensions = getattr(dynamics.equations, "dimensions", {})
     values = read_values(given, by_name(wanted), "parameter", dimensions, {})
     missing = [symbol.published for symbol in wanted if symbol not in values]

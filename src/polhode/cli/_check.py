@@ -1,0 +1,112 @@
+"""Check a published equation against the exact model of a system."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from collections.abc import Iterator
+from typing import Any
+
+from polhode.claims import Answer, Correction, Verdict, check
+from polhode.cli._document import print_document, printed
+from polhode.cli._parser import Parser
+from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.derive import derive
+
+_CODES = {Answer.FAILS: 1, Answer.UNREAD: 2}
+
+
+def configure(parser: Parser) -> None:
+    """Add the options of the command."""
+    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
+    parser.add_argument("latex", metavar="LATEX", help="the equation, as printed")
+    parser.add_argument(
+        "--context",
+        default="motion",
+        metavar="C",
+        help="identity, motion, steady, threshold, limit, launch or number",
+    )
+    for option, example in (
+        ("--let", "a new symbol: --let 'epsilon = theta - pi/2'"),
+        ("--given", "a restriction: --given 'theta = pi/2'"),
+        ("--small", "a small quantity and the order kept: --small epsilon:1"),
+    ):
+        parser.add_argument(option, action="append", default=[], help=example)
+    parser.add_argument("--json", action="store_true", help="print one JSON document")
+
+
+def run(options: Namespace) -> int:
+    """Judge one equation and print the verdict; 0 where it holds, 1 where it fails, 2 unread."""
+    equations = derive(entry_of(options.name).build())
+    verdict = check(
+        options.latex,
+        equations,
+        context=options.context,
+        let=options.let,
+        given=options.given,
+        small=options.small,
+    )
+    if options.json:
+        print_document(_document(verdict))
+    else:
+        print("\n".join(_told(verdict)))
+    return _CODES.get(verdict.answer, 0)
+
+
+def _document(verdict: Verdict) -> dict[str, Any]:
+    return {
+        "verdict": verdict.answer.value,
+        "context": verdict.context,
+        "correction": _corrected(verdict.correction),
+        "alternatives": [_corrected(other) for other in verdict.alternatives],
+        "counterexample": _counterexample(verdict),
+        "confirmation": _confirmation(verdict),
+        "order": verdict.order,
+        "dropped": None if verdict.dropped is None else printed(verdict.dropped),
+        "residual": [
+            {"member": r.member + 1, "component": r.component, **printed(r.expression)}
+            for r in verdict.residuals
+        ],
+        "reason": verdict.reason,
+        "remarks": list(verdict.remarks),
+    }
+
+
+def _corrected(correction: Correction | None) -> dict[str, str] | None:
+    return None if correction is None else {"what": correction.what, "latex": correction.latex}
+
+
+def _counterexample(verdict: Verdict) -> dict[str, Any] | None:
+    found = verdict.counterexample
+    if found is None:
+        return None
+    return {"values": dict(found.values), "left": str(found.left), "right": str(found.right)}
+
+
+def _confirmation(verdict: Verdict) -> dict[str, Any] | None:
+    found = verdict.confirmation
+    if found is None:
+        return None
+    return {"left": found.left, "right": found.right, "agrees": found.agrees}
+
+
+def _told(verdict: Verdict) -> Iterator[str]:
+    yield verdict.answer.value
+    if verdict.reason:
+        yield f"  {verdict.reason}"
+    if verdict.correction is not None:
+        yield f"  {verdict.correction.what}; it holds as"
+        yield f"    {verdict.correction.latex}"
+    for other in verdict.alternatives:
+        yield f"  or, {other.what}: {other.latex}"
+    for residual in verdict.residuals:
+        yield f"  left less right, {residual}"
+    if (found := verdict.counterexample) is not None:
+        state = ", ".join(f"{name} = {value}" for name, value in found.values.items())
+        yield f"  for example at {state}:"
+        yield f"    left {found.left}, right {found.right}"
+    if (second := verdict.confirmation) is not None:
+        said = "the same" if second.agrees else "otherwise"
+        yield f"  numeric Newton-Euler says {said}: {second.left:.9g} and {second.right:.9g}"
+    if verdict.dropped is not None:
+        yield f"  left out: {verdict.dropped}"
+    yield from (f"  {remark}" for remark in verdict.remarks)

@@ -1,0 +1,60 @@
+"""Friction, sheets, edges and events as they are asked for on the command line."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from collections.abc import Sequence
+
+from polhode.algebra import Expr, read_expression
+from polhode.base import LENGTH, PURE, DeclarationError, Dimension, to_si
+from polhode.catalogue import Entry
+from polhode.derive import Equations
+from polhode.model import Contact, System, with_edge, with_friction
+from polhode.simulate import Pieces, read_sheet
+
+
+def declared(entry: Entry, options: Namespace, settings: dict[str, str]) -> System:
+    """The catalogue's declaration with the friction and the edge that were asked for."""
+    system = entry.build()
+    if "edge" in settings and any(isinstance(e, Contact) for e in system.elements):
+        system = with_edge(system, _number(settings.pop("edge"), LENGTH))
+    if options.mu_static and not options.mu:
+        raise DeclarationError(
+            "--mu-static without --mu",
+            expected="the coefficient of kinetic friction too",
+            advice="say --mu 0.2 --mu-static 0.25",
+        )
+    if not options.mu:
+        return system
+    static = _number(options.mu_static, PURE) if options.mu_static else None
+    return with_friction(system, _number(options.mu, PURE), static)
+
+
+def _number(text: str, dimension: Dimension) -> float:
+    return to_si(text, dimension, "value")
+
+
+def sheet_of(options: Namespace, equations: Equations) -> dict[str, Pieces]:
+    """The motion of the sheet, from a file."""
+    if options.sheet is None:
+        return {}
+    names = [symbol.published for symbol in equations.functions]
+    if len(names) != 3 or "X" not in names or "Y" not in names:
+        raise DeclarationError(
+            f"a sheet for {equations.system.name!r}",
+            expected="a system whose sheet is moved by X, Y and an angle, such as ball-on-paper",
+        )
+    (angle,) = (name for name in names if name not in ("X", "Y"))
+    path = read_sheet(options.sheet)
+    return {"X": path.X, "Y": path.Y, angle: path.angle}
+
+
+def watched_for(texts: Sequence[str], equations: Equations) -> dict[str, Expr]:
+    """Expressions whose zeros are to be recorded."""
+    known = {
+        s.published: Expr.generator(s)
+        for s in (*equations.coordinates, *equations.speeds, *equations.dependent)
+    }
+    known |= {s.published: Expr.generator(s) for s in equations.kinematics}
+    known |= {s.published: Expr.generator(s) for s in equations.parameters}
+    return {text: read_expression(text, known) for text in texts if text}

@@ -1,0 +1,230 @@
+"""Contact modes: the equations of each, and how a motion is handed from one to another."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import product
+
+from polhode.algebra import Expr, Kind, Symbol, variables
+from polhode.base import DeclarationError, look_up
+from polhode.derive._derive import derive
+from polhode.derive._equations import Equations
+from polhode.derive._guards import Guard, guards_of
+from polhode.model import (
+    FLIGHT,
+    Apart,
+    Contact,
+    Coulomb,
+    Element,
+    Phase,
+    System,
+    phases,
+    with_elements,
+)
+
+#: The phase of every contact, in the order of the declaration.
+Phases = tuple[Phase, ...]
+
+
+@dataclass(frozen=True)
+class Touch:
+    """Where a body and a support are, or would be, in contact; along the axes of the support.
+
+    Attributes:
+        contact: as declared.
+        reserve: how far the place is on this side of the support's edge, m.
+        gap: height of the lowest point of the body above the support, m.
+        closing: its rate, m/s.
+        slip: velocity of that point along the support, m/s.
+    """
+
+    contact: Contact
+    reserve: Expr
+    gap: Expr
+    closing: Expr
+    slip: tuple[Expr, Expr]
+
+    @property
+    def expressions(self) -> tuple[Expr, ...]:
+        """All of it."""
+        return (self.reserve, self.gap, self.closing, *self.slip)
+
+
+@dataclass(frozen=True)
+class Mode:
+    """One contact mode.
+
+    Attributes:
+        name: rolling, sliding, frictionless, flight; with several contacts that of each.
+        phases: of every contact.
+        equations: exact, on the speeds that the mode leaves independent.
+        touches: what is known of every contact, in terms of this mode's coordinates and speeds.
+        guards: what must stay positive while the mode lasts.
+        lifted: coordinates and speeds of the mode in which nothing touches, in terms of this
+            one's.
+    """
+
+    name: str
+    phases: Phases
+    equations: Equations
+    touches: tuple[Touch, ...]
+    guards: tuple[Guard, ...]
+    lifted: Mapping[Symbol, Expr]
+
+    def phase(self, contact: Contact) -> Phase:
+        """What a contact is doing."""
+        place = [touch.contact.name for touch in self.touches].index(contact.name)
+        return self.phases[place]
+
+    def element(self, contact: Contact) -> Element:
+        """What stands for a contact in this mode."""
+        return self.equations.system.element(contact.name)
+
+
+@dataclass(frozen=True)
+class Automaton:
+    """All contact modes of a system; each is derived when it is first asked for.
+
+    Coordinates, speeds and reactions have the same names in every mode.
+    """
+
+    system: System
+    _known: dict[Phases, Mode] = field(default_factory=dict, repr=False, compare=False)
+
+    @cached_property
+    def contacts(self) -> tuple[Contact, ...]:
+        """The contacts, as declared."""
+        return tuple(e for e in self.system.elements if isinstance(e, Contact))
+
+    @cached_property
+    def options(self) -> tuple[Mapping[Phase, Element], ...]:
+        """For every contact the phases it can be in."""
+        return tuple(phases(contact) for contact in self.contacts)
+
+    @cached_property
+    def apart(self) -> Mode:
+        """The mode in which nothing touches; joints still hold."""
+        return self.mode((FLIGHT,) * len(self.contacts))
+
+    @cached_property
+    def beyond(self) -> Mode:
+        """The same, seen from beyond the edges of the supports that have one."""
+        return self._derived(tuple(FLIGHT.beyond() for _ in self.contacts))
+
+    @cached_property
+    def together(self) -> Mode:
+        """The mode in which everything touches, and sticks where it can."""
+        return self.mode(tuple(next(iter(option)) for option in self.options))
+
+    @cached_property
+    def parameters(self) -> tuple[Symbol, ...]:
+        """All constants of the declaration that any mode needs."""
+        modes = (self.together, self.apart)
+        own = [s for mode in modes for s in mode.equations.parameters]
+        shapes = [e for mode in modes for touch in mode.touches for e in touch.expressions]
+        used = variables([*shapes, *self._coefficients()])
+        found = [s for s in used if s.kind is Kind.PARAMETER and s.name != "pi"]
+        return tuple(sorted({*own, *found}, key=lambda s: s.published))
+
+    @cached_property
+    def functions(self) -> tuple[Symbol, ...]:
+        """Prescribed functions of time that any mode needs."""
+        modes = (self.together, self.apart)
+        own = [s for mode in modes for s in mode.equations.functions]
+        moving = [e for mode in modes for touch in mode.touches for e in touch.expressions]
+        used = (s.base() for s in variables(moving) if s.kind is Kind.FUNCTION)
+        return tuple(sorted({*own, *used}, key=lambda s: s.published))
+
+    def _coefficients(self) -> Iterator[Expr]:
+        for contact in self.contacts:
+            yield contact.restitution
+            if isinstance(contact, Coulomb):
+                yield from (contact.mu, contact.mu_static, contact.viscous)
+                yield from () if contact.stribeck is None else (contact.stribeck,)
+
+    def mode(self, chosen: Phases) -> Mode:
+        """The mode with these phases of the contacts.
+
+        Raises:
+            DeclarationError: for a phase that a contact cannot be in.
+        """
+        if chosen not in self._known:
+            self._known[chosen] = self._derived(chosen)
+        return self._known[chosen]
+
+    def named(self, name: str) -> Phases:
+        """The phases of the mode with a name.
+
+        Raises:
+            DeclarationError: for a name that no mode has.
+        """
+        known = {self._name(chosen): chosen for chosen in product(*self.options)}
+        return look_up(name, known, "contact mode of this system")
+
+    def _derived(self, chosen: Phases) -> Mode:
+        elements = {}
+        for contact, option, wanted in zip(self.contacts, self.options, chosen, strict=True):
+            phase = FLIGHT if wanted.flies else wanted
+            if phase not in option:
+                raise DeclarationError(
+                    f"contact {contact.name!r} {phase.value}",
+                    expected=f"one of {', '.join(p.value for p in option)}",
+                )
+            elements[contact.name] = option[phase]
+        equations = derive(with_elements(self.system, elements))
+        supported = zip(self.contacts, chosen, strict=True)
+        touches = tuple(_touch(equations, contact, phase) for contact, phase in supported)
+        return Mode(
+            self._name(chosen),
+            chosen,
+            equations,
+            touches,
+            tuple(guards_of(equations, touches, chosen)),
+            self._lifted(equations),
+        )
+
+    def _name(self, chosen: Phases) -> str:
+        if not chosen:
+            return "as declared"
+        if len(set(chosen)) == 1:
+            return chosen[0].value
+        pairs = zip(self.contacts, chosen, strict=True)
+        return ", ".join(f"{contact.name} {phase.value}" for contact, phase in pairs)
+
+    def _lifted(self, equations: Equations) -> dict[Symbol, Expr]:
+        """Heights are no coordinates in contact: there they follow from the attitude."""
+        motion = equations.kinetics
+        lifted = {}
+        for option, contact in zip(self.options, self.contacts, strict=True):
+            apart = option[FLIGHT]
+            if isinstance(apart, Apart) and apart.height not in equations.coordinates:
+                height = motion.places[contact.body].dot(contact.on.up)
+                lifted[apart.height] = height
+                lifted[apart.rise] = height.chain(motion.rate)
+        return lifted
+
+
+def automaton(system: System) -> Automaton:
+    """The contact modes of a system, derived from the declaration as they are needed."""
+    return Automaton(system)
+
+
+def _touch(equations: Equations, declared: Contact, phase: Phase) -> Touch:
+    motion = equations.kinetics
+    contact = where(declared, phase)
+    place = motion.places[contact.body]
+    gap = (place + contact.arm).dot(contact.on.up)
+    slips = [
+        motion.slip(contact.restraint(label, motion.places)).dot(contact.on.axes[label])
+        for label in (*contact.on.tangents, contact.on.normal)
+    ]
+    reserve = declared.on.reserve(place + contact.arm)
+    return Touch(contact, reserve, gap, slips[2], (slips[0], slips[1]))
+
+
+def where(contact: Contact, phase: Phase) -> Contact:
+    """The contact on its support, or on what lies beyond the edge."""
+    beyond = contact.on.beyond
+    return contact.on_support(beyond) if phase.is_beyond and beyond is not None else contact

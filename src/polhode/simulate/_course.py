@@ -1,0 +1,394 @@
+"""The course of a motion through its contact modes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from polhode.algebra import Expr, Symbol
+from polhode.base import NumericError, Progress
+from polhode.derive import Guard
+from polhode.model import Coulomb, Phase, Rolling
+from polhode.simulate._creep import creep
+from polhode.simulate._crossing import first_fall
+from polhode.simulate._driver import Solution, Stop, Watched, integrate, stuck
+from polhode.simulate._dynamics import CLOCK, WORK
+from polhode.simulate._integrators import Array
+from polhode.simulate._machine import Machine, ModeMachine, gap_symbol, slip_symbols
+from polhode.simulate._place import Place
+from polhode.simulate._segment import Part, Segment, state_at
+from polhode.simulate._settle import Entry, Known, painleve, settle
+from polhode.simulate._shock import Roughness, coulomb_shock, rough_shock, smooth_shock
+from polhode.simulate._touching import Meeting
+
+_LOOK = 400  # steps after which the guards are looked at
+_VANISHED = 1e-14  # slip speed, relative to the velocities around, that is none
+_LANDED = 1e-10  # the same at an instant at which the slip velocity turns round
+_REBOUND = 1e-13  # of the hardest landing: a rebound that is none
+_STIFF = 30.0  # ratio of the times of slipping and of turning the slip that explicit steps bear
+_MOST_EVENTS = 50_000
+_STILL = 1e-14  # approach, relative to the velocities it is the difference of, that is none
+
+
+@dataclass(frozen=True)
+class Change:
+    """A change of contact mode.
+
+    Attributes:
+        time: s.
+        kind: what happened.
+        before: name of the mode it ended.
+        after: name of the mode it began.
+    """
+
+    time: float
+    kind: str
+    before: str
+    after: str
+
+
+@dataclass(frozen=True)
+class Course:
+    """Segments and the changes between them; the motion may end before its time."""
+
+    segments: tuple[Segment, ...]
+    changes: tuple[Change, ...]
+    ending: str
+
+
+class Walk:
+    """Follows a motion from mode to mode.
+
+    Args:
+        machine: the modes.
+        near_flat: value at which an expression that must stay positive, such as sin θ, counts as
+            gone.
+        progress: told of every step.
+    """
+
+    def __init__(self, machine: Machine, near_flat: float, progress: Progress) -> None:
+        self._machine = machine
+        self._near_flat = near_flat
+        self._progress = progress
+        self._segments: list[Segment] = []
+        self._changes: list[Change] = []
+        self._hardest = 0.0
+
+    def along(self, entry: Entry, end: float) -> Course:
+        """Follow the motion up to a time, or to where it goes flat.
+
+        Raises:
+            NumericError: where it cannot be continued.
+        """
+        while entry.place.time < end:
+            outcome = self._stay(entry, end)
+            self._segments.append(outcome.segment)
+            if outcome.guard is None and outcome.segment.end >= end:
+                break
+            time, before = outcome.segment.end, outcome.segment.mode
+            if outcome.guard is not None and outcome.guard.kind == "near-flat":
+                self._changes.append(Change(time, "goes flat", before, "near-flat"))
+                return Course(tuple(self._segments), tuple(self._changes), "near-flat")
+            kind, entry = self._next(entry, outcome)
+            after = self._machine.mode(entry.phases).mode.name
+            self._changes.append(Change(time, kind, before, after))
+            if len(self._changes) > _MOST_EVENTS:
+                raise _chattering(time)
+        return Course(tuple(self._segments), tuple(self._changes), self._segments[-1].mode)
+
+    # -- one mode -------------------------------------------------------------------------------
+
+    def _stay(self, entry: Entry, end: float) -> _Outcome:
+        """As long as the mode lasts."""
+        mode = self._machine.mode(entry.phases)
+        begin = now = entry.place.time
+        machine, drive = self._machine, self._machine.drive
+        parts = list[Part]()
+        state = self._start(mode, entry)
+        guard: Guard | None = None
+        while guard is None and now < end:
+            machine.move_on(now)
+            limit = drive.until(now, end)
+            if not parts:
+                limit = min(limit, now + self._hop(mode, entry))
+            stretch = self._creeping if entry.onset and not parts else self._stretch
+            part, guard = stretch(mode, entry, state, (now, limit))
+            parts.append(part)
+            now, state = part.end, state_at(part, part.end)
+            if now in drive.jerks:
+                break
+        own = {s: state[s] for s in mode.dynamics.states if s not in mode.dynamics.carried}
+        place = mode.lifted(now, own, state.get(WORK, entry.place.work))
+        segment = Segment(mode.mode.name, begin, now, mode.dynamics, tuple(parts))
+        return _Outcome(segment, guard, place)
+
+    def _hop(self, mode: ModeMachine, entry: Entry) -> float:
+        """How far ahead a contact that has just opened may be expected to be closed again, s.
+
+        A short hop within a long step would be lost in the rounding of the long one.
+        """
+        if not entry.gaps:
+            return np.inf
+        state = np.concatenate([entry.coordinates, entry.speeds])
+        falls = mode.closing_rates(state, entry.place.time)
+        rises = [meeting.velocity[2] for meeting in self._meetings(entry)]
+        hops = [3 * rises[i] / -falls[i] for i in entry.gaps if falls[i] < 0 < rises[i]]
+        return float(min(hops, default=np.inf))
+
+    def _start(self, mode: ModeMachine, entry: Entry) -> dict[Symbol, float]:
+        equations = mode.mode.equations
+        values = (*entry.coordinates, *entry.speeds)
+        state = dict(zip((*equations.coordinates, *equations.speeds), values, strict=True))
+        meetings = self._meetings(entry)
+        for i, touch in enumerate(mode.mode.touches):
+            if gap_symbol(touch.contact) in mode.dynamics.carried:
+                state[gap_symbol(touch.contact)] = entry.gaps.get(i, meetings[i].gap)
+            for k, symbol in enumerate(slip_symbols(touch.contact)):
+                if symbol in mode.dynamics.carried:
+                    state[symbol] = float(entry.slips[i][k])
+        return {**state, WORK: entry.place.work}
+
+    def _stretch(
+        self,
+        mode: ModeMachine,
+        entry: Entry,
+        state: dict[Symbol, float],
+        span: tuple[float, float],
+    ) -> tuple[Part, Guard | None]:
+        flow = mode.flow
+        start = np.array([state[s] for s in flow.states])
+        constants = mode.parameters
+        watched = self._watched(mode, entry)
+        solution = integrate(flow, mode.stepper, constants, start, span, self._progress, watched)
+        part = Part(span[0], float(solution.steps[-1]), solution, constants)
+        return self._cut(mode, entry, part)
+
+    def _watched(self, mode: ModeMachine, entry: Entry) -> Watched:
+        core = mode.flow.core.symbols
+        guarded = bool(mode.mode.guards)
+        vectors = [slip_symbols(self._machine.automaton.contacts[i]) for i in sorted(entry.slips)]
+        places = tuple(
+            tuple(core.index(s) for s in pair) for pair in vectors if set(pair) <= set(core)
+        )
+        scale = self._speed_scale(entry)
+        if not guarded:
+            return Watched()
+        return Watched(_LOOK, places, _VANISHED * scale, _LANDED * scale)
+
+    def _speed_scale(self, entry: Entry) -> float:
+        meetings = self._meetings(entry)
+        return max((meeting.scale for meeting in meetings), default=0.0) or 1.0
+
+    def _meetings(self, entry: Entry) -> list[Meeting]:
+        return self._machine.touching.at(entry.place, _beyond(entry.phases))
+
+    # -- guards ---------------------------------------------------------------------------------
+
+    def _cut(self, mode: ModeMachine, entry: Entry, part: Part) -> tuple[Part, Guard | None]:
+        """The part up to the first guard that falls, and that guard."""
+        solution = part.solution
+        watched = [g for g in mode.mode.guards if g.kind != "sticks"]
+        jams = mode.can_jam
+        fall = None
+        if watched or jams:
+            values = self._values(mode, entry, part, watched)
+            fall = first_fall(values, solution.steps)
+        if fall is not None:
+            if fall.guard == len(watched):
+                raise painleve(", ".join(e.name for e in mode.sliding), fall.time)
+            return replace(part, end=fall.time), watched[fall.guard]
+        if solution.stop is Stop.STUCK:
+            raise stuck(solution)
+        return part, self._landing(mode, entry, part)
+
+    def _values(
+        self, mode: ModeMachine, entry: Entry, part: Part, watched: list[Guard]
+    ) -> Callable[[Array], Array]:
+        """Values of the guards, and how far sliding is from jamming."""
+        expressions = [self._looked_at(guard) for guard in watched]
+        size = len(mode.mode.equations.speeds)
+        masses = [e for row in mode.mode.equations.mass.rows for e in row] if mode.can_jam else []
+        arguments = (*part.solution.symbols, *mode.dynamics.parameters, CLOCK)
+        wanted = [*expressions, *masses]
+        function = mode.dynamics.function(wanted, arguments, part.solution.turned)
+        since = entry.place.time
+        leaving = [
+            k
+            for k, guard in enumerate(watched)
+            if guard.kind == "touches down" and self._place(guard) in entry.gaps
+        ]
+
+        def values(times: Array) -> Array:
+            with np.errstate(all="ignore"):
+                found = function(*part.solution.at(times), *part.constants, times)
+            rows = np.array([np.broadcast_to(v, times.shape) for v in found], dtype=float)
+            rows[leaving] /= np.maximum(times - since, 1e-300)
+            own = rows[: len(expressions)]
+            if not mode.can_jam:
+                return own
+            matrices = rows[len(expressions) :].T.reshape(-1, size, size)
+            return np.vstack([own, np.linalg.det(matrices)])
+
+        return values
+
+    def _looked_at(self, guard: Guard) -> Expr:
+        if guard.kind == "touches down" and guard.contact is not None:
+            return Expr.generator(gap_symbol(guard.contact))
+        if guard.kind == "near-flat":
+            return guard.positive - self._near_flat
+        return guard.positive
+
+    def _place(self, guard: Guard) -> int:
+        names = [contact.name for contact in self._machine.automaton.contacts]
+        return names.index(guard.contact.name) if guard.contact is not None else -1
+
+    def _landing(self, mode: ModeMachine, entry: Entry, part: Part) -> Guard | None:
+        """The contact whose slip velocity vanishes at the end of a part."""
+        if part.solution.vanished is None:
+            return None
+        i = sorted(entry.slips)[part.solution.vanished]
+        name = self._machine.automaton.contacts[i].name
+        return next(
+            g
+            for g in mode.mode.guards
+            if g.kind == "sticks" and g.contact and g.contact.name == name
+        )
+
+    # -- the beginning of slip ------------------------------------------------------------------
+
+    def _creeping(
+        self,
+        mode: ModeMachine,
+        entry: Entry,
+        state: dict[Symbol, float],
+        span: tuple[float, float],
+    ) -> tuple[Part, Guard | None]:
+        ((i, angle),) = entry.onset.items()
+        contact = self._machine.automaton.contacts[i]
+        element = mode.mode.element(contact)
+        polars = slip_symbols(contact)
+        own = tuple(s for s in mode.dynamics.states if s not in polars and s != WORK)
+        symbols = (*own, WORK)
+        motion = mode.mode.equations.kinetics
+        slips = [s.chain(motion.rate) for s in mode.mode.touches[i].slip]
+        rates = dict(zip(mode.dynamics.states, mode.dynamics.rates, strict=True))
+        wanted = [*(rates[s] for s in own), mode.mode.equations.power, *slips]
+        turning = (*element.direction, element.slip_speed)  # type: ignore[attr-defined]
+        arguments = (*symbols, *turning, *mode.dynamics.parameters, CLOCK)
+        function = mode.dynamics.function(wanted, arguments)
+        constants = mode.parameters
+
+        def polar(states: Array, times: Array) -> Array:
+            size, psi = states[-2], states[-1]
+            c, s = np.cos(psi), np.sin(psi)
+            found = function(*states[:-2], c, s, size, *constants, times)
+            values = np.array([np.broadcast_to(v, states[0].shape) for v in found])
+            along, across = values[-2], values[-1]
+            return np.vstack(
+                [values[:-2], [along * c + across * s], [across * c - along * s]]
+            ).reshape(states.shape)
+
+        start = np.array([*(state[s] for s in symbols), 0.0, angle])
+
+        pull = self._grip(mode, start[: len(own)], entry, i)
+
+        def enough(elapsed: float, reached: Array) -> bool:
+            return pull * elapsed < _STIFF * float(reached[-2])
+
+        found = creep(polar, start, *span, pull, enough)
+
+        def at(times: Array) -> Array:
+            values = found.at(times)
+            size, psi = values[-2], values[-1]
+            return np.vstack([values[:-2], size * np.cos(psi), size * np.sin(psi)])
+
+        solution = Solution(
+            (*symbols, *slip_symbols(contact)), {}, found.times, Stop.PAUSE, None, at
+        )
+        part = Part(entry.place.time, float(found.times[-1]), solution, constants)
+        return self._cut(mode, entry, part)
+
+    def _grip(self, mode: ModeMachine, state: Array, entry: Entry, i: int) -> float:
+        """How strongly friction pulls at the slip velocity, m/s²."""
+        time = entry.place.time
+        along = mode.slip_rates(state, time, [1.0, 0.0, 0.0])[i]
+        against = mode.slip_rates(state, time, [-1.0, 0.0, 0.0])[i]
+        return float(np.hypot(*(along - against))) / 2
+
+    # -- from one mode to the next --------------------------------------------------------------
+
+    def _next(self, entry: Entry, outcome: _Outcome) -> tuple[str, Entry]:
+        guard = outcome.guard
+        apart = frozenset(k for k, phase in enumerate(entry.phases) if phase.flies)
+        if guard is None:
+            self._machine.move_on(outcome.place.time)
+            return "jerk", settle(self._machine, outcome.place, Known(apart))
+        i = self._place(guard)
+        still = frozenset(k for k, phase in enumerate(entry.phases) if phase.rolls)
+        if guard.kind == "touches down":
+            return self._land(entry, outcome.place, i, apart)
+        if guard.kind == "lifts off":
+            known = Known(apart | {i}, still - {i}, beyond=_beyond(entry.phases))
+            found = settle(self._machine, outcome.place, known)
+            return "lifts off", replace(found, gaps={i: 0.0})
+        beyond = _beyond(entry.phases)
+        if guard.kind == "crosses the edge":
+            known = Known(apart, still - {i}, beyond=beyond ^ {i})
+        elif guard.kind == "slips":
+            known = Known(apart, still - {i}, frozenset({i}), beyond)
+        else:
+            known = Known(apart, still | {i}, beyond=beyond)
+        return guard.kind, settle(self._machine, outcome.place, known)
+
+    def _land(self, entry: Entry, place: Place, i: int, apart: frozenset[int]) -> tuple[str, Entry]:
+        """A shock, then contact or another flight."""
+        contact = self._machine.automaton.contacts[i]
+        if len(apart) < len(entry.phases):
+            raise NumericError(
+                f"{contact.name} lands at t = {place.time:.9g} s while another contact touches",
+                expected="one contact at a time: several shocks at once are not determined",
+                advice="end the motion before that time",
+            )
+        meeting = self._machine.touching.at(place, self._machine.touching.beyond(place))[i]
+        if meeting.velocity[2] >= -_STILL * meeting.scale:
+            return "touches down", settle(self._machine, place, Known(apart - {i}))
+        mass = self._machine.apart.mass(place)
+        felt = meeting.arms @ np.linalg.solve(mass, meeting.arms.T)
+        restitution = self._machine.value(contact.restitution)
+        if isinstance(contact, Coulomb):
+            kinetic, static = (self._machine.value(m) for m in (contact.mu, contact.mu_static))
+            shock = coulomb_shock(felt, meeting.velocity, Roughness(kinetic, static, restitution))
+        elif isinstance(contact, Rolling):
+            shock = rough_shock(felt, meeting.velocity, restitution)
+        else:
+            shock = smooth_shock(felt, meeting.velocity, restitution)
+        work = shock.impulse @ (meeting.support + (meeting.velocity + shock.velocity) / 2)
+        change = np.asarray(np.linalg.solve(mass, meeting.arms.T @ shock.impulse), dtype=float)
+        after = place.kicked(change, float(work))
+        self._hardest = max(self._hardest, -float(meeting.velocity[2]))
+        if shock.velocity[2] > _REBOUND * self._hardest:
+            bounced = settle(self._machine, after, Known(apart))
+            return "bounces", replace(bounced, gaps={i: 0.0})
+        stuck_ = frozenset({i}) if shock.sticks else frozenset()
+        return "touches down", settle(self._machine, after, Known(apart - {i}, stuck_))
+
+
+def _beyond(phases: tuple[Phase, ...]) -> frozenset[int]:
+    return frozenset(i for i, phase in enumerate(phases) if phase.is_beyond)
+
+
+@dataclass(frozen=True)
+class _Outcome:
+    segment: Segment
+    guard: Guard | None
+    place: Place
+
+
+def _chattering(time: float) -> NumericError:
+    return NumericError(
+        f"more than {_MOST_EVENTS} changes of contact mode up to t = {time:.9g} s",
+        expected="a motion that settles",
+        advice="it chatters: end the motion before that time, or change the friction",
+    )

@@ -1,0 +1,198 @@
+"""Follows a motion: within one contact mode as declared, or through all of them."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from polhode.base import ConstraintError, DeclarationError, Progress
+from polhode.derive import Automaton, automaton
+from polhode.model import FLIGHT, FRICTIONLESS, Apart, Coulomb, Phase, System
+from polhode.simulate._course import Change, Walk
+from polhode.simulate._drive import Drive, drive_of
+from polhode.simulate._driver import Stop, integrate, stuck
+from polhode.simulate._dynamics import WORK, Dynamics, EquationsOfMotion
+from polhode.simulate._flow import flow_of
+from polhode.simulate._integrators import Integrator
+from polhode.simulate._machine import Machine
+from polhode.simulate._names import Name, published
+from polhode.simulate._place import Place
+from polhode.simulate._segment import Part, Segment, state_at
+from polhode.simulate._settle import Known, settle
+from polhode.simulate._start import read_start
+from polhode.simulate._values import idle_parameters, read_parameters
+
+AS_DECLARED = "as declared"
+
+
+@dataclass(frozen=True)
+class Task:
+    """What is asked for: numbers, a start, and how to go on from it."""
+
+    given: Mapping[Name, Any]
+    start: Mapping[Name, Any]
+    forcing: Mapping[Name, Any]
+    end: float
+    integrator: Integrator
+    tolerance: float | None
+    near_flat: float
+    seconds: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Motion:
+    """What came of it.
+
+    Attributes:
+        unguarded: whether the contacts were taken as declared, and not looked after.
+    """
+
+    segments: tuple[Segment, ...]
+    changes: tuple[Change, ...]
+    ending: str
+    parameters: Mapping[str, float]
+    assumed: Mapping[str, float]
+    unguarded: bool
+
+
+def follow(
+    subject: System | Automaton | EquationsOfMotion, task: Task, progress: Progress
+) -> Motion:
+    """The motion from its start to its end."""
+    if isinstance(subject, System):
+        subject = automaton(subject)
+    if isinstance(subject, Automaton):
+        if subject.contacts:
+            return _through_modes(subject, task, progress)
+        with _timed(task, "derive"):
+            return _as_declared(subject.together.equations, task, progress)
+    return _as_declared(subject, task, progress)
+
+
+# -- one mode -----------------------------------------------------------------------------------
+
+
+def _as_declared(equations: EquationsOfMotion, task: Task, progress: Progress) -> Motion:
+    with _timed(task, "derive"):
+        drive = drive_of(equations.functions, task.forcing, task.end)
+        idle = idle_parameters(equations, task.given)
+        dynamics = Dynamics(equations, drive.expressions, idle)
+    numbers = read_parameters(dynamics, task.given, drive.constants(0.0))
+    _refuse_jerks(drive)
+    at_start = {s: (numbers | drive.constants(0.0))[s] for s in dynamics.parameters}
+    begin = read_start(dynamics, task.start, at_start)
+    with _timed(task, "compile"):
+        flow = flow_of(dynamics, reduced=task.integrator.dense)
+        stepper = task.integrator.prepare(flow, task.tolerance)
+    state = {**dict(zip(dynamics.states, begin.state, strict=True)), WORK: 0.0}
+    parts = []
+    with _timed(task, "integrate"):
+        for span in drive.stretches(task.end):
+            known = numbers | drive.constants(span[0])
+            constants = np.array([known[s] for s in dynamics.parameters])
+            start = np.array([state[s] for s in flow.states], dtype=float)
+            solution = integrate(flow, stepper, constants, start, span, progress)
+            if solution.stop is Stop.STUCK:
+                raise stuck(solution)
+            parts.append(Part(*span, solution, constants))
+            state = state_at(parts[-1], span[1])
+    segment = Segment(AS_DECLARED, 0.0, task.end, dynamics, tuple(parts))
+    return Motion(
+        (segment,),
+        (),
+        AS_DECLARED,
+        {symbol.published: value for symbol, value in numbers.items()},
+        begin.assumed,
+        unguarded=True,
+    )
+
+
+def _refuse_jerks(drive: Drive) -> None:
+    if drive.jerks:
+        raise DeclarationError(
+            f"a support that jerks at t = {min(drive.jerks):g} s, under one contact mode",
+            expected="the declaration itself, whose contacts can slip and stick",
+            advice="simulate the System, not the equations derived from it",
+        )
+
+
+# -- all modes ----------------------------------------------------------------------------------
+
+
+def _through_modes(modes: Automaton, task: Task, progress: Progress) -> Motion:
+    with _timed(task, "derive"):
+        drive = drive_of(modes.functions, task.forcing, task.end)
+        dynamics = Dynamics(modes.together.equations, drive.expressions, modes.parameters)
+    numbers = read_parameters(dynamics, task.given, drive.constants(0.0))
+    machine = Machine(modes, drive, numbers, task.integrator, task.tolerance)
+    with _timed(task, "compile"):
+        place, assumed, apart = _begin(machine, task)
+        walk = Walk(machine, task.near_flat, progress)
+        first = settle(machine, place, Known(apart=apart))
+        machine.mode(first.phases).stepper  # noqa: B018
+    with _timed(task, "integrate"):
+        course = walk.along(first, task.end)
+    return Motion(
+        course.segments,
+        course.changes,
+        course.ending,
+        {symbol.published: value for symbol, value in numbers.items()},
+        assumed,
+        unguarded=False,
+    )
+
+
+def _begin(machine: Machine, task: Task) -> tuple[Place, Mapping[str, float], frozenset[int]]:
+    """Where it starts, and which contacts are apart there.
+
+    Contacts touch unless a height is given, and stick where they can unless that contradicts what
+    is given.
+    """
+    given = {published(name) for name in task.start}
+    modes = machine.automaton
+    apart = frozenset(
+        i
+        for i, option in enumerate(modes.options)
+        if isinstance(above := option[FLIGHT], Apart)
+        and given & {above.height.published, above.rise.published}
+    )
+    if apart:
+        return (*_read(machine, _phases(modes, apart, slips=True), task), apart)
+    try:
+        return (*_read(machine, _phases(modes, apart, slips=False), task), apart)
+    except ConstraintError:
+        if not any(isinstance(contact, Coulomb) for contact in modes.contacts):
+            raise
+        return (*_read(machine, _phases(modes, apart, slips=True), task), apart)
+
+
+def _phases(modes: Automaton, apart: frozenset[int], *, slips: bool) -> tuple[Phase, ...]:
+    """Phases in which the start values are read: friction does not matter to them."""
+    found = []
+    for i, option in enumerate(modes.options):
+        free = FRICTIONLESS if slips and FRICTIONLESS in option else next(iter(option))
+        found.append(FLIGHT if i in apart else free)
+    return tuple(found)
+
+
+def _read(
+    machine: Machine, phases: tuple[Phase, ...], task: Task
+) -> tuple[Place, Mapping[str, float]]:
+    mode = machine.mode(phases)
+    plain = replace(mode.dynamics, carried={}, meanings={})
+    numbers = dict(zip(plain.parameters, mode.parameters.tolist(), strict=True))
+    start = read_start(plain, task.start, numbers)
+    state = dict(zip(plain.states, (float(x) for x in start.state), strict=True))
+    return mode.lifted(0.0, state, 0.0), start.assumed
+
+
+@contextmanager
+def _timed(task: Task, what: str) -> Iterator[None]:
+    began = time.perf_counter()
+    yield
+    task.seconds[what] = task.seconds.get(what, 0.0) + time.perf_counter() - began

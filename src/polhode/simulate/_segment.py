@@ -1,0 +1,75 @@
+"""A stretch of a motion in one contact mode."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from polhode.algebra import Expr, Symbol
+from polhode.simulate._driver import Solution
+from polhode.simulate._dynamics import CLOCK, Dynamics
+from polhode.simulate._integrators import Array
+
+
+@dataclass(frozen=True)
+class Part:
+    """A stretch that was integrated in one go, with the constants of that stretch."""
+
+    begin: float
+    end: float
+    solution: Solution = field(repr=False)
+    constants: Array = field(repr=False)
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A stretch of time in one contact mode.
+
+    Attributes:
+        mode: its name.
+        begin: s.
+        end: s.
+        dynamics: the equations that hold.
+        parts: one after the other.
+    """
+
+    mode: str
+    begin: float
+    end: float
+    dynamics: Dynamics
+    parts: tuple[Part, ...] = field(repr=False)
+
+    @property
+    def steps(self) -> Array:
+        """Where the steps of the integrator begin and end, s."""
+        inside = [p.solution.steps[p.solution.steps < p.end] for p in self.parts]
+        return np.unique(np.concatenate([*inside, [self.begin, self.end]]))
+
+    def values(self, expressions: Iterable[Expr], times: Array) -> Array:
+        """Values of expressions in any symbol of the mode, shape (expressions, times)."""
+        wanted = list(expressions)
+        begins = np.array([part.begin for part in self.parts])
+        which = np.clip(np.searchsorted(begins, times, "right") - 1, 0, None)
+        found = np.empty((len(wanted), len(times)))
+        for i in np.unique(which):
+            here = which == i
+            found[:, here] = values_of(self.dynamics, self.parts[i], wanted, times[here])
+        return found
+
+
+def values_of(dynamics: Dynamics, part: Part, expressions: Sequence[Expr], times: Array) -> Array:
+    """Values of expressions within a part, shape (expressions, times)."""
+    solution = part.solution
+    arguments = (*solution.symbols, *dynamics.parameters, CLOCK)
+    function = dynamics.function(expressions, arguments, solution.turned)
+    with np.errstate(all="ignore"):
+        values = function(*solution.at(times), *part.constants, times)
+    return np.array([np.broadcast_to(value, times.shape) for value in values])
+
+
+def state_at(part: Part, time: float) -> dict[Symbol, float]:
+    """All states at an instant, by symbol."""
+    values = part.solution.at(np.array([time]))[:, 0]
+    return dict(zip(part.solution.symbols, (float(v) for v in values), strict=True))

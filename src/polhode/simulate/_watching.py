@@ -1,0 +1,32 @@
+"""Events that were asked for: expressions that pass through zero."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from polhode.algebra import Expr
+from polhode.simulate._crossing import roots
+from polhode.simulate._integrators import Array
+from polhode.simulate._segment import Segment
+from polhode.simulate._trajectory import Event, Trajectory
+
+
+def with_events(trajectory: Trajectory, wanted: Mapping[str, Expr]) -> Trajectory:
+    """The same motion with an event wherever one of some expressions passes through zero."""
+    found = [
+        Event(time, name, segment.mode, segment.mode)
+        for name, expression in wanted.items()
+        for segment in trajectory.segments
+        for time in _passages(segment, expression)
+    ]
+    first, *changes, last = trajectory.events
+    between = sorted([*changes, *found], key=lambda event: event.time)
+    return replace(trajectory, events=(first, *between, last))
+
+
+def _passages(segment: Segment, expression: Expr) -> list[float]:
+    def values(times: Array) -> Array:
+        return segment.values([Expr.of(expression)], times)
+
+    return roots(values, segment.steps)

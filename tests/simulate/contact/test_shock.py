@@ -1,0 +1,73 @@
+"""Shocks of random bodies: energy never rises, friction keeps to its cone, Stronge's law holds."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from oracles.shocks import felt_inertia, lost, random_shock, stepped
+from polhode.simulate._shock import Roughness, coulomb_shock, rough_shock, smooth_shock
+
+RESTITUTIONS = st.sampled_from([0.0, 0.3, 0.7, 1.0])
+FRICTIONS = st.sampled_from([0.0, 0.05, 0.2, 0.6, 1.5])
+
+
+@given(st.integers(0, 10**6), FRICTIONS, RESTITUTIONS, st.sampled_from([1.0, 1.3]))
+def test_energy_never_rises(seed: int, mu: float, restitution: float, ratio: float) -> None:
+    felt, velocity = random_shock(np.random.default_rng(seed))
+    shock = coulomb_shock(felt, velocity, Roughness(mu, ratio * mu, restitution))
+    scale = lost(felt, velocity, np.zeros(3))
+    p_x, p_y, p_z = shock.impulse
+    assert np.abs(velocity + felt @ shock.impulse - shock.velocity).max() < 1e-11
+    assert lost(felt, velocity, shock.velocity) > -1e-11 * scale
+    assert p_z > 0
+    assert np.hypot(p_x, p_y) <= ratio * mu * p_z * (1 + 1e-9)
+    assert shock.velocity[2] >= -1e-12
+    if shock.sticks:
+        assert np.hypot(*shock.velocity[:2]) < 1e-11
+
+
+@given(st.integers(0, 10**6), RESTITUTIONS)
+def test_without_friction(seed: int, restitution: float) -> None:
+    felt, velocity = random_shock(np.random.default_rng(seed))
+    plain = smooth_shock(felt, velocity, restitution)
+    slippery = coulomb_shock(felt, velocity, Roughness(0.0, 0.0, restitution))
+    assert np.abs(plain.velocity - slippery.velocity).max() < 1e-9
+    assert abs(plain.velocity[2] + restitution * velocity[2]) < 1e-12
+    if restitution == 1.0:
+        assert abs(lost(felt, velocity, plain.velocity)) < 1e-12 * lost(felt, velocity, np.zeros(3))
+
+
+@given(st.integers(0, 10**6), RESTITUTIONS)
+def test_without_slip(seed: int, restitution: float) -> None:
+    felt, velocity = random_shock(np.random.default_rng(seed))
+    shock = rough_shock(felt, velocity, restitution)
+    assert np.abs(shock.velocity[:2]).max() < 1e-12
+    assert shock.velocity[2] >= 0
+    assert lost(felt, velocity, shock.velocity) > -1e-12
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_against_small_steps(seed: int) -> None:
+    """A scheme of first order: half the step, half the difference."""
+    rng = np.random.default_rng(seed)
+    felt, velocity = random_shock(rng)
+    mu, restitution = float(rng.uniform(0.05, 0.7)), float(rng.uniform(0.1, 1.0))
+    shock = coulomb_shock(felt, velocity, Roughness(mu, mu, restitution))
+    _, coarse = stepped(felt, velocity, mu, restitution, 1000)
+    _, fine = stepped(felt, velocity, mu, restitution, 4000)
+    assert np.abs(fine - shock.velocity).max() < 4e-3
+    assert np.abs(fine - shock.velocity).max() < 0.6 * np.abs(coarse - shock.velocity).max() + 5e-4
+
+
+@pytest.mark.parametrize("mu", [0.05, 0.3, 2.0])
+def test_ball_in_closed_form(mu: float) -> None:
+    """A ball takes at most μ (1 + 1/k)(1 + e) c off its slip, and all restitutions agree."""
+    m, a, k, e = 0.3, 0.1, 0.4, 0.7
+    felt = felt_inertia(m, k * m * a * a * np.eye(3), np.array([0.0, 0.0, -a]))
+    velocity = np.array([0.6, -0.8, -2.0])
+    shock = coulomb_shock(felt, velocity, Roughness(mu, mu, e))
+    left = max(1.0 - mu * (1 + 1 / k) * (1 + e) * 2.0, 0.0)
+    assert abs(shock.velocity[2] - e * 2.0) < 1e-14
+    assert np.abs(shock.velocity[:2] - left * velocity[:2]).max() < 1e-14
+    assert shock.sticks == (left == 0.0)
