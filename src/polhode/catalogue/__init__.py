@@ -9,6 +9,7 @@ from polhode.catalogue._gyroscope import GYROSCOPE, HELD, IN_VERTICAL_PLANE, UPR
 from polhode.catalogue._marble_on_turntable import MARBLE_ON_TURNTABLE, TILTED
 from polhode.catalogue._numbers import Numbers as Numbers
 from polhode.catalogue._numbers import numbers_of as numbers_of
+from polhode.catalogue._problem_set import problem_set as problem_set
 from polhode.catalogue._rolling_disk import ROLLING_DISK
 from polhode.catalogue._spinning_coin import SPINNING_COIN
 from polhode.catalogue._tennis_racquet import TENNIS_RACQUET

@@ -1,0 +1,84 @@
+"""A claim bound to a system, ready to be judged."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field, replace
+
+from polhode.algebra import ZERO, Expr, Symbol
+from polhode.claims._components import Component, Relation, components
+from polhode.derive import Equations
+
+#: Signs that claim the equality of both sides.
+EQUALITY = ("=", "≡")
+
+
+@dataclass(frozen=True)
+class Small:
+    """A quantity that is taken as small.
+
+    Attributes:
+        quantity: it vanishes in the limit: θ - π/2, Ω, or 1/ω for a large ω.
+        order: highest power of it that the claim keeps; None where no order is stated.
+    """
+
+    quantity: Expr
+    order: int | None = None
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A claim and where it is asked to hold.
+
+    Attributes:
+        branches: the members of the claim; more than one tuple of them where it says ±.
+        equations: of the system.
+        given: symbols restricted to values.
+        relations: expressions that vanish besides, such as L² - 2 I₂ T.
+        small: quantities that are small.
+        positive: expressions that the text takes as positive.
+        digits: for every member, half a unit of the last printed digit of a number.
+        start: for claims on a motion, values at its start.
+        when: for statements on a motion, how often they hold: always, never, sometimes,
+            initially, finally.
+    """
+
+    branches: tuple[tuple[Relation, ...], ...]
+    equations: Equations
+    given: Mapping[Symbol, Expr] = field(default_factory=dict)
+    relations: tuple[Expr, ...] = ()
+    small: tuple[Small, ...] = ()
+    positive: tuple[Expr, ...] = ()
+    digits: Mapping[int, Expr] = field(default_factory=dict)
+    start: Mapping[Symbol, Expr] = field(default_factory=dict)
+    when: str = ""
+
+    @property
+    def members(self) -> tuple[Relation, ...]:
+        """The members, on the first branch."""
+        return self.branches[0]
+
+    def components(self, branch: int = 0) -> tuple[Component, ...]:
+        """All members of a branch as scalar relations."""
+        numbered = enumerate(self.branches[branch])
+        return tuple(c for i, r in numbered for c in components(i, r.left, r.right))
+
+    def only(self, members: Collection[int]) -> Asked:
+        """The claim that some of the members make; the others are left in place, as 0 = 0."""
+        branches = tuple(
+            tuple(r if i in members else NOTHING for i, r in enumerate(branch))
+            for branch in self.branches
+        )
+        return replace(self, branches=branches)
+
+
+@dataclass(frozen=True)
+class _Nothing:
+    """The relation 0 = 0, which keeps the place of a member that is judged elsewhere."""
+
+    left: Expr = ZERO
+    sign: str = "="
+    right: Expr = ZERO
+
+
+NOTHING = _Nothing()

@@ -1,0 +1,91 @@
+"""Many states by numbers, at which to see quickly whether relations can hold."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from itertools import islice
+from math import isfinite
+
+import numpy as np
+
+from polhode.algebra import Expr, Symbol, variables
+from polhode.base import PolhodeError
+from polhode.claims._circumstances import Circumstances
+from polhode.claims._numeric import Array, number, numbers
+from polhode.claims._points import Point, points
+
+_STATES = 6
+_TRIES = 40
+_PI = Symbol("pi")
+
+
+class Numbers(dict[Symbol, float]):
+    """The number of every symbol at one state, found when first asked for."""
+
+    def __init__(self, point: Point, states: Circumstances) -> None:
+        super().__init__(point.floats())
+        self._free = dict(self)
+        self._states = states
+
+    def __missing__(self, symbol: Symbol) -> float:
+        self[symbol] = number(self._states.on(Expr.generator(symbol)), self._free)
+        return self[symbol]
+
+
+@dataclass(frozen=True, eq=False)
+class Bench:
+    """Several states that circumstances allow.
+
+    Attributes:
+        states: the number of every symbol, state by state.
+    """
+
+    states: tuple[Numbers, ...]
+
+    def values(self, expressions: Sequence[Expr]) -> Array:
+        """Values of expressions: (expressions, states); not a number where there is none."""
+        return self.function(expressions)(np.ones(self.size))
+
+    @property
+    def size(self) -> int:
+        """How many states there are."""
+        return len(self.states)
+
+    def function(
+        self, expressions: Sequence[Expr], unknown: Symbol | None = None
+    ) -> Callable[[Array], Array]:
+        """Values of expressions as a function of one symbol that no state fixes, state by state."""
+        fixed = variables(expressions) - {_PI, unknown}
+        columns = {s: np.array([state[s] for state in self.states]) for s in fixed}
+
+        def values(at: Array) -> Array:
+            table = columns if unknown is None else {**columns, unknown: at}
+            return numbers(list(expressions), table, (self.size,))
+
+        return values
+
+
+def bench(states: Circumstances, expressions: Iterable[Expr]) -> Bench:
+    """States with independent numbers for everything the circumstances leave open."""
+    used = [states.on(e) for e in expressions]
+    used += [*states.settled_relations, *states.equations.assumed_positive]
+    used += list(states.equations.accelerations.values())
+    equations = states.equations
+    symbols = {s for e in used for s in e.symbols()}
+    symbols |= {*equations.coordinates, *equations.speeds, *equations.parameters}
+    drawn = (Numbers(points(used, symbols, seed), states) for seed in range(1000, 1000 + _TRIES))
+    real = (found for found in drawn if _is_real(found, states, symbols))
+    return Bench(tuple(islice(real, _STATES)))
+
+
+def _is_real(numbers: Numbers, states: Circumstances, symbols: Iterable[Symbol]) -> bool:
+    try:
+        settled = {s: number(states.on(Expr.generator(s)), numbers) for s in symbols}
+        positive = all(
+            number(e, {**numbers, **settled}) > 0 for e in states.equations.assumed_positive
+        )
+    except (PolhodeError, ArithmeticError, ValueError, KeyError):
+        return False
+    numbers.update(settled)
+    return positive and all(map(isfinite, settled.values()))

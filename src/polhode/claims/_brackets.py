@@ -1,0 +1,192 @@
+"""Brackets paired, and what only lays a formula out taken away.
+
+After this a line break, a column mark or a wide space stands only where it parts one thing that is
+said from the next: between the rows of a display, of a column or of cases, never inside a bracket.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from polhode.base import ParseError
+from polhode.claims import _lexicon as lexicon
+from polhode.claims._tokens import Token, refusal
+
+DEEPEST = 40  # brackets within brackets
+
+CLOSERS = {
+    "(": ")",
+    "[": "]",
+    "\\{": "\\}",
+    "{": "}",
+    "bar(": "bar)",
+    "null(": "null)",
+}
+_SHOWN = {"bar(": "\\left|", "bar)": "\\right|", "null(": "\\left.", "null)": "\\right."}
+_ENDS = frozenset(CLOSERS.values())
+_WANTED = {"dots": 1, "decoration": 1, "alphabet": 1, "root": 1, "fraction": 2}
+
+
+@dataclass(frozen=True)
+class Paired:
+    """Tokens, and for the place of each one that opens the place of the one that closes it."""
+
+    tokens: tuple[Token, ...]
+    partner: dict[int, int]
+
+
+def paired(source: str, tokens: Sequence[Token]) -> Paired:
+    """The tokens that say something, with their brackets paired.
+
+    Raises:
+        ParseError: for a bracket without its partner, and for brackets nested too deeply.
+    """
+    joined = _joined_rows(tokens)
+    flowing = _without_layouts(joined, _partners(source, joined))
+    printed = _without_bare_braces(flowing, _partners(source, flowing))
+    said = _without_breaks_in_brackets(printed)
+    return Paired(tuple(said), _partners(source, said))
+
+
+def opens(token: Token) -> bool:
+    """Whether a token opens a bracket, a group or an environment."""
+    return token.kind == "begin" or (token.kind == "mark" and token.text in CLOSERS)
+
+
+def closes(token: Token) -> bool:
+    """Whether a token closes a bracket, a group or an environment."""
+    return token.kind == "end" or (token.kind == "mark" and token.text in _ENDS)
+
+
+def _partners(source: str, tokens: Sequence[Token]) -> dict[int, int]:
+    partner: dict[int, int] = {}
+    waiting: list[int] = []
+    for place, token in enumerate(tokens):
+        if opens(token):
+            waiting.append(place)
+            if len(waiting) > DEEPEST:
+                problem = f"brackets nested more than {DEEPEST} deep"
+                raise refusal(source, token.span, problem, "a formula that a reader can follow")
+        elif closes(token):
+            if not waiting or not _match(tokens[waiting[-1]], token):
+                raise _unmatched(source, [tokens[place] for place in waiting], token)
+            partner[waiting.pop()] = place
+    if waiting:
+        raise _unclosed(source, tokens[waiting[-1]])
+    return partner
+
+
+def _match(opener: Token, closer: Token) -> bool:
+    if "begin" in (opener.kind, closer.kind) or "end" in (opener.kind, closer.kind):
+        return (opener.kind, closer.kind, opener.text) == ("begin", "end", closer.text)
+    if opener.text == "{" or closer.text == "}":
+        return CLOSERS[opener.text] == closer.text
+    return CLOSERS[opener.text] == closer.text or "null" in opener.text + closer.text
+
+
+def _unmatched(source: str, waiting: Sequence[Token], closer: Token) -> ParseError:
+    if not waiting:
+        return refusal(source, closer.span, f"{shown(closer)} closes nothing", "what it closes")
+    opener = waiting[-1]
+    problem = f"{shown(opener)} at character {opener.span[0] + 1} closed by {shown(closer)}"
+    return refusal(source, closer.span, problem, "brackets in pairs")
+
+
+def _unclosed(source: str, opener: Token) -> ParseError:
+    return refusal(source, opener.span, f"{shown(opener)} is never closed", "brackets in pairs")
+
+
+def shown(token: Token) -> str:
+    """A bracket as it is written."""
+    if token.kind in ("begin", "end"):
+        return f"\\{token.kind}{{{token.text}}}"
+    return _SHOWN.get(token.text, token.text)
+
+
+def _joined_rows(tokens: Sequence[Token]) -> list[Token]:
+    r"""Rows of one bracket joined: without each ``\right. \\ \left.`` between them."""
+    joined: list[Token] = []
+    for token in tokens:
+        kept = _length_without_breaks(joined) if token.is_mark("null(") else 0
+        if 0 < kept < len(joined) and joined[kept - 1].is_mark("null)"):
+            del joined[kept - 1 :]
+        else:
+            joined.append(token)
+    return joined
+
+
+def _length_without_breaks(tokens: Sequence[Token]) -> int:
+    length = len(tokens)
+    while length and (tokens[length - 1].kind == "row" or tokens[length - 1].is_mark("&")):
+        length -= 1
+    return length
+
+
+def _without_layouts(tokens: Sequence[Token], partner: dict[int, int]) -> list[Token]:
+    """Without the environments that set a display; arrays are such where nothing brackets them."""
+    dropped: set[int] = set()
+    end_of_bracket = 0
+    for place, token in enumerate(tokens):
+        is_layout = token.text in lexicon.LAYOUTS or (
+            token.text == "array" and place >= end_of_bracket
+        )
+        if token.kind == "begin" and is_layout:
+            dropped |= {place, partner[place]}
+        elif place in partner:
+            end_of_bracket = max(end_of_bracket, partner[place])
+    return [token for place, token in enumerate(tokens) if place not in dropped]
+
+
+def _without_bare_braces(tokens: Sequence[Token], partner: dict[int, int]) -> list[Token]:
+    r"""Without the braces that print nothing: those that hold no argument and no ``\over``."""
+    dropped: set[int] = set()
+    overs = _braces_around_over(tokens, partner)
+    wanted = [0]  # arguments still to come, bracket by bracket
+    for place, token in enumerate(tokens):
+        if place in dropped:
+            continue
+        if closes(token):
+            wanted.pop()
+            continue
+        is_argument = wanted[-1] > 0 or (place > 0 and tokens[place - 1].kind == "function")
+        if token.is_mark("{") and not is_argument and place not in overs:
+            dropped |= {place, partner[place]}
+            continue
+        wanted[-1] = max(0, wanted[-1] - 1) + _arity(token)
+        if opens(token):
+            wanted.append(0)
+    return [token for place, token in enumerate(tokens) if place not in dropped]
+
+
+def _arity(token: Token) -> int:
+    return int(token.is_mark("^", "_")) or _WANTED.get(token.kind, 0)
+
+
+def _braces_around_over(tokens: Sequence[Token], partner: dict[int, int]) -> set[int]:
+    overs: set[int] = set()
+    around: list[int] = []
+    for place, token in enumerate(tokens):
+        if place in partner:
+            around.append(place)
+        elif closes(token):
+            around.pop()
+        elif token.is_mark("over") and around:
+            overs.add(around[-1])
+    return overs
+
+
+def _without_breaks_in_brackets(tokens: Sequence[Token]) -> list[Token]:
+    """Without the breaks that no reader takes for an end; an environment keeps its rows."""
+    kept: list[Token] = []
+    around: list[Token] = []
+    for token in tokens:
+        if closes(token):
+            around.pop()
+        is_break = token.kind in ("row", "gap") or token.is_mark("&")
+        in_rows = not around or (around[-1].kind == "begin" and token.kind != "gap")
+        if not is_break or in_rows:
+            kept.append(token)
+        if opens(token):
+            around.append(token)
+    return kept

@@ -1,0 +1,94 @@
+"""One claim checked against a model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from functools import reduce
+
+from polhode.base import ParseError, PolhodeError
+from polhode.claims._asked import Asked
+from polhode.claims._contexts import CONTEXTS, judge
+from polhode.claims._notation import Notation
+from polhode.claims._places import tidied
+from polhode.claims._repair import Repaired, repaired
+from polhode.claims._statements import read_latex
+from polhode.claims._tree import Node, Statement
+from polhode.claims._trials import REPAIRED
+from polhode.claims._typed import with_given, with_let, with_small
+from polhode.claims._verdict import Answer, Correction, Verdict
+from polhode.claims._vocabulary import spelled
+from polhode.claims._writer import write_latex
+from polhode.derive import Equations
+
+
+def check(
+    latex: str,
+    equations: Equations,
+    *,
+    context: str = "motion",
+    let: Iterable[str] = (),
+    given: Iterable[str] = (),
+    small: Iterable[str] = (),
+) -> Verdict:
+    r"""Judge a published equation against a model.
+
+    Args:
+        latex: the equation, as printed.
+        equations: of the system.
+        context: where it is to hold: identity, motion, steady, threshold, limit, launch, number.
+        let: new symbols of the text, in published names or LaTeX: ``epsilon = theta - pi/2``.
+        given: restrictions, such as ``theta = pi/2``.
+        small: small quantities with the order to be kept, such as ``epsilon:1``.
+
+    Returns:
+        The verdict with its evidence; ``unread`` for what cannot be read or bound.
+
+    Raises:
+        ParseError: for an unknown context, a `let` of a known symbol, and unreadable restrictions.
+    """
+    if context not in CONTEXTS:
+        raise ParseError(f"context {context!r}", expected=f"one of {', '.join(CONTEXTS)}")
+    notation = Notation.of(equations)
+    for say, texts in ((with_let, let), (with_given, given), (with_small, small)):
+        notation = reduce(say, texts, notation)
+    return judged_claim(latex, notation, context)
+
+
+def judged_claim(latex: str, notation: Notation, context: str, when: str = "") -> Verdict:
+    """The verdict on a claim read in some notation, with a correction where it fails."""
+    try:
+        statement = read_latex(latex)
+        bound = notation.bound(statement)
+        if bound.is_definition:
+            return Verdict(Answer.DEFINITION, context, reason=_defined(bound.defined))
+        verdict = judge(replace(notation.asked(statement, {}), when=when), context)
+    except (PolhodeError, ZeroDivisionError) as error:
+        return Verdict(Answer.UNREAD, context, reason=str(error))
+    if verdict.answer is not Answer.FAILS or context not in REPAIRED:
+        return verdict
+    return _corrected(verdict, statement, notation, context)
+
+
+def _defined(letters: Iterable[Node]) -> str:
+    names = ", ".join(spelled(letter) for letter in letters)
+    return f"defines {names}"
+
+
+def _corrected(verdict: Verdict, statement: Statement, notation: Notation, context: str) -> Verdict:
+    def holds(asked: Asked) -> bool:
+        return judge(asked, context).holds
+
+    try:
+        found = repaired(statement, notation, context, holds)
+    except (PolhodeError, ArithmeticError):
+        return verdict
+    if not found:
+        return verdict
+    first, *others = map(_correction, found)
+    return replace(verdict, correction=first, alternatives=tuple(others))
+
+
+def _correction(repair: Repaired) -> Correction:
+    what = "; ".join(dict.fromkeys(change.what for change in repair.changes))
+    return Correction(what, write_latex(tidied(repair.statement)))

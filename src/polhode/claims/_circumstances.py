@@ -1,0 +1,84 @@
+"""The states on which a context asks a claim to hold."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from polhode.algebra import Expr, Symbol
+from polhode.base import NumericError
+from polhode.claims._elimination import eliminated
+from polhode.claims._rates import on_constraints, on_motion
+from polhode.derive import Equations
+
+
+@dataclass(frozen=True)
+class Circumstances(ABC):
+    """A set of states, and what expressions are on them.
+
+    Attributes:
+        equations: of the system.
+        given: symbols that the claim itself restricts to values, such as θ = π/2.
+        relations: further expressions that vanish, such as L² - 2 I₂ T.
+    """
+
+    equations: Equations
+    given: Mapping[Symbol, Expr] = field(default_factory=dict)
+    relations: tuple[Expr, ...] = ()
+
+    def on(self, expression: Expr) -> Expr:
+        """An expression on these states; zero exactly where it vanishes on all of them."""
+        try:
+            settled = self._settled(expression.subs(self._given_parameters))
+            restricted = settled.subs(self.given)
+        except ZeroDivisionError:
+            raise NumericError(
+                f"the restriction {self._restriction}, where a denominator vanishes",
+                expected="a restriction under which all terms stay finite",
+            ) from None
+        return eliminated(restricted, self.settled_relations)
+
+    @abstractmethod
+    def _settled(self, expression: Expr) -> Expr:
+        """With everything replaced that these states determine."""
+
+    @cached_property
+    def settled_relations(self) -> tuple[Expr, ...]:
+        """What vanishes on these states besides, in terms of what is left open."""
+        return tuple(self._settled(r.subs(self.given)).subs(self.given) for r in self.relations)
+
+    @cached_property
+    def _given_parameters(self) -> dict[Symbol, Expr]:
+        return {s: e for s, e in self.given.items() if not s.kind.varies}
+
+    @property
+    def _restriction(self) -> str:
+        return ", ".join(f"{s.published} = {e}" for s, e in self.given.items())
+
+    @cached_property
+    def _reactions(self) -> dict[Symbol, Expr]:
+        """Reaction components that Newton's laws determine."""
+        found = self.equations.components
+        return {
+            Symbol(name): value for name, value in found.items() if value.symbol != Symbol(name)
+        }
+
+
+@dataclass(frozen=True)
+class AnyState(Circumstances):
+    """All states that obey the constraints and their derivatives; forces and accelerations free."""
+
+    def _settled(self, expression: Expr) -> Expr:
+        return on_constraints(expression, self.equations)
+
+
+@dataclass(frozen=True)
+class TrueMotion(Circumstances):
+    """All states with the accelerations and reactions of the motion."""
+
+    def _settled(self, expression: Expr) -> Expr:
+        forces = expression.symbols() & self._reactions.keys()
+        known = expression.subs({s: self._reactions[s] for s in forces})
+        return on_motion(known, self.equations)

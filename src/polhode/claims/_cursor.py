@@ -1,0 +1,96 @@
+"""A place in the tokens of a formula: looking, taking, and refusing what does not fit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from polhode.base import ParseError
+from polhode.claims._brackets import Paired, shown
+from polhode.claims._tokens import Token, refusal
+from polhode.claims._tree import Span
+
+DEEPEST = 60  # quantities within quantities
+_NAMED = {"close": "the end", "row": "a new line", "gap": "a gap", "tag": "an equation number"}
+
+
+class Cursor:
+    """Goes through paired tokens; what reads phrases builds on it."""
+
+    def __init__(self, source: str, paired: Paired) -> None:
+        self._source = source
+        self._tokens = paired.tokens
+        self._partner = paired.partner
+        self._place = 0
+        self._depth = 0
+        self._around = ""  # what opened the innermost bracket
+        self._bars = 0  # that are open in it
+
+    @property
+    def _token(self) -> Token:
+        return self._tokens[self._place]
+
+    @property
+    def _next(self) -> Token:
+        """The token after this one."""
+        return self._tokens[min(self._place + 1, len(self._tokens) - 1)]
+
+    @property
+    def _start(self) -> int:
+        """Where this token begins in the source."""
+        return self._token.span[0]
+
+    def _since(self, start: int) -> Span:
+        """From a place in the source up to the token before this one."""
+        end = self._tokens[self._place - 1].span[1] if self._place else start
+        return (start, max(start, end))
+
+    def _take(self) -> Token:
+        token = self._token
+        self._place = min(self._place + 1, len(self._tokens) - 1)
+        return token
+
+    def _at(self, *marks: str) -> bool:
+        return self._token.is_mark(*marks)
+
+    def _took(self, mark: str) -> bool:
+        """Take a mark if it is there."""
+        found = self._at(mark)
+        if found:
+            self._take()
+        return found
+
+    def _expect(self, mark: str) -> Token:
+        if not self._at(mark):
+            raise self._unexpected(mark)
+        return self._take()
+
+    def _unexpected(self, expected: str) -> ParseError:
+        token = self._token
+        shown = _NAMED.get(token.kind, self._source[slice(*token.span)])
+        return self._refused(token.span, shown, expected)
+
+    def _refused(self, span: Span, problem: str, expected: str) -> ParseError:
+        return refusal(self._source, span, problem, expected)
+
+    @contextmanager
+    def _deeper(self) -> Iterator[None]:
+        self._depth += 1
+        if self._depth > DEEPEST:
+            problem = f"quantities nested more than {DEEPEST} deep"
+            raise self._refused(self._token.span, problem, "a formula that a reader can follow")
+        yield
+        self._depth -= 1
+
+    @contextmanager
+    def _within(self) -> Iterator[Token]:
+        """Inside the bracket that opens here; gives the token that closes it."""
+        closing = self._partner[self._place]
+        outside = self._around, self._bars
+        self._around, self._bars = self._take().text, 0
+        with self._deeper():
+            yield self._tokens[closing]
+        if self._place != closing:
+            raise self._unexpected(f"the end of the bracket, {shown(self._tokens[closing])}")
+        self._take()
+        self._around, self._bars = outside

@@ -1,0 +1,132 @@
+"""What a declaration says of places, turning, supports and loads, ready for numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+from polhode.algebra import Expr, Kind, Symbol, Vector, variables
+from polhode.model import Action, Body, Element, Friction, Restraint, System
+
+
+@dataclass(frozen=True, eq=False)
+class Declared:
+    """A declaration with every body placed.
+
+    Attributes:
+        system: the declaration.
+        places: centre of mass of every body from the origin of the root frame, m.
+        rates: of the coordinates whose rate is declared, in terms of speeds.
+        coordinates: all of them.
+        speeds: the rates of the other coordinates, and the speeds that are no rates.
+        restraints: what supports prescribe.
+        frictions: laws of sliding friction, by the name of the normal reaction.
+    """
+
+    system: System
+    places: dict[Body, Vector]
+    rates: dict[Symbol, Expr]
+    coordinates: tuple[Symbol, ...]
+    speeds: tuple[Symbol, ...]
+    restraints: tuple[Restraint, ...]
+    frictions: dict[str, Friction]
+
+    @cached_property
+    def functions(self) -> tuple[Symbol, ...]:
+        """Prescribed functions of time that occur, without their rates."""
+        return self._of_kind(Kind.FUNCTION)
+
+    @cached_property
+    def parameters(self) -> tuple[Symbol, ...]:
+        """Constants that occur, whether the motion depends on them or not."""
+        return self._of_kind(Kind.PARAMETER)
+
+    def _of_kind(self, kind: Kind) -> tuple[Symbol, ...]:
+        found = {s.base() for s in variables(self._said()) if s.kind is kind and s.name != "pi"}
+        return tuple(sorted(found, key=_name))
+
+    def _said(self) -> Iterator[Expr]:
+        """Every expression of the declaration."""
+        root = self.system.root
+        for body in self.system.bodies:
+            yield body.mass
+            yield from (entry for row in body.inertia.rows for entry in row)
+        for vector in self._vectors():
+            yield from vector.express(root).components
+
+    def _vectors(self) -> Iterator[Vector]:
+        yield from self.places.values()
+        yield self.system.root.angular_velocity
+        for body in self.system.bodies:
+            yield body.angular_velocity
+        for restraint in self.restraints:
+            yield from (restraint.direction, restraint.velocity)
+            arms = (restraint.arm, restraint.other_arm)
+            yield from (arm for arm in arms if arm is not None)
+        for action in self.actions:
+            yield from (action.force, action.arm, action.couple)
+
+    @cached_property
+    def actions(self) -> tuple[Action, ...]:
+        """What the loads do, velocities taken as they are declared."""
+        bodies = self.system.bodies
+        velocities = {b: (self.places[b].dt(), b.angular_velocity) for b in bodies}
+        return tuple(
+            action
+            for load in self.system.loads
+            for action in load.actions(bodies, self.places, velocities)
+        )
+
+
+@lru_cache(maxsize=64)
+def declared(system: System) -> Declared:
+    """Read a declaration."""
+    places, elements = _placed(system)
+    rates = {_only(q): rate for b in system.bodies for q, rate in b.rates.items()}
+    rates |= {_only(q): rate for e in elements for q, rate in e.rates().items()}
+    mentioned = variables(_mentioned(system, places))
+    coordinates = {s.base() for s in mentioned if s.kind is Kind.COORDINATE} | rates.keys()
+    bare = {q.derivative() for q in coordinates if q not in rates}
+    free = {s.base() for rate in rates.values() for s in rate.symbols() if s.kind is Kind.SPEED}
+    own = {_only(s) for body in system.bodies for s in body.speeds}
+    return Declared(
+        system,
+        places,
+        rates,
+        tuple(sorted(coordinates, key=_name)),
+        tuple(sorted(bare | free | own, key=_name)),
+        tuple(r for e in elements for r in e.restraints(places)),
+        {f.normal.name: f for e in elements for f in e.friction(places)},
+    )
+
+
+def _placed(system: System) -> tuple[dict[Body, Vector], tuple[Element, ...]]:
+    places: dict[Body, Vector] = {}
+    elements: tuple[Element, ...] = system.elements
+    while len(places) < len(system.bodies):
+        before = len(places)
+        for element in elements:
+            if element.bodies[0] not in places:
+                places |= element.centre(places)
+        if len(places) == before:
+            flight = system.flights(places)[0]
+            places |= flight.centre(places)
+            elements = (*elements, flight)
+    return places, elements
+
+
+def _mentioned(system: System, places: Mapping[Body, Vector]) -> Iterator[Expr]:
+    for body in system.bodies:
+        yield from places[body].components
+        yield from body.angular_velocity.components
+        yield from (frame.angle for frame in body.axes.lineage)
+
+
+def _only(expression: Expr) -> Symbol:
+    (symbol,) = expression.symbols()
+    return symbol
+
+
+def _name(symbol: Symbol) -> str:
+    return symbol.published

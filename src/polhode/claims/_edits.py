@@ -1,0 +1,215 @@
+"""Changes of a formula that multiply one place by a known factor, as an author would write them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from polhode.claims._multiplier import Match
+from polhode.claims._places import ONE, Place, negated, over, raised, times
+from polhode.claims._tree import (
+    Call,
+    Dots,
+    Name,
+    Negative,
+    Node,
+    Number,
+    PlusMinus,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    walk,
+)
+
+_TURNED = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh", "tan": "cot", "cot": "tan"}
+
+
+@dataclass(frozen=True)
+class Edit:
+    """One change.
+
+    Attributes:
+        what: in words, such as "wrong sign".
+        path: where.
+        node: what is to stand there.
+        size: how much is changed; the smallest edit is proposed.
+    """
+
+    what: str
+    path: tuple[int, ...]
+    node: Node
+    size: float
+
+
+def edits(place: Place, match: Match) -> Iterator[Edit]:
+    """Ways to write that a place is to be multiplied by a matched factor."""
+    if match.powers:
+        yield from _by_quantities(place, match)
+    else:
+        yield from _by_number(place, match.number)
+
+
+def _by_number(place: Place, number: Fraction) -> Iterator[Edit]:
+    node = place.node
+    if number == -1 and (place.is_term or isinstance(node, Negative | PlusMinus)):
+        yield Edit("wrong sign", place.path, negated(node), 1.0)
+    if isinstance(node, Number) and "." not in node.text and number > 0:
+        value = Fraction(node.text) * number
+        extra = 0.0 if value.denominator == 1 else 0.5
+        yield Edit("wrong factor", place.path, number_node(value), 1.0 + extra)
+    elif place.is_term and number not in (0, 1) and not _has_number(node):
+        changed = _scaled(node, abs(number))
+        size = 1.2 if abs(number).denominator == 1 or abs(number).numerator == 1 else 1.6
+        if number < 0:
+            changed, size = negated(changed), size + 1
+        yield Edit("wrong factor", place.path, changed, size)
+    if number == 0 and isinstance(place.parent, Sum):
+        yield Edit("extra term", place.path, Number("0"), 1.0)
+
+
+def _has_number(node: Node) -> bool:
+    return any(isinstance(factor, Number) for factor in _factors(node))
+
+
+def _factors(node: Node) -> tuple[Node, ...]:
+    match node:
+        case Negative(of) | PlusMinus(of):
+            return _factors(of)
+        case Product(factors):
+            return tuple(f for factor in factors for f in _factors(factor))
+        case Quotient(above, below):
+            return (*_factors(above), *_factors(below))
+    return (node,)
+
+
+def _scaled(node: Node, number: Fraction) -> Node:
+    match node:
+        case Negative(of):
+            return Negative(_scaled(of, number))
+        case PlusMinus(of, sign):
+            return PlusMinus(_scaled(of, number), sign)
+    above = times(Number(str(number.numerator)), node)
+    return over(above, Number(str(number.denominator)))
+
+
+def _by_quantities(place: Place, match: Match) -> Iterator[Edit]:
+    if place.is_term:
+        yield from _inserted(place, match)
+    yield from _removed(place, match)
+    yield from _repowered(place, match)
+
+
+def _inserted(place: Place, match: Match) -> Iterator[Edit]:
+    above = [raised(node, p) for node, p in match.powers if p > 0]
+    below = [raised(node, -p) for node, p in match.powers if p < 0]
+    number = abs(match.number)
+    sign = 1 if match.number < 0 else 0
+    inner = place.node.of if isinstance(place.node, Negative) else place.node
+    grown = times(Number(str(number.numerator)), *above, inner)
+    shrunk = times(Number(str(number.denominator)), *below)
+    node = over(grown, shrunk)
+    if isinstance(place.node, Negative) != bool(sign):
+        node = Negative(node)
+    yield Edit("missing factor", place.path, node, 0.3 + match.size + sign)
+
+
+def _removed(place: Place, match: Match) -> Iterator[Edit]:
+    """A factor that is not to be there: its reciprocal is what the place is multiplied by."""
+    inside = isinstance(place.parent, Product | Quotient | Negative | PlusMinus)
+    if match.number != 1 or not inside or len(match.powers) != 1:
+        return
+    (node, power), *_ = match.powers
+    if power == -1 and node == place.node:
+        yield Edit("extra factor", place.path, ONE, 1.0)
+
+
+def _repowered(place: Place, match: Match) -> Iterator[Edit]:
+    """A quantity that is to have another power."""
+    if match.number != 1 or len(match.powers) != 1:
+        return
+    (node, power), *_ = match.powers
+    base, exponent = _powered(place.node)
+    if base is None or node != base or exponent + power in (0, exponent):
+        return
+    if isinstance(place.parent, Power) and place.parent.base == place.node:
+        return
+    if exponent + power > 0:
+        yield Edit("wrong power", place.path, raised(base, exponent + power), 1.0 + abs(power) / 20)
+
+
+def _powered(node: Node) -> tuple[Node | None, int]:
+    match node:
+        case Power(base, Number(text)) if text.isdigit():
+            return base, int(text)
+        case Name() | Dots() | Call():
+            return node, 1
+    return None, 0
+
+
+def replaced_by(place: Place, known: Mapping[Node, bool]) -> Iterator[Edit]:
+    """A letter or function put in the place of another whose value fits."""
+    for other in known:
+        if other != place.node:
+            yield Edit(
+                _exchange(place.node, other), place.path, other, _distance(place.node, other)
+            )
+
+
+def _exchange(old: Node, new: Node) -> str:
+    if isinstance(old, Call) and isinstance(new, Call):
+        return f"{old.function} where {new.function} is right"
+    if _bare(old) == _bare(new):
+        return "dot lost" if _dots(new) > _dots(old) else "one dot too many"
+    first, second = _bare(old), _bare(new)
+    if isinstance(first, Name) and isinstance(second, Name):
+        if first.decoration == second.decoration == "hat":
+            return "swapped component"
+        if first.letter == second.letter:
+            return "wrong index"
+    return "wrong symbol"
+
+
+def _distance(old: Node, new: Node) -> float:
+    if isinstance(old, Call) and isinstance(new, Call):
+        return 1.0
+    first, second = _bare(old), _bare(new)
+    if first == second or _letter(first) == _letter(second):
+        return 1.0
+    return 1.05 if _decoration(first) == _decoration(second) else 1.1
+
+
+def _decoration(node: Node) -> str | None:
+    return node.decoration if isinstance(node, Name) else None
+
+
+def _letter(node: Node) -> str:
+    return node.letter if isinstance(node, Name) else ""
+
+
+def _bare(node: Node) -> Node:
+    return node.of if isinstance(node, Dots) else node
+
+
+def _dots(node: Node) -> int:
+    return node.count if isinstance(node, Dots) else 0
+
+
+def number_node(value: Fraction) -> Node:
+    """A positive number as a text prints it."""
+    return over(Number(str(value.numerator)), Number(str(value.denominator)))
+
+
+def turned(node: Node) -> Node | None:
+    """The function that a sine, cosine or the like is most easily confused with."""
+    if isinstance(node, Call) and node.function in _TURNED:
+        return Call(_TURNED[node.function], node.argument)
+    return None
+
+
+def letters(node: Node) -> Iterator[Node]:
+    """Names, dotted names and functions inside a node."""
+    for piece in walk(node):
+        if isinstance(piece, Name | Dots | Call):
+            yield piece

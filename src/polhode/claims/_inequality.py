@@ -1,0 +1,43 @@
+"""Inequalities that are to hold on all states of a context."""
+
+from __future__ import annotations
+
+from polhode.algebra import Expr
+from polhode.claims._asked import Asked
+from polhode.claims._circumstances import Circumstances
+from polhode.claims._components import Component
+from polhode.claims._counterexample import refutation
+from polhode.claims._numeric import number
+from polhode.claims._signs import definite_sign
+from polhode.claims._verdict import Answer, Residual, Verdict
+
+#: Sign of left less right that each sign claims.
+SENSE = {">": 1, "≥": 1, "≫": 1, "<": -1, "≤": -1, "≪": -1}
+
+
+def judged_inequality(asked: Asked, component: Component, states: Circumstances) -> Verdict:
+    """Proved from the signs of factors, or refuted at a state, or else left open by exception."""
+    sign = asked.members[component.member].sign
+    difference = states.on(component.difference)
+    assumed = (*asked.equations.assumed_positive, *asked.positive)
+    sense = SENSE[sign]
+    if difference and definite_sign(difference, assumed) == sense:
+        return Verdict(Answer.HOLDS, "", reason="seen from the signs of its factors")
+
+    def refutes(left: Expr, right: Expr) -> bool:
+        return float(number(left - right, {})) * sense < 0
+
+    residual = Residual(component.member, component.label, difference)
+    example, second = refutation(component, residual, states, refutes)
+    if example is None:
+        return Verdict(
+            Answer.UNREAD, "", reason="neither proved nor refuted", residuals=(residual,)
+        )
+    return Verdict(
+        Answer.FAILS,
+        "",
+        reason=f"the left side is not {sign} the right side everywhere",
+        residuals=(residual,),
+        counterexample=example,
+        confirmation=second,
+    )

@@ -1,0 +1,168 @@
+"""Claims that are true for small quantities, to an order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import log
+
+from polhode.algebra import ONE, ZERO, Expr, Symbol
+from polhode.base import NumericError, PolhodeError
+from polhode.claims._asked import Asked
+from polhode.claims._bench import bench
+from polhode.claims._circumstances import AnyState, Circumstances, TrueMotion
+from polhode.claims._components import Component
+from polhode.claims._counterexample import refutation
+from polhode.claims._numeric import number
+from polhode.claims._roots_of_steady import steady_roots
+from polhode.claims._scaling import SMALLNESS, leading_orders, restored, scaled
+from polhode.claims._verdict import Answer, Residual, Verdict
+
+_HIGHEST = 6
+_LOWEST = -4
+
+
+def judged_limit(asked: Asked) -> Verdict:
+    """To the stated order in the small quantities, and verified by scaling what is left out.
+
+    Judged for all states first, then on true motions, then for the roots of steady motions.
+    """
+    if not asked.small:
+        raise NumericError(
+            "a claim in the context limit without a small quantity",
+            expected="what is small and to which order",
+            advice="say --small SYMBOL:ORDER",
+        )
+    verdicts = []
+    for candidate in _readings(asked):
+        verdict = _judged(asked, candidate)
+        if verdict.holds:
+            return verdict
+        verdicts.append(verdict)
+    return verdicts[-1]
+
+
+@dataclass(frozen=True)
+class _Remainder:
+    """What is left of one component: as a power series in the smallness."""
+
+    component: Component
+    states: Circumstances
+    left: Expr
+    right: Expr
+    positive: tuple[Expr, ...]
+
+    @cached_property
+    def orders(self) -> dict[int, Expr]:
+        """The first coefficients that are not zero, by their order."""
+        return self.series(self.left - self.right)
+
+    def series(self, expression: Expr, highest: int = _HIGHEST) -> dict[int, Expr]:
+        """The first coefficient that does not vanish, by its order, with all signs told."""
+        return leading_orders(expression, _LOWEST, highest, self.positive)
+
+    @cached_property
+    def leading(self) -> int:
+        """Order of the larger side."""
+        both = map(self.series, (self.left, self.right))
+        return min((order for orders in both for order in orders), default=0)
+
+
+def _readings(asked: Asked) -> Iterator[list[_Remainder]]:
+    kinds = (AnyState, TrueMotion)
+    for kind in kinds:
+        states = kind(asked.equations, asked.given, asked.relations)
+        yield [_remainder(c, states, c.left, c.right, asked) for c in asked.components()]
+    roots = list(steady_roots(asked))
+    for branch in range(max((len(values) for _, values in roots), default=0)):
+        yield [
+            _remainder(c, TrueMotion(asked.equations, asked.given), values[branch], c.right, asked)
+            for c, values in roots
+            if branch < len(values)
+        ]
+
+
+def _remainder(
+    component: Component, states: Circumstances, left: Expr, right: Expr, asked: Asked
+) -> _Remainder:
+    first, second = (scaled(states.on(side), asked.small) for side in (left, right))
+    return _Remainder(component, states, first, second, _positive(asked))
+
+
+def _positive(asked: Asked) -> tuple[Expr, ...]:
+    """What is taken as positive: what the text says is, and what is large."""
+    large = (Expr.generator(s) for small in asked.small for s in _below(small.quantity))
+    return (*asked.positive, *large)
+
+
+def _below(quantity: Expr) -> frozenset[Symbol]:
+    return quantity.denominator.symbols()
+
+
+def _judged(asked: Asked, remainders: Sequence[_Remainder]) -> Verdict:
+    stated = [small.order for small in asked.small if small.order is not None]
+    reached: list[tuple[int, Expr]] = []
+    for left in remainders:
+        if not left.orders:
+            if left.left != left.right:
+                reached.append((_HIGHEST + 1, ZERO))
+            continue
+        order, term = next(iter(left.orders.items()))
+        wanted = min(stated) if stated else left.leading
+        if order <= wanted:
+            return _failed(left, order, restored(term, asked.small))
+        reached.append((order, term))
+    if not reached:
+        return Verdict(Answer.HOLDS, "limit")
+    order, dropped = min(reached, key=lambda pair: pair[0])
+    return Verdict(
+        Answer.APPROXIMATE,
+        "limit",
+        reason=f"true up to order {order - 1}; the first term left out is of order {order}",
+        order=order - 1,
+        dropped=restored(dropped, asked.small),
+        remarks=tuple(_measured(remainders)),
+    )
+
+
+def _failed(left: _Remainder, order: int, term: Expr) -> Verdict:
+    component = left.component
+    residual = Residual(component.member, component.label, term)
+    wrong = Component(component.member, component.label, *_coefficients(left, order))
+    example, second = refutation(wrong, residual, left.states)
+    return Verdict(
+        Answer.FAILS,
+        "limit",
+        reason=f"the sides differ at order {order} already",
+        residuals=(residual,),
+        counterexample=example,
+        confirmation=second,
+        order=order - 1,
+        dropped=term,
+    )
+
+
+def _coefficients(left: _Remainder, order: int) -> tuple[Expr, Expr]:
+    sides = (left.series(side, order) for side in (left.left, left.right))
+    first, second = (found.get(order, ZERO) for found in sides)
+    return first, second
+
+
+def _measured(remainders: Sequence[_Remainder]) -> Iterator[str]:
+    """How fast the remainder falls as the small quantities are halved, by numbers."""
+    for left in remainders:
+        difference = left.left - left.right
+        if difference:
+            try:
+                order = _slope(difference, left.states)
+            except (PolhodeError, ArithmeticError, ValueError, IndexError):
+                continue
+            yield f"halving what is small makes the remainder fall as its power {order:.2f}"
+            return
+
+
+def _slope(difference: Expr, states: Circumstances) -> float:
+    point = bench(states, [difference.subs({SMALLNESS: ONE})]).states[0]
+    sizes = [abs(number(difference, {**point, SMALLNESS: 2.0**-k})) for k in (7, 8)]
+    return log(sizes[0] / sizes[1], 2)

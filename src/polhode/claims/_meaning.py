@@ -1,0 +1,230 @@
+"""What letters mean: scalars, vectors, inertia tensors; and what signs between them do."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TypeAlias
+
+from polhode.algebra import Expr, Generator, Matrix, Triad, Vector, absolute, sqrt, zero_vector
+from polhode.base import NumericError, ParseError
+
+
+@dataclass(frozen=True)
+class Tensor:
+    """A linear map of vectors, such as an inertia tensor, by its matrix along a triad."""
+
+    matrix: Matrix
+    triad: Triad
+
+    def of(self, vector: Vector) -> Vector:
+        """The vector it maps a vector to."""
+        return Vector(self.matrix.times(vector.express(self.triad).components), self.triad)
+
+
+Meaning: TypeAlias = Expr | Vector | Tensor
+
+
+class BindingError(ParseError):
+    """A formula that was read but whose symbols cannot be given a meaning.
+
+    Attributes:
+        symbol: the symbol at fault, in ASCII; empty where the trouble is a sign between two.
+        near: names that are known and resemble it.
+    """
+
+    def __init__(
+        self,
+        given: str,
+        *,
+        expected: str = "",
+        advice: str = "",
+        symbol: str = "",
+        near: tuple[str, ...] = (),
+    ) -> None:
+        super().__init__(given, expected=expected, advice=advice)
+        self.symbol = symbol
+        self.near = near
+
+
+def plus(left: Meaning, right: Meaning) -> Meaning:
+    """The sum of two scalars or two vectors; the number 0 may stand for a vector."""
+    match left, right:
+        case Expr(), Expr():
+            return left + right
+        case Vector(), Vector():
+            return left + right
+        case Expr(), Vector() if not left:
+            return right
+        case Vector(), Expr() if not right:
+            return left
+    raise _mismatch(left, "+", right, "look for a lost hat, arrow or dot product")
+
+
+def minus(meaning: Meaning) -> Meaning:
+    """The same with the opposite sign."""
+    if isinstance(meaning, Tensor):
+        return Tensor(Matrix.of([[-x for x in row] for row in meaning.matrix.rows]), meaning.triad)
+    return -meaning
+
+
+def times(left: Meaning, right: Meaning) -> Meaning:
+    """Two quantities side by side: a product unless both are vectors."""
+    match left, right:
+        case Expr(), Expr():
+            return left * right
+        case (Expr() as factor, Vector() as vector) | (Vector() as vector, Expr() as factor):
+            return vector * factor
+        case Expr(), Tensor():
+            return _scaled(right, left)
+        case Tensor(), Expr():
+            return _scaled(left, right)
+        case Tensor(), Vector():
+            return left.of(right)
+    raise _mismatch(left, "beside", right, "write \\times or \\cdot between two vectors")
+
+
+def cross(left: Meaning, right: Meaning) -> Meaning:
+    """Two quantities with × between; of scalars, their product."""
+    match left, right:
+        case Vector(), Vector():
+            return left.cross(right)
+        case (Expr(), Expr()) | (Expr(), Vector()) | (Vector(), Expr()):
+            return _stretched(left, right)
+    raise _mismatch(left, "×", right, "")
+
+
+def dot(left: Meaning, right: Meaning) -> Meaning:
+    """Two quantities with · between; of scalars, their product."""
+    match left, right:
+        case Vector(), Vector():
+            return left.dot(right)
+        case Tensor(), Vector():
+            return left.of(right)
+        case (Expr(), Expr()) | (Expr(), Vector()) | (Vector(), Expr()):
+            return times(left, right)
+    raise _mismatch(left, "·", right, "")
+
+
+def _stretched(left: Meaning, right: Meaning) -> Meaning:
+    """A scalar × a vector is a lost hat or bold letter, unless the scalar is a plain number."""
+    both = isinstance(left, Expr) and isinstance(right, Expr)
+    numbers = [m.rational for m in (left, right) if isinstance(m, Expr)]
+    if both or any(number is not None for number in numbers):
+        return times(left, right)
+    raise _mismatch(left, "×", right, "look for a lost hat or arrow")
+
+
+def over(above: Meaning, below: Meaning) -> Meaning:
+    """A quotient by a scalar."""
+    if not isinstance(below, Expr):
+        raise _mismatch(above, "over", below, "divide by a length or a component")
+    if not below:
+        raise BindingError("a division by zero", advice="check the denominator")
+    return times(above, below.reciprocal())
+
+
+def power(base: Meaning, exponent: Meaning, root: Callable[[Expr], Expr]) -> Meaning:
+    """A power; of a vector, of its length."""
+    number = exponent.rational if isinstance(exponent, Expr) else None
+    if number is None or number.denominator > 2 or abs(number) > _HIGHEST:
+        raise BindingError(
+            "a power whose exponent is no number",
+            expected=f"a whole or half number up to {_HIGHEST}",
+        )
+    if isinstance(base, Tensor):
+        raise _mismatch(base, "to the power", exponent, "")
+    if number.denominator == 2:
+        return root(as_scalar(base, "the base of a power")) ** number.numerator
+    if isinstance(base, Vector):
+        square = base.dot(base)
+        half = Fraction(number, 2)
+        return square**half.numerator if half.denominator == 1 else root(square) ** int(number)
+    if not base and number < 0:
+        raise BindingError("a negative power of zero", advice="check the denominator")
+    return base**number
+
+
+_HIGHEST = 20
+
+
+def as_scalar(meaning: Meaning, what: str) -> Expr:
+    """A meaning that has to be a scalar."""
+    if not isinstance(meaning, Expr):
+        raise BindingError(f"a {sort(meaning)} for {what}", expected="a scalar")
+    return meaning
+
+
+def as_vector(meaning: Meaning, what: str) -> Vector:
+    """A meaning that has to be a vector."""
+    if not isinstance(meaning, Vector):
+        raise BindingError(f"a {sort(meaning)} for {what}", expected="a vector")
+    return meaning
+
+
+def rate(meaning: Meaning) -> Meaning:
+    """Time derivative, of a vector in inertial space."""
+    if isinstance(meaning, Tensor):
+        raise BindingError("the time derivative of a tensor", expected="a scalar or a vector")
+    return meaning.dt()
+
+
+def sort(meaning: Meaning) -> str:
+    """What kind of quantity it is, in a word."""
+    return {Expr: "scalar", Vector: "vector", Tensor: "tensor"}[type(meaning)]
+
+
+def positive_root(radicand: Expr, positive: Collection[Expr]) -> Expr:
+    """The square root, where the signs of some quantities are known besides."""
+    try:
+        return with_signs(sqrt(radicand), positive)
+    except NumericError as error:
+        raise BindingError(error.given, expected=error.expected, advice=error.advice) from None
+
+
+def positive_size(x: Expr, positive: Collection[Expr]) -> Expr:
+    """The magnitude, where the signs of some quantities are known besides."""
+    return with_signs(absolute(x), positive)
+
+
+def signed(meaning: Meaning, positive: Collection[Expr]) -> Meaning:
+    """A scalar or vector in which the signs of some quantities are used."""
+    match meaning:
+        case Expr():
+            return with_signs(meaning, positive)
+        case Vector(components, triad):
+            return Vector(tuple(with_signs(c, positive) for c in components), triad)
+    return meaning
+
+
+def with_signs(x: Expr, positive: Collection[Expr]) -> Expr:
+    """With |f| replaced by f for every f that is known to be positive."""
+    plain = {g: known for g in x.generators if (known := _unwrapped(g, positive)) is not None}
+    return x.recast(plain) if plain else x
+
+
+def _unwrapped(generator: Generator, positive: Collection[Expr]) -> Expr | None:
+    inside = getattr(generator, "plain", None)
+    if inside is None:
+        return None
+    return next((f for f in (inside, -inside) if f in positive), None)
+
+
+def zero_like(meaning: Meaning) -> Meaning:
+    """The zero that goes with a scalar or a vector."""
+    return zero_vector(meaning.triad) if isinstance(meaning, Vector) else Expr.of(0)
+
+
+def _scaled(tensor: Tensor, factor: Expr) -> Tensor:
+    return Tensor(
+        Matrix.of([[x * factor for x in row] for row in tensor.matrix.rows]), tensor.triad
+    )
+
+
+def _mismatch(left: Meaning, sign: str, right: Meaning, advice: str) -> BindingError:
+    return BindingError(
+        f"a {sort(left)} {sign} a {sort(right)}",
+        expected="quantities of kinds that go together",
+        advice=advice,
+    )

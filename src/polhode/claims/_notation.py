@@ -1,0 +1,193 @@
+"""One text's notation: its letters, definitions, restrictions and small quantities, on a system."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+
+from polhode.algebra import Expr, Symbol, as_symbol
+from polhode.base import ParseError
+from polhode.claims._asked import Asked, Small
+from polhode.claims._bindings import EQUAL, Bound, BoundRelation, bind, restrictions
+from polhode.claims._components import Side
+from polhode.claims._document import Claim, Definition, Part
+from polhode.claims._evaluate import Evaluator
+from polhode.claims._meaning import BindingError, Meaning, as_scalar, signed, sort
+from polhode.claims._phrases import quantity
+from polhode.claims._statements import read_latex
+from polhode.claims._tree import Node, Statement
+from polhode.claims._vocabulary import Vocabulary, constant, name_of, spelled
+from polhode.derive import Equations
+
+#: A binding of this name tells the frame that components in a bracket are along.
+COLUMNS = "components"
+
+
+@dataclass(frozen=True, eq=False)
+class Notation:
+    """How statements about one system are to be understood.
+
+    Attributes:
+        vocabulary: letters of the text.
+        given: restrictions, as bound relations.
+        small: quantities taken as small.
+    """
+
+    vocabulary: Vocabulary
+    given: tuple[BoundRelation, ...] = ()
+    small: tuple[Small, ...] = field(default=())
+
+    @classmethod
+    def of(cls, equations: Equations) -> Notation:
+        """With nothing but the names of the declaration."""
+        return cls(Vocabulary.of(equations))
+
+    @classmethod
+    def of_part(cls, equations: Equations, part: Part) -> Notation:
+        """Of one part of a document.
+
+        Raises:
+            ParseError: for LaTeX in the part that cannot be read.
+            BindingError: for symbols there that stand for nothing.
+        """
+        return (
+            cls.of(equations)
+            .binding(part.bindings)
+            .with_constants(part.constants)
+            .taking_positive(part.positive)
+            .defining(part.definitions)
+            .under(part.given)
+        )
+
+    def of_claim(self, claim: Claim) -> Notation:
+        """Of one claim of that part, with what is said for it alone."""
+        return (
+            self.binding(claim.bindings)
+            .defining(claim.definitions)
+            .under(claim.given)
+            .with_small(claim.small)
+        )
+
+    # -- saying more ----------------------------------------------------------------------------
+
+    def binding(self, bindings: Mapping[str, str]) -> Notation:
+        """With letters, as LaTeX, bound to quantities of the model."""
+        mechanics = self.vocabulary.mechanics
+        columns = bindings.get(COLUMNS, self.vocabulary.columns)
+        mechanics.frame(columns)
+        told = {
+            letter(latex): quantity(mechanics, phrase)
+            for latex, phrase in bindings.items()
+            if latex != COLUMNS
+        }
+        return replace(self, vocabulary=replace(self.vocabulary.saying(told), columns=columns))
+
+    def with_constants(self, letters: Iterable[str]) -> Notation:
+        """With letters, as LaTeX, that stand for constants without a value."""
+        found = [letter(latex) for latex in letters]
+        return self._saying({node: constant(node) for node in found})
+
+    def taking_positive(self, quantities: Iterable[str]) -> Notation:
+        """With quantities, as LaTeX, whose sign is known."""
+        values = tuple(self.scalar(latex) for latex in quantities)
+        positive = (*self.vocabulary.positive, *values)
+        told = {node: signed(value, positive) for node, value in self.vocabulary.told.items()}
+        return replace(self, vocabulary=replace(self.vocabulary, positive=positive, told=told))
+
+    def defining(self, definitions: Iterable[Definition]) -> Notation:
+        """With new letters, each by an equation that has it on the left.
+
+        Raises `ParseError` for one that the declaration uses already.
+        """
+        notation = self
+        for definition in definitions:
+            notation = notation._saying(notation._defined(definition.latex))
+        return notation
+
+    def _defined(self, latex: str) -> dict[Node, Meaning]:
+        statement = read_latex(latex)
+        found: dict[Node, Meaning] = {}
+        for relation in statement.relations:
+            if len(relation.sides) != 2 or relation.signs[0] not in EQUAL:
+                raise ParseError(
+                    f"the definition {latex!r}", expected="an equation: new letter = its value"
+                )
+            new, value = relation.sides
+            if new in self.vocabulary.declared:
+                raise ParseError(
+                    f"{spelled(new)}, which {self.vocabulary.system} has already",
+                    expected="a definition of a new letter",
+                    advice="restrict a known quantity with --given instead",
+                )
+            found[new] = self._saying(found).value(value)
+        return found
+
+    def under(self, given: Iterable[str]) -> Notation:
+        """Restricted by relations, as LaTeX."""
+        bound = (
+            relation for latex in given for relation in self.bound(read_latex(latex)).relations
+        )
+        return replace(self, given=(*self.given, *bound))
+
+    def with_small(self, small: Mapping[str, int | None]) -> Notation:
+        """With small quantities, as LaTeX, and the order to which they are kept."""
+        found = (Small(self.scalar(latex), order) for latex, order in small.items())
+        return replace(self, small=(*self.small, *found))
+
+    def _saying(self, told: Mapping[Node, Meaning]) -> Notation:
+        return replace(self, vocabulary=self.vocabulary.saying(told))
+
+    # -- reading --------------------------------------------------------------------------------
+
+    def bound(self, statement: Statement) -> Bound:
+        """A statement with its symbols given a meaning."""
+        return bind(statement, self.vocabulary)
+
+    def asked(self, statement: Statement, extra: Mapping[str, Expr]) -> Asked:
+        """The claim a statement makes; `extra` are further letters by published name.
+
+        What it merely defines is not among the members.
+        """
+        further = self._saying({name_of(name): value for name, value in extra.items()})
+        return further.claimed(further.bound(statement))
+
+    def claimed(self, bound: Bound) -> Asked:
+        """The claim that a bound statement makes under this notation's restrictions."""
+        equalities = [r for r in bound.conditions if r.sign in EQUAL]
+        values, vanishing = restrictions((*self.given, *equalities))
+        given: dict[Symbol, Expr] = {as_symbol(s): value for s, value in values.items()}
+        equations = self.vocabulary.mechanics.equations
+        return Asked(
+            bound.branches,
+            equations,
+            given,
+            vanishing,
+            self.small,
+            self.vocabulary.positive,
+            bound.digits,
+        )
+
+    def value(self, node: Node) -> Side:
+        """What one node stands for: a scalar or a vector."""
+        found = Evaluator(self.vocabulary).value(node)
+        if not isinstance(found, Side):
+            raise BindingError(f"a {sort(found)}", expected="a scalar or a vector")
+        return found
+
+    def scalar(self, latex: str) -> Expr:
+        """The scalar that a quantity in LaTeX stands for."""
+        return as_scalar(self.value(letter(latex)), latex)
+
+    @property
+    def names(self) -> tuple[Node, ...]:
+        """Letters of the text, with their dots, that a correction may use."""
+        return tuple(dict.fromkeys(self.vocabulary.letters()))
+
+
+def letter(latex: str) -> Node:
+    """The one quantity that a piece of LaTeX prints."""
+    statement = read_latex(latex)
+    (relation, *others) = statement.relations
+    if others or relation.is_claim:
+        raise ParseError(f"{latex!r}", expected="one letter or quantity, and no relation")
+    return relation.sides[0]

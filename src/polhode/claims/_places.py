@@ -1,0 +1,144 @@
+"""Places in a formula, and the formula with something else put there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from itertools import count
+
+from polhode.claims._tree import (
+    Negative,
+    Node,
+    Number,
+    Piece,
+    PlusMinus,
+    Power,
+    Product,
+    Quotient,
+    Statement,
+    Sum,
+    mapped,
+    parts,
+)
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a node stands in a statement.
+
+    Attributes:
+        path: which of the pieces directly inside, level by level.
+        node: what stands there.
+        parent: what it is directly inside of.
+    """
+
+    path: tuple[int, ...]
+    node: Node
+    parent: Piece
+
+    @property
+    def relation(self) -> int:
+        """Which relation of the statement it is in."""
+        return self.path[0]
+
+    @property
+    def is_term(self) -> bool:
+        """Whether it is one term of a sum or a whole side, with its sign."""
+        return not isinstance(self.parent, Node) or isinstance(self.parent, Sum)
+
+
+def places(statement: Statement) -> Iterator[Place]:
+    """Every node of the relations of a statement, outermost first."""
+    for i, relation in enumerate(statement.relations):
+        yield from _below(relation, (i,))
+
+
+def _below(piece: Piece, path: tuple[int, ...]) -> Iterator[Place]:
+    for i, part in enumerate(parts(piece)):
+        here = (*path, i)
+        if isinstance(part, Node):
+            yield Place(here, part, piece)
+        yield from _below(part, here)
+
+
+def put(statement: Statement, path: tuple[int, ...], node: Node) -> Statement:
+    """The statement with another node at a place; it keeps the span of what stood there."""
+    return mapped(statement, _changer(path, node))
+
+
+def _changer(path: tuple[int, ...], node: Node) -> Callable[[Piece], Piece]:
+    """Changes the part that the first step of the path leads to; it is shown all in order."""
+    position = count()
+
+    def change(part: Piece) -> Piece:
+        if next(position) != path[0]:
+            return part
+        return (
+            replace(node, span=part.span)
+            if len(path) == 1
+            else mapped(part, _changer(path[1:], node))
+        )
+
+    return change
+
+
+# -- small algebra on nodes, as an author would write it -----------------------------------------
+
+
+def negated(node: Node) -> Node:
+    """The node with its sign changed."""
+    match node:
+        case Negative(of):
+            return of
+        case PlusMinus(of, sign):
+            return PlusMinus(of, "∓" if sign == "±" else "±")
+    return Negative(node)
+
+
+def times(*nodes: Node) -> Node:
+    """A product without brackets inside and without ones."""
+    flat: list[Node] = []
+    for node in nodes:
+        flat += node.factors if isinstance(node, Product) else [node]
+    kept = [node for node in flat if node != ONE]
+    if not kept:
+        return ONE
+    return kept[0] if len(kept) == 1 else Product(tuple(kept))
+
+
+def tidied(piece: Piece) -> Piece:
+    """Without factors one, terms zero, and sums and products of a single part."""
+    piece = mapped(piece, tidied)
+    match piece:
+        case Product(factors):
+            return times(*factors)
+        case Quotient(above, below):
+            return over(above, below)
+        case Negative(of) if of == ZERO:
+            return ZERO
+        case Sum(terms):
+            kept = tuple(term for term in terms if term != ZERO)
+            return (*kept, ZERO)[0] if len(kept) < 2 else Sum(kept)
+    return piece
+
+
+def over(above: Node, below: Node) -> Node:
+    """A quotient, none where nothing is below."""
+    return above if below == ONE else Quotient(above, below)
+
+
+def raised(base: Node, exponent: int) -> Node:
+    """A whole power."""
+    if exponent == 0:
+        return ONE
+    return base if exponent == 1 else Power(base, Number(str(exponent)))
+
+
+def added(node: Node, term: Node) -> Node:
+    """A sum with one more term."""
+    terms = node.terms if isinstance(node, Sum) else (node,)
+    return term if terms == (ZERO,) else Sum((*terms, term))
+
+
+ONE = Number("1")
+ZERO = Number("0")

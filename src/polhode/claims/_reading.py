@@ -1,0 +1,28 @@
+"""What repair needs to know of how a statement is read."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Protocol
+
+from polhode.algebra import Expr
+from polhode.claims._asked import Asked
+from polhode.claims._components import Side
+from polhode.claims._tree import Node, Statement
+
+
+class Reading(Protocol):
+    """What repair needs to know of how a statement is read."""
+
+    def asked(self, statement: Statement, extra: Mapping[str, Expr]) -> Asked:
+        """The claim a statement makes; `extra` are further letters it may use."""
+        ...
+
+    def value(self, node: Node) -> Side:
+        """What one node stands for."""
+        ...
+
+    @property
+    def names(self) -> tuple[Node, ...]:
+        """Letters of the text, with their dots, that a correction may use."""
+        ...

@@ -1,0 +1,214 @@
+"""A display read whole: its relations, with the words, gaps and numbers between them."""
+
+from __future__ import annotations
+
+import re
+
+from polhode.claims._brackets import Paired, closes, paired
+from polhode.claims._quantities import QuantityReader
+from polhode.claims._tokens import tokens
+from polhode.claims._tree import Case, Cases, Name, Node, Relation, Statement, Words, walk
+
+_OR = re.compile(r"(?:\(.*\) *)?or")
+_WORDS_OF_CASE = re.compile(r"(?:\((.*)\) *)?(?:or)?")
+_WRAPPED = re.compile(r"\\(?:text|textrm|mbox|mathrm)\{([^{}]*)\}")
+_NUMBER = re.compile(r"\([0-9]{1,4}\)")
+_STOPS = (",", ";", ".")
+_ENDS = {"row", "gap", "words", "arrow", "tag", "close"}
+
+
+def read_latex(text: str) -> Statement:
+    r"""What a display says, read from its LaTeX.
+
+    Dollar signs, ``\[ \]``, alignment, spacing, type sizes and punctuation may be there. Of a
+    formula in text style, ``a b/c d`` is a b over c d up to the next vector, and ``\sin 2\theta
+    \cos\phi`` a product of two functions. Nothing is evaluated.
+
+    Args:
+        text: at most 20 000 characters of LaTeX.
+
+    Returns:
+        The relations in the order of printing; a row that begins with a sign goes on with the
+        relation before.
+
+    Raises:
+        ParseError: for what cannot be read, showing the place.
+    """
+    return _StatementReader(text, paired(text, tokens(text))).statement()
+
+
+class _StatementReader(QuantityReader):
+    """Reads one statement."""
+
+    def __init__(self, source: str, paired: Paired) -> None:
+        super().__init__(source, paired)
+        self._asides = _brackets_of_relations(paired)
+        self._relations: list[Relation] = []
+        self._conditions: list[Relation] = []
+        self._notes: list[str] = []
+        self._tags: list[str] = []
+
+    def statement(self) -> Statement:
+        while self._token.kind != "close":
+            if not self._passed_break():
+                self._read_relation()
+        said = self._relations or self._conditions
+        if not said:
+            raise self._unexpected("a formula")
+        statement = Statement(
+            tuple(said),
+            tuple(self._conditions) if self._relations else (),
+            tuple(self._notes),
+            tuple(self._tags),
+            span=(0, len(self._source)),
+        )
+        self._refuse_bare_operators(statement)
+        return statement
+
+    def _refuse_bare_operators(self, statement: Statement) -> None:
+        for piece in walk(statement):
+            if isinstance(piece, Name) and piece.letter == "partial":
+                raise self._refused(piece.span, "a ∂ of nothing", "a partial derivative")
+
+    def _passed_break(self) -> bool:
+        """Take what stands between relations, and keep what it says."""
+        token = self._token
+        if token.kind in ("row", "gap") or self._at(",", ";", ".", ":", "&"):
+            self._take()
+        elif token.kind == "words" and _NUMBER.fullmatch(token.text):
+            self._tags.append(self._take().text.strip("()"))
+        elif token.kind in ("words", "arrow") and not self._at_capitals():
+            self._notes.append(self._take().text)
+        elif token.kind == "tag":
+            self._tags.append(self._take().text)
+        elif self._at_tag():
+            with self._within():
+                self._tags.append(self._take().text)
+        elif self._place in self._asides:
+            with self._within():
+                self._conditions.append(self._relation())
+                while self._took(","):
+                    self._conditions.append(self._relation())
+        elif self._at_bracketed_words():
+            with self._within():
+                self._notes.append(self._take().text)
+        else:
+            return False
+        return True
+
+    def _at_tag(self) -> bool:
+        """Whether a number in brackets ends the display, as equation numbers do."""
+        if not (self._at("(") and self._holds_one() and self._next.text.isdigit()):
+            return False
+        place = self._place + 3
+        while self._tokens[place].kind == "row" or self._tokens[place].is_mark(".", ","):
+            place += 1
+        is_number = self._tokens[place].kind == "close" and self._next.text != "0"
+        return is_number and self._is_set_off()
+
+    def _is_set_off(self) -> bool:
+        """Whether something, if only a space, parts this token from the one before."""
+        if self._place == 0:
+            return True
+        before = self._tokens[self._place - 1]
+        is_break = before.kind in ("gap", "row") or before.is_mark(",", ".", ";")
+        return is_break or self._source[self._start - 1].isspace()
+
+    def _holds_one(self) -> bool:
+        return self._partner[self._place] == self._place + 2
+
+    def _starts_factor(self) -> bool:
+        return super()._starts_factor() and not (self._around == "" and self._at_aside())
+
+    def _at_aside(self) -> bool:
+        return self._at_bracketed_words() or self._place in self._asides or self._at_tag()
+
+    def _at_bracketed_words(self) -> bool:
+        return self._at("(") and self._next.kind == "words" and self._holds_one()
+
+    def _at_words(self) -> bool:
+        is_words = self._token.kind == "words" and not self._at_word()
+        return is_words or self._at_bracketed_words()
+
+    def _read_relation(self) -> None:
+        """A new relation, or the rest of the one before."""
+        if not self._at_sign():
+            self._relations.append(self._relation())
+            return
+        if not self._relations:
+            raise self._unexpected("the left side of the relation")
+        before = self._relations.pop()
+        signs, sides = list(before.signs), list(before.sides)
+        while self._at_sign():
+            signs.append(self._take().text)
+            sides.append(self._side())
+        span = self._since(before.span[0])
+        self._relations.append(Relation(tuple(sides), tuple(signs), span=span))
+
+    def _side(self) -> Node:
+        """A quantity, quantities with "or" between, or words to the end of the line."""
+        self._skip_breaks()
+        start = self._start
+        if self._at_words():
+            return self._words_to_end()
+        side = self._sum()
+        cases: list[Case] = []
+        while self._at_or():
+            cases.append(Case(side, words=self._words_of_case(), span=side.span))
+            side = self._sum()
+        if not cases:
+            return side
+        cases.append(Case(side, words=self._words_of_case(), span=side.span))
+        return Cases(tuple(cases), span=self._since(start))
+
+    def _at_or(self) -> bool:
+        """Whether an "or" follows that stands between two values, not between two relations."""
+        place = self._past_breaks(self._place)
+        token = self._tokens[place]
+        if token.kind != "words" or not _OR.fullmatch(token.text):
+            return False
+        place = self._past_breaks(place + 1)
+        while not self._tokens[place].is_mark(*_STOPS) and self._tokens[place].kind not in _ENDS:
+            if self._tokens[place].kind == "sign":
+                return False
+            place = self._partner.get(place, place) + 1
+        return True
+
+    def _words_of_case(self) -> str:
+        """The words in brackets that tell one value from another, without the "or" behind them."""
+        place = self._past_breaks(self._place)
+        token = self._tokens[place]
+        match = _WORDS_OF_CASE.fullmatch(token.text) if token.kind == "words" else None
+        if not match:
+            return ""
+        self._place = place
+        self._take()
+        return (match[1] or "").strip()
+
+    def _past_breaks(self, place: int) -> int:
+        while self._is_break(place):
+            place += 1
+        return place
+
+    def _words_to_end(self) -> Words:
+        """Words for a quantity, with the formulas among them, to the end of the line."""
+        start = self._start
+        while self._token.kind not in ("row", "tag", "close"):
+            self._take()
+        span = self._since(start)
+        words = _WRAPPED.sub(r" \1 ", self._source[slice(*span)])
+        return Words(" ".join(words.split()).rstrip(" .,"), span=span)
+
+
+def _brackets_of_relations(paired: Paired) -> set[int]:
+    """Where the round brackets open that hold a relation."""
+    found: set[int] = set()
+    around: list[int] = []
+    for place, token in enumerate(paired.tokens):
+        if place in paired.partner:
+            around.append(place)
+        elif closes(token):
+            around.pop()
+        elif token.kind == "sign" and around and paired.tokens[around[-1]].is_mark("("):
+            found.add(around[-1])
+    return found

@@ -1,0 +1,51 @@
+"""Steady motions as the states on which a claim is asked to hold."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+from polhode.algebra import ZERO, Expr, Symbol, eliminate
+from polhode.analyse import SteadyMotion, steady
+from polhode.claims._circumstances import TrueMotion
+from polhode.derive import Equations
+
+
+@dataclass(frozen=True)
+class SteadyStates(TrueMotion):
+    """The states of one family: its fixed values, its relations, all accelerations zero."""
+
+    family: SteadyMotion | None = None
+
+    def _settled(self, expression: Expr) -> Expr:
+        return super()._settled(expression.subs(self._at_rest)).subs(self._fixed)
+
+    @cached_property
+    def _fixed(self) -> dict[Symbol, Expr]:
+        return dict(self.family.fixed) if self.family else {}
+
+    @cached_property
+    def _at_rest(self) -> dict[Symbol, Expr]:
+        """Accelerations of all independent speeds."""
+        return dict.fromkeys(self.equations.acceleration_symbols, ZERO)
+
+
+def steady_states(
+    equations: Equations, given: Mapping[Symbol, Expr], relations: tuple[Expr, ...] = ()
+) -> tuple[SteadyStates, ...]:
+    """Every family of steady motions that obeys the claim's own restrictions.
+
+    Families where the coordinates are singular are left out: a rate of precession means nothing
+    about an upright axis.
+    """
+    return tuple(
+        SteadyStates(equations, given, (*family.relations, *relations), family)
+        for family in steady(equations, dict(given))
+        if not _is_singular(equations, family)
+    )
+
+
+def _is_singular(equations: Equations, family: SteadyMotion) -> bool:
+    rows = [[entry.subs(family.fixed) for entry in row] for row in equations.mass.rows]
+    return bool(rows) and bool(eliminate(rows, [ZERO] * len(rows)).free)

@@ -1,0 +1,130 @@
+"""Inequalities that are to be equivalent to the exact condition of a system."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from polhode.algebra import Expr
+from polhode.analyse import Truth, stability
+from polhode.base import ParseError, PolhodeError
+from polhode.claims._asked import EQUALITY, Asked
+from polhode.claims._circumstances import AnyState
+from polhode.claims._components import Component
+from polhode.claims._counterexample import refutation
+from polhode.claims._inequality import SENSE
+from polhode.claims._judge import failed, failures
+from polhode.claims._numeric import number
+from polhode.claims._signs import definite_sign
+from polhode.claims._steady_states import SteadyStates, steady_states
+from polhode.claims._verdict import Answer, Residual, Verdict
+
+
+@dataclass(frozen=True)
+class Exact:
+    """A condition that the model gives: `expression > 0`, and what it decides."""
+
+    expression: Expr
+    decides: str
+
+
+def judged_threshold(asked: Asked) -> Verdict:
+    """Whether an inequality is equivalent to the exact condition.
+
+    The conditions are those of linear stability of the steady motion, and of its being possible.
+    Where a condition is even in the bounded quantity, the positive half-line is meant.
+    """
+    equalities = [c for c in asked.components() if asked.members[c.member].sign in EQUALITY]
+    wrong = list(failures(asked.only({c.member for c in equalities}), [_any(asked)]))
+    if wrong:
+        return failed(wrong, "threshold")
+    claimed = [_claimed(c, asked) for c in asked.components() if c not in equalities]
+    if not claimed:
+        raise ParseError("no inequality", expected="one with < or > in the context threshold")
+    known = exact_conditions(asked)
+    if not known:
+        raise ParseError(
+            "a threshold where nothing depends on the parameters",
+            expected="a steady motion that is stable or possible under a condition",
+            advice="say which motion is meant with --given",
+        )
+    said = []
+    for component, greater in claimed:
+        match = next((e for e in known if _equivalent(component, greater, e, asked)), None)
+        if match is None:
+            return _refuted(component, known[0], asked)
+        said.append(f"equivalent to the condition of {match.decides}, {match.expression} > 0")
+    return Verdict(Answer.HOLDS, "threshold", reason="; ".join(dict.fromkeys(said)))
+
+
+def _any(asked: Asked) -> AnyState:
+    return AnyState(asked.equations, asked.given, asked.relations)
+
+
+def _claimed(component: Component, asked: Asked) -> tuple[Component, int]:
+    sign = asked.members[component.member].sign
+    if sign not in SENSE:
+        raise ParseError(f"the sign {sign} in a threshold", expected="one of " + " ".join(SENSE))
+    return component, SENSE[sign]
+
+
+def exact_conditions(asked: Asked) -> list[Exact]:
+    """Conditions of stability and of existence, for every family that obeys the restrictions."""
+    families = steady_states(asked.equations, asked.given, asked.relations)
+    return [e for family in families for e in (*_stability(family), *_existence(family))]
+
+
+def _stability(family: SteadyStates) -> Iterator[Exact]:
+    if family.family is None:
+        return
+    try:
+        conditions = stability(family.family).conditions
+    except PolhodeError:
+        return
+    for condition in conditions:
+        if condition.truth is Truth.OPEN:
+            yield Exact(family.on(condition.expression), "stability")
+
+
+def _existence(family: SteadyStates) -> Iterator[Exact]:
+    branches = family.family.branches if family.family is not None else ()
+    found = dict.fromkeys(c.expression for b in branches for c in b.exists)
+    for expression in found:
+        if expression.rational is None:
+            yield Exact(expression.subs(dict(family.given)), "existence")
+
+
+def _equivalent(component: Component, greater: int, exact: Exact, asked: Asked) -> bool:
+    """Whether the difference of the sides, or of their squares, is the condition times a positive.
+
+    Both sides are taken as not negative in the second case.
+    """
+    states = _any(asked)
+    left, right = states.on(component.left), states.on(component.right)
+    assumed = asked.equations.assumed_positive
+    for difference in (left - right, left * left - right * right):
+        if difference and definite_sign(difference * greater / exact.expression, assumed) == 1:
+            return True
+    return False
+
+
+def _refuted(component: Component, exact: Exact, asked: Asked) -> Verdict:
+    residual = Residual(component.member, component.label, component.difference)
+    states = AnyState(asked.equations, asked.given, (*asked.relations, exact.expression))
+    try:
+        example, second = refutation(component, residual, states, _differ_above_zero)
+    except PolhodeError:
+        example, second = None, None
+    return Verdict(
+        Answer.FAILS,
+        "threshold",
+        reason=f"not equivalent to the condition of {exact.decides}, {exact.expression} > 0; "
+        "where that is just met, the sides differ",
+        residuals=(residual,),
+        counterexample=example,
+        confirmation=second,
+    )
+
+
+def _differ_above_zero(left: Expr, right: Expr) -> bool:
+    return left != right and number(left, {}) > 0 and number(right, {}) > 0

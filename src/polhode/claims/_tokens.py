@@ -1,0 +1,291 @@
+"""LaTeX cut into tokens, in one pass from left to right.
+
+Spellings are settled here: ``\\leq``, ``\\le`` and ``≤`` are one token, spacing and type size are
+none. What no mechanics text would write is refused at its place.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterator
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+from polhode.base import ParseError
+from polhode.claims import _lexicon as lexicon
+from polhode.claims._prose import prose_of, split_number
+from polhode.claims._tree import Span
+
+LONGEST = 20_000  # characters
+SHOWN = 40  # of them on either side of a place
+
+_SPACES = " \t\r\n\N{NO-BREAK SPACE}\N{THIN SPACE}\N{NARROW NO-BREAK SPACE}"
+_NUMBER = r"[0-9]+(?:\.[0-9]+)?|\.[0-9]+"
+_PATTERN = re.compile(
+    rf"""
+      (?P<space>(?:\s|~|\\[,:;!>\s/-])+)
+    | (?P<row>\\\\(?:\s*\[\s*-?[0-9.]+\s*[a-z]{{2}}\s*\])?|\$\$?|\\[][()])
+    | (?P<number>{_NUMBER})
+    | (?P<letter>[A-Za-z])
+    | (?P<edge>\\(?:left|right)\s*(?:\.|\||\\[lr]?[vV]ert\b|\\\|))
+    | (?P<macro>\\[A-Za-z]+)\*?
+    | (?P<escape>\\[{{}}|])
+    | (?P<other>.)
+    """,
+    re.VERBOSE | re.DOTALL,
+)
+_RAW = re.compile(r"\s*\{([^{}]{0,400})\}")
+_PLAIN = re.compile(r"\s*(?:\{([\s~]*[A-Za-z][A-Za-z.~\s]{0,100})\}|([A-Za-z]))")
+_RUN = re.compile(r"\s*(?:\{([\s~]*[A-Za-z][A-Za-z.~\s]{0,100})\}|([A-Za-z]+))")
+_ENVIRONMENT = re.compile(r"\s*\{([A-Za-z]{1,20})\*?\}(?:\s*\[[tbc]\])?")
+_COLUMNS = re.compile(r"\s*\{[lcrp@|\s]{0,40}\}|\s*\{[0-9]{1,2}\}")
+_INDEX = re.compile(r"\s*\[\s*([0-9]{1,2}|[a-z])\s*\]")
+
+
+@dataclass(frozen=True)
+class Token:
+    """A word of the formula.
+
+    Args:
+        kind: "number", "letter", "function", "sign" (of a relation), "mark", "words", "dots",
+            "decoration", "alphabet", "fraction", "root", "integral", "label" (only in scripts),
+            "begin", "end" (of an environment), "row", "gap", "arrow", "tag" or "close" (the end).
+        text: what it is, by the name the tree uses.
+        span: where it stands in the source.
+    """
+
+    kind: str
+    text: str
+    span: Span
+
+    def is_mark(self, *marks: str) -> bool:
+        """Whether it is one of some marks."""
+        return self.kind == "mark" and self.text in marks
+
+
+def tokens(source: str) -> list[Token]:
+    """The tokens of a text, closed by one of kind "close".
+
+    Raises:
+        ParseError: for a text that is too long, and for characters and macros that are not known.
+    """
+    if len(source) > LONGEST:
+        raise ParseError(
+            f"LaTeX of {len(source)} characters", expected=f"at most {LONGEST} for one statement"
+        )
+    return _Scanner(source).all()
+
+
+def refusal(source: str, span: Span, problem: str, expected: str = "") -> ParseError:
+    """The error for a place in a text, with the place shown."""
+    place = min(span[0], len(source))
+    start = max(0, place - SHOWN)
+    excerpt = "".join(_printable(c) for c in source[start : place + SHOWN])
+    shown = f"at character {place + 1}:\n    {excerpt}\n    {' ' * (place - start)}^"
+    return ParseError(problem, expected=expected, advice=shown)
+
+
+def _printable(character: str) -> str:
+    if character in "\n\t":
+        return " "
+    return character if character.isprintable() else "\N{REPLACEMENT CHARACTER}"
+
+
+class _Scanner:
+    """Goes through one source."""
+
+    def __init__(self, source: str) -> None:
+        self._source = source
+        self._place = 0
+        self._found: list[Token] = []
+        self._prose = prose_of(source)
+
+    def all(self) -> list[Token]:
+        while self._place < len(self._source):
+            if self._place in self._prose:
+                self._found += self._words_outside()
+                continue
+            match = _PATTERN.match(self._source, self._place)
+            assert match is not None  # the last alternative takes any character
+            start, self._place = match.span()
+            kind, text = match.lastgroup or "", match[match.lastgroup or 0]
+            self._found += getattr(self, f"_{kind}")(text, start)
+        end = len(self._source)
+        return [*self._found, Token("close", "the end", (end, end))]
+
+    def _words_outside(self) -> Iterator[Token]:
+        """What stands between formulas in dollar signs, and the equation number that ends it."""
+        start, self._place = self._place, self._prose[self._place]
+        words, number = split_number(self._source[start : self._place])
+        if words:
+            yield self._token("words", words, start)
+        if number:
+            yield self._token("tag", number, start)
+
+    def _space(self, text: str, start: int) -> Iterator[Token]:
+        strange = next(
+            (c for c in text if unicodedata.category(c) == "Cc" and c not in "\t\n\r"), ""
+        )
+        if strange:
+            raise self._strange(strange, start)
+        yield from ()
+
+    def _row(self, text: str, start: int) -> Iterator[Token]:
+        yield self._token("row", text, start)
+
+    def _number(self, text: str, start: int) -> Iterator[Token]:
+        """A number; what wants a single token is given its first digit, as TeX does."""
+        digits = self._single_digits()
+        for offset, digit in enumerate(text[:digits]):
+            yield Token("number", digit, (start + offset, start + offset + 1))
+        if text[digits:]:
+            yield Token("number", text[digits:], (start + digits, self._place))
+
+    def _single_digits(self) -> int:
+        before = self._found[-1] if self._found else Token("row", "", (0, 0))
+        if before.kind == "fraction":
+            return 2
+        return int(before.kind == "root" or before.is_mark("^", "_"))
+
+    def _letter(self, text: str, start: int) -> Iterator[Token]:
+        yield self._token("letter", text, start)
+
+    def _edge(self, text: str, start: int) -> Iterator[Token]:
+        kind = "null" if text.endswith(".") else "bar"
+        yield self._token("mark", kind + ("(" if text.startswith(r"\left") else ")"), start)
+
+    def _escape(self, text: str, start: int) -> Iterator[Token]:
+        yield self._token("mark", "|" if text == r"\|" else text, start)
+
+    def _other(self, text: str, start: int) -> Iterator[Token]:
+        if text in lexicon.POWER_CHARACTERS:
+            yield self._token("mark", "^", start)
+            yield self._token("number", lexicon.POWER_CHARACTERS[text], start)
+        else:
+            kind, name = _CHARACTERS.get(text, ("", ""))
+            if not kind:
+                raise self._strange(text, start)
+            yield self._token(kind, name, start)
+
+    def _strange(self, character: str, start: int) -> ParseError:
+        name = unicodedata.name(character, "without a name")
+        problem = f"the character U+{ord(character):04X} ({name})"
+        if character.isprintable():
+            problem = f"{character!r}, {problem}"
+        return self._refused(start, problem, "mathematics as LaTeX writes it")
+
+    def _macro(self, text: str, start: int) -> Iterator[Token]:
+        name = text[1:]
+        if name in _MACROS:
+            kind, value = _MACROS[name]
+            if kind != "silent":
+                yield self._token(kind, value, start)
+        elif name in _SPECIAL:
+            yield from getattr(self, f"_{_SPECIAL[name]}")(name, start)
+        else:
+            near = get_close_matches(name, [*_MACROS, *_SPECIAL], 1, 0.75) if len(name) < 30 else []
+            hint = f"; \\{near[0]} is known" if near else ""
+            raise self._refused(
+                start, f"the macro {text[:SHOWN]}{hint}", "a macro of mechanics texts"
+            )
+
+    def _words(self, name: str, start: int) -> Iterator[Token]:
+        yield _named(self._token("words", self._raw(name, start), start))
+
+    def _upright(self, name: str, start: int) -> Iterator[Token]:
+        """Upright words; a font change around anything else says nothing."""
+        pattern = _RUN if name in lexicon.UPRIGHT_FROM_HERE else _PLAIN
+        match = pattern.match(self._source, self._place)
+        if match:
+            self._place = match.end()
+            yield _named(self._token("words", _trimmed(match[1] or match[2]), start))
+
+    def _skipped(self, name: str, start: int) -> Iterator[Token]:
+        self._raw(name, start)
+        yield from ()
+
+    def _tag(self, name: str, start: int) -> Iterator[Token]:
+        yield self._token("tag", self._raw(name, start).strip("() "), start)
+
+    def _environment(self, name: str, start: int) -> Iterator[Token]:
+        match = _ENVIRONMENT.match(self._source, self._place)
+        if not match:
+            raise self._refused(start, f"\\{name} without a name", f"\\{name}{{...}}")
+        self._place = match.end()
+        if name == "begin":
+            columns = _COLUMNS.match(self._source, self._place)
+            self._place = columns.end() if columns else self._place
+        yield self._token(name, match[1], start)
+
+    def _root(self, name: str, start: int) -> Iterator[Token]:
+        index = _INDEX.match(self._source, self._place)
+        self._place = index.end() if index else self._place
+        yield self._token("root", index[1] if index else "", start)
+
+    def _raw(self, name: str, start: int) -> str:
+        match = _RAW.match(self._source, self._place)
+        if not match:
+            raise self._refused(start, f"\\{name}", f"\\{name}{{...}} with plain words in it")
+        self._place = match.end()
+        return _trimmed(match[1])
+
+    def _token(self, kind: str, text: str, start: int) -> Token:
+        return Token(kind, text, (start, self._place))
+
+    def _refused(self, start: int, problem: str, expected: str) -> ParseError:
+        return refusal(self._source, (start, start), problem, expected)
+
+
+def _trimmed(words: str) -> str:
+    return " ".join(words.replace("~", " ").replace("$", " ").split())
+
+
+def _named(token: Token) -> Token:
+    """Words, or the letter or function that only a font was changed around."""
+    if token.text in lexicon.FUNCTIONS:
+        return Token("function", lexicon.FUNCTIONS[token.text], token.span)
+    if len(token.text) == 1 and token.text.isalpha():
+        return Token("letter", token.text, token.span)
+    return token
+
+
+def _macros() -> dict[str, tuple[str, str]]:
+    tables = {
+        "letter": lexicon.LETTERS,
+        "label": lexicon.LABELS,
+        "words": lexicon.WORDS_IN_LABELS,
+        "function": lexicon.FUNCTIONS,
+        "sign": lexicon.SIGNS,
+        "arrow": lexicon.ARROWS,
+        "mark": lexicon.MARKS,
+        "dots": {name: str(count) for name, count in lexicon.DOTS.items()},
+        "decoration": lexicon.DECORATIONS,
+        "alphabet": lexicon.ALPHABETS,
+        "fraction": dict.fromkeys(lexicon.FRACTIONS, "frac"),
+        "integral": {"int": "int", "oint": "int"},
+        "gap": dict.fromkeys(lexicon.GAPS, "gap"),
+        "row": dict.fromkeys(lexicon.ROWS, "row"),
+        "silent": dict.fromkeys(lexicon.SILENT, ""),
+    }
+    return {name: (kind, text) for kind, table in tables.items() for name, text in table.items()}
+
+
+def _characters() -> dict[str, tuple[str, str]]:
+    return (
+        {mark: ("mark", mark) for mark in "+-/^_'{}()[]|&,;.:*"}
+        | {character: ("mark", mark) for character, mark in lexicon.CHARACTERS.items()}
+        | {character: ("sign", sign) for character, sign in lexicon.SIGN_CHARACTERS.items()}
+        | {character: ("letter", name) for character, name in lexicon.LETTER_CHARACTERS.items()}
+        | {character: ("arrow", character) for character in lexicon.ARROW_CHARACTERS}
+    )
+
+
+_MACROS = _macros()
+_CHARACTERS = _characters()
+_SPECIAL = (
+    dict.fromkeys(lexicon.WORDS, "words")
+    | dict.fromkeys(lexicon.UPRIGHT | lexicon.UPRIGHT_FROM_HERE, "upright")
+    | dict.fromkeys(lexicon.SILENT_WITH_ARGUMENT, "skipped")
+    | {"tag": "tag", "sqrt": "root", "begin": "environment", "end": "environment"}
+)

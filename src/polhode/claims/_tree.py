@@ -1,0 +1,320 @@
+"""What a formula says, before anybody asks what its letters mean.
+
+The tree keeps to what is printed: which letter carries a hat, which sign stands between two
+vectors, what is divided by what. Whether a letter is a vector, a function of time or a parameter is
+for the bindings to say. Letters go by their published names: ``theta``, ``Omega``, ``a``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, fields, replace
+from typing import Any, TypeVar
+
+Span = tuple[int, int]
+PieceT = TypeVar("PieceT", bound="Piece")
+
+NOWHERE: Span = (0, 0)
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Any part of what was read, with the place it was read from.
+
+    Args:
+        span: first and one past the last character in the source; two pieces that differ only in
+            where they stand are equal.
+    """
+
+    span: Span = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+
+
+@dataclass(frozen=True)
+class Node(Piece):
+    """A piece that stands for a quantity."""
+
+
+@dataclass(frozen=True)
+class Number(Node):
+    """A number without a sign, exactly as spelled: ``2``, ``0.35``."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Name(Node):
+    r"""A letter and all it carries except dots.
+
+    Args:
+        letter: ``"theta"``, ``"I"``, ``"1"`` (of ``\hat{\mathbf 1}``), ``"cal L"`` (of
+            ``\mathcal L``), or an upright word such as ``"constant"``.
+        subscript: as text without spaces, macros by name: ``"cm"``, ``"2p"``, ``"2,max"``,
+            ``"(1,2,3)"``, ``"rho"``, ``"perp"``; Greek beside letters is set off by a space,
+            ``"rho phi z"``. A label in brackets joins it: ``\omega_p(\text{slow})`` has
+            ``"p,slow"``.
+        primes: how many.
+        decoration: ``"hat"``, ``"bar"``, ``"tilde"``, ``"vector"`` for bold or an arrow (a bold hat
+            is ``"hat"``), ``"bar vector"``, ``"tilde vector"``, or nothing.
+        superscript: a label above that is no power: ``"*"``, ``"cm"``, ``"perp"``.
+    """
+
+    letter: str
+    subscript: str = ""
+    primes: int = 0
+    decoration: str = ""
+    superscript: str = ""
+
+    @property
+    def is_marked_vector(self) -> bool:
+        """Whether it is printed as a vector; transcripts lose boldness, so false says nothing."""
+        return self.decoration.endswith(("hat", "vector"))
+
+
+@dataclass(frozen=True)
+class Words(Node):
+    """Words where a quantity should stand: the right side of "θ = angle between the axes"."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Dots(Node):
+    """Time derivatives printed as dots over the quantity."""
+
+    of: Node
+    count: int
+
+
+@dataclass(frozen=True)
+class Derivative(Node):
+    """d/dt or ∂/∂θ acting on a quantity; mixed ones are nested, the last printed innermost."""
+
+    of: Node
+    by: Node
+    order: int = 1
+    partial: bool = False
+
+
+@dataclass(frozen=True)
+class Differential(Node):
+    """d, Δ, δ or ∂ before a quantity. Where ``d`` is a length, the bindings may read a product."""
+
+    of: Node
+    sign: str = "d"
+
+
+@dataclass(frozen=True)
+class Integral(Node):
+    """An integral, with both limits or neither."""
+
+    of: Node
+    by: Node
+    lower: Node | None = None
+    upper: Node | None = None
+
+
+@dataclass(frozen=True)
+class Sum(Node):
+    """Two or more terms; one that is subtracted is a `Negative`."""
+
+    terms: tuple[Node, ...]
+
+
+@dataclass(frozen=True)
+class Negative(Node):
+    """The quantity with a minus sign."""
+
+    of: Node
+
+
+@dataclass(frozen=True)
+class PlusMinus(Node):
+    """The quantity with the sign ``"±"`` or ``"∓"``."""
+
+    of: Node
+    sign: str
+
+
+@dataclass(frozen=True)
+class Product(Node):
+    """Two or more factors side by side."""
+
+    factors: tuple[Node, ...]
+
+
+@dataclass(frozen=True)
+class Cross(Node):
+    r"""Two quantities with ``\times`` between; of numbers, their product."""
+
+    left: Node
+    right: Node
+
+
+@dataclass(frozen=True)
+class Dot(Node):
+    r"""Two quantities with ``\cdot`` between; of scalars, their product."""
+
+    left: Node
+    right: Node
+
+
+@dataclass(frozen=True)
+class Quotient(Node):
+    """One quantity over another, by a fraction or a slash."""
+
+    above: Node
+    below: Node
+
+
+@dataclass(frozen=True)
+class Power(Node):
+    """A quantity raised to a power; the square of a vector is its square magnitude."""
+
+    base: Node
+    exponent: Node
+
+
+@dataclass(frozen=True)
+class Root(Node):
+    """The root of a quantity: the square root unless an index says otherwise."""
+
+    of: Node
+    index: Node | None = None
+
+
+@dataclass(frozen=True)
+class Call(Node):
+    """A known function: sin, cos, tan, sec, csc, cot, their arc-, -h and ar-h kin, exp, ln, log."""
+
+    function: str
+    argument: Node
+
+
+@dataclass(frozen=True)
+class At(Node):
+    """A quantity with one in round brackets behind it: ``θ(0)``, ``v(t)``, ``V(θ)``."""
+
+    of: Node
+    argument: Node
+
+
+@dataclass(frozen=True)
+class Magnitude(Node):
+    """A quantity between bars."""
+
+    of: Node
+
+
+@dataclass(frozen=True)
+class Component(Node):
+    """A bracket with a subscript: ``(dv/dt)_z``. The subscript is spelled as in `Name`."""
+
+    of: Node
+    subscript: str
+
+
+@dataclass(frozen=True)
+class Evaluated(Node):
+    """A quantity with a bar and a subscript behind it: dL/dt|_P. Spelled as in `Name`."""
+
+    of: Node
+    subscript: str
+
+
+@dataclass(frozen=True)
+class Components(Node):
+    """Quantities in a bracket with commas between, or stacked in a column."""
+
+    entries: tuple[Node, ...]
+
+
+@dataclass(frozen=True)
+class Relation(Piece):
+    """A chain ``a = b ≈ c``; a quantity standing alone is a chain of one side.
+
+    Args:
+        sides: the quantities.
+        signs: one fewer, each of ``= ≈ ≡ ≠ < > ≤ ≥ ≪ ≫ ∝ → ↔``.
+    """
+
+    sides: tuple[Node, ...]
+    signs: tuple[str, ...] = ()
+
+    @property
+    def is_claim(self) -> bool:
+        """Whether it relates anything."""
+        return bool(self.signs)
+
+
+@dataclass(frozen=True)
+class Case(Piece):
+    """One of several values: "A (slow)" of "A (slow) or B (fast)".
+
+    Args:
+        value: the value.
+        conditions: the relations under which it holds, where there are any.
+        words: what is said of it, "" for nothing.
+    """
+
+    value: Node
+    conditions: tuple[Relation, ...] = ()
+    words: str = ""
+
+
+@dataclass(frozen=True)
+class Cases(Node):
+    """A quantity given case by case."""
+
+    cases: tuple[Case, ...]
+
+
+@dataclass(frozen=True)
+class Statement(Piece):
+    r"""All that one display says.
+
+    Args:
+        relations: in order of printing.
+        conditions: relations in brackets behind a gap, "... \qquad (θ < π/2)".
+        notes: the words between, trimmed: "where", "and with", "⇒".
+        tags: equation numbers.
+    """
+
+    relations: tuple[Relation, ...]
+    conditions: tuple[Relation, ...] = ()
+    notes: tuple[str, ...] = ()
+    tags: tuple[str, ...] = ()
+
+
+def parts(piece: Piece) -> Iterator[Piece]:
+    """The pieces directly inside one, in order of printing."""
+    for value in vars(piece).values():
+        yield from _pieces(value)
+
+
+def walk(piece: Piece) -> Iterator[Piece]:
+    """The piece and all inside it, outermost first."""
+    yield piece
+    for part in parts(piece):
+        yield from walk(part)
+
+
+def mapped(piece: PieceT, change: Callable[[Any], Piece]) -> PieceT:
+    """The same piece with each one directly inside it changed."""
+    values = {entry.name: getattr(piece, entry.name) for entry in fields(piece)}
+    changed: dict[str, Any] = {name: _changed(value, change) for name, value in values.items()}
+    return replace(piece, **changed)
+
+
+def _pieces(value: object) -> Iterator[Piece]:
+    if isinstance(value, Piece):
+        yield value
+    elif isinstance(value, tuple):
+        yield from (item for item in value if isinstance(item, Piece))
+
+
+def _changed(value: object, change: Callable[[Any], Piece]) -> object:
+    if isinstance(value, Piece):
+        return change(value)
+    if isinstance(value, tuple):
+        return tuple(_changed(item, change) for item in value)
+    return value

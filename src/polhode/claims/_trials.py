@@ -1,0 +1,76 @@
+"""What must vanish for a claim to hold, in each context, at states where to try it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from polhode.algebra import Expr
+from polhode.claims._asked import Asked
+from polhode.claims._bench import Bench, bench
+from polhode.claims._circumstances import AnyState, Circumstances, TrueMotion
+from polhode.claims._steady import solved_members
+from polhode.claims._steady_states import steady_states
+
+#: What must vanish, with the member of the claim it belongs to.
+Residuals = Callable[[Asked], list[tuple[int, Expr]]]
+
+
+@dataclass(frozen=True, eq=False)
+class Trials:
+    """Expressions that vanish where a claim holds, and states to try them at.
+
+    Attributes:
+        states: the circumstances.
+        bench: numbers of some of the states.
+        residuals: of any claim of the same form, such as a corrected one.
+    """
+
+    states: Circumstances
+    bench: Bench
+    residuals: Residuals
+
+
+def trials(asked: Asked, context: str) -> Trials:
+    """Where a claim can be tried, by its context."""
+    return _TRIALS[context](asked)
+
+
+def _on(states: Circumstances, asked: Asked, residuals: Residuals) -> Trials:
+    return Trials(states, bench(states, [e for _, e in residuals(asked)]), residuals)
+
+
+def _differences(asked: Asked) -> list[tuple[int, Expr]]:
+    return [(component.member, component.difference) for component in asked.components()]
+
+
+def _identity(asked: Asked) -> Trials:
+    return _on(AnyState(asked.equations, asked.given, asked.relations), asked, _differences)
+
+
+def _motion(asked: Asked) -> Trials:
+    return _on(TrueMotion(asked.equations, asked.given, asked.relations), asked, _differences)
+
+
+def _steady(asked: Asked) -> Trials:
+    family, *_ = steady_states(asked.equations, asked.given, asked.relations)
+    if not solved_members(asked, 0):
+        return _on(family, asked, _differences)
+    states = TrueMotion(asked.equations, asked.given, asked.relations)
+    relations: Sequence[Expr] = [r.numerator for r in family.settled_relations]
+
+    def put_in(changed: Asked) -> list[tuple[int, Expr]]:
+        pairs = solved_members(changed, 0)
+        return [(p.member, r.subs({p.quantity: p.value})) for p in pairs for r in relations]
+
+    return _on(states, asked, put_in)
+
+
+_TRIALS: dict[str, Callable[[Asked], Trials]] = {
+    "identity": _identity,
+    "motion": _motion,
+    "steady": _steady,
+}
+
+#: Contexts in which corrections are looked for.
+REPAIRED = tuple(_TRIALS)

@@ -1,0 +1,95 @@
+"""What a person types to go with a claim: `theta = pi/2`, `epsilon = theta - pi/2`, `epsilon:1`.
+
+LaTeX is taken as well; text without a backslash or a brace is read in published names.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+from polhode.algebra import Expr, pi, read_expression
+from polhode.base import ParseError, UnitError, read_quantity
+from polhode.claims._asked import Small
+from polhode.claims._bindings import BoundRelation
+from polhode.claims._document import Definition
+from polhode.claims._meaning import BindingError
+from polhode.claims._notation import Notation
+from polhode.claims._vocabulary import name_of, spelled
+
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+
+
+def with_let(notation: Notation, text: str) -> Notation:
+    """With a new symbol: `epsilon = theta - pi/2`.
+
+    Raises `ParseError` for a symbol that the system has already.
+    """
+    if _is_latex(text):
+        return notation.defining([Definition(text)])
+    name, value = _sides(text, "a new symbol and its value")
+    new = name_of(name)
+    if _NAME.fullmatch(name) is None or new in notation.vocabulary.declared:
+        raise ParseError(
+            f"the definition {text!r}",
+            expected=f"a new symbol; {spelled(new)} is none",
+            advice="restrict a known quantity with --given instead",
+        )
+    vocabulary = notation.vocabulary.saying({new: typed(notation, value)})
+    return replace(notation, vocabulary=vocabulary)
+
+
+def with_given(notation: Notation, text: str) -> Notation:
+    """Restricted by an equality: `theta = pi/2`, `theta = 90deg`, `2*I_2*T = L**2`."""
+    if _is_latex(text):
+        return notation.under([text])
+    left, right = _sides(text, "an equality")
+    relation = BoundRelation(typed(notation, left), "=", typed(notation, right))
+    return replace(notation, given=(*notation.given, relation))
+
+
+def with_small(notation: Notation, text: str) -> Notation:
+    """With a small quantity and, where it is stated, the order to which it is kept: `epsilon:1`."""
+    quantity, colon, order = text.rpartition(":")
+    if colon and not order.strip().isdigit():
+        raise ParseError(f"{text!r}", expected="SYMBOL or SYMBOL:ORDER", advice="as in epsilon:1")
+    wanted = (quantity if colon else text).strip()
+    value = notation.scalar(wanted) if _is_latex(wanted) else typed(notation, wanted)
+    small = Small(value, int(order) if colon else None)
+    return replace(notation, small=(*notation.small, small))
+
+
+def typed(notation: Notation, text: str) -> Expr:
+    """An exact expression of published names and of letters of the text, or a number with a unit.
+
+    Raises `ParseError` for what is neither, naming the symbol at fault.
+    """
+    known = {name: _known(notation, name) for name in _NAME.findall(text)}
+    names = {name: value for name, value in known.items() if value is not None}
+    try:
+        return read_expression(text, names)
+    except ParseError as error:
+        try:
+            quantity = read_quantity(text.strip())
+        except UnitError:
+            raise error from None
+        return Expr.of(quantity.coefficient) * pi**quantity.pi_power
+
+
+def _known(notation: Notation, name: str) -> Expr | None:
+    try:
+        value = notation.value(name_of(name))
+    except BindingError:
+        return None
+    return value if isinstance(value, Expr) else None
+
+
+def _sides(text: str, expected: str) -> tuple[str, str]:
+    left, equals, right = text.partition("=")
+    if not equals or "=" in right or not left.strip() or not right.strip():
+        raise ParseError(f"{text!r}", expected=f"{expected} with one = between")
+    return left.strip(), right.strip()
+
+
+def _is_latex(text: str) -> bool:
+    return any(mark in text for mark in "\\{}")

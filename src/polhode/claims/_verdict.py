@@ -1,0 +1,128 @@
+"""What is said of a claim, and the evidence for it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+
+from polhode.algebra import Expr
+
+
+class Answer(Enum):
+    """What a claim turned out to be."""
+
+    HOLDS = "holds"
+    APPROXIMATE = "approximate"
+    DEFINITION = "definition"
+    FAILS = "fails"
+    UNREAD = "unread"
+
+
+@dataclass(frozen=True)
+class Residual:
+    """What is left of one component of one member, left side less right, where the claim is asked.
+
+    Attributes:
+        member: which link of a chain or row of a block, counted from 0.
+        component: label of the direction, such as "3" or "rho"; empty for a scalar.
+        expression: exact; zero where this component holds.
+    """
+
+    member: int
+    component: str
+    expression: Expr
+
+    def __str__(self) -> str:
+        where = f"component {self.component} of " if self.component else ""
+        return f"{where}member {self.member + 1}: {self.expression}"
+
+
+@dataclass(frozen=True)
+class Counterexample:
+    """A state that the context allows and the claim does not.
+
+    Attributes:
+        values: exact value of every symbol of the state as text (SI); that of an angle is twice
+            the arc whose tangent is a rational number, so that its sine and cosine are rational.
+        left: exact value of the left side there.
+        right: exact value of the right side there.
+        residual: which part of the claim is refuted.
+    """
+
+    values: Mapping[str, str]
+    left: Expr
+    right: Expr
+    residual: Residual
+
+
+@dataclass(frozen=True)
+class Confirmation:
+    """The two sides at one state by numbers, with accelerations and reactions found anew.
+
+    Attributes:
+        values: numbers of all quantities that enter, SI.
+        left: value of the left side.
+        right: value of the right side.
+        agrees: whether the numbers say the same as the exact judgement.
+    """
+
+    values: Mapping[str, float]
+    left: float
+    right: float
+    agrees: bool
+
+
+@dataclass(frozen=True)
+class Correction:
+    """A change that makes a claim hold.
+
+    Attributes:
+        what: the change in words, such as "wrong sign".
+        latex: the corrected statement in the author's notation.
+    """
+
+    what: str
+    latex: str
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The judgement on one claim.
+
+    Attributes:
+        answer: holds, approximate, definition, fails or unread.
+        context: where the claim was asked to hold.
+        reason: the judgement in a sentence.
+        residuals: every component that does not vanish, exactly.
+        counterexample: for a failure, a state that refutes the claim.
+        confirmation: the same by numbers that share nothing with the derivation.
+        correction: the smallest change that makes the claim hold.
+        alternatives: other changes just as small.
+        order: for an approximation, the highest order to which it is true.
+        dropped: for an approximation, the first term left out.
+        remarks: what else was noticed, such as roots that are not covered.
+    """
+
+    answer: Answer
+    context: str
+    reason: str = ""
+    residuals: tuple[Residual, ...] = ()
+    counterexample: Counterexample | None = None
+    confirmation: Confirmation | None = None
+    correction: Correction | None = None
+    alternatives: tuple[Correction, ...] = ()
+    order: int | None = None
+    dropped: Expr | None = None
+    remarks: tuple[str, ...] = field(default=())
+
+    @property
+    def holds(self) -> bool:
+        """Whether nothing speaks against the claim."""
+        return self.answer in (Answer.HOLDS, Answer.APPROXIMATE, Answer.DEFINITION)
+
+    def __str__(self) -> str:
+        said = self.answer.value
+        if self.correction is not None:
+            said += f"; {self.correction.what}: {self.correction.latex}"
+        return f"{said} ({self.reason})" if self.reason else said

@@ -1,0 +1,323 @@
+"""Trees written as LaTeX, in the style of the texts: what is written is read as the same tree."""
+
+from __future__ import annotations
+
+import re
+from functools import singledispatch
+from itertools import pairwise
+
+from polhode.claims import _lexicon as lexicon
+from polhode.claims._differentials import SIGNS, factors_of
+from polhode.claims._labels import label_latex
+from polhode.claims._name_latex import letter_latex, name_latex, scripts_latex
+from polhode.claims._tree import (
+    At,
+    Call,
+    Case,
+    Cases,
+    Component,
+    Components,
+    Cross,
+    Derivative,
+    Differential,
+    Dot,
+    Dots,
+    Evaluated,
+    Integral,
+    Magnitude,
+    Name,
+    Negative,
+    Node,
+    Number,
+    Piece,
+    PlusMinus,
+    Power,
+    Product,
+    Quotient,
+    Relation,
+    Root,
+    Statement,
+    Sum,
+    Words,
+)
+
+_SIGNS = {"=": "=", "<": "<", ">": ">", "→": r"\to", "↔": r"\leftrightarrow"} | {
+    "≈": r"\approx",
+    "≡": r"\equiv",
+    "≠": r"\ne",
+    "≤": r"\le",
+    "≥": r"\ge",
+    "≪": r"\ll",
+    "≫": r"\gg",
+    "∝": r"\propto",
+}
+_ADDED = {"±": r"\pm", "∓": r"\mp"}
+_DIFFERENTIALS = {"d": "d", "Δ": r"\Delta", "δ": r"\delta", "∂": r"\partial"}
+_DOTS = {count: name for name, count in lexicon.DOTS.items()}
+_SIGNED = (Sum, Negative, PlusMinus)
+_OPEN = (*_SIGNED, Cross, Dot, Integral)  # bracketed beside a sign of multiplication
+_WIDE = (*_OPEN, Product)  # and beside another factor
+_RAISED_BARE = (Number, Dots, At, Magnitude, Component, Components, Evaluated, Differential)
+_TAKEN_FOR_DIFFERENTIALS = frozenset(Name(letter) for letter in SIGNS)
+_BRACKETED_ANGLES = frozenset(SIGNS) | {"n", "k", "pi", "constant"}
+_KNOWN_TO_LATEX = lexicon.FUNCTIONS.keys() - {"sech", "csch", "arsinh", "arcosh", "artanh"}
+_TIME = re.compile(r"t\b|t_")
+
+
+@singledispatch
+def write_latex(piece: Piece) -> str:
+    """LaTeX for a tree; of a statement, its notes are left out.
+
+    Args:
+        piece: a node, a relation or a statement.
+    """
+    raise TypeError(f"no LaTeX for {type(piece).__name__}")
+
+
+@write_latex.register
+def _(statement: Statement) -> str:
+    said = r",\quad ".join(write_latex(relation) for relation in statement.relations)
+    conditions = (rf"\quad {_bracketed(relation)}" for relation in statement.conditions)
+    tags = (rf"\tag{{{tag}}}" for tag in statement.tags)
+    return "".join((said, *conditions, *tags))
+
+
+@write_latex.register
+def _(relation: Relation) -> str:
+    first, *rest = (write_latex(side) for side in relation.sides)
+    chain = zip(relation.signs, rest, strict=True)
+    return first + "".join(f" {_SIGNS[sign]} {side}" for sign, side in chain)
+
+
+@write_latex.register
+def _(number: Number) -> str:
+    return number.text
+
+
+@write_latex.register
+def _(name: Name) -> str:
+    return name_latex(name)
+
+
+@write_latex.register
+def _(words: Words) -> str:
+    return rf"\text{{{words.text}}}"
+
+
+@write_latex.register
+def _(dots: Dots) -> str:
+    macro = _DOTS[dots.count]
+    if not isinstance(dots.of, Name):
+        return rf"\{macro}{{{write_latex(dots.of)}}}"
+    return rf"\{macro}{{{letter_latex(dots.of)}}}{scripts_latex(dots.of)}"
+
+
+@write_latex.register
+def _(derivative: Derivative) -> str:
+    sign = r"\partial" if derivative.partial else "d"
+    power = f"^{{{derivative.order}}}" if derivative.order > 1 else ""
+    below = f"{sign} {write_latex(derivative.by)}{power}"
+    if _is_letter(derivative.of):
+        return rf"\frac{{{sign}{power} {write_latex(derivative.of)}}}{{{below}}}"
+    return rf"\frac{{{sign}{power}}}{{{below}}}{_bracketed(derivative.of)}"
+
+
+@write_latex.register
+def _(differential: Differential) -> str:
+    return f"{_DIFFERENTIALS[differential.sign]} {write_latex(differential.of)}"
+
+
+@write_latex.register
+def _(integral: Integral) -> str:
+    limits = _limit("_", integral.lower) + _limit("^", integral.upper)
+    measured = Product((*factors_of(integral.of), Differential(integral.by)))
+    return rf"\int{limits} {write_latex(measured)}"
+
+
+@write_latex.register
+def _(total: Sum) -> str:
+    first, *rest = total.terms
+    return _term(first) + "".join(f" {_added(term)}" for term in rest)
+
+
+@write_latex.register
+def _(negative: Negative) -> str:
+    return f"-{_bracketed_if(negative.of, _SIGNED)}"
+
+
+@write_latex.register
+def _(either: PlusMinus) -> str:
+    return f"{_ADDED[either.sign]} {_bracketed_if(either.of, _SIGNED)}"
+
+
+@write_latex.register
+def _(product: Product) -> str:
+    if _is_angle_in_degrees(product):
+        return rf"{write_latex(product.factors[0])}^{{\circ}}"
+    written = [_factor(factor) for factor in product.factors]
+    for place, (left, right) in enumerate(pairwise(product.factors)):
+        if isinstance(left, Number) and _begins_with_number(right):
+            written[place + 1] = _bracketed(right)
+        if left in _TAKEN_FOR_DIFFERENTIALS and _begins_with_letter(right):
+            written[place] = _bracketed(left)
+        if _TIME.match(written[place + 1]):
+            written[place] = _closed(left, written[place])
+    first, *rest = written
+    return first + "".join(f if f.startswith(r"\left(") else f" {f}" for f in rest)
+
+
+@write_latex.register
+def _(cross: Cross) -> str:
+    return rf"{_bracketed_if(cross.left, _OPEN)} \times {_bracketed_if(cross.right, _OPEN)}"
+
+
+@write_latex.register
+def _(dot: Dot) -> str:
+    return rf"{_bracketed_if(dot.left, _OPEN)} \cdot {_bracketed_if(dot.right, _OPEN)}"
+
+
+@write_latex.register
+def _(quotient: Quotient) -> str:
+    return rf"\frac{{{write_latex(quotient.above)}}}{{{write_latex(quotient.below)}}}"
+
+
+@write_latex.register
+def _(power: Power) -> str:
+    exponent = f"^{{{write_latex(power.exponent)}}}"
+    base = power.base
+    if isinstance(base, Call) and power.exponent != Negative(Number("1")):
+        return f"{_function(base)}{exponent}{_angle(base)}"
+    bare = isinstance(base, _RAISED_BARE) or (isinstance(base, Name) and not base.superscript)
+    return (write_latex(base) if bare else _bracketed(base)) + exponent
+
+
+@write_latex.register
+def _(root: Root) -> str:
+    index = f"[{write_latex(root.index)}]" if root.index else ""
+    return rf"\sqrt{index}{{{write_latex(root.of)}}}"
+
+
+@write_latex.register
+def _(call: Call) -> str:
+    return _function(call) + _angle(call)
+
+
+@write_latex.register
+def _(at: At) -> str:
+    return write_latex(at.of) + _bracketed(at.argument)
+
+
+@write_latex.register
+def _(magnitude: Magnitude) -> str:
+    return rf"\left|{write_latex(magnitude.of)}\right|"
+
+
+@write_latex.register
+def _(component: Component) -> str:
+    return f"{_bracketed(component.of)}_{{{label_latex(component.subscript)}}}"
+
+
+@write_latex.register
+def _(evaluated: Evaluated) -> str:
+    label = label_latex(evaluated.subscript)
+    return rf"\left.{write_latex(evaluated.of)}\right|_{{{label}}}"
+
+
+@write_latex.register
+def _(components: Components) -> str:
+    return rf"\left({', '.join(write_latex(entry) for entry in components.entries)}\right)"
+
+
+@write_latex.register
+def _(cases: Cases) -> str:
+    rows = r" \\ ".join(write_latex(case) for case in cases.cases)
+    return rf"\begin{{cases}} {rows} \end{{cases}}"
+
+
+@write_latex.register
+def _(case: Case) -> str:
+    words = [rf"\text{{{case.words}}}"] if case.words else []
+    said = [write_latex(condition) for condition in case.conditions] + words
+    return f"{write_latex(case.value)} & {', '.join(said)}" if said else write_latex(case.value)
+
+
+def _bracketed(piece: Piece) -> str:
+    return rf"\left({write_latex(piece)}\right)"
+
+
+def _bracketed_if(node: Node, kinds: tuple[type[Node], ...]) -> str:
+    return _bracketed(node) if isinstance(node, kinds) else write_latex(node)
+
+
+def _term(node: Node) -> str:
+    return _bracketed_if(node, (Sum,))
+
+
+def _added(node: Node) -> str:
+    """A term behind another, with the sign between."""
+    match node:
+        case Negative(of):
+            return f"- {_bracketed_if(of, _SIGNED)}"
+        case PlusMinus():
+            return write_latex(node)
+    return f"+ {_term(node)}"
+
+
+def _factor(node: Node) -> str:
+    return write_latex(node) if _is_angle_in_degrees(node) else _bracketed_if(node, _WIDE)
+
+
+def _is_angle_in_degrees(node: Node) -> bool:
+    match node:
+        case Product((Number(), Name("degree"))):
+            return True
+    return False
+
+
+def _limit(mark: str, limit: Node | None) -> str:
+    return f"{mark}{{{write_latex(limit)}}}" if limit else ""
+
+
+def _is_letter(node: Node) -> bool:
+    """Whether a differential can stand before it."""
+    name = node.of if isinstance(node, Dots) else node
+    if not isinstance(name, Name):
+        return False
+    return not name.letter.isalpha() or len(name.letter) == 1 or name.letter in lexicon.GREEK
+
+
+def _begins_with_letter(node: Node) -> bool:
+    match node:
+        case Power(first, _) | At(first, _):
+            return _begins_with_letter(first)
+    return isinstance(node, Name | Dots | Differential)
+
+
+def _begins_with_number(node: Node) -> bool:
+    match node:
+        case Power(base, _):
+            return isinstance(base, Number)
+    return isinstance(node, Number) or _is_angle_in_degrees(node)
+
+
+def _function(call: Call) -> str:
+    known = call.function in _KNOWN_TO_LATEX
+    return rf"\{call.function}" if known else rf"\operatorname{{{call.function}}}"
+
+
+def _angle(call: Call) -> str:
+    """The argument: behind the function where it is one letter, else in brackets."""
+    name = call.argument.of if isinstance(call.argument, Dots) else call.argument
+    if isinstance(name, Name) and name.letter not in _BRACKETED_ANGLES:
+        return f" {write_latex(call.argument)}"
+    return _bracketed(call.argument)
+
+
+def _closed(node: Node, written: str) -> str:
+    """A function with its argument in brackets, so that what follows is no part of it."""
+    match node:
+        case Call():
+            return _function(node) + _bracketed(node.argument)
+        case Power(Call() as call, exponent):
+            return f"{_function(call)}^{{{write_latex(exponent)}}}{_bracketed(call.argument)}"
+    return written

@@ -1,0 +1,122 @@
+"""Trees such as formulas are read into, drawn at random."""
+
+from collections.abc import Callable
+from functools import cache
+
+from hypothesis import strategies as st
+
+from polhode.claims import _lexicon as lexicon
+from polhode.claims._tree import (
+    At,
+    Call,
+    Case,
+    Cases,
+    Component,
+    Components,
+    Cross,
+    Derivative,
+    Differential,
+    Dot,
+    Dots,
+    Evaluated,
+    Integral,
+    Magnitude,
+    Name,
+    Negative,
+    Node,
+    Number,
+    PlusMinus,
+    Power,
+    Product,
+    Quotient,
+    Relation,
+    Root,
+    Sum,
+)
+
+LETTERS = ("a", "d", "k", "m", "n", "t", "v", "x", "theta", "omega", "Delta", "pi", "cal L")
+LABELS = ("1", "cm", "2p", "2,max", "rho", "perp", "(1,2,3)", "rho phi z", "2pi", "t=0", "1_2")
+DECORATIONS = ("", "", "hat", "vector", "bar", "tilde", "bar vector", "tilde vector")
+
+Nodes = st.SearchStrategy[Node]
+
+signs = st.sampled_from(
+    ("=", "≈", "≡", "≠", "<", ">", "≤", "≥", "≪", "≫", "∝", "→", "↔"),
+)
+functions = st.sampled_from(sorted(set(lexicon.FUNCTIONS.values())))
+labels = st.sampled_from(LABELS)
+plain_names = st.builds(
+    Name,
+    st.sampled_from(("t", "x", "theta", "omega")),
+    st.sampled_from(("", "1", "cm", "2,max")),
+    decoration=st.sampled_from(("", "vector")),
+)
+names = st.builds(
+    Name,
+    st.sampled_from(LETTERS),
+    st.just("") | labels,
+    st.integers(0, 2),
+    st.sampled_from(DECORATIONS),
+    st.sampled_from(("", "", "*", "cm", "perp", "(1)")),
+)
+unit_vectors = st.builds(Name, st.sampled_from("123"), labels, decoration=st.just("hat"))
+numbers = st.builds(Number, st.sampled_from(("0", "1", "2", "12", "0.35")))
+degrees = st.builds(lambda number: Product((number, Name("degree"))), numbers)
+times = plain_names | st.builds(Dots, plain_names, st.integers(1, 3))
+differentials = st.builds(Differential, times, st.sampled_from("dΔδ"))
+applied = st.builds(At, times, plain_names | st.just(Number("0")))
+leaves = names | unit_vectors | numbers | degrees | times | applied
+
+
+def _several(nodes: Nodes) -> st.SearchStrategy[tuple[Node, ...]]:
+    return st.lists(nodes, min_size=2, max_size=4).map(tuple)
+
+
+def _chain(nodes: Nodes, least: int) -> st.SearchStrategy[Relation]:
+    lengths = range(least, 4)
+    return st.one_of(
+        st.builds(Relation, st.tuples(*[nodes] * length), st.tuples(*[signs] * (length - 1)))
+        for length in lengths
+    )
+
+
+def _case(nodes: Nodes) -> st.SearchStrategy[Case]:
+    conditions = st.lists(_chain(nodes, 2), max_size=2).map(tuple)
+    return st.builds(Case, nodes, conditions, st.sampled_from(("", "slow", "if it slips")))
+
+
+BRANCHES: tuple[Callable[[Nodes], Nodes], ...] = (
+    lambda nodes: st.builds(Sum, _several(nodes)),
+    lambda nodes: st.builds(Product, _several(nodes)),
+    lambda nodes: st.builds(Negative, nodes),
+    lambda nodes: st.builds(PlusMinus, nodes, st.sampled_from("±∓")),
+    lambda nodes: st.builds(Cross, nodes, nodes),
+    lambda nodes: st.builds(Dot, nodes, nodes),
+    lambda nodes: st.builds(Quotient, nodes, nodes),
+    lambda nodes: st.builds(Power, nodes, nodes),
+    lambda nodes: st.builds(Root, nodes, st.sampled_from((None, Number("3"), Name("n")))),
+    lambda nodes: st.builds(Call, functions, nodes),
+    lambda nodes: st.builds(Dots, nodes, st.integers(1, 3)),
+    lambda nodes: st.builds(Derivative, nodes, times, st.integers(1, 3), st.booleans()),
+    lambda nodes: st.builds(Integral, nodes, plain_names),
+    lambda nodes: st.builds(Integral, nodes, plain_names, nodes, nodes),
+    lambda nodes: st.builds(Magnitude, nodes),
+    lambda nodes: st.builds(Component, nodes, labels),
+    lambda nodes: st.builds(Evaluated, nodes, labels),
+    lambda nodes: st.builds(Components, _several(nodes)),
+    lambda nodes: st.builds(Cases, st.lists(_case(nodes), min_size=1, max_size=2).map(tuple)),
+)
+
+
+@cache
+def trees(depth: int = 2) -> Nodes:
+    """Quantities, at most so deep."""
+    if depth == 0:
+        return leaves
+    return st.one_of(leaves, *(branch(trees(depth - 1)) for branch in BRANCHES))
+
+
+@cache
+def relations(depth: int = 2) -> st.SearchStrategy[Relation]:
+    """Chains of quantities, or one alone."""
+    return _chain(trees(depth), 1)

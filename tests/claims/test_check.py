@@ -1,0 +1,113 @@
+"""Claims checked from their LaTeX to the verdict and the correction."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+import polhode as ph
+from polhode.catalogue import CATALOGUE
+from polhode.claims import Answer
+
+
+@cache
+def equations(name: str) -> ph.Equations:
+    return ph.derive(CATALOGUE[name].build())
+
+
+HOLDING = [
+    ("gyroscope", r"F_\phi = Ma(\ddot\phi\sin\theta + 2\dot\phi\dot\theta\cos\theta)", {}),
+    (
+        "spinning-coin",
+        r"\dot\phi = \frac{\omega_3 \pm"
+        r" \sqrt{\omega_3^2 + 4g\cos^2\theta/a\sin\theta}}{\cos\theta}",
+        {"context": "steady"},
+    ),
+    (
+        "rolling-disk",
+        r"\dot\phi^2\sin\theta\cos\theta - 6\omega_3\dot\phi\sin\theta"
+        r" - \frac{4g}{a}\cos\theta = 0",
+        {"context": "steady"},
+    ),
+    (
+        "spinning-coin",
+        r"\dot\phi > 2\sqrt{g/a}",
+        {"context": "threshold", "given": ["theta = pi/2", "omega_3 = 0"]},
+    ),
+]
+
+
+@pytest.mark.parametrize(("name", "latex", "asked"), HOLDING)
+def test_true_claims_hold(name, latex, asked):
+    assert ph.check(latex, equations(name), **asked).answer is Answer.HOLDS
+
+
+FAILING = [
+    (
+        "gyroscope",
+        r"F_z = Mg - a(\ddot\theta\sin\theta + \dot\theta^2\cos\theta)",
+        "missing factor",
+    ),
+    (
+        "marble-on-turntable/tilted",
+        r"\frac{d\mathbf v}{dt} = \frac{I\Omega}{I + ma^2}\hat{\mathbf 1} \times \mathbf v"
+        r" + \frac{ma^2 g\sin\alpha}{I + ma^2}\hat{\mathbf 2}",
+        "wrong sign",
+    ),
+]
+
+
+@pytest.mark.parametrize(("name", "latex", "slip"), FAILING)
+def test_false_claims_fail_with_evidence_and_a_correction_that_holds(name, latex, slip):
+    verdict = ph.check(latex, equations(name))
+    assert verdict.answer is Answer.FAILS
+    assert verdict.residuals
+    assert verdict.counterexample is not None
+    assert verdict.counterexample.left != verdict.counterexample.right
+    assert verdict.confirmation is not None
+    assert verdict.confirmation.agrees
+    assert verdict.correction is not None
+    assert verdict.correction.what == slip
+    assert ph.check(verdict.correction.latex, equations(name)).answer is Answer.HOLDS
+
+
+def test_what_is_true_on_steady_motions_only_fails_on_others():
+    latex = (
+        r"\frac{ma^2}{4}\ddot\theta = \frac{ma^2\sin\theta}{4}"
+        r"(\dot\phi^2\cos\theta - 2\omega_3\dot\phi - \frac{4g\cos\theta}{a\sin\theta})"
+    )
+    coin = equations("spinning-coin")
+    assert ph.check(latex, coin, context="steady").answer is Answer.HOLDS
+    assert ph.check(latex, coin).answer is Answer.FAILS
+
+
+def test_an_approximation_tells_its_order_and_what_it_drops():
+    verdict = ph.check(
+        r"\dot\phi \approx \frac{Mga}{I_1\omega_1}",
+        equations("gyroscope"),
+        context="limit",
+        let=["eta = 1/omega_1"],
+        small=["eta:1"],
+    )
+    assert verdict.answer is Answer.APPROXIMATE
+    assert verdict.order == 2
+    assert verdict.dropped is not None
+
+
+def test_definitions_and_unknown_letters_are_told_apart():
+    gyroscope = equations("gyroscope")
+    assert ph.check(r"I_{2q} = I_2 + Ma^2", gyroscope).answer is Answer.DEFINITION
+    unread = ph.check(r"F_\phi = Ma q", gyroscope)
+    assert unread.answer is Answer.UNREAD
+    assert "q" in unread.reason
+
+
+def test_a_known_symbol_cannot_be_defined_anew():
+    with pytest.raises(ph.ParseError):
+        ph.check(r"F_z = Mg", equations("gyroscope"), let=["theta = 1"])
+
+
+def test_an_unknown_context_is_refused():
+    with pytest.raises(ph.ParseError, match="context"):
+        ph.check(r"F_z = Mg", equations("gyroscope"), context="always")

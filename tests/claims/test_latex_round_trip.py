@@ -1,0 +1,67 @@
+"""What is written is read again as the same tree."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from claims.latex_trees import differentials, relations, trees
+from polhode.claims._statements import read_latex
+from polhode.claims._tree import (
+    Name,
+    Node,
+    Number,
+    Product,
+    Relation,
+    Statement,
+    mapped,
+    parts,
+    walk,
+)
+from polhode.claims._writer import write_latex
+
+
+@given(relations(3))
+def test_a_relation_comes_back(relation: Relation) -> None:
+    assert read_latex(write_latex(relation)).relations == (relation,)
+
+
+@given(st.lists(trees(1) | differentials, min_size=2, max_size=4))
+def test_differentials_among_factors_come_back(factors: list[Node]) -> None:
+    product = Product(tuple(factors))
+    assert read_latex(write_latex(product)).relations == (Relation((product,)),)
+
+
+@given(st.lists(relations(1), min_size=1, max_size=3))
+def test_a_statement_comes_back(chains: list[Relation]) -> None:
+    condition = Relation((Name("x"), Number("0")), (">",))
+    statement = Statement(tuple(chains), (condition,), tags=("7",))
+    assert read_latex(write_latex(statement)) == statement
+
+
+@given(relations(1))
+def test_a_tree_is_rebuilt_from_its_parts(relation: Relation) -> None:
+    assert mapped(relation, lambda part: part) == relation
+    assert list(parts(relation)) == list(relation.sides)
+    assert sum(piece == relation for piece in walk(relation)) == 1
+
+
+@pytest.mark.parametrize(
+    ("latex", "written"),
+    [
+        (r"\sin\theta\,\dot\phi^2/2", r"\frac{\sin \theta \dot{\phi}^{2}}{2}"),
+        (r"F_\rho'\hat{\bf z}", r"F'_{\rho} \hat{\mathbf{z}}"),
+        (r"{\rm sech} kx", r"\operatorname{sech}\left(k x\right)"),
+        (r"a - (b + c)", r"a - \left(b + c\right)"),
+        (
+            r"-\frac{d \boldsymbol\omega_{\rm cm}}{dt}",
+            r"-\frac{d \boldsymbol{\omega}_{\mathrm{cm}}}{d t}",
+        ),
+    ],
+)
+def test_it_is_written_as_texts_print(latex: str, written: str) -> None:
+    assert write_latex(read_latex(latex)) == written
+
+
+def test_what_is_no_part_of_a_tree_is_not_written() -> None:
+    with pytest.raises(TypeError, match="str"):
+        write_latex("x")

@@ -1,0 +1,43 @@
+"""The numeric balance of every body against the derived equations, on all catalogue systems."""
+
+from __future__ import annotations
+
+from random import Random
+
+import pytest
+
+import polhode as ph
+from polhode.algebra import Symbol
+from polhode.catalogue import CATALOGUE
+from polhode.claims._declared import declared
+from polhode.claims._newton_euler import constrained_motion, true_motion
+from polhode.claims._numeric import number
+
+
+def state_of(equations: ph.Equations, seed: int) -> dict[Symbol, float]:
+    random = Random(seed)
+    known = declared(equations.system)
+    rates = [f.derivative() for f in known.functions]
+    symbols = {*equations.coordinates, *equations.speeds, *known.parameters}
+    symbols |= {*known.functions, *rates, *(r.derivative() for r in rates)}
+    return {s: random.uniform(0.5, 1.5) for s in sorted(symbols, key=lambda s: s.published)}
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_accelerations_and_least_reactions_agree_with_the_derived_ones(name):
+    equations = ph.derive(CATALOGUE[name].build())
+    found = true_motion(equations.system, state_of(equations, 5))
+    exact = {Symbol(n): value for n, value in equations.least.items()}
+    for symbol, value in {**equations.accelerations, **exact}.items():
+        there = number(equations.on_shell(value), found)
+        assert found[symbol] == pytest.approx(there, rel=1e-9, abs=1e-9)
+
+
+def test_a_motion_may_have_any_acceleration_that_the_constraints_allow():
+    equations = ph.derive(CATALOGUE["rolling-disk"].build())
+    wanted = dict.fromkeys(equations.acceleration_symbols, 0.25)
+    found = constrained_motion(equations.system, state_of(equations, 7), wanted)
+    assert {s: found[s] for s in wanted} == pytest.approx(wanted)
+    for speed, value in equations.dependent.items():
+        rate = value.chain(equations.kinetics.rate)
+        assert found[speed.derivative()] == pytest.approx(number(rate, found))

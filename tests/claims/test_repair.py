@@ -1,0 +1,62 @@
+"""Corrections: every kind of slip is found, and the corrected claim is the original."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+import polhode as ph
+from polhode.catalogue import CATALOGUE
+from polhode.claims import Answer, Verdict
+
+ORIGINAL = (
+    r"I_1\omega_1\dot\phi\sin\theta - I_{2p}\dot\phi^2\sin\theta\cos\theta + I_{2p}\ddot\theta"
+    r" = Mga\sin\theta"
+)
+
+
+@cache
+def verdict_on(latex: str) -> Verdict:
+    gyroscope = ph.derive(CATALOGUE["gyroscope"].build())
+    return ph.check(latex, gyroscope, let=[r"I_{2p} = I_2 + Ma^2"])
+
+
+SLIPS = [
+    (r"- I_{2p}\dot\phi^2", r"+ I_{2p}\dot\phi^2", "wrong sign"),
+    (r"Mga\sin", r"2Mga\sin", "wrong factor"),
+    (r"\dot\phi^2", r"\dot\phi^3", "wrong power"),
+    (r"\sin\theta\cos\theta", r"\sin\theta\sin\theta", "sin where cos is right"),
+    (r"- I_{2p}\dot\phi^2", r"- I_2\dot\phi^2", "wrong index"),
+    (r"\ddot\theta", r"\dot\theta", "dot lost"),
+    (r"= Mga", r"= ga", "missing factor"),
+    (r"I_1\omega_1\dot\phi\sin\theta - ", r"- ", "missing term"),
+]
+
+
+def test_the_original_holds():
+    assert verdict_on(ORIGINAL).answer is Answer.HOLDS
+
+
+@pytest.mark.parametrize(("right", "wrong", "slip"), SLIPS)
+def test_a_slip_is_named_and_corrected(right, wrong, slip):
+    assert right in ORIGINAL
+    verdict = verdict_on(ORIGINAL.replace(right, wrong, 1))
+    assert verdict.answer is Answer.FAILS
+    assert verdict.correction is not None
+    proposed = [verdict.correction, *verdict.alternatives]
+    assert slip in {correction.what for correction in proposed}
+    assert all(verdict_on(c.latex).answer is Answer.HOLDS for c in proposed)
+
+
+def test_two_equal_slips_are_corrected_together():
+    gyroscope = ph.derive(CATALOGUE["gyroscope/vertical-plane"].build())
+    verdict = ph.check(
+        r"\frac{d\mathbf v_{\rm cm}}{dt} = a(\ddot\theta\cos\theta - 2\dot\theta^2\sin\theta)"
+        r"\hat{\boldsymbol\rho}"
+        r" - a(\ddot\theta\sin\theta + 2\dot\theta^2\cos\theta)\hat{\mathbf z}",
+        gyroscope,
+    )
+    assert verdict.answer is Answer.FAILS
+    assert verdict.correction is not None
+    assert verdict.correction.what == "wrong factor"
