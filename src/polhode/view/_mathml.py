@@ -1,0 +1,81 @@
+"""Formulas as MathML in pieces, between which a line may break."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from xml.etree import ElementTree
+from xml.etree.ElementTree import Element
+
+from polhode.algebra import Expr
+from polhode.view._scene import Formula
+
+_NAMESPACE = ' xmlns="http://www.w3.org/1998/Math/MathML"'
+_SIGNS = ("+", "−", "-")
+_FUNCTIONS = ("sin", "cos", "tan", "exp", "sinh", "cosh", "tanh")
+_THIN = "0.17em"
+_LONGEST = 2500  # letters of a formula that is still printed
+
+
+def symbol(expression: Expr) -> str:
+    """One formula that does not break."""
+    return expression.mathml().replace(_NAMESPACE, "")
+
+
+def equation(name: str, left: Expr, right: Expr) -> Formula:
+    """left = right, which may break before every sign between two terms."""
+    spoken = f"{left.pretty()} = {right.pretty()}"
+    if len(spoken) > _LONGEST:
+        told = f"{left.pretty()} = … ({len(spoken):,} characters: too long to be read here)"
+        return Formula(name, (), told)
+    row = [*_row(left), _leaf("mo", "="), *_row(right)]
+    return Formula(name, tuple(_written(piece) for piece in _pieces(row)), spoken)
+
+
+def _row(expression: Expr) -> list[Element]:
+    root = ElementTree.fromstring(symbol(expression))
+    for row in [*root.iter("math"), *root.iter("mrow")]:
+        _set_functions_apart(row)
+    return list(root[0]) if len(root) == 1 and root[0].tag == "mrow" else list(root)
+
+
+def _set_functions_apart(row: Element) -> None:
+    """A thin space around the name of a function, as in 2 sin θ."""
+    for i in reversed([i for i, element in enumerate(row) if _is_function(element)]):
+        if i + 1 < len(row) and row[i + 1].tag != "mo":
+            row.insert(i + 1, Element("mspace", width=_THIN))
+        if i and row[i - 1].tag != "mo":
+            row.insert(i, Element("mspace", width=_THIN))
+
+
+def _is_function(element: Element) -> bool:
+    """Whether it is sin, or sin² and the like."""
+    name = element[0] if element.tag == "msup" else element
+    return name.tag == "mi" and name.text in _FUNCTIONS
+
+
+def _pieces(row: Sequence[Element]) -> Iterator[list[Element]]:
+    """A row cut before the equals sign and before every sign between two terms."""
+    piece: list[Element] = []
+    for element in row:
+        is_sign = element.tag == "mo" and element.text in _SIGNS
+        opens = not piece or (piece[-1].tag == "mo" and piece[-1].text in ("(", "="))
+        if element.text == "=" or (is_sign and not opens):
+            yield piece
+            piece = [_leaf("mo", element.text or "", form="infix")]
+        else:
+            piece.append(element)
+    yield piece
+
+
+def _written(elements: Sequence[Element]) -> str:
+    inner = "".join(
+        ElementTree.tostring(element, encoding="unicode", short_empty_elements=False)
+        for element in elements
+    )
+    return f'<math displaystyle="true"><mrow>{inner}</mrow></math>'
+
+
+def _leaf(kind: str, text: str, **attributes: str) -> Element:
+    element = Element(kind, attributes)
+    element.text = text
+    return element

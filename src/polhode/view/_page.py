@@ -1,0 +1,112 @@
+"""A motion as one file: a page that plays it, from disk, with no network."""
+
+from __future__ import annotations
+
+import json
+from base64 import b64encode
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
+from hashlib import sha256
+from html import escape
+from importlib.resources import files
+from pathlib import Path
+
+from polhode.base import StoreError, write_whole
+from polhode.simulate import Trajectory
+from polhode.view._scene import Judgement, Scene
+from polhode.view._scene_build import scene
+
+_FRONT_END = "built"  # folder beside this file that the package's build fills
+
+_PAGE = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src '{digest}'; \
+style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<meta name="generator" content="polhode">
+<title>{title}</title>
+<link rel="icon" href="data:,">
+<style>{style}</style>
+</head>
+<body>
+<noscript><p>This page plays a motion, and needs its script to be allowed to run.</p></noscript>
+<script type="application/json" id="scene">{scene}</script>
+<script>{script}</script>
+<!--
+The script contains these works:
+
+{licences}
+-->
+</body>
+</html>
+"""
+
+
+def page(
+    run: Trajectory,
+    path: str | Path,
+    *,
+    title: str = "",
+    about: str = "",
+    plots: Sequence[Sequence[str]] = (),
+    meanings: Mapping[str, str] | None = None,
+    judgements: Iterable[Judgement] = (),
+) -> None:
+    """Write a page that plays a motion: one file that works from disk and asks for nothing.
+
+    It shows the bodies in three dimensions, forces and other vectors as arrows, plots that follow
+    the same clock, the equations, parameters and the evidence. A file already there is replaced
+    only once the new one is complete.
+
+    Args:
+        run: the motion.
+        path: of the file.
+        title: heading; the system's name by default.
+        about: the problem in a few sentences.
+        plots: groups of names of quantities to plot; coordinates, speeds and reactions by default.
+        meanings: what parameters are, by name.
+        judgements: verdicts on claims about the system.
+
+    Raises:
+        DeclarationError: for the name of a quantity that the run does not have.
+        StoreError: where the file cannot be written.
+    """
+    shown = scene(
+        run, title=title, about=about, plots=plots, meanings=meanings, judgements=judgements
+    )
+    write_whole(Path(path), page_of(shown).encode("utf-8"))
+
+
+def page_of(shown: Scene) -> str:
+    """A scene as the text of a page."""
+    data = json.dumps(shown.as_json(), ensure_ascii=False, allow_nan=False)
+    script = _built("page.js")
+    digest = b64encode(sha256(script.encode("utf-8")).digest()).decode("ascii")
+    return _PAGE.format(
+        digest=f"sha256-{digest}",
+        title=escape(shown.title),
+        style=_built("page.css"),
+        scene=_inert(data),
+        script=script,
+        licences=_built("LICENSES.txt").replace("--", "- -"),
+    )
+
+
+def _inert(data: str) -> str:
+    """JSON that nothing in it can end the element of."""
+    return data.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+
+
+@cache
+def _built(name: str) -> str:
+    try:
+        return files("polhode.view").joinpath(_FRONT_END, name).read_text("utf-8").strip()
+    except OSError as error:
+        raise StoreError(
+            f"the front end of pages is not there ({name})",
+            expected="a package whose front end was built when it was installed",
+            advice="install polhode again; from a checkout, run python build_frontend.py",
+        ) from error

@@ -1,0 +1,282 @@
+"""The scene: one plain structure that says all there is to see of a motion.
+
+The page, the notebook and the maker of stills all draw a `Scene` and nothing else. Lengths are in
+metres, times in seconds, vectors along the directions of the root frame; attitudes are unit
+quaternions (x, y, z, w) that turn the body's axes into the root frame's. Along the first axis of
+an array run the frames: `frames` instants, equally spaced from 0 to `duration`; an array with one
+row stays the same throughout.
+"""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, is_dataclass
+from typing import Any
+
+import numpy as np
+
+from polhode.view._quantities import Array
+
+Triple = tuple[float, float, float]
+
+#: Nothing, as rows of three numbers.
+NOWHERE: Array = np.zeros((0, 3))
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Where something is and how it is turned.
+
+    Attributes:
+        place: m, shape (frames or 1, 3).
+        turn: quaternions, shape (frames or 1, 4).
+        spin: angle turned besides about `axis`, rad, shape (frames,); empty where there is none.
+            Kept apart so that a fast spin can be followed between two frames.
+        axis: unit vector along the turned axes.
+    """
+
+    place: Array
+    turn: Array
+    spin: Array
+    axis: Triple
+
+
+@dataclass(frozen=True)
+class Shape:
+    """What a body looks like.
+
+    Attributes:
+        kind: ball (radius), ellipsoid (three half-axes), disk, hoop or wheel (radius, height),
+            rod (length, radius), box (three sides), racquet (length, width, thickness).
+        size: the lengths named, m.
+        axis: unit vector along the body's axes: of symmetry, or the long one.
+        across: unit vector along the body's axes, perpendicular to it.
+    """
+
+    kind: str
+    size: tuple[float, ...]
+    axis: Triple = (0.0, 0.0, 1.0)
+    across: Triple = (1.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class SceneBody:
+    """A body.
+
+    Attributes:
+        name: as declared.
+        shape: what it looks like.
+        pose: of its axes, with the spin about one of them.
+        arms: from the centre of mass to the points at which it is held, along its axes, m.
+    """
+
+    name: str
+    shape: Shape
+    pose: Pose
+    arms: tuple[Triple, ...]
+
+
+@dataclass(frozen=True)
+class Support:
+    """A flat surface: the first two directions of its pose lie in it, the third points up.
+
+    Attributes:
+        name: of the first contact on it.
+        kind: plane, turntable or sheet.
+        pose: of the surface as it moves.
+        middle: of what is drawn, along the two directions, m.
+        reach: half its width along each, m.
+    """
+
+    name: str
+    kind: str
+    pose: Pose
+    middle: tuple[float, float]
+    reach: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Arrow:
+    """A vector drawn as an arrow.
+
+    Attributes:
+        kind: force, load, torque, omega or momentum.
+        name: what it is, in words.
+        body: position of its body among the bodies.
+        unit: of its components.
+        foot: where it begins, m; empty for the centre of mass of the body.
+        along: components, in `unit`.
+        usual: length that it keeps below for nine tenths of the motion.
+        largest: greatest length.
+    """
+
+    kind: str
+    name: str
+    body: int
+    unit: str
+    foot: Array
+    along: Array
+    usual: float
+    largest: float
+
+
+@dataclass(frozen=True)
+class Trace:
+    """A path that is left behind.
+
+    Attributes:
+        kind: contact, centre or axis.
+        name: what it is, in words.
+        points: m; not a number where there is nothing to draw.
+        support: position of the support it is drawn on and moves with, or -1.
+    """
+
+    kind: str
+    name: str
+    points: Array
+    support: int = -1
+
+
+@dataclass(frozen=True)
+class Series:
+    """A quantity against time.
+
+    Attributes:
+        name: published name.
+        symbol: MathML.
+        values: in the unit of its panel, at equally spaced instants from 0 to the duration.
+    """
+
+    name: str
+    symbol: str
+    values: Array
+
+
+@dataclass(frozen=True)
+class Panel:
+    """Quantities that share an axis."""
+
+    unit: str
+    series: tuple[Series, ...]
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A formula in pieces of MathML, between which a line may break.
+
+    Attributes:
+        name: heading; empty for none.
+        pieces: MathML.
+        spoken: the same on one line of text.
+    """
+
+    name: str
+    pieces: tuple[str, ...]
+    spoken: str
+
+
+@dataclass(frozen=True)
+class Number:
+    """A named number.
+
+    Attributes:
+        name: published name.
+        symbol: MathML; empty for the name as it is.
+        value: in SI units.
+        unit: SI unit.
+        meaning: in words.
+    """
+
+    name: str
+    symbol: str
+    value: float
+    unit: str
+    meaning: str = ""
+
+
+@dataclass(frozen=True)
+class Happening:
+    """An event of the motion."""
+
+    time: float
+    what: str
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """A claim about the system and what came of checking it.
+
+    Attributes:
+        claim: in words, or as its source prints it.
+        verdict: holds, approximate, definition, fails or unread.
+        reason: in words.
+    """
+
+    claim: str
+    verdict: str
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class Scene:
+    """All there is to see of a motion; `as_json` gives the document that a page is made of.
+
+    Attributes:
+        title: heading.
+        about: a few sentences; empty for none.
+        duration: s.
+        frames: number of instants that poses are given at.
+        up: unit vector that is upright on the screen.
+        floor: height of a faint floor beneath everything, m; None where a support is one.
+        directions: names of the directions of the root frame.
+        bodies, supports, arrows, traces, panels: what is drawn.
+        motion, reactions: the equations.
+        parameters, start: numbers it was made with.
+        evidence: how far what must stay constant has drifted, relative.
+        happenings: events.
+        judgements: verdicts on claims.
+        origin: schema, versions, declaration and seed.
+    """
+
+    title: str
+    about: str
+    duration: float
+    frames: int
+    up: Triple
+    floor: float | None
+    directions: tuple[str, ...]
+    bodies: tuple[SceneBody, ...]
+    supports: tuple[Support, ...]
+    arrows: tuple[Arrow, ...]
+    traces: tuple[Trace, ...]
+    panels: tuple[Panel, ...]
+    motion: tuple[Formula, ...] = ()
+    reactions: tuple[Formula, ...] = ()
+    parameters: tuple[Number, ...] = ()
+    start: tuple[Number, ...] = ()
+    evidence: tuple[Number, ...] = ()
+    happenings: tuple[Happening, ...] = ()
+    judgements: tuple[Judgement, ...] = ()
+    origin: Mapping[str, Any] = field(default_factory=dict)
+
+    def as_json(self) -> dict[str, Any]:
+        """As plain data under the names of the attributes.
+
+        An array becomes {"shape": [...], "float32": base64 of its numbers, little-endian}.
+        """
+        document: dict[str, Any] = _plain(self)
+        return document
+
+
+def _plain(value: Any) -> Any:
+    if is_dataclass(value):
+        return {f.name: _plain(getattr(value, f.name)) for f in fields(value)}
+    if isinstance(value, np.ndarray):
+        packed = base64.b64encode(value.astype("<f4").tobytes()).decode("ascii")
+        return {"shape": list(value.shape), "float32": packed}
+    if isinstance(value, tuple | list):
+        return [_plain(item) for item in value]
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    return value

@@ -1,0 +1,103 @@
+"""Vectors and attitudes along a motion, as arrays, whatever contact modes it runs through."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import cast
+
+import numpy as np
+
+from polhode.algebra import Expr, Vector
+from polhode.derive import Equations
+from polhode.model import Frame
+from polhode.simulate import Trajectory
+from polhode.view._quantities import Array
+
+#: What is wanted in one contact mode; None where it means nothing there.
+Wanted = Callable[[Equations], Sequence[Expr] | None]
+
+_STILL = 1e-9  # relative spread below which an array counts as constant
+
+
+def along(run: Trajectory, wanted: Wanted, count: int, t: Array) -> Array:
+    """Expressions of every contact mode along the motion, shape (instants, count).
+
+    Not a number in modes in which they mean nothing.
+    """
+    begins = np.array([segment.begin for segment in run.segments])
+    which = np.clip(np.searchsorted(begins, t, "right") - 1, 0, None)
+    found = np.full((len(t), count), np.nan)
+    for i in np.unique(which):
+        segment, here = run.segments[i], which == i
+        expressions = wanted(cast(Equations, segment.dynamics.equations))
+        if expressions is not None:
+            found[here] = segment.values(expressions, t[here]).T
+    return found
+
+
+def vectors(run: Trajectory, wanted: Callable[[Equations], Vector | None], t: Array) -> Array:
+    """A vector along the directions of the root frame, shape (instants, 3)."""
+
+    def components(equations: Equations) -> Sequence[Expr] | None:
+        vector = wanted(equations)
+        return None if vector is None else vector.express(equations.system.root).components
+
+    return along(run, components, 3, t)
+
+
+def attitudes(run: Trajectory, wanted: Callable[[Equations], Frame], t: Array) -> Array:
+    """How a frame is turned against the root frame, as quaternions, shape (instants, 4)."""
+
+    def entries(equations: Equations) -> Sequence[Expr]:
+        matrix = wanted(equations).rotation_to(equations.system.root)
+        return [entry for row in matrix.rows for entry in row]
+
+    return quaternions(along(run, entries, 9, t).reshape(-1, 3, 3))
+
+
+def constants(run: Trajectory, expressions: Sequence[Expr]) -> tuple[float, ...]:
+    """Values of expressions in parameters alone."""
+    values = run.segments[0].values(expressions, np.array([0.0]))
+    return tuple(float(value) for value in values[:, 0])
+
+
+def collapsed(rows: Array) -> Array:
+    """One row in place of many that are the same."""
+    size = float(np.max(np.abs(rows), initial=0.0))
+    if len(rows) > 1 and np.all(np.ptp(rows, axis=0) <= _STILL * size):
+        return rows[:1]
+    return rows
+
+
+def quaternions(matrices: Array) -> Array:
+    """Rotation matrices as unit quaternions (x, y, z, w) that follow each other without a jump.
+
+    Each is the eigenvector of Bar-Itzhack's symmetric matrix to the largest eigenvalue.
+    """
+    m = matrices
+    xx, yy, zz = m[:, 0, 0], m[:, 1, 1], m[:, 2, 2]
+    k = np.empty((len(m), 4, 4))
+    k[:, 0, 0], k[:, 1, 1], k[:, 2, 2] = xx - yy - zz, yy - xx - zz, zz - xx - yy
+    k[:, 3, 3] = xx + yy + zz
+    for i, j in ((0, 1), (0, 2), (1, 2)):
+        k[:, i, j] = k[:, j, i] = m[:, i, j] + m[:, j, i]
+    for i, (j, l) in enumerate(((2, 1), (0, 2), (1, 0))):
+        k[:, i, 3] = k[:, 3, i] = m[:, j, l] - m[:, l, j]
+    found: Array = np.linalg.eigh(k)[1][:, :, -1]
+    flips = np.sign(np.sum(found[1:] * found[:-1], axis=1))
+    found[1:] *= np.cumprod(np.where(flips < 0, -1.0, 1.0))[:, None]
+    return found
+
+
+def rolled(turning: Array, step: float) -> Array:
+    """Attitudes that an angular velocity (rad/s, along fixed directions) leads to from none."""
+    half = (turning[1:] + turning[:-1]) * (step / 4)
+    angle = np.linalg.norm(half, axis=1, keepdims=True)
+    vector = half * np.sinc(angle / np.pi)
+    found = np.empty((len(turning), 4))
+    found[0] = (0.0, 0.0, 0.0, 1.0)
+    for i, (v, w) in enumerate(zip(vector, np.cos(angle[:, 0]), strict=True)):
+        u, s = found[i, :3], found[i, 3]
+        found[i + 1, :3] = w * u + s * v + np.cross(v, u)
+        found[i + 1, 3] = w * s - v @ u
+    return found

@@ -1,0 +1,178 @@
+"""What the scene says in formulas and numbers: equations, parameters, evidence, plots."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import cast
+
+import numpy as np
+
+from polhode.algebra import ZERO, Expr, Kind, Symbol
+from polhode.base import PURE, provenance
+from polhode.derive import Equations
+from polhode.simulate import Trajectory
+from polhode.view._history import panels
+from polhode.view._mathml import equation, symbol
+from polhode.view._quantities import (
+    Array,
+    equations_of,
+    largest,
+    quantity,
+    scale_for,
+)
+from polhode.view._scene import Formula, Happening, Number, Panel, Series
+
+_EVENTS = 40  # that are listed
+_POINTS = 1501  # of a plotted curve, at most
+_ENERGY = "energy"
+_NOTHING = 1e-15
+
+
+def panels_of(run: Trajectory, groups: Sequence[Sequence[str]]) -> tuple[Panel, ...]:
+    """Plots of named quantities, a panel for each group; energy by itself, last."""
+    chosen = [*groups, *([] if any(_ENERGY in group for group in groups) else [[_ENERGY]])]
+    t = np.linspace(0.0, run.duration, _POINTS)
+    return tuple(_panel(run, names, t) for group in chosen for names in panels(run, group))
+
+
+def everything(run: Trajectory) -> list[list[str]]:
+    """Coordinates, speeds and reactions."""
+    equations = run.equations
+    groups = [
+        [s.published for s in equations.coordinates],
+        [s.published for s in equations.speeds],
+        list(run.reactions),
+    ]
+    return [group for group in groups if group]
+
+
+def _panel(run: Trajectory, names: Sequence[str], t: Array) -> Panel:
+    values = [run.evaluate(name, t) for name in names]
+    scale = scale_for(quantity(run, names[0]).unit, largest(*values))
+    series = (
+        Series(name, _letter(run, name), value * scale.factor)
+        for name, value in zip(names, values, strict=True)
+    )
+    return Panel(scale.unit, tuple(series))
+
+
+def _letter(run: Trajectory, name: str) -> str:
+    if name == _ENERGY:
+        return symbol(Expr.generator(Symbol("E")))
+    expression = run.quantities[name]
+    return symbol(Expr.generator(expression.symbol or Symbol(name)))
+
+
+def motion_of(run: Trajectory) -> tuple[Formula, ...]:
+    """The equations of motion of every contact mode, and rates that are not speeds."""
+    return _by_mode(run, _motion)
+
+
+def reactions_of(run: Trajectory) -> tuple[Formula, ...]:
+    """Every component that Newton's laws determine, in every contact mode."""
+    return _by_mode(run, _reactions)
+
+
+def _by_mode(
+    run: Trajectory, formulas: Callable[[Equations], list[Formula]]
+) -> tuple[Formula, ...]:
+    """Under the name of the mode, where there are several."""
+    modes: dict[str, list[Formula]] = {}
+    for segment in run.segments:
+        if segment.mode not in modes:
+            modes[segment.mode] = formulas(cast(Equations, segment.dynamics.equations))
+    if len(modes) == 1:
+        return tuple(next(iter(modes.values())))
+    named = [[replace(first, name=mode), *rest] for mode, (first, *rest) in _filled(modes)]
+    return tuple(formula for group in named for formula in group)
+
+
+def _filled(modes: Mapping[str, list[Formula]]) -> list[tuple[str, list[Formula]]]:
+    return [(mode, group) for mode, group in modes.items() if group]
+
+
+def _motion(equations: Equations) -> list[Formula]:
+    rows = [equation("", row, ZERO) for row in equations.motion]
+    rates = [
+        equation("", Expr.generator(rate), value)
+        for rate, value in equations.kinematics.items()
+        if value != Expr.generator(rate)
+    ]
+    return [*rows, *rates]
+
+
+def _reactions(equations: Equations) -> list[Formula]:
+    return [
+        equation("", Expr.generator(Symbol(name)), value)
+        for name, value in equations.components.items()
+        if name not in equations.undetermined
+    ]
+
+
+def parameters_of(run: Trajectory, meanings: Mapping[str, str]) -> tuple[Number, ...]:
+    """Parameters with the units inferred from their uses."""
+    dimensions = {s.published: d for s, d in equations_of(run).dimensions.items()}
+    return tuple(
+        Number(
+            name,
+            symbol(Expr.generator(Symbol(name.rstrip("_"), Kind.PARAMETER))),
+            float(value),
+            str(dimensions.get(name, PURE)),
+            meanings.get(name, ""),
+        )
+        for name, value in run.parameters.items()
+    )
+
+
+def start_of(run: Trajectory) -> tuple[Number, ...]:
+    """Coordinates and speeds at the start."""
+    names = [s.published for s in (*run.equations.coordinates, *run.equations.speeds)]
+    values = run.table(names, 0.0)
+    return tuple(
+        Number(name, _letter(run, name), _settled(values[name]), quantity(run, name).unit)
+        for name in names
+    )
+
+
+def _settled(value: Array) -> float:
+    """Without what the evaluation of a series leaves of zero."""
+    return float(value) if abs(float(value)) > _NOTHING else 0.0
+
+
+def evidence_of(run: Trajectory) -> tuple[Number, ...]:
+    """Largest drift of everything that must stay as it is."""
+    drift = run.drift
+    return (
+        Number("energy − work done", "", drift.energy, "", "against the energy scale"),
+        Number("closed loops", "", drift.constraint, "m", "largest gap"),
+        *(
+            Number(name, "", value, "", "against its largest term")
+            for name, value in drift.invariants.items()
+        ),
+    )
+
+
+def happenings_of(run: Trajectory) -> tuple[Happening, ...]:
+    """Events between start and end; of very many, the first ones and how many more."""
+    found = [
+        Happening(event.time, f"{event.kind}: {event.after}")
+        for event in run.events
+        if event.before is not None and event.after is not None
+    ]
+    shown, more = found[:_EVENTS], len(found) - _EVENTS
+    if more > 0:
+        shown.append(Happening(found[-1].time, f"the last of {more} more"))
+    return tuple(shown)
+
+
+def origin_of_scene(run: Trajectory) -> dict[str, object]:
+    """What the scene was made with."""
+    return {
+        **provenance(),
+        "system": run.equations.system.name,
+        "mode": run.mode,
+        "parameters": dict(run.parameters),
+        "assumed": dict(run.assumed),
+        "integrator": run.integrator,
+    }

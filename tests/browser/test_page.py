@@ -1,0 +1,199 @@
+"""A page in a browser: it plays, it can be steered, and it keeps to itself."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from browser.conftest import PHONE, SMALL
+from browser.runs import HOSTILE
+from polhode.catalogue import CATALOGUE
+
+AXE = Path(__file__).parent / "node_modules" / "axe-core" / "axe.min.js"
+SYSTEMS = [*CATALOGUE, "double pendulum"]
+NO_WEBGL = "HTMLCanvasElement.prototype.getContext = new Proxy(\
+HTMLCanvasElement.prototype.getContext, {apply: (get, canvas, asked) => \
+asked[0].startsWith('webgl') ? null : Reflect.apply(get, canvas, asked)})"
+MOST = 1_500_000  # bytes
+
+
+@pytest.fixture(scope="module")
+def shared(opened, written):
+    with opened(written("rolling-disk")) as shown:
+        yield shown
+
+
+@pytest.fixture
+def disk(shared):
+    """A page that several tests steer, one after the other; at rest at the start."""
+    pause = shared.page.get_by_role("button", name="Pause")
+    if pause.count():
+        pause.click()
+    shared.page.get_by_role("button", name="Back to the start").click()
+    shared.page.get_by_role("button", name="Reset view").click()
+    shared.page.evaluate("document.activeElement.blur()")
+    return shared
+
+
+def colours(pixels):
+    """How many different colours there are, but for small differences."""
+    return len(np.unique(pixels.reshape(-1, 3) // 16, axis=0))
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_every_system_is_seen(opened, written, tmp_path, name):
+    path = written(name)
+    assert path.stat().st_size < MOST
+    with opened(path, viewport=SMALL) as shown:
+        before = shown.picture(tmp_path)
+        shown.page.locator("input[type=range]").fill("713")
+        after = shown.picture(tmp_path)
+        assert colours(after[after.shape[0] // 6 : -after.shape[0] // 6]) > 30
+        assert np.count_nonzero(np.abs(after - before).sum(axis=2) > 60) > 100
+        assert shown.page.locator(".plot canvas").count() > 0
+        assert shown.page.locator("math").count() > 3
+        assert shown.requests == [path.as_uri()]
+        assert shown.complaints == []
+
+
+def test_playing_moves_on_and_pausing_stops(disk, tmp_path):
+    assert disk.time() == 0
+    before = disk.picture(tmp_path)
+    disk.page.get_by_role("button", name="Play").click()
+    disk.wait_until_past(0.3)
+    disk.page.get_by_role("button", name="Pause").click()
+    stopped = disk.time()
+    after = disk.picture(tmp_path)
+    assert np.count_nonzero(np.abs(after - before).sum(axis=2) > 60) > 200
+    assert disk.time() == stopped
+    assert disk.complaints == []
+
+
+def test_slider_seeks(disk):
+    disk.page.locator("input[type=range]").fill("1000")
+    assert disk.time() == pytest.approx(5.0)
+
+
+def test_what_is_shown_is_the_motion(disk):
+    """The number beside θ at a time is θ there."""
+    from browser.runs import run_of
+
+    disk.page.locator("input[type=range]").fill("800")
+    theta = np.degrees(run_of("rolling-disk").evaluate("theta", 4.0))
+    assert float(disk.value()) == pytest.approx(float(theta), abs=0.15)
+
+
+def test_click_on_a_plot_seeks(disk):
+    over = disk.page.locator(".plot .u-over").first
+    size = over.bounding_box()
+    over.click(position={"x": 0.3 * size["width"], "y": 0.5 * size["height"]})
+    assert disk.time() == pytest.approx(3.0, abs=0.05)
+    mark = disk.page.locator(".plot .now").first.bounding_box()
+    assert mark["x"] - size["x"] == pytest.approx(0.3 * size["width"], abs=3)
+
+
+def test_keys_do_what_buttons_do(disk):
+    page = disk.page
+    page.keyboard.press("ArrowRight")
+    assert disk.time() == pytest.approx(0.1)
+    page.keyboard.press("End")
+    assert disk.time() == pytest.approx(10)
+    page.keyboard.press("Home")
+    page.keyboard.press("Space")
+    disk.wait_until_past(0)
+    page.keyboard.press("Space")
+    page.get_by_role("button", name="Play").wait_for()
+
+
+def test_every_control_is_reached_by_the_keyboard(disk):
+    page = disk.page
+    wanted = page.locator("button, select, input, .picture").count()
+    reached = set()
+    for _ in range(wanted + 2):
+        page.keyboard.press("Tab")
+        reached.add(page.evaluate("document.activeElement.outerHTML.slice(0, 200)"))
+    assert len(reached - {page.evaluate("document.body.outerHTML.slice(0, 200)")}) >= wanted
+
+
+def test_the_view_turns_and_zooms(disk, tmp_path):
+    before = disk.picture(tmp_path)
+    disk.page.locator(".picture").focus()
+    disk.page.keyboard.press("ArrowLeft")
+    turned = disk.picture(tmp_path)
+    assert np.count_nonzero(np.abs(turned - before).sum(axis=2) > 40) > 1000
+    disk.page.mouse.move(300, 400)
+    disk.page.mouse.wheel(0, -600)
+    assert np.count_nonzero(np.abs(disk.picture(tmp_path) - turned).sum(axis=2) > 40) > 1000
+    assert disk.time() == 0
+
+
+def test_arrows_are_switched_and_seen_through_the_disk(disk, tmp_path):
+    button = disk.page.get_by_role("button", name="forces of supports")
+    disk.page.locator("input[type=range]").fill("700")
+    on = disk.picture(tmp_path)
+    button.click()
+    assert button.get_attribute("aria-pressed") == "false"
+    off = disk.picture(tmp_path)
+    red = (on - off)[..., 0] - (on - off)[..., 2]
+    assert np.count_nonzero(red > 60) > 150
+    assert "N" in button.inner_text()
+
+
+def test_phone(opened, written, tmp_path):
+    with opened(written("rolling-disk"), viewport=PHONE, is_mobile=True, has_touch=True) as shown:
+        width = shown.page.evaluate("document.documentElement.scrollWidth")
+        assert width <= PHONE["width"]
+        assert colours(shown.picture(tmp_path)) > 30
+        play = shown.page.get_by_role("button", name="Play").bounding_box()
+        assert min(play["width"], play["height"]) >= 40
+        assert play["y"] + play["height"] < PHONE["height"]
+
+
+def test_without_webgl_the_plots_stay(opened, written):
+    with opened(written("rolling-disk"), script=NO_WEBGL) as shown:
+        assert "no WebGL" in shown.page.locator(".picture").inner_text()
+        shown.page.locator("input[type=range]").fill("1000")
+        assert shown.time() == pytest.approx(5.0)
+        assert float(shown.value()) > 70
+        drawn = shown.page.evaluate(
+            "(() => { const c = document.querySelector('.plot canvas');"
+            "return c.getContext('2d').getImageData(0, 0, c.width, c.height).data"
+            ".some((v, i) => i % 4 === 3 && v > 0); })()"
+        )
+        assert drawn
+
+
+def test_dark_pages_are_dark(opened, written):
+    means = {}
+    for scheme in ("light", "dark"):
+        with opened(written("rolling-disk"), color_scheme=scheme) as shown:
+            colour = shown.page.evaluate("getComputedStyle(document.body).backgroundColor")
+            means[scheme] = np.mean([int(part) for part in colour[4:-1].split(",")])
+    assert means["light"] > 200
+    assert means["dark"] < 50
+
+
+def test_nothing_moves_by_itself(disk, tmp_path):
+    before = disk.picture(tmp_path)
+    disk.page.wait_for_timeout(300)
+    assert disk.time() == 0
+    assert np.array_equal(disk.picture(tmp_path), before)
+
+
+def test_names_are_text(opened, written):
+    with opened(written("double pendulum")) as shown:
+        assert shown.page.locator("h1").inner_text().split() == HOSTILE.split()
+        assert shown.page.locator("main script, main img").count() == 0
+        assert shown.complaints == []
+
+
+@pytest.mark.parametrize(
+    ("name", "scheme"), [("rolling-disk", "light"), ("double pendulum", "dark")]
+)
+def test_axe_finds_no_serious_fault(opened, written, name, scheme):
+    with opened(written(name), color_scheme=scheme, bypass_csp=True) as shown:
+        shown.page.evaluate(AXE.read_text("utf-8"))
+        faults = shown.page.evaluate("axe.run()")["violations"]
+        serious = [fault for fault in faults if fault["impact"] in ("serious", "critical")]
+        assert not serious, json.dumps(serious, indent=1)[:3000]

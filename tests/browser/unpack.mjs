@@ -1,0 +1,4 @@
+// Prints where npm's Chromium lies, unpacked.
+import chromium from "@sparticuz/chromium";
+
+console.log(await chromium.executablePath());

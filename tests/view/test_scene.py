@@ -1,0 +1,221 @@
+"""The scene: what it says of a motion is the motion."""
+
+import base64
+import json
+
+import numpy as np
+import pytest
+
+import polhode as ph
+from polhode.base import DeclarationError
+from polhode.catalogue import CATALOGUE
+
+KINDS = {"force", "load", "torque", "omega", "momentum"}
+SHAPES = {
+    "spinning-coin": "disk",
+    "rolling-disk": "disk",
+    "marble-on-turntable": "ball",
+    "gyrocompass": "wheel",
+    "tennis-racquet": "racquet",
+    "ball-on-paper": "ball",
+    "gyroscope": "disk",
+}
+
+
+@pytest.fixture(scope="module")
+def scene_of(run_of):
+    known = {}
+
+    def scene(name):
+        if name not in known:
+            known[name] = ph.scene(run_of(name), plots=CATALOGUE[name].plots)
+        return known[name]
+
+    return scene
+
+
+def turned(vector, quaternions):
+    u, w = quaternions[:, :3], quaternions[:, 3:]
+    cross = np.cross(u, vector)
+    return vector + 2 * (w * cross + np.cross(u, cross))
+
+
+def rows(packed):
+    """An array as the page unpacks it."""
+    data = np.frombuffer(base64.b64decode(packed["float32"]), dtype="<f4")
+    return data.reshape(packed["shape"])
+
+
+def instants(run, scene):
+    return np.linspace(0.0, run.duration, scene.frames)
+
+
+@pytest.mark.parametrize("name", list(CATALOGUE))
+def test_every_system_has_a_sound_scene(scene_of, name):
+    scene = scene_of(name)
+    assert scene.bodies
+    assert scene.panels
+    assert scene.motion
+    assert scene.parameters
+    for body in scene.bodies:
+        assert len(body.pose.place) in (1, scene.frames)
+        assert len(body.pose.turn) in (1, scene.frames)
+        assert len(body.pose.spin) in (0, scene.frames)
+        assert np.allclose(np.linalg.norm(body.pose.turn, axis=1), 1)
+        assert all(size > 0 for size in body.shape.size)
+        assert np.isfinite(body.pose.place).all()
+    for arrow in scene.arrows:
+        assert arrow.kind in KINDS
+        assert np.isfinite(arrow.along).all()
+        assert arrow.usual <= arrow.largest
+    text = json.dumps(scene.as_json(), allow_nan=False)
+    assert len(text) < 750_000
+
+
+@pytest.mark.parametrize(("name", "kind"), SHAPES.items())
+def test_bodies_look_like_themselves(scene_of, name, kind):
+    assert scene_of(name).bodies[0].shape.kind == kind
+
+
+def test_no_frame_is_far_from_the_next(scene_of):
+    """But where that would take too many: that marble gets up to 300 turns a second."""
+    for name in CATALOGUE.keys() - {"marble-on-turntable/tilted"}:
+        turn = scene_of(name).bodies[0].pose.turn
+        close = np.abs(np.sum(turn[1:] * turn[:-1], axis=1))
+        assert np.all(close > np.cos(0.07)), name
+
+
+def test_the_disk_stands_on_its_contact(run_of, scene_of):
+    """The lowest point of the rim is where the force acts, on the plane."""
+    run, scene = run_of("rolling-disk"), scene_of("rolling-disk")
+    body = scene.bodies[0]
+    axis = turned(np.array(body.shape.axis), body.pose.turn)
+    down = np.array([0.0, 0.0, -1.0]) + axis * axis[:, 2:]
+    lowest = body.pose.place + 0.03 * down / np.linalg.norm(down, axis=1, keepdims=True)
+    force = next(arrow for arrow in scene.arrows if arrow.kind == "force")
+    assert np.allclose(lowest, force.foot, atol=1e-9)
+    assert np.allclose(force.foot[:, 2], 0, atol=1e-12)
+    assert np.allclose(force.along[:, 2], run.evaluate("F_z", instants(run, scene)))
+
+
+def test_spin_and_axes_together_turn_as_omega_says(run_of, scene_of):
+    scene = scene_of("gyroscope")
+    body = scene.bodies[0]
+    omega = next(arrow.along for arrow in scene.arrows if arrow.kind == "omega")
+    axis = turned(np.array(body.pose.axis), body.pose.turn)
+    step = scene.duration / (scene.frames - 1)
+    spin = np.gradient(body.pose.spin, step)
+    rate = np.gradient(axis, step, axis=0)
+    expected = axis * np.sum(omega * axis, axis=1, keepdims=True) + np.cross(axis, rate)
+    assert np.allclose(expected[5:-5], omega[5:-5], atol=0.05)
+    assert np.max(np.abs(spin)) > 140
+
+
+def test_torque_is_the_rate_of_the_momentum(scene_of):
+    for name in ("rolling-disk", "gyroscope", "spinning-coin"):
+        scene = scene_of(name)
+        arrows = {arrow.kind: arrow.along for arrow in scene.arrows}
+        step = scene.duration / (scene.frames - 1)
+        rate = np.gradient(arrows["momentum"], step, axis=0)[2:-2]
+        size = np.max(np.abs(arrows["torque"]))
+        assert np.allclose(rate, arrows["torque"][2:-2], atol=0.01 * size)
+
+
+def test_a_ball_turns_as_its_angular_velocity_says(scene_of):
+    """A point of a marble moves with ω × r between two frames."""
+    scene = scene_of("marble-on-turntable")
+    point = turned(np.array([0.0, 0.6, 0.8]), scene.bodies[0].pose.turn)
+    omega = next(arrow.along for arrow in scene.arrows if arrow.kind == "omega")
+    rate = np.gradient(point, scene.duration / (scene.frames - 1), axis=0)
+    assert np.allclose(rate[1:-1], np.cross(omega, point)[1:-1], atol=0.2)
+
+
+def test_the_trace_on_a_turntable_lies_under_the_marble(scene_of):
+    scene = scene_of("marble-on-turntable")
+    path, on_it = (t for t in scene.traces if t.kind == "contact")
+    support = scene.supports[on_it.support]
+    assert support.kind == "turntable"
+    assert np.allclose(turned(on_it.points, support.pose.turn), path.points, atol=1e-9)
+
+
+def test_the_sheet_moves_as_it_is_told(run_of, scene_of):
+    run, scene = run_of("ball-on-paper"), scene_of("ball-on-paper")
+    t = instants(run, scene)
+    assert np.allclose(scene.supports[0].pose.place[:, 0], (1 - np.cos(2 * t)) / 20)
+
+
+def test_a_tilted_support_is_tilted(scene_of):
+    (support,) = scene_of("marble-on-turntable/tilted").supports
+    normal = turned(np.array([0.0, 0.0, 1.0]), support.pose.turn)
+    assert np.allclose(normal[:, 2], np.cos(np.radians(2)))
+    assert np.allclose(normal, normal[0])
+
+
+def test_panels_hold_what_was_asked_for(run_of):
+    scene = ph.scene(run_of("rolling-disk"), plots=[["theta"]])
+    theta, energy = scene.panels
+    assert [series.name for series in theta.series] == ["theta"]
+    assert theta.unit == "deg"
+    assert theta.series[0].values[0] == pytest.approx(80)
+    assert [series.name for series in energy.series] == ["energy"]
+    with pytest.raises(DeclarationError, match="nonsense"):
+        ph.scene(run_of("rolling-disk"), plots=[["nonsense"]])
+
+
+def test_numbers_are_those_of_the_run(run_of):
+    scene = ph.scene(run_of("rolling-disk"), meanings={"m": "mass of the disk"})
+    (mass,) = (number for number in scene.parameters if number.name == "m")
+    assert (mass.value, mass.unit, mass.meaning) == (0.2, "kg", "mass of the disk")
+    assert scene.evidence[0].value == run_of("rolling-disk").drift.energy
+    assert scene.origin["schema"] == 1
+
+
+def test_arrays_survive_the_packing(scene_of):
+    scene = scene_of("gyroscope")
+    document = json.loads(json.dumps(scene.as_json()))
+    place = rows(document["bodies"][0]["pose"]["place"])
+    assert np.allclose(place, scene.bodies[0].pose.place, rtol=1e-6, atol=1e-9)
+    assert document["judgements"] == []
+
+
+def test_claims_find_a_place(run_of):
+    judged = ph.Judgement("energy is constant", "holds", "no friction")
+    scene = ph.scene(run_of("gyroscope/held"), judgements=[judged])
+    assert scene.as_json()["judgements"] == [
+        {"claim": "energy is constant", "verdict": "holds", "reason": "no friction"}
+    ]
+
+
+def test_particles_and_springs_are_seen():
+    m, k, g = ph.symbols("m k g", positive=True)
+    height, lab = ph.symbol("h"), ph.Frame("lab")
+    bob = ph.point_mass("bob", mass=m, axes=lab)
+    hung = ph.Spring(bob.point(lab.zero), lab.vector(0, 0, height), stiffness=k)
+    system = ph.System(bob, hung, ph.Gravity(g), name="bob")
+    run = ph.simulate(ph.derive(system), {m: 1, k: 40, g: 9.81, height: 1}, {"x": 0.1}, "2 s")
+    scene = ph.scene(run)
+    assert scene.bodies[0].shape.size[0] > 0
+    assert {arrow.name for arrow in scene.arrows} >= {"spring on bob", "gravity on bob"}
+
+
+def test_every_contact_mode_is_followed():
+    """A ball is dropped: no contact force while it flies, and equations of both modes."""
+    m, a, g, mu = ph.symbols("m a g mu", positive=True)
+    lab = ph.Frame("lab")
+    ball = ph.sphere("ball", mass=m, radius=a, axes=lab)
+    floor = ph.Coulomb(ball, on=ph.Plane(lab), mu=mu, name="floor")
+    system = ph.System(floor, ph.Gravity(g), name="dropped")
+    numbers = {m: 0.1, a: 0.05, g: 9.81, mu: 0.3}
+    run = ph.simulate(system, numbers, {"z": 0.25, "v_x": 0.5}, "1 s")
+    scene = ph.scene(run)
+    force = next(arrow for arrow in scene.arrows if arrow.kind == "force")
+    contact = next(trace for trace in scene.traces if trace.kind == "contact")
+    landed = instants(run, scene) > np.sqrt(2 * 0.2 / 9.81) + 1e-3
+    flying = instants(run, scene) < np.sqrt(2 * 0.2 / 9.81) - 1e-3
+    assert np.all(force.along[flying] == 0)
+    assert np.allclose(force.along[landed, 2], 0.981)
+    assert np.isnan(contact.points[flying]).all()
+    assert np.allclose(contact.points[landed, 2], 0, atol=1e-9)
+    assert np.allclose(scene.bodies[0].pose.place[landed, 2], 0.05)
+    assert {formula.name for formula in scene.motion} >= {"flight", "rolling"}
+    assert scene.happenings

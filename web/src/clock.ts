@@ -1,0 +1,67 @@
+// The one clock that picture, plots and slider follow.
+
+type Listener = (clock: Clock) => void;
+
+export class Clock {
+  time = 0;
+  playing = false;
+  private last = 0;
+  private readonly listeners: Listener[] = [];
+
+  constructor(
+    readonly duration: number,
+    public rate: number,
+  ) {}
+
+  onChange(listener: Listener): void {
+    this.listeners.push(listener);
+    listener(this);
+  }
+
+  seek(time: number): void {
+    this.time = Math.min(Math.max(time, 0), this.duration);
+    this.tell();
+  }
+
+  play(): void {
+    if (this.time >= this.duration) this.time = 0;
+    this.playing = true;
+    this.last = performance.now();
+    requestAnimationFrame(this.step);
+    this.tell();
+  }
+
+  pause(): void {
+    this.playing = false;
+    this.tell();
+  }
+
+  toggle(): void {
+    if (this.playing) this.pause();
+    else this.play();
+  }
+
+  private readonly step = (now: number): void => {
+    if (!this.playing) return;
+    this.time = Math.min(this.time + (Math.max(now - this.last, 0) / 1000) * this.rate, this.duration);
+    this.last = now;
+    if (this.time >= this.duration) this.playing = false;
+    else requestAnimationFrame(this.step);
+    this.tell();
+  };
+
+  private tell(): void {
+    for (const listener of this.listeners) listener(this);
+  }
+}
+
+const RATES = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100];
+const SHOW = 9; // s that a whole motion should take at least
+
+/** Speeds to offer, and the fastest of them that leaves time to watch. */
+export function rates(duration: number): { offered: number[]; usual: number } {
+  const fitting = RATES.filter((rate) => duration / rate >= SHOW);
+  const usual = fitting[fitting.length - 1] ?? RATES[0];
+  const middle = RATES.indexOf(usual);
+  return { offered: RATES.slice(Math.max(middle - 5, 0), middle + 5), usual };
+}

@@ -1,0 +1,155 @@
+// Play, pause, speed, slider, arrows, and the keys that do the same.
+
+import { COLOURS } from "./arrows";
+import { type Clock, rates } from "./clock";
+import { digits, make } from "./dom";
+import type { ArrowKind, SceneData } from "./scene";
+import type { Stage } from "./stage";
+
+const STEP = 0.01; // of the duration, for one press of an arrow key
+const FINENESS = 2000; // positions of the slider
+const TURN = 0.12; // rad, for one press of an arrow key on the picture
+const NAMES: Record<ArrowKind, [string, string]> = {
+  force: ["F", "forces of supports"],
+  load: ["mg", "loads"],
+  torque: ["τ", "torque about the centre of mass"],
+  omega: ["ω", "angular velocity"],
+  momentum: ["L", "angular momentum about the centre of mass"],
+};
+
+const ICONS = {
+  play: "M7 4.5v15l12-7.5z",
+  pause: "M6 5h4v14H6zM14 5h4v14h-4z",
+  back: "M6 5h2.5v14H6zM19 5v14L9 12z",
+};
+
+/** The row of controls under the picture. */
+export function transport(clock: Clock): HTMLElement {
+  const play = make("button", { type: "button", class: "play", "aria-keyshortcuts": "Space" });
+  play.addEventListener("click", () => clock.toggle());
+  const back = make("button", { type: "button", "aria-label": "Back to the start" }, icon("back"));
+  back.addEventListener("click", () => clock.seek(0));
+  const told = make("output", { class: "time" });
+  const slider = make("input", {
+    type: "range",
+    min: 0,
+    max: FINENESS,
+    step: 1,
+    value: 0,
+    "aria-label": "Time",
+  });
+  slider.addEventListener("input", () => clock.seek((Number(slider.value) / FINENESS) * clock.duration));
+  const places = Math.max(0, 3 - Math.floor(Math.log10(clock.duration) + 1));
+  let shown: boolean | undefined;
+  clock.onChange(({ time, playing }) => {
+    slider.value = String((time / clock.duration) * FINENESS);
+    told.textContent = `${time.toFixed(places)} s`;
+    slider.setAttribute("aria-valuetext", told.textContent);
+    if (shown === playing) return;
+    shown = playing;
+    play.replaceChildren(icon(playing ? "pause" : "play"));
+    play.setAttribute("aria-label", playing ? "Pause" : "Play");
+  });
+  return make("div", { class: "transport" }, play, back, slider, told, speed(clock));
+}
+
+function speed(clock: Clock): HTMLElement {
+  const { offered } = rates(clock.duration);
+  const select = make("select", { "aria-label": "Speed" });
+  for (const rate of offered) {
+    select.append(make("option", { value: rate, selected: rate === clock.rate }, `× ${digits(rate)}`));
+  }
+  select.addEventListener("change", () => {
+    clock.rate = Number(select.value);
+  });
+  return select;
+}
+
+/** Switches for arrows, traces and the camera. */
+export function switches(scene: SceneData, stage: Stage, clock: Clock): HTMLElement {
+  const kinds = [...new Set(scene.arrows.map(({ kind }) => kind))];
+  const first: ArrowKind[] = kinds.includes("force") ? ["force"] : ["omega", "momentum"];
+  const arrows = kinds.map((kind) => arrowSwitch(kind, stage, clock, first.includes(kind)));
+  const traces = toggle("Traces", stage.traces.length > 0, (on) => stage.showTraces(on));
+  const follow = toggle("Follow", stage.follow, (on) => stage.setFollow(on));
+  const home = make("button", { type: "button", class: "switch" }, "Reset view");
+  home.addEventListener("click", () => stage.home());
+  return make(
+    "div",
+    { class: "switches", role: "group", "aria-label": "What is shown" },
+    ...arrows,
+    ...(stage.traces.length ? [traces] : []),
+    follow,
+    home,
+  );
+}
+
+function arrowSwitch(kind: ArrowKind, stage: Stage, clock: Clock, on: boolean): HTMLElement {
+  const own = stage.arrows.filter(({ data }) => data.kind === kind);
+  const [letter, words] = NAMES[kind];
+  const value = make("span", { class: "value" });
+  const button = toggle("", on, (shown) => stage.show(kind, shown));
+  const dot = make("span", { class: "dot", "aria-hidden": "true" });
+  dot.style.background = COLOURS[kind];
+  button.title = `${words}: ${own.map(({ data }) => data.name).join(", ")}`;
+  button.append(dot, make("i", {}, letter), make("span", { class: "spoken" }, ` ${words} `), value);
+  stage.show(kind, on);
+  if (own.length === 1) {
+    clock.onChange(({ time }) => {
+      const frame = (time / clock.duration) * (stage.scene.frames - 1);
+      value.textContent = `${digits(own[0].size(frame), 3)} ${own[0].data.unit}`;
+    });
+  }
+  return button;
+}
+
+function toggle(text: string, on: boolean, change: (on: boolean) => void): HTMLButtonElement {
+  const button = make("button", { type: "button", class: "switch", "aria-pressed": String(on) }, text);
+  button.addEventListener("click", () => {
+    const next = button.getAttribute("aria-pressed") !== "true";
+    button.setAttribute("aria-pressed", String(next));
+    change(next);
+  });
+  return button;
+}
+
+function icon(name: keyof typeof ICONS): SVGElement {
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  svg.setAttribute("viewBox", "0 0 24 24");
+  svg.setAttribute("aria-hidden", "true");
+  const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
+  path.setAttribute("d", ICONS[name]);
+  svg.append(path);
+  return svg;
+}
+
+/** Space plays and pauses, arrows go back and forth; on the picture they turn it. */
+export function keys(clock: Clock, picture: HTMLElement, stage: Stage | null): void {
+  const seek = (share: number) => (): void => clock.seek(clock.time + share * clock.duration);
+  const everywhere: Record<string, () => void> = {
+    " ": () => clock.toggle(),
+    ArrowLeft: seek(-STEP),
+    ArrowRight: seek(STEP),
+    Home: () => clock.seek(0),
+    End: () => clock.seek(clock.duration),
+  };
+  const turning: Record<string, () => void> = {
+    ArrowLeft: () => stage?.orbit(-TURN, 0),
+    ArrowRight: () => stage?.orbit(TURN, 0),
+    ArrowUp: () => stage?.orbit(0, -TURN),
+    ArrowDown: () => stage?.orbit(0, TURN),
+    "+": () => stage?.zoom(1 / 1.15),
+    "-": () => stage?.zoom(1.15),
+  };
+  document.addEventListener("keydown", (event) => {
+    const target = event.target as HTMLElement;
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const own = target.closest("input, select, textarea, a, summary") !== null;
+    const pressed = event.key === " " && target.closest("button") !== null;
+    if (own || pressed) return;
+    const act = (target === picture && stage ? turning[event.key] : undefined) ?? everywhere[event.key];
+    if (!act) return;
+    event.preventDefault();
+    act();
+  });
+}

@@ -1,0 +1,52 @@
+// Elements are made by hand: text is always text, whatever the names of a system say.
+
+type Attributes = Record<string, string | number | boolean>;
+
+export function make<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  attributes: Attributes = {},
+  ...children: (Node | string)[]
+): HTMLElementTagNameMap[K] {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value !== false) element.setAttribute(name, value === true ? "" : String(value));
+  }
+  element.append(...children);
+  return element;
+}
+
+const MATH = "http://www.w3.org/1998/Math/MathML";
+const TAGS = new Set(
+  "math mrow mi mn mo ms mtext mspace mfrac msqrt mroot msup msub msubsup mover munder munderover mstyle mpadded mtable mtr mtd".split(" "),
+);
+const KEPT = new Set(
+  "displaystyle display form fence stretchy width mathvariant accent separator minsize maxsize".split(" "),
+);
+
+/** A formula; anything that is not plain MathML is left out. */
+export function formula(mathml: string): Node {
+  const parsed = new DOMParser().parseFromString(mathml, "text/html").body.firstElementChild;
+  return parsed ? clean(parsed) : document.createTextNode("");
+}
+
+function clean(element: Element): Node {
+  if (!TAGS.has(element.localName)) return document.createTextNode(element.textContent ?? "");
+  const copy = document.createElementNS(MATH, element.localName);
+  for (const { name, value } of element.attributes) {
+    if (KEPT.has(name)) copy.setAttribute(name, value);
+  }
+  for (const child of element.childNodes) {
+    copy.append(child instanceof Element ? clean(child) : (child.textContent ?? ""));
+  }
+  return copy;
+}
+
+/** Four digits, and powers of ten where they are needed. */
+export function digits(value: number, count = 4): string {
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e-3 && size < 1e5) return String(Number(value.toPrecision(count))).replace("-", "−");
+  const [mantissa, exponent] = value.toExponential(count - 1).split("e");
+  const raised = [...String(Number(exponent))].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)] ?? "⁻").join("");
+  return `${Number(mantissa)}·10${raised}`.replace(/^-/, "−");
+}

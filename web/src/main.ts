@@ -1,0 +1,66 @@
+// Puts the scene that lies in the page on the page.
+
+import "uplot/dist/uPlot.min.css";
+import "./page.css";
+import { Clock, rates } from "./clock";
+import { keys, switches, transport } from "./controls";
+import { make } from "./dom";
+import { Plots } from "./plots";
+import type { SceneData } from "./scene";
+import { Stage } from "./stage";
+import { footer, heading, sections } from "./text";
+
+function show(scene: SceneData): void {
+  const clock = new Clock(scene.duration, rates(scene.duration).usual);
+  const picture = make("div", { class: "picture", tabindex: 0, role: "application", "aria-label": described(scene) });
+  const theatre = make("section", { class: "theatre", "aria-label": "Motion" }, picture);
+  const plots = make("section", { class: "plots", "aria-label": "Plots against time" });
+  const words = make("div", { class: "words" }, ...sections(scene));
+  const main = make("main", {}, heading(scene), make("div", { class: "show" }, theatre, plots), words);
+  document.body.append(main, footer(scene));
+
+  theatre.append(transport(clock));
+  const drawn = new Plots(scene.panels, clock, plots);
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  dark.addEventListener("change", () => drawn.theme());
+
+  afterPaint(() => {
+    const stage = staged(scene, picture);
+    keys(clock, picture, stage);
+    if (stage) {
+      picture.after(switches(scene, stage, clock));
+      clock.onChange(({ time }) => stage.seek(time));
+      stage.theme(dark.matches);
+      dark.addEventListener("change", () => stage.theme(dark.matches));
+    }
+    document.body.dataset.ready = "yes";
+  });
+}
+
+/** What takes its time comes after the words and plots are on the screen. */
+function afterPaint(act: () => void): void {
+  requestAnimationFrame(() => setTimeout(act));
+}
+
+function described(scene: SceneData): string {
+  const bodies = scene.bodies.map(({ name }) => name).join(", ");
+  return `Picture in three dimensions of ${bodies}. Arrow keys turn the view, plus and minus zoom, space plays.`;
+}
+
+function staged(scene: SceneData, picture: HTMLElement): Stage | null {
+  try {
+    return new Stage(scene, picture);
+  } catch {
+    picture.removeAttribute("tabindex");
+    picture.setAttribute("role", "note");
+    picture.removeAttribute("aria-label");
+    picture.classList.add("blind");
+    picture.append(
+      make("p", {}, "No picture in three dimensions: this browser offers no WebGL. Plots, slider and numbers work without it."),
+    );
+    return null;
+  }
+}
+
+const data = document.getElementById("scene")?.textContent;
+if (data) show(JSON.parse(data) as SceneData);

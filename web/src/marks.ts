@@ -1,0 +1,95 @@
+// Surfaces with marks on them, so that a spin is seen.
+
+import { CanvasTexture, MeshLambertMaterial, SRGBColorSpace, type Texture } from "three";
+
+export const PALETTE = {
+  light: "#f3e9d2",
+  blue: "#2f6f9f",
+  deep: "#1d4a6d",
+  accent: "#e0672b",
+  metal: "#9aa3ad",
+  dark: "#5b636d",
+};
+
+function painted(width: number, height: number, paint: (pen: CanvasRenderingContext2D) => void): Texture {
+  const canvas = document.createElement("canvas");
+  canvas.width = width;
+  canvas.height = height;
+  const pen = canvas.getContext("2d");
+  if (pen) paint(pen);
+  const texture = new CanvasTexture(canvas);
+  texture.colorSpace = SRGBColorSpace;
+  texture.anisotropy = 8;
+  return texture;
+}
+
+/** A face with sectors, one of them marked. */
+export function sectors(): Texture {
+  const size = 1024;
+  const count = 12;
+  return painted(size, size, (pen) => {
+    const middle = size / 2;
+    for (let i = 0; i < count; i++) {
+      pen.fillStyle = i === 0 ? PALETTE.accent : i % 2 ? PALETTE.blue : PALETTE.light;
+      pen.beginPath();
+      pen.moveTo(middle, middle);
+      const begin = (2 * Math.PI * (i - 0.5)) / count;
+      pen.arc(middle, middle, size, begin, begin + (2 * Math.PI) / count);
+      pen.fill();
+    }
+    ring(pen, middle, 0.965, PALETTE.deep, 0.06);
+    ring(pen, middle, 0.2, PALETTE.deep, 0.03);
+    pen.fillStyle = PALETTE.light;
+    pen.beginPath();
+    pen.arc(middle, middle, middle * 0.185, 0, 7);
+    pen.fill();
+    pen.fillStyle = PALETTE.deep;
+    pen.beginPath();
+    pen.arc(middle, middle, middle * 0.04, 0, 7);
+    pen.fill();
+  });
+}
+
+function ring(pen: CanvasRenderingContext2D, middle: number, at: number, colour: string, width: number): void {
+  pen.strokeStyle = colour;
+  pen.lineWidth = middle * width;
+  pen.beginPath();
+  pen.arc(middle, middle, middle * at, 0, 7);
+  pen.stroke();
+}
+
+/** An edge with as many blocks as the face has sectors. */
+export function edge(): Texture {
+  return painted(1200, 8, (pen) => {
+    for (let i = 0; i < 12; i++) {
+      pen.fillStyle = i === 0 ? PALETTE.accent : i % 2 ? PALETTE.deep : PALETTE.metal;
+      pen.fillRect(i * 100, 0, 100, 8);
+    }
+  });
+}
+
+/** A ball in panels, with a marked cap. */
+export function panels(): Texture {
+  return painted(1024, 512, (pen) => {
+    for (let i = 0; i < 8; i++) {
+      for (let j = 0; j < 4; j++) {
+        pen.fillStyle = (i + j) % 2 ? PALETTE.blue : PALETTE.light;
+        pen.fillRect(i * 128, j * 128, 128, 128);
+      }
+    }
+    pen.fillStyle = PALETTE.accent;
+    pen.fillRect(0, 0, 1024, 52);
+    pen.fillRect(0, 128, 128, 128);
+    pen.fillStyle = PALETTE.deep;
+    pen.fillRect(0, 460, 1024, 52);
+    pen.fillRect(0, 252, 1024, 8);
+  });
+}
+
+export function surface(colour: string): MeshLambertMaterial {
+  return new MeshLambertMaterial({ color: colour });
+}
+
+export function marked(map: Texture): MeshLambertMaterial {
+  return new MeshLambertMaterial({ map });
+}

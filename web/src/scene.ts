@@ -1,0 +1,125 @@
+// The scene as polhode writes it; see Scene in polhode's view room for what everything means.
+
+export interface Packed {
+  shape: number[];
+  float32: string;
+}
+
+/** Rows of numbers; one row stands for all where nothing changes. */
+export class Rows {
+  readonly data: Float32Array;
+  readonly count: number;
+  readonly width: number;
+
+  constructor(packed: Packed) {
+    const bytes = Uint8Array.from(atob(packed.float32), (c) => c.charCodeAt(0));
+    this.data = new Float32Array(bytes.buffer);
+    this.count = packed.shape[0];
+    this.width = packed.shape[1] ?? 1;
+  }
+
+  /** Linear between rows; `frame` need not be whole. */
+  at(frame: number, out: number[]): number[] {
+    const first = Math.min(Math.floor(frame), this.count - 1);
+    const second = Math.min(first + 1, this.count - 1);
+    const share = this.count > 1 ? frame - first : 0;
+    for (let i = 0; i < this.width; i++) {
+      const a = this.data[first * this.width + i];
+      out[i] = a + share * (this.data[second * this.width + i] - a);
+    }
+    return out;
+  }
+}
+
+export type Triple = [number, number, number];
+
+export interface PoseData {
+  place: Packed;
+  turn: Packed;
+  spin: Packed;
+  axis: Triple;
+}
+
+export interface ShapeData {
+  kind: string;
+  size: number[];
+  axis: Triple;
+  across: Triple;
+}
+
+export interface BodyData {
+  name: string;
+  shape: ShapeData;
+  pose: PoseData;
+  arms: Triple[];
+}
+
+export interface SupportData {
+  name: string;
+  kind: string;
+  pose: PoseData;
+  middle: [number, number];
+  reach: [number, number];
+}
+
+export type ArrowKind = "force" | "load" | "torque" | "omega" | "momentum";
+
+export interface ArrowData {
+  kind: ArrowKind;
+  name: string;
+  body: number;
+  unit: string;
+  foot: Packed;
+  along: Packed;
+  usual: number;
+  largest: number;
+}
+
+export interface TraceData {
+  kind: string;
+  name: string;
+  points: Packed;
+  support: number;
+}
+
+export interface PanelData {
+  unit: string;
+  series: { name: string; symbol: string; values: Packed }[];
+}
+
+export interface FormulaData {
+  name: string;
+  pieces: string[];
+  spoken: string;
+}
+
+export interface NumberData {
+  name: string;
+  symbol: string;
+  value: number;
+  unit: string;
+  meaning: string;
+}
+
+export interface SceneData {
+  title: string;
+  about: string;
+  duration: number;
+  frames: number;
+  up: Triple;
+  floor: number | null;
+  directions: string[];
+  bodies: BodyData[];
+  supports: SupportData[];
+  arrows: ArrowData[];
+  traces: TraceData[];
+  panels: PanelData[];
+  motion: FormulaData[];
+  reactions: FormulaData[];
+  parameters: NumberData[];
+  start: NumberData[];
+  evidence: NumberData[];
+  happenings: { time: number; what: string }[];
+  judgements: { claim: string; verdict: string; reason: string }[];
+  origin: { versions?: Record<string, string | null>; integrator?: string };
+}

@@ -1,0 +1,175 @@
+// Bodies: every shape is built about its own z axis and then turned along the body's axes.
+
+import {
+  BoxGeometry,
+  CylinderGeometry,
+  DoubleSide,
+  Group,
+  Matrix4,
+  Mesh,
+  type BufferGeometry,
+  type Material,
+  type Object3D,
+  SphereGeometry,
+  TorusGeometry,
+  Vector3,
+} from "three";
+import { edge, marked, PALETTE, panels, sectors, surface } from "./marks";
+import type { BodyData, ShapeData, Triple } from "./scene";
+
+type Builder = (size: number[]) => Object3D;
+
+const BUILDERS: Record<string, Builder> = {
+  ball: ([radius]) => sphere(radius, radius, radius),
+  ellipsoid: ([a, b, c]) => sphere(a, b, c),
+  disk,
+  hoop,
+  wheel,
+  rod,
+  box,
+  racquet,
+};
+
+/** A body with the thin axles to the points at which it is held. */
+export function bodyObject(body: BodyData): Object3D {
+  const group = new Group();
+  const build = BUILDERS[body.shape.kind] ?? BUILDERS.ball;
+  const shape = build(body.shape.size);
+  if (body.shape.kind !== "ellipsoid") shape.quaternion.setFromRotationMatrix(basis(body.shape));
+  group.add(shape);
+  const thick = 0.055 * reach(body);
+  for (const arm of body.arms) {
+    if (Math.hypot(...arm) > 0) group.add(axle(arm, thick));
+  }
+  group.traverse((object) => {
+    object.castShadow = true;
+    object.receiveShadow = true;
+  });
+  return group;
+}
+
+/** Distance from the centre of mass to the farthest point that is drawn. */
+export function reach(body: BodyData): number {
+  const half = ["box", "rod", "racquet"].includes(body.shape.kind) ? 0.5 : 1;
+  return Math.max(half * Math.max(...body.shape.size), ...body.arms.map((arm) => Math.hypot(...arm)));
+}
+
+function basis(shape: ShapeData): Matrix4 {
+  const z = new Vector3(...shape.axis);
+  const x = new Vector3(...shape.across);
+  return new Matrix4().makeBasis(x, z.clone().cross(x), z);
+}
+
+function mesh(geometry: BufferGeometry, material: Material | Material[]): Mesh {
+  return new Mesh(geometry, material);
+}
+
+function sphere(a: number, b: number, c: number): Object3D {
+  const ball = mesh(new SphereGeometry(1, 64, 40), marked(panels()));
+  ball.scale.set(a, b, c);
+  return ball;
+}
+
+function upright(radius: number, height: number, material: Material | Material[]): Mesh {
+  const geometry = new CylinderGeometry(radius, radius, height, 96);
+  geometry.rotateX(Math.PI / 2);
+  return mesh(geometry, material);
+}
+
+function disk([radius, height]: number[]): Object3D {
+  const face = marked(sectors());
+  return upright(radius, height, [marked(edge()), face, face]);
+}
+
+function hoop([radius, height]: number[]): Object3D {
+  const group = new Group();
+  const tube = Math.max(height / 2, 0.045 * radius);
+  const count = 12;
+  for (let i = 0; i < count; i++) {
+    const colour = i === 0 ? PALETTE.accent : i % 2 ? PALETTE.blue : PALETTE.light;
+    const arc = mesh(new TorusGeometry(radius - tube, tube, 16, 10, (2 * Math.PI) / count), surface(colour));
+    arc.rotation.z = (2 * Math.PI * i) / count;
+    group.add(arc);
+  }
+  return group;
+}
+
+function wheel([radius, height]: number[]): Object3D {
+  const group = hoop([radius, height]);
+  const thin = 0.028 * radius;
+  for (let i = 0; i < 6; i++) {
+    const spoke = mesh(new CylinderGeometry(thin, thin, radius, 12), surface(i ? PALETTE.metal : PALETTE.accent));
+    spoke.geometry.translate(0, radius / 2, 0);
+    spoke.rotation.z = (Math.PI * i) / 3;
+    group.add(spoke);
+  }
+  group.add(upright(0.12 * radius, 0.2 * radius, surface(PALETTE.deep)));
+  group.add(upright(0.04 * radius, 1.3 * radius, surface(PALETTE.dark)));
+  return group;
+}
+
+function rod([length, radius]: number[]): Object3D {
+  const group = new Group();
+  group.add(upright(radius, length, surface(PALETTE.blue)));
+  for (const side of [-1, 1]) {
+    const end = mesh(new SphereGeometry(1.7 * radius, 24, 16), surface(side > 0 ? PALETTE.accent : PALETTE.light));
+    end.position.z = (side * length) / 2;
+    group.add(end);
+  }
+  return group;
+}
+
+function box([long, wide, thick]: number[]): Object3D {
+  const colours = [PALETTE.blue, PALETTE.blue, PALETTE.light, PALETTE.deep, PALETTE.accent, PALETTE.metal];
+  return mesh(new BoxGeometry(wide, thick, long), colours.map((colour) => surface(colour)));
+}
+
+function racquet([length, width, thick]: number[]): Object3D {
+  const group = new Group();
+  const head = 0.27 * length;
+  const middle = 0.5 * length - head;
+  const frame = mesh(new TorusGeometry(1, 0.07, 16, 72), surface(PALETTE.deep));
+  frame.rotation.x = Math.PI / 2;
+  frame.scale.set(width / 2, head, width / 2);
+  frame.position.z = middle;
+  group.add(frame);
+  for (const side of [-1, 1]) {
+    const strings = mesh(new CylinderGeometry(1, 1, 0.02, 72), surface(side > 0 ? PALETTE.accent : PALETTE.light));
+    strings.scale.set(width / 2, thick, head);
+    strings.position.set(0, side * 0.012 * width, middle);
+    group.add(strings);
+  }
+  const handle = 0.5 * length + middle - head;
+  const grip = upright(1.3 * thick, handle, surface(PALETTE.blue));
+  grip.position.z = handle / 2 - 0.5 * length;
+  group.add(grip);
+  return group;
+}
+
+function axle(arm: Triple, thick: number): Object3D {
+  const length = Math.hypot(...arm);
+  const rodMesh = mesh(new CylinderGeometry(thick, thick, length, 20), surface(PALETTE.metal));
+  rodMesh.geometry.translate(0, length / 2, 0);
+  rodMesh.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), new Vector3(...arm).normalize());
+  return rodMesh;
+}
+
+/** What stands under a point that is held, or hangs it from above. */
+export function post(height: number, thick: number): Object3D {
+  const geometry = new CylinderGeometry(0.25 * thick, 1.4 * thick, height, 32);
+  geometry.rotateX(Math.PI / 2);
+  geometry.translate(0, 0, -height / 2);
+  const cone = mesh(geometry, surface(PALETTE.dark));
+  cone.castShadow = true;
+  return cone;
+}
+
+export function bracket(thick: number): Object3D {
+  const plate = upright(2.4 * thick, 0.8 * thick, surface(PALETTE.dark));
+  plate.position.z = 0.9 * thick;
+  plate.material = surface(PALETTE.dark);
+  (plate.material as Material).side = DoubleSide;
+  const group = new Group();
+  group.add(plate);
+  return group;
+}

@@ -1,0 +1,316 @@
+// The picture in three dimensions.
+
+import {
+  DirectionalLight,
+  Group,
+  HemisphereLight,
+  type Object3D,
+  PCFShadowMap,
+  PerspectiveCamera,
+  Quaternion,
+  Scene,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { Arrow } from "./arrows";
+import { Pose } from "./pose";
+import { type ArrowKind, Rows, type SceneData } from "./scene";
+import { bodyObject, bracket, post, reach } from "./shapes";
+import { Grounds } from "./supports";
+import { Trace } from "./traces";
+
+const FAR = 5.5; // reaches of the body that are in view when it is followed
+// Usual lengths of the longest arrows, in reaches: unlike, so that parallel ones are told apart.
+const ARROW: Record<ArrowKind, number> = { force: 2.4, load: 2.4, torque: 1.9, omega: 1.5, momentum: 1.9 };
+const SPIKE = 12; // largest over usual length, beyond which the usual one no longer decides
+const LIFT = 0.05; // of a floor below what stands on it, in reaches
+
+export class Stage {
+  readonly arrows: Arrow[];
+  readonly traces: Trace[];
+  follow: boolean;
+  private readonly renderer: WebGLRenderer;
+  private readonly world = new Scene();
+  private readonly camera: PerspectiveCamera;
+  private readonly controls: OrbitControls;
+  private readonly light = new DirectionalLight("#fff6e8", 1.9);
+  private readonly grounds = new Grounds();
+  private readonly moving: { pose: Pose; object: Object3D }[] = [];
+  private readonly poses: Pose[];
+  private readonly carriers: Object3D[] = [];
+  private readonly reach: number;
+  private readonly radius: number;
+  private readonly middle: Vector3;
+  private readonly up: Vector3;
+  private readonly place = new Vector3();
+  private frame = 0;
+  private waiting = false;
+
+  /** Throws where there is no WebGL. */
+  constructor(
+    readonly scene: SceneData,
+    private readonly holder: HTMLElement,
+  ) {
+    this.renderer = new WebGLRenderer({ antialias: true, alpha: true });
+    this.renderer.debug.checkShaderErrors = false; // waiting for them holds up the first picture
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFShadowMap;
+    this.up = new Vector3(...scene.up);
+    this.poses = scene.bodies.map((body) => new Pose(body.pose));
+    this.reach = Math.max(...scene.bodies.map(reach));
+    [this.middle, this.radius] = this.extent();
+    this.follow = this.radius > 1.4 * FAR * this.reach;
+    this.addBodies();
+    this.addGrounds();
+    this.traces = scene.traces.map((data) => new Trace(data));
+    for (const trace of this.traces) this.carrier(trace).add(trace.line);
+    this.arrows = this.makeArrows();
+    this.world.add(...this.arrows.map((arrow) => arrow.group));
+    this.camera = new PerspectiveCamera(32, 1, this.reach / 8, 300 * Math.max(this.radius, this.reach));
+    this.camera.up.copy(this.up);
+    this.addLights();
+    holder.append(this.renderer.domElement);
+    this.controls = new OrbitControls(this.camera, holder);
+    this.controls.maxDistance = 40 * Math.max(this.radius, this.reach);
+    this.controls.minDistance = 1.5 * this.reach;
+    this.controls.addEventListener("change", () => this.draw());
+    this.home();
+    new ResizeObserver(() => this.fit()).observe(holder);
+    this.fit();
+  }
+
+  get canvas(): HTMLCanvasElement {
+    return this.renderer.domElement;
+  }
+
+  /** Back to where the picture was first seen from. */
+  home(): void {
+    const [side, ahead] = this.horizontal();
+    const distance = (1.15 * this.seen()) / Math.tan((this.camera.fov * Math.PI) / 360);
+    this.target(this.controls.target);
+    this.camera.position
+      .copy(this.controls.target)
+      .addScaledVector(ahead, -0.82 * distance)
+      .addScaledVector(side, 0.36 * distance)
+      .addScaledVector(this.up, 0.44 * distance);
+    this.controls.update();
+    this.draw();
+  }
+
+  /** Turn the view about the upright and up or down, rad. */
+  orbit(round: number, over: number): void {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    offset.applyQuaternion(new Quaternion().setFromAxisAngle(this.up, round));
+    const aside = this.up.clone().cross(offset).normalize();
+    const tipped = offset.clone().applyQuaternion(new Quaternion().setFromAxisAngle(aside, over));
+    if (Math.abs(tipped.clone().normalize().dot(this.up)) < 0.995) offset.copy(tipped);
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.controls.update();
+    this.draw();
+  }
+
+  zoom(factor: number): void {
+    this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
+    this.controls.update();
+    this.draw();
+  }
+
+  setFollow(follow: boolean): void {
+    this.follow = follow;
+    this.home();
+  }
+
+  show(kind: ArrowKind, shown: boolean): void {
+    for (const arrow of this.arrows) if (arrow.data.kind === kind) arrow.group.visible = shown;
+    this.draw();
+  }
+
+  showTraces(shown: boolean): void {
+    for (const trace of this.traces) this.carrier(trace)[shown ? "add" : "remove"](trace.line);
+    this.draw();
+  }
+
+  theme(dark: boolean): void {
+    this.grounds.theme(dark);
+    for (const trace of this.traces) trace.theme(dark);
+    this.draw();
+  }
+
+  seek(time: number): void {
+    this.frame = (time / this.scene.duration) * (this.scene.frames - 1);
+    for (const { pose, object } of this.moving) pose.apply(this.frame, object);
+    for (const arrow of this.arrows) arrow.update(this.frame);
+    for (const trace of this.traces) trace.update(this.frame);
+    if (this.follow) this.chase();
+    this.draw();
+  }
+
+  private chase(): void {
+    const before = this.controls.target.clone();
+    const step = this.target(this.controls.target).clone().sub(before);
+    this.camera.position.add(step);
+    this.controls.update();
+    this.aim();
+  }
+
+  private target(out: Vector3): Vector3 {
+    return this.follow ? this.poses[0].placeAt(this.frame, out) : out.copy(this.middle);
+  }
+
+  /** Radius of what is to be in view. */
+  private seen(): number {
+    return this.follow ? 0.55 * FAR * this.reach : Math.max(this.radius, 1.9 * this.reach);
+  }
+
+  private draw(): void {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      this.renderer.render(this.world, this.camera);
+    });
+  }
+
+  private fit(): void {
+    const { clientWidth: width, clientHeight: height } = this.holder;
+    if (!width || !height) return;
+    this.camera.aspect = width / height;
+    this.camera.fov = width < height ? 40 : 32;
+    this.camera.updateProjectionMatrix();
+    this.renderer.setSize(width, height);
+    this.draw();
+  }
+
+  /** Middle and radius of everything the bodies pass through. */
+  private extent(): [Vector3, number] {
+    const low = new Vector3(Infinity, Infinity, Infinity);
+    const high = low.clone().negate();
+    const steps = 200;
+    for (const pose of this.poses) {
+      for (let i = 0; i <= steps; i++) {
+        pose.placeAt((i / steps) * (this.scene.frames - 1), this.place);
+        low.min(this.place);
+        high.max(this.place);
+      }
+    }
+    for (const arrow of this.scene.arrows) {
+      const foot = new Rows(arrow.foot);
+      if (foot.count === 1) {
+        this.place.fromArray(foot.at(0, []));
+        low.min(this.place);
+        high.max(this.place);
+      }
+    }
+    const middle = low.clone().add(high).multiplyScalar(0.5);
+    return [middle, high.distanceTo(low) / 2 + this.reach];
+  }
+
+  /** Two level directions, to the right and away. */
+  private horizontal(): [Vector3, Vector3] {
+    const guess = Math.abs(this.up.z) > 0.9 ? new Vector3(0, 1, 0) : new Vector3(0, 0, 1);
+    const side = guess.clone().cross(this.up).normalize();
+    return [side, this.up.clone().cross(side)];
+  }
+
+  private addBodies(): void {
+    this.scene.bodies.forEach((body, i) => {
+      const object = bodyObject(body);
+      this.world.add(object);
+      this.moving.push({ pose: this.poses[i], object });
+    });
+  }
+
+  private carrier(trace: Trace): Object3D {
+    return this.carriers[trace.data.support] ?? this.world;
+  }
+
+  private addGrounds(): void {
+    const grid = 1.2 * Math.max(this.reach, this.follow ? 0 : 0.35 * this.radius);
+    for (const support of this.scene.supports) {
+      const object = this.grounds.surface(support, grid);
+      this.carriers.push(object);
+      this.world.add(object);
+      const pose = new Pose(support.pose);
+      this.moving.push({ pose, object });
+      if (support.kind === "sheet") this.addTable(pose, Math.max(...support.reach) + this.radius, grid);
+    }
+    if (this.scene.floor !== null) this.addFloor(this.scene.floor, grid);
+  }
+
+  private addTable(pose: Pose, width: number, grid: number): void {
+    const table = this.grounds.boundless([0, 0], 2.5 * width, grid);
+    pose.apply(0, table);
+    table.position.addScaledVector(this.up, -LIFT * this.reach);
+    this.world.add(table);
+  }
+
+  private addFloor(height: number, grid: number): void {
+    const frame = new Group();
+    frame.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), this.up);
+    frame.position.copy(this.up).multiplyScalar(height);
+    const level = this.middle.clone().addScaledVector(this.up, -this.middle.dot(this.up));
+    frame.position.add(level);
+    frame.add(this.grounds.boundless([0, 0], 7 * this.radius, grid));
+    this.world.add(frame);
+    this.addPosts(height);
+  }
+
+  /** Points of bodies that are held in space stand on posts, or hang. */
+  private addPosts(floor: number): void {
+    const thick = 0.1 * this.reach;
+    for (const arrow of this.scene.arrows) {
+      const foot = new Rows(arrow.foot);
+      if (foot.count !== 1) continue;
+      const point = new Vector3(...foot.at(0, []));
+      if (point.distanceTo(this.poses[arrow.body].placeAt(0, this.place)) < 1e-6 * this.reach) continue;
+      const hangs = point.dot(this.up) > this.middle.dot(this.up) + 0.4 * this.reach;
+      const holder = hangs ? bracket(0.5 * thick) : post(point.dot(this.up) - floor, thick);
+      holder.position.copy(point);
+      holder.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), this.up);
+      this.world.add(holder);
+    }
+  }
+
+  private makeArrows(): Arrow[] {
+    const group = (kind: ArrowKind): string => (kind === "load" ? "force" : kind);
+    const sizes: Record<string, number> = {};
+    for (const { kind, usual, largest } of this.scene.arrows) {
+      sizes[group(kind)] = Math.max(sizes[group(kind)] ?? 0, usual, largest / SPIKE);
+    }
+    return this.scene.arrows.map((data) => {
+      const scale = (ARROW[data.kind] * this.reach) / sizes[group(data.kind)];
+      return new Arrow(data, this.poses[data.body], scale, 0.028 * this.reach);
+    });
+  }
+
+  private addLights(): void {
+    this.world.add(new HemisphereLight("#ffffff", "#b9b2a4", 1.5));
+    this.camera.add(new DirectionalLight("#ffffff", 0.7));
+    this.world.add(this.camera);
+    this.light.castShadow = true;
+    this.light.shadow.mapSize.set(1024, 1024);
+    this.light.shadow.radius = 4;
+    this.light.shadow.normalBias = 0.01 * this.reach;
+    this.world.add(this.light, this.light.target);
+    this.aim();
+  }
+
+  private aim(): void {
+    const range = 1.2 * this.seen();
+    this.target(this.light.target.position);
+    const [side, ahead] = this.horizontal();
+    this.light.position
+      .copy(this.light.target.position)
+      .addScaledVector(this.up, 3 * range)
+      .addScaledVector(side, -1.4 * range)
+      .addScaledVector(ahead, -0.8 * range);
+    const { camera } = this.light.shadow;
+    camera.left = camera.bottom = -range;
+    camera.right = camera.top = range;
+    camera.near = 0.1 * range;
+    camera.far = 8 * range;
+    camera.updateProjectionMatrix();
+  }
+}

@@ -1,0 +1,171 @@
+// What bodies stand on: planes, turntables, sheets, and a faint floor where there is none.
+
+import {
+  BufferGeometry,
+  CircleGeometry,
+  Float32BufferAttribute,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshLambertMaterial,
+  type Object3D,
+  PlaneGeometry,
+  RingGeometry,
+} from "three";
+import { PALETTE } from "./marks";
+import type { SupportData } from "./scene";
+
+interface Look {
+  ground: string;
+  paper: string;
+  lines: string;
+  strong: string;
+  accent: string;
+}
+
+type Colour = keyof Look;
+type Point = [number, number];
+
+const LIGHT: Look = { ground: "#d9d6cd", paper: "#fbf6e6", lines: "#b3ae9f", strong: "#7f7a6b", accent: PALETTE.accent };
+const DARK: Look = { ground: "#2a2e36", paper: "#39404b", lines: "#4b525e", strong: "#7d8796", accent: PALETTE.accent };
+const MOST = 60; // lines to either side of the middle
+const PARTS = 32; // pieces of a line
+const FADE = 0.35; // part of the radius of a boundless plane at which it begins to fade
+
+interface Painted {
+  material: MeshLambertMaterial | LineBasicMaterial;
+  colour: Colour;
+}
+
+export class Grounds {
+  private readonly painted: Painted[] = [];
+
+  /** The surface of a support, to be moved with its pose. */
+  surface(support: SupportData, size: number): Object3D {
+    const builders: Record<string, (support: SupportData, size: number) => Object3D> = {
+      turntable: (data, grid) => this.turntable(data.reach[0], grid),
+      sheet: (data, grid) => this.sheet(data, grid),
+    };
+    const plane = ({ middle, reach }: SupportData, grid: number): Object3D =>
+      this.boundless(middle, 2.2 * Math.max(...reach), grid);
+    return (builders[support.kind] ?? plane)(support, size);
+  }
+
+  /** A plane that fades out of sight. */
+  boundless(middle: Point, radius: number, size: number): Object3D {
+    const group = new Group();
+    const geometry = new RingGeometry(0, radius, 96, 24);
+    geometry.translate(middle[0], middle[1], 0);
+    this.fill(group, geometry, "ground", (x, y) => fading(Math.hypot(x - middle[0], y - middle[1]) / radius));
+    this.lines(group, gridLines(middle, [radius, radius], spacing(size)), "lines", (x, y) =>
+      fading(Math.hypot(x - middle[0], y - middle[1]) / radius),
+    );
+    return group;
+  }
+
+  theme(dark: boolean): void {
+    const look = dark ? DARK : LIGHT;
+    for (const { material, colour } of this.painted) material.color.set(look[colour]);
+  }
+
+  private sheet({ middle, reach }: SupportData, size: number): Object3D {
+    const group = new Group();
+    const [a, b] = reach;
+    const [x, y] = middle;
+    const geometry = new PlaneGeometry(2 * a, 2 * b);
+    geometry.translate(x, y, 0);
+    this.fill(group, geometry, "paper");
+    this.lines(group, gridLines(middle, reach, spacing(size)), "lines");
+    const corners: Point[] = [[x - a, y - b], [x + a, y - b], [x + a, y + b], [x - a, y + b]];
+    this.lines(group, corners.map((corner, i) => [corner, corners[(i + 1) % 4]]), "strong");
+    return group;
+  }
+
+  private turntable(radius: number, size: number): Object3D {
+    const group = new Group();
+    this.fill(group, new CircleGeometry(radius, 128), "paper");
+    const step = Math.max(spacing(size), radius / 40);
+    for (let r = step; r < 0.97 * radius; r += step) this.lines(group, circle(r), "lines", undefined, 1);
+    this.lines(group, circle(radius), "strong", undefined, 1);
+    for (let i = 0; i < 12; i++) {
+      const angle = (Math.PI * i) / 6;
+      this.lines(group, [[[0, 0], [radius * Math.cos(angle), radius * Math.sin(angle)]]], i ? "lines" : "strong");
+    }
+    const mark = new RingGeometry(0.93 * radius, radius, 8, 1, -0.06, 0.12);
+    mark.translate(0, 0, 1e-4 * radius);
+    this.fill(group, mark, "accent");
+    return group;
+  }
+
+  private fill(group: Group, geometry: BufferGeometry, colour: Colour, alpha?: (x: number, y: number) => number): void {
+    const material = new MeshLambertMaterial({
+      polygonOffset: true,
+      polygonOffsetFactor: colour === "accent" ? 0 : 1,
+      polygonOffsetUnits: 1,
+      ...(alpha && { transparent: true, vertexColors: true }),
+    });
+    if (alpha) veil(geometry, alpha);
+    this.painted.push({ material, colour });
+    const mesh = new Mesh(geometry, material);
+    mesh.receiveShadow = true;
+    mesh.renderOrder = alpha ? -2 : 0;
+    group.add(mesh);
+  }
+
+  /** Straight lines, in pieces: a long one that passes the eye is not drawn by every machine. */
+  private lines(group: Group, ends: Point[][], colour: Colour, alpha?: (x: number, y: number) => number, parts = PARTS): void {
+    const points = ends.flatMap(([from, to]) => pieces(from, to, parts));
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new Float32BufferAttribute(points.flatMap(([x, y]) => [x, y, 0]), 3));
+    const material = new LineBasicMaterial(alpha && { transparent: true, vertexColors: true });
+    if (alpha) veil(geometry, alpha);
+    this.painted.push({ material, colour });
+    const drawn = new LineSegments(geometry, material);
+    drawn.renderOrder = alpha ? -1 : 0;
+    group.add(drawn);
+  }
+}
+
+/** White, as far as can be seen through it. */
+function veil(geometry: BufferGeometry, alpha: (x: number, y: number) => number): void {
+  const place = geometry.getAttribute("position");
+  const colours = Array.from({ length: place.count }, (_, i) => [1, 1, 1, alpha(place.getX(i), place.getY(i))]);
+  geometry.setAttribute("color", new Float32BufferAttribute(colours.flat(), 4));
+}
+
+function fading(share: number): number {
+  const t = Math.min(Math.max((share - FADE) / (1 - FADE), 0), 1);
+  return (1 - t) ** 2 * (1 + 2 * t);
+}
+
+function pieces(from: Point, to: Point, count: number): Point[] {
+  const at = (share: number): Point => [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])];
+  return Array.from({ length: count }, (_, i) => [at(i / count), at((i + 1) / count)]).flat();
+}
+
+function circle(radius: number): Point[][] {
+  const at = (i: number): Point => [radius * Math.cos((Math.PI * i) / 48), radius * Math.sin((Math.PI * i) / 48)];
+  return Array.from({ length: 96 }, (_, i) => [at(i), at(i + 1)]);
+}
+
+function gridLines(middle: Point, reach: Point, least: number): Point[][] {
+  const found: Point[][] = [];
+  for (const [i, j] of [[0, 1], [1, 0]]) {
+    const step = spacing(Math.max(least, reach[i] / MOST) * 1.0001);
+    for (let k = Math.ceil((middle[i] - reach[i]) / step); k * step <= middle[i] + reach[i]; k++) {
+      const line: Point[] = [[0, 0], [0, 0]];
+      line[0][i] = line[1][i] = k * step;
+      line[0][j] = middle[j] - reach[j];
+      line[1][j] = middle[j] + reach[j];
+      found.push(line);
+    }
+  }
+  return found;
+}
+
+/** 1, 2 or 5 times a power of ten near a length. */
+function spacing(size: number): number {
+  const power = 10 ** Math.floor(Math.log10(size));
+  return power * ([5, 2, 1].find((step) => step * power <= size) ?? 1);
+}

@@ -1,0 +1,91 @@
+// What the page says in formulas, numbers and words.
+
+import { digits, formula, make } from "./dom";
+import type { FormulaData, NumberData, SceneData } from "./scene";
+
+export function heading(scene: SceneData): HTMLElement {
+  const about = scene.about ? [make("p", { class: "about" }, scene.about)] : [];
+  return make("header", {}, make("h1", {}, scene.title), ...about);
+}
+
+export function sections(scene: SceneData): HTMLElement[] {
+  return [
+    ...judgements(scene),
+    ...section("Equations of motion", formulas(scene.motion)),
+    ...section("Reactions", formulas(scene.reactions)),
+    make(
+      "div",
+      { class: "beside" },
+      ...section("Parameters", numbers(scene.parameters)),
+      ...section("Start", numbers(scene.start)),
+      ...section("Evidence", evidence(scene)),
+      ...section("Events", events(scene)),
+    ),
+  ];
+}
+
+export function footer(scene: SceneData): HTMLElement {
+  const { versions, integrator } = scene.origin;
+  const version = versions?.polhode ? ` ${versions.polhode}` : "";
+  const by = integrator ? `, integrated with ${integrator}` : "";
+  return make("footer", {}, `Made by polhode${version}${by}. This page is one file and asks nothing of any network.`);
+}
+
+function section(title: string, content: HTMLElement[]): HTMLElement[] {
+  return content.length ? [make("section", {}, make("h2", {}, title), ...content)] : [];
+}
+
+function formulas(rows: FormulaData[]): HTMLElement[] {
+  return rows.map(({ name, pieces, spoken }) => {
+    const head = name ? [make("h3", {}, name)] : [];
+    if (!pieces.length) return make("div", {}, ...head, make("p", { class: "long" }, spoken));
+    const set = make("div", { class: "equation", role: "math", "aria-label": spoken }, ...pieces.map(formula));
+    return make("div", {}, ...head, set);
+  });
+}
+
+function numbers(rows: NumberData[], count = 4): HTMLElement[] {
+  if (!rows.length) return [];
+  const lines = rows.map(({ name, symbol, value, unit, meaning }) =>
+    make(
+      "tr",
+      {},
+      make("th", { scope: "row" }, symbol ? formula(symbol) : name),
+      make("td", { class: "number" }, digits(value, count), " ", raised(unit)),
+      make("td", {}, meaning),
+    ),
+  );
+  return [make("table", {}, make("tbody", {}, ...lines))];
+}
+
+function raised(unit: string): string {
+  return unit
+    .replace(/^1$/, "")
+    .replace(/\^(\d)/g, (_, digit: string) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)]);
+}
+
+function evidence(scene: SceneData): HTMLElement[] {
+  const told = make("p", {}, "Largest drift of what must stay as it is, along the whole motion:");
+  return scene.evidence.length ? [told, ...numbers(scene.evidence, 2)] : [];
+}
+
+function events(scene: SceneData): HTMLElement[] {
+  if (!scene.happenings.length) return [];
+  const lines = scene.happenings.map(({ time, what }) =>
+    make("tr", {}, make("th", { scope: "row", class: "number" }, `${digits(time)} s`), make("td", {}, what)),
+  );
+  return [make("table", {}, make("tbody", {}, ...lines))];
+}
+
+function judgements(scene: SceneData): HTMLElement[] {
+  const lines = scene.judgements.map(({ claim, verdict, reason }) =>
+    make(
+      "tr",
+      {},
+      make("td", {}, make("strong", { class: `verdict ${verdict.replace(/\W/g, "")}` }, verdict)),
+      make("th", { scope: "row" }, claim),
+      make("td", {}, reason),
+    ),
+  );
+  return section("Claims", lines.length ? [make("table", {}, make("tbody", {}, ...lines))] : []);
+}

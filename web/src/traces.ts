@@ -1,0 +1,50 @@
+// Paths that grow as the motion goes on.
+
+import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
+import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
+import { Rows, type TraceData } from "./scene";
+
+const COLOURS: Record<string, [string, string]> = {
+  contact: ["#c2410c", "#fb923c"],
+  centre: ["#2563a8", "#7cc0f5"],
+  axis: ["#7a3e93", "#d9a6ee"],
+};
+
+export class Trace {
+  readonly line: LineSegments2;
+  private readonly material: LineMaterial;
+  private readonly drawn: number[] = [0]; // how many pieces there are up to each frame
+
+  constructor(readonly data: TraceData) {
+    const { data: points, count } = new Rows(data.points);
+    const pieces: number[] = [];
+    for (let i = 1; i < count; i++) {
+      const piece = points.subarray(3 * i - 3, 3 * i + 3);
+      if (!piece.some(Number.isNaN)) pieces.push(...piece);
+      this.drawn.push(pieces.length / 6);
+    }
+    const geometry = new LineSegmentsGeometry();
+    geometry.setPositions(pieces.length ? pieces : [0, 0, 0, 0, 0, 0]);
+    this.material = new LineMaterial({
+      linewidth: data.kind === "contact" ? 2.6 : 1.8,
+      transparent: true,
+      opacity: data.support >= 0 ? 0.55 : 0.9,
+      depthWrite: false,
+      polygonOffset: true,
+      polygonOffsetFactor: -2,
+    });
+    this.line = new LineSegments2(geometry, this.material);
+    this.line.frustumCulled = false;
+  }
+
+  update(frame: number): void {
+    const count = this.drawn[Math.min(Math.floor(frame), this.drawn.length - 1)];
+    this.line.geometry.instanceCount = count;
+    this.line.visible = count > 0;
+  }
+
+  theme(dark: boolean): void {
+    this.material.color.set((COLOURS[this.data.kind] ?? COLOURS.centre)[dark ? 1 : 0]);
+  }
+}
