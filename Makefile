@@ -5,6 +5,8 @@ SHELL := bash
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.polhode-ready
+BROWSER := tests/browser/node_modules/.ready
+FRONT_END := src/polhode/view/built/sources.sha256
 EXTRAS := all,docs,test,dev
 QUIETLY := -qq --disable-pip-version-check
 PYTHON ?= $(shell for python in python3.11 python3.12 python3.13 python3; do \
@@ -28,10 +30,19 @@ $(READY): pyproject.toml requirements.lock
 	@$(BIN)/python -m pip install $(QUIETLY) --no-index --no-build-isolation -e '.[$(EXTRAS)]'
 	@touch $@
 
-demo: $(READY)
+# Built with the package; again where its sources have changed since.
+$(FRONT_END): build_frontend.py $(wildcard web/*.*) $(wildcard web/src/*) | $(READY)
+	@$(BIN)/python build_frontend.py
+
+demo: $(READY) $(FRONT_END)
 	@$(BIN)/polhode tour
 
-test: $(READY)
+# Axe, and a browser for machines that have none.
+$(BROWSER): tests/browser/package-lock.json
+	@cd tests/browser && npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
+	@touch $@
+
+test: $(READY) $(FRONT_END) $(BROWSER)
 	@$(BIN)/python -m pytest -n 2
 
 check: $(READY)

@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from polhode.algebra import time as time
     from polhode.algebra import to_sympy as to_sympy
     from polhode.analyse import Ansatz as Ansatz
+    from polhode.analyse import ClosedForm as ClosedForm
     from polhode.analyse import Condition as Condition
     from polhode.analyse import Invariant as Invariant
     from polhode.analyse import Invariants as Invariants
@@ -50,6 +51,7 @@ if TYPE_CHECKING:
     from polhode.analyse import SteadyMotion as SteadyMotion
     from polhode.analyse import SteadyValues as SteadyValues
     from polhode.analyse import Truth as Truth
+    from polhode.analyse import closed_form as closed_form
     from polhode.analyse import contact_forces as contact_forces
     from polhode.analyse import expand as expand
     from polhode.analyse import fictitious_force as fictitious_force
@@ -66,6 +68,8 @@ if TYPE_CHECKING:
     from polhode.base import PolhodeError as PolhodeError
     from polhode.base import StoreError as StoreError
     from polhode.base import UnitError as UnitError
+    from polhode.claims import Verdict as Verdict
+    from polhode.claims import check as check
     from polhode.derive import Equations as Equations
     from polhode.derive import Reaction as Reaction
     from polhode.derive import derive as derive
@@ -108,14 +112,34 @@ if TYPE_CHECKING:
     from polhode.model import rod as rod
     from polhode.model import sphere as sphere
     from polhode.model import upright as upright
+    from polhode.simulate import Pieces as Pieces
     from polhode.simulate import Trajectory as Trajectory
+    from polhode.simulate import approximated as approximated
+    from polhode.simulate import load as load
+    from polhode.simulate import read_sheet as read_sheet
+    from polhode.simulate import sampled as sampled
     from polhode.simulate import simulate as simulate
+    from polhode.view import Judgement as Judgement
+    from polhode.view import Scene as Scene
+    from polhode.view import page as page
+    from polhode.view import scene as scene
 
     __version__: str
 
 _ROOMS = {
+    "view": (
+        "Judgement",
+        "Scene",
+        "page",
+        "scene",
+    ),
     "simulate": (
+        "Pieces",
         "Trajectory",
+        "approximated",
+        "load",
+        "read_sheet",
+        "sampled",
         "simulate",
     ),
     "analyse": (
@@ -128,6 +152,8 @@ _ROOMS = {
         "SteadyValues",
         "LinearIntegrals",
         "Ansatz",
+        "ClosedForm",
+        "closed_form",
         "Condition",
         "Invariant",
         "Invariants",
@@ -178,6 +204,10 @@ _ROOMS = {
         "PolhodeError",
         "StoreError",
         "UnitError",
+    ),
+    "claims": (
+        "Verdict",
+        "check",
     ),
     "derive": (
         "Equations",
