@@ -14,7 +14,7 @@ from flint import fmpq
 from polhode.algebra._elimination import solve_on
 from polhode.algebra._expression import ONE, ZERO, Expr
 from polhode.algebra._forms import shortest
-from polhode.algebra._functions import CIRCULAR, Elementary
+from polhode.algebra._functions import CIRCULAR, Elementary, exponentials
 from polhode.algebra._generators import Generator, Symbol
 from polhode.algebra._half_angles import Factors, lowest
 from polhode.algebra._linear import Matrix, Row
@@ -108,10 +108,20 @@ class _Writer:
 
     def expression(self, expression: Expr) -> Value:
         """Write an expression in the form that adds fewest steps."""
+        merged = exponentials(expression)
+        if merged is not None:
+            return reduce(self.tape.add, [self._exponential(*part) for part in merged])
         forms = list(_forms(expression))
         for form in forms:
             self._prepare(form)
         return self._fraction(min(forms, key=self._cost) if len(forms) > 1 else forms[0])
+
+    def _exponential(self, factor: Expr, exponent: Expr) -> Value:
+        """Factor times one exp; apart, exp(a) and exp(−b) may be infinite and nothing."""
+        value = self.expression(factor)
+        if exponent.is_zero:
+            return value
+        return self.tape.multiply(value, self.tape.call(Op.EXP, self.expression(exponent)))
 
     def _cost(self, form: _Fraction) -> int:
         start = len(self.tape)

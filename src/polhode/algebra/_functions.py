@@ -295,3 +295,42 @@ def _related(units: set[Fraction]) -> list[tuple[set[Fraction], Fraction]]:
 def _common_unit(first: Fraction, second: Fraction) -> Fraction:
     below = lcm(first.denominator, second.denominator)
     return Fraction(gcd(int(first * below), int(second * below)), below)
+
+
+def exponentials(expression: Expr) -> list[tuple[Expr, Expr]] | None:
+    """An expression as a sum of factors times exp(exponent), where several exps occur in it.
+
+    None where they do not, or where the denominator is a sum with exps in it.
+    """
+    occurring = [g for g in expression.ring.generators if isinstance(g, Exponential)]
+    below = _exponent_of(expression.denominator)
+    if len(occurring) < 2 or below is None:
+        return None
+    divisor, taken = below
+    parts: dict[Expr, Expr] = {}
+    for powers, coefficient in expression.terms():
+        rest, exponent = _without_exponentials(powers)
+        key = exponent - taken
+        parts[key] = parts.get(key, ZERO) + rest * Expr.constant(coefficient)
+    return [(factor / divisor, exponent) for exponent, factor in parts.items()]
+
+
+def _exponent_of(denominator: Expr) -> tuple[Expr, Expr] | None:
+    """A denominator without the exps that all its terms have, and their exponent."""
+    found = [(*_without_exponentials(p), c) for p, c in denominator.terms()]
+    exponents = {exponent for _, exponent, _ in found}
+    if len(exponents) != 1:
+        return None
+    rest = sum((factor * Expr.constant(c) for factor, _, c in found), ZERO)
+    return rest, exponents.pop()
+
+
+def _without_exponentials(powers: dict[Generator, int]) -> tuple[Expr, Expr]:
+    """A product without its exps, and the exponent of those."""
+    rest, exponent = ONE, ZERO
+    for generator, power in powers.items():
+        if isinstance(generator, Exponential):
+            exponent = exponent + generator.argument * power
+        else:
+            rest = rest * Expr.generator(generator) ** power
+    return rest, exponent

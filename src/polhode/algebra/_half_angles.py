@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 from polhode.algebra._expression import Expr
 from polhode.algebra._functions import CIRCULAR, Even
+from polhode.algebra._generators import Generator
 from polhode.algebra._ring import Monomial, Polynomial, Ring
 
 #: Longer numerators take longer to divide than the digits are worth.
@@ -29,9 +30,14 @@ class Lowest(NamedTuple):
     factors: Factors
 
 
-@lru_cache(maxsize=512)
 def lowest(expression: Expr) -> Lowest | None:
     """A fraction with its trigonometric common factors cancelled; None where it has none."""
+    return _lowest(expression, expression.ring.generators)
+
+
+@lru_cache(maxsize=512)
+def _lowest(expression: Expr, _generators: tuple[Generator, ...]) -> Lowest | None:
+    """Equal expressions of different rings are told apart: the outcome lives in its ring."""
     ring, num, den = expression.ring, expression.num, expression.den
     angles = _angles_below(ring, den)
     if not angles or len(num) > _LONGEST:

@@ -127,9 +127,9 @@ class Contact(Element):
         return Restraint(self.component(label), self.body, self.on.axes[label], velocity, arm)
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
-        return (self.restraint(self.on.normal, places), *self._couples())
+        return (self.restraint(self.on.normal, places), *self.couples())
 
-    def _couples(self) -> tuple[Restraint, ...]:
+    def couples(self) -> tuple[Restraint, ...]:
         """What a face on the support holds besides: the body's attitude."""
         if not self._surface().is_face:
             return ()
@@ -145,7 +145,7 @@ class Rolling(Contact):
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
         labels = (*self.on.tangents, self.on.normal)
-        return (*(self.restraint(label, places) for label in labels), *self._couples())
+        return (*(self.restraint(label, places) for label in labels), *self.couples())
 
 
 class Smooth(Contact):

@@ -89,7 +89,7 @@ class Apart(Element):
         return {contact.body: place}
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
-        return ()
+        return self.contact.couples()
 
     def assumed_positive(self) -> tuple[Expr, ...]:
         return self.contact.assumed_positive()

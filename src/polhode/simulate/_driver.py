@@ -14,7 +14,7 @@ from polhode.algebra import Symbol, arrays
 from polhode.base import NumericError, Progress
 from polhode.simulate._crossing import bisected
 from polhode.simulate._flow import Flow, Stage
-from polhode.simulate._integrators import Array, Leg, Stepper, broken
+from polhode.simulate._integrators import LOOKS, Array, Leg, Stepper, broken
 from polhode.simulate._quadrature import Integral, integral
 
 _TURNS = 16  # periods after which an angle is counted from zero again
@@ -100,6 +100,8 @@ def integrate(
     if path.stop is Stop.VANISHED:
         end, vanished = _vanishing(path, watched, (float(steps[-2]), float(steps[-1])))
         steps = np.append(steps[:-1], end)
+    if flow.is_driven:
+        steps = np.union1d(steps, np.linspace(steps[0], steps[-1], LOOKS + 1))
     at: States = path.at
     known = size
     for stage in flow.stages:
@@ -166,7 +168,7 @@ def _legs(
     """Angles that have grown far are counted from zero again: their rounding would spread."""
     now, end = span
     periods = np.array([period or np.inf for period in flow.periods])
-    watch = _Watch(state, _TURNS * periods, _SMALLEST * (end - now), progress, watched)
+    watch = _Watch(state, _TURNS * periods, span, progress, watched)
     legs, begins, turned = list[Leg](), list[float](), list[Array]()
     offset = np.zeros(len(state))
     while now < end and watch.stop is None:
@@ -188,11 +190,17 @@ class _Watch:
     """Stops a leg when an angle has grown far, and all of them when there is reason to look."""
 
     def __init__(
-        self, state: Array, limits: Array, least: float, progress: Progress, watched: Watched
+        self,
+        state: Array,
+        limits: Array,
+        span: tuple[float, float],
+        progress: Progress,
+        watched: Watched,
     ) -> None:
         self.stop: Stop | None = None
         self._limits = limits
-        self._least = least
+        self._least = _SMALLEST * (span[1] - span[0])
+        self._end = span[1]
         self._progress = progress
         self._watched = watched
         self._steps = 0
@@ -207,7 +215,7 @@ class _Watch:
         vanished = [self._vanishes(k, state) for k in range(len(self._vectors))]
         if any(vanished):
             self.stop = Stop.VANISHED
-        elif time - self._time < self._least:
+        elif time - self._time < self._least and time < self._end:
             self.stop = Stop.VANISHED if self._is_small(state) else Stop.STUCK
         elif self._steps % self._watched.pause == 0:
             self.stop = Stop.PAUSE

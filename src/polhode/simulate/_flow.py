@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from math import lcm, pi
 
 from polhode.algebra import Expr, Kind, Op, Program, Symbol
@@ -46,6 +47,11 @@ class Flow:
     stages: tuple[Stage, ...]
     parameters: tuple[Symbol, ...]
 
+    @cached_property
+    def is_driven(self) -> bool:
+        """Whether the time itself occurs: what it brings cannot be seen coming."""
+        return any(_reads_clock(stage.program) for stage in (self.core, *self.stages))
+
     @property
     def states(self) -> tuple[Symbol, ...]:
         """All states, in the order in which the flow has them."""
@@ -80,6 +86,11 @@ def flow_of(dynamics: Dynamics, *, reduced: bool) -> Flow:
         for layer in layers
     )
     return Flow(Stage(core, program), periods, turned, tuple(stages), dynamics.parameters)
+
+
+def _reads_clock(program: Program) -> bool:
+    clock = program.arguments.index(CLOCK)
+    return any((step.op, step.value) == (Op.ARG, clock) for step in program.instructions)
 
 
 def _less_turns(angle: Symbol) -> Symbol:

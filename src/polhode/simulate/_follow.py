@@ -13,6 +13,7 @@ import numpy as np
 from polhode.base import ConstraintError, DeclarationError, Progress
 from polhode.derive import Automaton, automaton
 from polhode.model import FLIGHT, FRICTIONLESS, Apart, Coulomb, Phase, System
+from polhode.simulate._contact_checks import can_be_followed, check_numbers, refuse_below
 from polhode.simulate._course import Change, Walk
 from polhode.simulate._drive import Drive, drive_of
 from polhode.simulate._driver import Stop, integrate, stuck
@@ -67,7 +68,7 @@ def follow(
     if isinstance(subject, System):
         subject = automaton(subject)
     if isinstance(subject, Automaton):
-        if subject.contacts:
+        if subject.contacts and can_be_followed(subject):
             return _through_modes(subject, task, progress)
         with _timed(task, "derive"):
             return _as_declared(subject.together.equations, task, progress)
@@ -127,9 +128,12 @@ def _refuse_jerks(drive: Drive) -> None:
 def _through_modes(modes: Automaton, task: Task, progress: Progress) -> Motion:
     with _timed(task, "derive"):
         drive = drive_of(modes.functions, task.forcing, task.end)
-        dynamics = Dynamics(modes.together.equations, drive.expressions, modes.parameters)
+        idle = idle_parameters(modes.together.equations, task.given)
+        constants = (*modes.parameters, *idle)
+        dynamics = Dynamics(modes.together.equations, drive.expressions, constants)
     numbers = read_parameters(dynamics, task.given, drive.constants(0.0))
     machine = Machine(modes, drive, numbers, task.integrator, task.tolerance)
+    check_numbers(machine)
     with _timed(task, "compile"):
         place, assumed, apart = _begin(machine, task)
         walk = Walk(machine, task.near_flat, progress)
@@ -162,7 +166,9 @@ def _begin(machine: Machine, task: Task) -> tuple[Place, Mapping[str, float], fr
         and given & {above.height.published, above.rise.published}
     )
     if apart:
-        return (*_read(machine, _phases(modes, apart, slips=True), task), apart)
+        place, assumed = _read(machine, _phases(modes, apart, slips=True), task)
+        refuse_below(machine, place, apart)
+        return place, assumed, apart
     try:
         return (*_read(machine, _phases(modes, apart, slips=False), task), apart)
     except ConstraintError:

@@ -15,7 +15,7 @@ import numpy as np
 from polhode.algebra import Arithmetic
 from polhode.base import StoreError, cache
 from polhode.simulate._flow import Flow
-from polhode.simulate._integrators import Array, Leg, Stepper, Watch, broken
+from polhode.simulate._integrators import LOOKS, Array, Leg, Stepper, Watch, broken
 
 _importing = Lock()
 
@@ -36,7 +36,9 @@ class Taylor:
         states = [heyoka.make_vars(f"x{i}") for i in range(len(flow.core.symbols))]
         later = [0.0] * (len(flow.states) - len(states))
         constants = [heyoka.par[i] for i in range(len(flow.parameters))]
-        function = flow.core.program.function(Arithmetic.of(heyoka))
+        function = flow.core.program.function(
+            Arithmetic.of(heyoka, lambda number: heyoka.expression(float(number)))
+        )
         rates = function(*states, *later, *constants, heyoka.time)
         return _TaylorStepper(
             heyoka.taylor_adaptive(
@@ -44,22 +46,25 @@ class Taylor:
                 [0.0] * len(states),
                 tol=np.finfo(float).eps if tolerance is None else tolerance,
                 opt_level=0,
-            )
+            ),
+            LOOKS if flow.is_driven else 1,
         )
 
 
 @dataclass(frozen=True)
 class _TaylorStepper:
     integrator: Any
+    least_steps: int
 
     def leg(self, parameters: Array, begin: float, state: Array, end: float, watch: Watch) -> Leg:
         taylor = self.integrator
         taylor.time = begin
         taylor.state[:] = state
         taylor.pars[:] = parameters[: len(taylor.pars)]
+        longest = (end - begin) / self.least_steps  # infinite where all series end
         outcome, *_, output, _ = taylor.propagate_until(
             end,
-            max_delta_t=end - begin,  # where all series end the step would be infinite
+            max_delta_t=longest,
             c_output=True,
             callback=lambda t: watch(t.time, t.state),
         )

@@ -18,6 +18,10 @@ CHOICE = "POLHODE_INTEGRATOR"
 """Environment variable that names the integrator to use."""
 
 
+#: Steps at least over a stretch in which the time itself occurs, so that no pulse is stepped over.
+LOOKS = 64
+
+
 class Watch(Protocol):
     """Looks on after every step."""
 

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from polhode.algebra import Expr, Kind, Symbol, compile_program, linear_parts, sqrt
+from polhode.algebra import ZERO, Expr, Kind, Symbol, compile_program, linear_parts, sqrt
 from polhode.base import NumericError
 from polhode.derive import Automaton, Mode
 from polhode.model import Contact, Coulomb, Phase, Sliding
@@ -82,8 +82,9 @@ class ModeMachine:
         self._machine = machine
         carried, meanings = _carried(mode)
         idle = tuple(machine.constants)
+        known = {**mode.lifted, **_silent(machine.automaton, mode)}
         self.dynamics = Dynamics(
-            mode.equations, machine.drive.expressions, idle, carried, meanings, mode.lifted
+            mode.equations, machine.drive.expressions, idle, carried, meanings, known
         )
 
     @property
@@ -267,6 +268,12 @@ def singular(time: float) -> NumericError:
         expected="a motion away from singular positions",
         advice="start elsewhere, or end before that time",
     )
+
+
+def _silent(modes: Automaton, mode: Mode) -> dict[Symbol, Expr]:
+    """Reactions of contacts that are open, by name: nothing."""
+    own = mode.equations.components
+    return {Symbol(n): ZERO for n in modes.together.equations.components if n not in own}
 
 
 def _carried(mode: Mode) -> tuple[dict[Symbol, Expr], dict[Symbol, Expr]]:

@@ -10,7 +10,7 @@ from scipy.integrate import DOP853, OdeSolution
 
 from polhode.algebra import Compiled
 from polhode.simulate._flow import Flow
-from polhode.simulate._integrators import Array, Leg, Stepper, Watch, broken
+from polhode.simulate._integrators import LOOKS, Array, Leg, Stepper, Watch, broken
 
 _TIGHTEST = 1e-13  # relative; below it rounding rules the choice of steps
 _ABSOLUTE = 1e-15
@@ -24,13 +24,16 @@ class DormandPrince:
 
     def prepare(self, flow: Flow, tolerance: float | None) -> Stepper:
         """The core as a function of floats."""
-        return _RungeKuttaStepper(flow.core.program.function(), max(tolerance or 0.0, _TIGHTEST))
+        steps = LOOKS if flow.is_driven else 1
+        rates = flow.core.program.function()
+        return _RungeKuttaStepper(rates, max(tolerance or 0.0, _TIGHTEST), steps)
 
 
 @dataclass(frozen=True)
 class _RungeKuttaStepper:
     rates: Compiled
     tolerance: float
+    least_steps: int
 
     def leg(self, parameters: Array, begin: float, state: Array, end: float, watch: Watch) -> Leg:
         constants = parameters.tolist()
@@ -41,7 +44,15 @@ class _RungeKuttaStepper:
             except (ArithmeticError, ValueError):
                 return np.full(len(state), np.nan)
 
-        method = DOP853(rate, begin, state, end, rtol=self.tolerance, atol=_ABSOLUTE)
+        method = DOP853(
+            rate,
+            begin,
+            state,
+            end,
+            max_step=(end - begin) / self.least_steps,
+            rtol=self.tolerance,
+            atol=_ABSOLUTE,
+        )
         times, pieces = [begin], list[Any]()
         going = True
         while method.status == "running" and going:

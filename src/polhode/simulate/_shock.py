@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from polhode.base import NumericError
 from polhode.simulate._integrators import Array
 
 _STICKS = 1e-13  # slip, relative to the velocity before, that has vanished
@@ -62,7 +63,11 @@ def rough_shock(felt: Array, velocity: Array, restitution: float) -> Shock:
 
 
 def coulomb_shock(felt: Array, velocity: Array, roughness: Roughness) -> Shock:
-    """A shock with Coulomb's friction and Stronge's restitution."""
+    """A shock with Coulomb's friction and Stronge's restitution.
+
+    Raises:
+        NumericError: where friction jams and the shock never ends.
+    """
     course = _Course(felt, velocity, roughness)
     while not course.done:
         course.advance()
@@ -93,7 +98,12 @@ class _Course:
             self._hold()
         else:
             self._slide()
-        self.done = self.done or self._phases > _PHASES
+        if self._phases > _PHASES:
+            raise NumericError(
+                "a shock whose friction jams",
+                expected="friction low enough for compression to end",
+                advice="lower the friction coefficient",
+            )
 
     def _hold(self) -> None:
         """Without slip: friction as it is needed, if the static limit allows; else it slips on."""
@@ -176,6 +186,8 @@ class _Course:
             self._stored = before - last[6] / max(self.roughness.restitution**2, 1e-300)
         if found.t_events[1].size:
             self._turn()
+        elif found.t_events[0].size:
+            self.velocity[:2] = 0.0
 
     def _slide_straight(self) -> None:
         """Where friction cannot turn the slip, everything is linear in the impulse."""
