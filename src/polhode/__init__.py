@@ -70,8 +70,10 @@ if TYPE_CHECKING:
     from polhode.base import UnitError as UnitError
     from polhode.claims import Verdict as Verdict
     from polhode.claims import check as check
+    from polhode.derive import Automaton as Automaton
     from polhode.derive import Equations as Equations
     from polhode.derive import Reaction as Reaction
+    from polhode.derive import automaton as automaton
     from polhode.derive import derive as derive
     from polhode.model import About as About
     from polhode.model import Body as Body
@@ -80,6 +82,7 @@ if TYPE_CHECKING:
     from polhode.model import Coulomb as Coulomb
     from polhode.model import Damper as Damper
     from polhode.model import Ellipsoidal as Ellipsoidal
+    from polhode.model import Face as Face
     from polhode.model import Force as Force
     from polhode.model import Frame as Frame
     from polhode.model import Free as Free
@@ -118,6 +121,7 @@ if TYPE_CHECKING:
     from polhode.simulate import load as load
     from polhode.simulate import read_sheet as read_sheet
     from polhode.simulate import sampled as sampled
+    from polhode.simulate import save as save
     from polhode.simulate import simulate as simulate
     from polhode.view import Judgement as Judgement
     from polhode.view import Scene as Scene
@@ -138,6 +142,7 @@ _ROOMS = {
         "Trajectory",
         "approximated",
         "load",
+        "save",
         "read_sheet",
         "sampled",
         "simulate",
@@ -212,6 +217,8 @@ _ROOMS = {
     "derive": (
         "Equations",
         "Reaction",
+        "Automaton",
+        "automaton",
         "derive",
     ),
     "model": (
@@ -223,6 +230,7 @@ _ROOMS = {
         "Damper",
         "Ellipsoidal",
         "Force",
+        "Face",
         "Frame",
         "Free",
         "Gravity",
