@@ -4,6 +4,7 @@ from polhode.simulate._callable import approximated as approximated
 from polhode.simulate._drift import Drift as Drift
 from polhode.simulate._dynamics import Dynamics as Dynamics
 from polhode.simulate._dynamics import EquationsOfMotion as EquationsOfMotion
+from polhode.simulate._experiment import Experiment as Experiment
 from polhode.simulate._forcing import Jump as Jump
 from polhode.simulate._forcing import Pieces as Pieces
 from polhode.simulate._saved import load as load

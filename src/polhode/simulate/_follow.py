@@ -6,10 +6,12 @@ import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from typing import Any
+from functools import cached_property
+from typing import Any, Protocol
 
 import numpy as np
 
+from polhode.algebra import Symbol
 from polhode.base import ConstraintError, DeclarationError, Progress
 from polhode.derive import Automaton, automaton
 from polhode.model import FLIGHT, FRICTIONLESS, Apart, Coulomb, Phase, System
@@ -18,8 +20,8 @@ from polhode.simulate._course import Change, Walk
 from polhode.simulate._drive import Drive, drive_of
 from polhode.simulate._driver import Stop, integrate, stuck
 from polhode.simulate._dynamics import WORK, Dynamics, EquationsOfMotion
-from polhode.simulate._flow import flow_of
-from polhode.simulate._integrators import Integrator
+from polhode.simulate._flow import Flow, flow_of
+from polhode.simulate._integrators import Integrator, Stepper
 from polhode.simulate._machine import Machine
 from polhode.simulate._names import Name, published
 from polhode.simulate._place import Place
@@ -61,56 +63,81 @@ class Motion:
     unguarded: bool
 
 
-def follow(
-    subject: System | Automaton | EquationsOfMotion, task: Task, progress: Progress
-) -> Motion:
-    """The motion from its start to its end."""
+class Prepared(Protocol):
+    """A system with its equations compiled, ready for any numbers and any start."""
+
+    def follow(self, task: Task, progress: Progress) -> Motion:
+        """The motion from its start to its end.
+
+        Args:
+            task: what is asked for; only values and start may differ from what was prepared for.
+        """
+        ...
+
+
+def prepared(subject: System | Automaton | EquationsOfMotion, task: Task) -> Prepared:
+    """All that does not depend on the numbers, done once for every motion of a kind."""
     if isinstance(subject, System):
         subject = automaton(subject)
     if isinstance(subject, Automaton):
         if subject.contacts and can_be_followed(subject):
-            return _through_modes(subject, task, progress)
+            return _ThroughModes(subject, task)
         with _timed(task, "derive"):
-            return _as_declared(subject.together.equations, task, progress)
-    return _as_declared(subject, task, progress)
+            return _AsDeclared(subject.together.equations, task)
+    return _AsDeclared(subject, task)
 
 
 # -- one mode -----------------------------------------------------------------------------------
 
 
-def _as_declared(equations: EquationsOfMotion, task: Task, progress: Progress) -> Motion:
-    with _timed(task, "derive"):
-        drive = drive_of(equations.functions, task.forcing, task.end)
-        idle = idle_parameters(equations, task.given)
-        dynamics = Dynamics(equations, drive.expressions, idle)
-    numbers = read_parameters(dynamics, task.given, drive.constants(0.0))
-    _refuse_jerks(drive)
-    at_start = {s: (numbers | drive.constants(0.0))[s] for s in dynamics.parameters}
-    begin = read_start(dynamics, task.start, at_start)
-    with _timed(task, "compile"):
-        flow = flow_of(dynamics, reduced=task.integrator.dense)
-        stepper = task.integrator.prepare(flow, task.tolerance)
-    state = {**dict(zip(dynamics.states, begin.state, strict=True)), WORK: 0.0}
-    parts = []
-    with _timed(task, "integrate"):
-        for span in drive.stretches(task.end):
-            known = numbers | drive.constants(span[0])
-            constants = np.array([known[s] for s in dynamics.parameters])
-            start = np.array([state[s] for s in flow.states], dtype=float)
-            solution = integrate(flow, stepper, constants, start, span, progress)
-            if solution.stop is Stop.STUCK:
-                raise stuck(solution)
-            parts.append(Part(*span, solution, constants))
-            state = state_at(parts[-1], span[1])
-    segment = Segment(AS_DECLARED, 0.0, task.end, dynamics, tuple(parts))
-    return Motion(
-        (segment,),
-        (),
-        AS_DECLARED,
-        {symbol.published: value for symbol, value in numbers.items()},
-        begin.assumed,
-        unguarded=True,
-    )
+class _AsDeclared:
+    """The contacts as they are declared, and kept to."""
+
+    def __init__(self, equations: EquationsOfMotion, task: Task) -> None:
+        with _timed(task, "derive"):
+            self._drive = drive_of(equations.functions, task.forcing, task.end)
+            idle = idle_parameters(equations, task.given)
+            self._dynamics = Dynamics(equations, self._drive.expressions, idle)
+        self._integrator = task.integrator
+        self._tolerance = task.tolerance
+
+    @cached_property
+    def _flow(self) -> Flow:
+        return flow_of(self._dynamics, reduced=self._integrator.dense)
+
+    @cached_property
+    def _stepper(self) -> Stepper:
+        return self._integrator.prepare(self._flow, self._tolerance)
+
+    def follow(self, task: Task, progress: Progress) -> Motion:
+        dynamics, drive = self._dynamics, self._drive
+        numbers = read_parameters(dynamics, task.given, drive.constants(0.0))
+        _refuse_jerks(drive)
+        at_start = {s: (numbers | drive.constants(0.0))[s] for s in dynamics.parameters}
+        begin = read_start(dynamics, task.start, at_start)
+        with _timed(task, "compile"):
+            flow, stepper = self._flow, self._stepper
+        state = {**dict(zip(dynamics.states, begin.state, strict=True)), WORK: 0.0}
+        parts = []
+        with _timed(task, "integrate"):
+            for span in drive.stretches(task.end):
+                known = numbers | drive.constants(span[0])
+                constants = np.array([known[s] for s in dynamics.parameters])
+                start = np.array([state[s] for s in flow.states], dtype=float)
+                solution = integrate(flow, stepper, constants, start, span, progress)
+                if solution.stop is Stop.STUCK:
+                    raise stuck(solution)
+                parts.append(Part(*span, solution, constants))
+                state = state_at(parts[-1], span[1])
+        segment = Segment(AS_DECLARED, 0.0, task.end, dynamics, tuple(parts))
+        return Motion(
+            (segment,),
+            (),
+            AS_DECLARED,
+            {symbol.published: value for symbol, value in numbers.items()},
+            begin.assumed,
+            unguarded=True,
+        )
 
 
 def _refuse_jerks(drive: Drive) -> None:
@@ -125,30 +152,47 @@ def _refuse_jerks(drive: Drive) -> None:
 # -- all modes ----------------------------------------------------------------------------------
 
 
-def _through_modes(modes: Automaton, task: Task, progress: Progress) -> Motion:
-    with _timed(task, "derive"):
-        drive = drive_of(modes.functions, task.forcing, task.end)
-        idle = idle_parameters(modes.together.equations, task.given)
-        constants = (*modes.parameters, *idle)
-        dynamics = Dynamics(modes.together.equations, drive.expressions, constants)
-    numbers = read_parameters(dynamics, task.given, drive.constants(0.0))
-    machine = Machine(modes, drive, numbers, task.integrator, task.tolerance)
-    check_numbers(machine)
-    with _timed(task, "compile"):
-        place, assumed, apart = _begin(machine, task)
-        walk = Walk(machine, task.near_flat, progress)
-        first = settle(machine, place, Known(apart=apart))
-        machine.mode(first.phases).stepper  # noqa: B018
-    with _timed(task, "integrate"):
-        course = walk.along(first, task.end)
-    return Motion(
-        course.segments,
-        course.changes,
-        course.ending,
-        {symbol.published: value for symbol, value in numbers.items()},
-        assumed,
-        unguarded=False,
-    )
+class _ThroughModes:
+    """Through all contact modes, as the forces demand."""
+
+    def __init__(self, modes: Automaton, task: Task) -> None:
+        with _timed(task, "derive"):
+            self._drive = drive_of(modes.functions, task.forcing, task.end)
+            idle = idle_parameters(modes.together.equations, task.given)
+            constants = (*modes.parameters, *idle)
+            equations = modes.together.equations
+            self._dynamics = Dynamics(equations, self._drive.expressions, constants)
+        self._modes = modes
+        self._machine: Machine | None = None
+
+    def follow(self, task: Task, progress: Progress) -> Motion:
+        numbers = read_parameters(self._dynamics, task.given, self._drive.constants(0.0))
+        machine = self._with(numbers, task)
+        check_numbers(machine)
+        with _timed(task, "compile"):
+            place, assumed, apart = _begin(machine, task)
+            walk = Walk(machine, task.near_flat, progress)
+            first = settle(machine, place, Known(apart=apart))
+            machine.mode(first.phases).stepper  # noqa: B018
+        with _timed(task, "integrate"):
+            course = walk.along(first, task.end)
+        return Motion(
+            course.segments,
+            course.changes,
+            course.ending,
+            {symbol.published: value for symbol, value in numbers.items()},
+            assumed,
+            unguarded=False,
+        )
+
+    def _with(self, numbers: Mapping[Symbol, float], task: Task) -> Machine:
+        """The machine with these numbers; what it has compiled stays."""
+        if self._machine is None:
+            self._machine = Machine(
+                self._modes, self._drive, numbers, task.integrator, task.tolerance
+            )
+        self._machine.take(numbers)
+        return self._machine
 
 
 def _begin(machine: Machine, task: Task) -> tuple[Place, Mapping[str, float], frozenset[int]]:

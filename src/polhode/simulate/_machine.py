@@ -47,6 +47,10 @@ class Machine:
         self.tolerance = tolerance
         self._modes: dict[tuple[Phase, ...], ModeMachine] = {}
 
+    def take(self, constants: Constants) -> None:
+        """Take other values of the same parameters, for another motion from the beginning."""
+        self.constants = dict(constants) | self.drive.constants(0.0)
+
     def move_on(self, now: float) -> None:
         """Take the coefficients of the prescribed motions that hold from an instant on."""
         self.constants |= self.drive.constants(now)

@@ -1,0 +1,163 @@
+"""A system set up once, to be run with as many numbers and starts as one likes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from polhode.algebra import Expr
+from polhode.base import TIME, NumericError, Progress, SilentProgress, UnitError, to_si
+from polhode.derive import Automaton
+from polhode.model import System
+from polhode.simulate._dynamics import EquationsOfMotion
+from polhode.simulate._follow import Motion, Prepared, Task, prepared
+from polhode.simulate._integrators import Array, chosen
+from polhode.simulate._names import Name
+from polhode.simulate._trajectory import Event, Trajectory
+from polhode.simulate._validity import pulling_contacts, refuse_lost_side
+from polhode.simulate._watching import with_events
+
+SAMPLES = 1001
+#: Sine of the tilt at which a disk counts as lying flat.
+NEAR_FLAT = 1e-3
+
+
+class Experiment:
+    """Motions of one system over one duration, one after the other; compiled for the first.
+
+    Which parameters are given, and the prescribed motions, stay as they were in the first run.
+    Not to be shared by threads: the compiled integrators hold the motion they are at.
+
+    Args:
+        subject: a declaration, its automaton, or equations derived from it.
+        duration: s.
+        tolerance, forcing, invariants, events, samples, near_flat: as in `simulate`.
+
+    Raises:
+        NumericError: for samples or a tolerance that cannot be.
+        UnitError: for a duration that cannot be read.
+    """
+
+    def __init__(
+        self,
+        subject: System | Automaton | EquationsOfMotion,
+        duration: Any,
+        *,
+        tolerance: float | None = None,
+        forcing: Mapping[Name, Any] | None = None,
+        invariants: Mapping[str, Expr] | None = None,
+        events: Mapping[str, Expr] | None = None,
+        samples: int | ArrayLike = SAMPLES,
+        near_flat: float = NEAR_FLAT,
+    ) -> None:
+        self.subject = subject
+        self.duration = _duration(duration)
+        self._times = _samples(samples, self.duration)
+        self._invariants = invariants or {}
+        self._events = events or {}
+        self._integrator = chosen()
+        self._prepared: Prepared | None = None
+        self._plan = Task(
+            given={},
+            start={},
+            forcing=forcing or {},
+            end=self.duration,
+            integrator=self._integrator,
+            tolerance=_tolerance(tolerance),
+            near_flat=near_flat,
+            seconds={},
+        )
+
+    def run(
+        self,
+        parameters: Mapping[Name, Any],
+        start: Mapping[Name, Any],
+        progress: Progress | None = None,
+    ) -> Trajectory:
+        """One motion, as `simulate` gives it.
+
+        Raises:
+            ConstraintError, DeclarationError, NumericError, UnitError: as `simulate`.
+        """
+        task = replace(self._plan, given=parameters, start=start, seconds={})
+        with _shown(progress or SilentProgress()) as shown:
+            if self._prepared is None:
+                self._prepared = prepared(self.subject, task)
+            motion = self._prepared.follow(task, shown)
+        return self._trajectory(motion, task)
+
+    def _trajectory(self, motion: Motion, task: Task) -> Trajectory:
+        end = motion.segments[-1].end
+        trajectory = Trajectory(
+            segments=motion.segments,
+            parameters=motion.parameters,
+            duration=end,
+            t=self._times[self._times <= end],
+            mode=motion.ending,
+            events=_events(motion),
+            assumed=motion.assumed,
+            seconds=task.seconds,
+            integrator=task.integrator.name,
+            invariants=self._invariants,
+        )
+        if motion.unguarded:
+            refuse_lost_side(trajectory)
+            trajectory = replace(trajectory, events=_with_pulls(trajectory))
+        return with_events(trajectory, self._events)
+
+
+def _events(motion: Motion) -> tuple[Event, ...]:
+    end = motion.segments[-1].end
+    return (
+        Event(0.0, "start", None, motion.segments[0].mode),
+        *(Event(c.time, c.kind, c.before, c.after) for c in motion.changes),
+        Event(end, "end", motion.ending, None),
+    )
+
+
+def _with_pulls(trajectory: Trajectory) -> tuple[Event, ...]:
+    """Start and end, and where a contact would have had to let go."""
+    mode = trajectory.mode
+    pulls = (Event(t, f"{name} pulls", mode, mode) for t, name in pulling_contacts(trajectory))
+    start, end = trajectory.events
+    return (start, *sorted(pulls, key=lambda event: event.time), end)
+
+
+def _duration(value: Any) -> float:
+    duration = to_si(value, TIME, "duration")
+    if duration <= 0:
+        raise UnitError(f"a duration of {duration:g} s", expected="a positive one")
+    return duration
+
+
+def _samples(samples: int | ArrayLike, duration: float) -> Array:
+    if isinstance(samples, int):
+        if samples < 2:
+            raise NumericError(f"{samples} samples", expected="at least two")
+        return np.linspace(0.0, duration, samples)
+    times = np.asarray(samples, dtype=float)
+    if times.ndim != 1 or not np.all((times >= 0) & (times <= duration)):
+        raise NumericError(
+            f"sample times {times!r}", expected=f"a list of times from 0 to {duration:g} s"
+        )
+    return times
+
+
+def _tolerance(tolerance: float | None) -> float | None:
+    if tolerance is not None and not 0 < tolerance < 1:
+        raise NumericError(f"a tolerance of {tolerance}", expected="one between 0 and 1")
+    return tolerance
+
+
+@contextmanager
+def _shown(progress: Progress) -> Iterator[Progress]:
+    progress.begin("integrating")
+    try:
+        yield progress
+    finally:
+        progress.finish()
