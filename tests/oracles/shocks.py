@@ -16,7 +16,8 @@ def felt_inertia(mass: float, inertia: Array, arm: Array) -> Array:
 def random_shock(rng: np.random.Generator) -> tuple[Array, Array]:
     """Inverse inertia felt by a random body, and the velocity it lands with."""
     basis, _ = np.linalg.qr(rng.normal(size=(3, 3)))
-    moments = np.sum(rng.uniform(0.05, 1, 3)) - rng.uniform(0.05, 1, 3) * 0.9
+    spread = rng.uniform(0.05, 1, 3)
+    moments = np.sum(spread) - spread
     inertia = basis @ np.diag(moments) @ basis.T
     arm = np.array([*rng.normal(size=2) * 0.3, -rng.uniform(0.2, 1.0)])
     velocity = rng.normal(size=3)

@@ -19,6 +19,8 @@ from polhode.simulate._integrators import Array
 
 _STAGES = 9
 _RESOLVED = 1e-14  # last coefficients of a step, relative to the largest
+_ROUNDED = 1e-11  # the same, of a series that a shorter step resolves no better: rounding
+_TURN = 10.0  # rad: what the rounding of an angle is relative to, as that of a small difference
 _NEWTON = 12
 _SHORTEST = 1e-13
 
@@ -105,10 +107,12 @@ def _followed(
     now, state = begin, start
     times, series = [begin], list[Array]()
     length = min(end - begin, 1e-3)
+    unresolved = np.inf
     while now < end:
         length = min(length, end - now)
-        found = _step(rates, now, length, state, pull)
-        if found is None:
+        step = _step(rates, now, length, state, pull)
+        if step is None or not step.is_resolved(unresolved):
+            unresolved = np.inf if step is None else step.tail
             length /= 4
             if length < _SHORTEST * max(end - begin, abs(begin)):
                 raise NumericError(
@@ -116,22 +120,33 @@ def _followed(
                     expected="a direction in which it grows steadily",
                 )
             continue
-        coefficients, state = found
+        state, unresolved = step.end, np.inf
         now = min(now + length, end)
         times.append(now)
-        series.append(coefficients)
+        series.append(step.series)
         if state[-2] <= 0 or enough(now - begin, state):
             break
         length *= 2
     return Creep(np.array(times), np.array(series))
 
 
-def _step(
-    rates: Rates, begin: float, length: float, start: Array, pull: float
-) -> tuple[Array, Array] | None:
-    """Series of all states over one step, and the states at its end; None if it is too long."""
+@dataclass(frozen=True)
+class _Step:
+    """Legendre series of all states over one step, the states at its end, and the last terms."""
+
+    series: Array
+    end: Array
+    tail: float
+
+    def is_resolved(self, before: float) -> bool:
+        """Whether the series ends, or ends no sooner than over a step four times as long did."""
+        return self.tail <= _RESOLVED or before / 4 <= self.tail <= _ROUNDED
+
+
+def _step(rates: Rates, begin: float, length: float, start: Array, pull: float) -> _Step | None:
+    """One step; None if it is too long for its equations to be solved."""
     least = np.full(len(start), pull * length)
-    least[-1] = 1.0
+    least[-1] = _TURN
     times = begin + length * _POINTS[1:]
     stages = np.repeat(start[:, None], _STAGES, axis=1)
     stages[-2] = np.maximum(stages[-2], 0.0)
@@ -156,9 +171,8 @@ def _step(
     coefficients = _TO_SERIES @ whole.T
     tails = np.max(np.abs(coefficients[-2:]), axis=0)
     sizes = np.maximum(least, np.max(np.abs(coefficients), axis=0))
-    if np.max(tails / sizes) > _RESOLVED:
-        return None
-    return np.asarray(coefficients, dtype=float), np.asarray(stages[:, -1], dtype=float)
+    end = np.asarray(stages[:, -1], dtype=float)
+    return _Step(np.asarray(coefficients, dtype=float), end, float(np.max(tails / sizes)))
 
 
 def _system(

@@ -18,6 +18,7 @@ from polhode.simulate._integrators import Array
 
 _STICKS = 1e-13  # slip, relative to the velocity before, that has vanished
 _PHASES = 100
+_ANGLES = 72
 
 
 @dataclass(frozen=True)
@@ -147,47 +148,66 @@ class _Course:
         if _is_isotropic(self.felt):
             self._slide_straight()
             return
+        slip = self.velocity[:2]
+        start = np.array(
+            [
+                np.log(np.hypot(*slip) / self._scale),
+                np.arctan2(slip[1], slip[0]),
+                self.velocity[2],
+                *self.impulse,
+                0.0,
+            ]
+        )
+        last, turned = self._turning(start)
+        size, angle = self._scale * np.exp(last[0]), last[1]
+        self.velocity = np.array([size * np.cos(angle), size * np.sin(angle), last[2]])
+        self.impulse = last[3:6].copy()
+        if self._compressing:
+            self._stored -= last[6]
+        else:
+            self._stored -= last[6] / self.roughness.restitution**2
+        if turned:
+            self._turn()
+        else:
+            self.velocity[:2] = 0.0
+
+    def _turning(self, start: Array) -> tuple[Array, bool]:
+        """Slip up to its end, or else to that of compression or restitution (then True).
+
+        With the slip ρ (cos ψ, sin ψ) and dp = ρ dτ, log ρ and ψ change at rates that depend on ψ
+        alone: nothing is singular where the slip vanishes, which is at infinite τ. States: log ρ
+        over the velocity before, ψ, normal velocity, impulse, work of the normal impulse.
+        """
         from scipy.integrate import solve_ivp  # slow to import, and rarely needed
 
         kinetic = self.roughness.kinetic
-        before = self._stored
-        budget = self.roughness.restitution**2 * before
+        budget = self.roughness.restitution**2 * self._stored
 
         def rates(_: float, y: Array) -> Array:
-            slip = y[:2] / np.hypot(y[0], y[1])
-            force = np.array([-kinetic * slip[0], -kinetic * slip[1], 1.0])
-            change = self.felt @ force
-            return np.array([*change, *force, y[2]])
+            size, c, s = self._scale * np.exp(y[0]), np.cos(y[1]), np.sin(y[1])
+            force = np.array([-kinetic * c, -kinetic * s, 1.0])
+            x, across, up = self.felt @ force
+            along, turning = x * c + across * s, across * c - x * s
+            return np.array([along, turning, size * up, *(size * force), size * y[2]])
 
         def stuck(_: float, y: Array) -> float:
-            return float(np.hypot(y[0], y[1]) - _STICKS * self._scale)
+            return float(y[0] - np.log(_STICKS))
 
         def turned(_: float, y: Array) -> float:
             return float(y[2]) if self._compressing else float(y[6] - budget)
 
         for event in (stuck, turned):
             event.terminal = True  # type: ignore[attr-defined]
-        start = np.array([*self.velocity, *self.impulse, 0.0])
-        most = 4 * (1 + self.roughness.restitution) * self._scale / _least_gain(self.felt, kinetic)
         found = solve_ivp(
             rates,
-            (0.0, most),
+            (0.0, np.inf),
             start,
             method="DOP853",
             rtol=1e-13,
-            atol=1e-16 * self._scale,
+            atol=1e-15 * self._scale,
             events=(stuck, turned),
         )
-        last = found.y[:, -1]
-        self.velocity, self.impulse = last[:3].copy(), last[3:6].copy()
-        if self._compressing:
-            self._stored = before - last[6]
-        else:
-            self._stored = before - last[6] / max(self.roughness.restitution**2, 1e-300)
-        if found.t_events[1].size:
-            self._turn()
-        elif found.t_events[0].size:
-            self.velocity[:2] = 0.0
+        return found.y[:, -1], bool(found.t_events[1].size)
 
     def _slide_straight(self) -> None:
         """Where friction cannot turn the slip, everything is linear in the impulse."""
@@ -227,19 +247,34 @@ def _is_isotropic(felt: Array) -> bool:
     return bool(even and np.max(np.abs(felt[:2, 2])) <= 1e-14 * size)
 
 
-def _least_gain(felt: Array, friction: float) -> float:
-    """Smallest rise of the normal velocity per normal impulse, whatever the direction of slip."""
-    lost = friction * float(np.hypot(felt[2, 0], felt[2, 1]))
-    return max(float(felt[2, 2]) - lost, 1e-3 * float(felt[2, 2]))
-
-
 def _onset(felt: Array, friction: float) -> Array:
-    """Direction in which slip grows from nothing during the shock."""
-    angles = np.linspace(0.0, 2 * np.pi, 721)
-    along = np.array([np.cos(angles), np.sin(angles)])
-    force = np.vstack([-friction * along, np.ones_like(angles)])
-    rates = (felt @ force)[:2]
-    across = rates[1] * along[0] - rates[0] * along[1]
-    growing = np.sum(rates * along, axis=0)
-    best = np.argmin(np.where(growing > 0, np.abs(across), np.inf))
-    return np.asarray(along[:, best])
+    """Direction in which slip grows from nothing during the shock.
+
+    Raises:
+        NumericError: where there is none, or more than one.
+    """
+    from scipy.optimize import brentq  # slow to import, and rarely needed
+
+    def rate(angle: float) -> Array:
+        along = np.array([np.cos(angle), np.sin(angle)])
+        change = felt @ np.array([*(-friction * along), 1.0])
+        return np.array([change[:2] @ along, change[1] * along[0] - change[0] * along[1]])
+
+    def across(angle: float) -> float:
+        return float(rate(angle)[1])
+
+    grid = np.linspace(0.0, 2 * np.pi, _ANGLES + 1)
+    values = [across(angle) for angle in grid]
+    found = [
+        float(brentq(across, a, b, xtol=1e-15, rtol=1e-15))
+        for a, b, u, v in zip(grid[:-1], grid[1:], values[:-1], values[1:], strict=True)
+        if u * v < 0 or u == 0
+    ]
+    growing = [angle for angle in found if rate(angle)[0] > 0]
+    if len(growing) != 1:
+        raise NumericError(
+            f"a shock in which slip can begin in {len(growing)} directions",
+            expected="one direction in which slip grows against the friction it brings",
+            advice="the rigid body with this friction has no unique motion from here",
+        )
+    return np.array([np.cos(growing[0]), np.sin(growing[0])])
