@@ -17,23 +17,18 @@ def linear_parts(expression: Expr, symbols: Sequence[Symbol]) -> tuple[tuple[Exp
 
     Raises `NumericError` where the expression is not linear in them.
     """
-    wanted = set(symbols)
+    ring, wanted = expression.ring, set(symbols)
+    bound = (g for g in expression.generators if g not in wanted)
+    if expression.denominator.symbols() & wanted or any(g.symbols() & wanted for g in bound):
+        raise _not_linear(expression, symbols)
+    known = [symbol for symbol in symbols if symbol in ring.index]
     parts: dict[Symbol | None, Expr] = {}
-    for generator in expression.denominator.generators:
-        if generator.symbols() & wanted:
+    for powers, part in ring.grouped(expression.num, [ring.index[s] for s in known]).items():
+        if sum(powers) > 1:
             raise _not_linear(expression, symbols)
-    for powers, coefficient in expression.terms():
-        hits = [g for g in powers if g.symbols() & wanted]
-        if len(hits) > 1 or any(not isinstance(g, Symbol) or powers[g] > 1 for g in hits):
-            raise _not_linear(expression, symbols)
-        key = hits[0] if hits and isinstance(hits[0], Symbol) else None
-        rest = {g: p for g, p in powers.items() if g is not key}
-        parts[key] = parts.get(key, ZERO) + _product(rest, coefficient)
-    scale = ONE / expression.denominator
-    return (
-        tuple(parts.get(symbol, ZERO) * scale for symbol in symbols),
-        parts.get(None, ZERO) * scale,
-    )
+        key = known[powers.index(1)] if any(powers) else None
+        parts[key] = Expr.fraction(ring, part, expression.den).trimmed()
+    return tuple(parts.get(symbol, ZERO) for symbol in symbols), parts.get(None, ZERO)
 
 
 def _not_linear(expression: Expr, symbols: Iterable[Symbol]) -> NumericError:

@@ -8,8 +8,11 @@ from dataclasses import dataclass
 from polhode.algebra._expression import ONE, ZERO, Expr, ExprLike
 from polhode.algebra._generators import Symbol
 from polhode.algebra._roots import is_positive
+from polhode.base import NumericError
 
 Row = tuple[Expr, ...]
+
+LONGEST = 3000  # terms of an entry; the longest of the systems in the tests has half as many
 
 
 @dataclass(frozen=True)
@@ -92,6 +95,9 @@ def eliminate(
 
     `rank[j]` says how readily unknown j is solved for (low first); among equals the simplest
     pivot is taken, so that no expression grows without need.
+
+    Raises:
+        NumericError: where the exact solution grows beyond `LONGEST` terms all the same.
     """
     width = len(rows[0]) if rows else len(rank or ())
     rank = rank or [0] * width
@@ -145,6 +151,18 @@ def _clear(table: list[list[Expr]], i: int, j: int) -> None:
                 entry - factor * base if base else entry
                 for entry, base in zip(row, table[i], strict=True)
             ]
+    _refuse_long(table)
+
+
+def _refuse_long(table: list[list[Expr]]) -> None:
+    # Elimination multiplies lengths: what has grown this long takes hours two pivots later.
+    longest = max(len(entry.num) + len(entry.den) for row in table for entry in row)
+    if longest > LONGEST:
+        raise NumericError(
+            f"linear equations whose exact solution has grown to {longest} terms",
+            expected=f"at most {LONGEST}",
+            advice="put in numbers or fewer parameters, or choose coordinates that suit them",
+        )
 
 
 def solve(rows: Sequence[Sequence[Expr]], right: Sequence[Expr]) -> Row:

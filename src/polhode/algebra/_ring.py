@@ -9,7 +9,7 @@ zero" is decided and never guessed.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from itertools import pairwise
 from typing import Any
@@ -77,12 +77,22 @@ class Ring:
             self.zero,
         )
 
+    def grouped(
+        self, polynomial: Polynomial, positions: Sequence[int]
+    ) -> dict[Monomial, Polynomial]:
+        """Its coefficients over the generators at `positions`, by the powers of those."""
+        parts: dict[Monomial, dict[Monomial, Any]] = defaultdict(dict)
+        for monomial, coefficient in polynomial.to_dict().items():
+            rest = list(monomial)
+            for position in positions:
+                rest[position] = 0
+            parts[tuple(monomial[p] for p in positions)][tuple(rest)] = coefficient
+        return {powers: self.context.from_dict(part) for powers, part in parts.items()}
+
     def split(self, polynomial: Polynomial, position: int) -> tuple[Polynomial, Polynomial]:
         """(C, D) of a reduced polynomial C + D g, g the generator at `position`."""
-        parts: tuple[dict[Monomial, Any], dict[Monomial, Any]] = ({}, {})
-        for monomial, coefficient in polynomial.to_dict().items():
-            parts[monomial[position]][_with(monomial, position, 0)] = coefficient
-        return self.context.from_dict(parts[0]), self.context.from_dict(parts[1])
+        parts = self.grouped(polynomial, (position,))
+        return parts.get((0,), self.zero), parts.get((1,), self.zero)
 
     def rationalise(self, num: Polynomial, den: Polynomial) -> tuple[Polynomial, Polynomial]:
         """The same fraction with a denominator free of algebraic generators."""
@@ -112,15 +122,7 @@ class Ring:
     def _over_transcendentals(self, num: Polynomial) -> Iterable[Polynomial]:
         """Coefficients of `num` over the monomials of the algebraic generators."""
         positions = [position for position, _ in self.algebraic]
-        if not positions:
-            return (num,)
-        parts: dict[Monomial, dict[Monomial, Any]] = defaultdict(dict)
-        for monomial, coefficient in num.to_dict().items():
-            rest = list(monomial)
-            for position in positions:
-                rest[position] = 0
-            parts[tuple(monomial[p] for p in positions)][tuple(rest)] = coefficient
-        return (self.context.from_dict(part) for part in parts.values())
+        return self.grouped(num, positions).values() if positions else (num,)
 
 
 def _with(monomial: Monomial, position: int, power: int) -> Monomial:

@@ -50,6 +50,7 @@ def dependent_speeds(
 
     Raises:
         ConstraintError: for constraints that no motion obeys, by name.
+        NumericError: for loops whose exact solution is too long to be of use.
     """
     speeds = tuple(ranks)
     equations = [e for r in restraints if (e := _equation(r, velocities, rates, speeds))]

@@ -1,0 +1,45 @@
+"""What grows beyond use is refused, rather than worked at for hours."""
+
+import pytest
+
+import polhode as ph
+
+
+def test_a_loop_through_two_wheels_and_a_head_is_refused_by_size(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("polhode.algebra._linear.LONGEST", 100)
+    psi, phi, theta, delta = ph.coordinates("psi phi theta delta")
+    tilt, *lengths = ph.symbols("lambda_ a b c d e f p q")
+    mass, radius = ph.symbols("m r", positive=True)
+    lab = ph.Frame("lab")
+    lean = lab.rotated(psi, "z").rotated(phi, "x")
+    rear = lean.rotated(theta, "y")
+    fork = rear.rotated(tilt, "y").rotated(delta, "z")
+    moments = (mass * radius**2, 2 * mass * radius**2, mass * radius**2)
+
+    def wheel(name: str, axes: ph.Frame) -> ph.Body:
+        return ph.Body(
+            name, mass=mass, inertia=moments, axes=axes, spin_about="y", rim=radius, tag=name
+        )
+
+    def bar(name: str, axes: ph.Frame) -> ph.Body:
+        return ph.Body(name, mass=mass, inertia=moments, axes=axes, tag=name)
+
+    hind, front, frame, head = wheel("R", lean), wheel("F", fork), bar("B", rear), bar("H", fork)
+    a, b, c, d, e, f, p, q = lengths
+    ground = ph.Plane(lab)
+    bicycle = ph.System(
+        ph.Rolling(hind, on=ground, name="rear contact"),
+        ph.Rolling(front, on=ground, name="front contact"),
+        ph.Pivot(hind, to=frame.point(rear["x"] * a + rear["z"] * b), name="rear hub"),
+        ph.Pivot(
+            head,
+            at=fork["x"] * c + fork["z"] * d,
+            to=frame.point(rear["x"] * e + rear["z"] * f),
+            name="steering",
+        ),
+        ph.Pivot(front, to=head.point(fork["x"] * p + fork["z"] * q), name="front hub"),
+    )
+    with pytest.raises(ph.NumericError, match="terms; expected at most"):
+        ph.derive(bicycle)
