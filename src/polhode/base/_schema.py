@@ -1,5 +1,6 @@
 """The schema number and the origin that every document carries."""
 
+from functools import cache
 from typing import TypedDict
 
 SCHEMA = 1
@@ -33,6 +34,7 @@ def provenance(seed: int | None = None) -> Provenance:
     return {"schema": SCHEMA, "versions": versions, "seed": seed}
 
 
+@cache
 def installed_version(distribution: str) -> str | None:
     """The version of an installed distribution, None where it is not installed."""
     from importlib.metadata import PackageNotFoundError, version

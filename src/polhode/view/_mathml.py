@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
@@ -13,14 +14,17 @@ _NAMESPACE = ' xmlns="http://www.w3.org/1998/Math/MathML"'
 _SIGNS = ("+", "−", "-")
 _FUNCTIONS = ("sin", "cos", "tan", "exp", "sinh", "cosh", "tanh")
 _THIN = "0.17em"
+_REMEMBERED = 512  # formulas: a system is looked at again and again
 _LONGEST = 2500  # letters of a formula that is still printed
 
 
+@lru_cache(_REMEMBERED)
 def symbol(expression: Expr) -> str:
     """One formula that does not break."""
     return expression.mathml().replace(_NAMESPACE, "")
 
 
+@lru_cache(_REMEMBERED)
 def equation(name: str, left: Expr, right: Expr) -> Formula:
     """left = right, which may break before every sign between two terms."""
     spoken = f"{left.pretty()} = {right.pretty()}"

@@ -94,10 +94,15 @@ def rolled(turning: Array, step: float) -> Array:
     half = (turning[1:] + turning[:-1]) * (step / 4)
     angle = np.linalg.norm(half, axis=1, keepdims=True)
     vector = half * np.sinc(angle / np.pi)
-    found = np.empty((len(turning), 4))
-    found[0] = (0.0, 0.0, 0.0, 1.0)
-    for i, (v, w) in enumerate(zip(vector, np.cos(angle[:, 0]), strict=True)):
-        u, s = found[i, :3], found[i, 3]
-        found[i + 1, :3] = w * u + s * v + np.cross(v, u)
-        found[i + 1, 3] = w * s - v @ u
-    return found
+    found = [(0.0, 0.0, 0.0, 1.0)]
+    for (a, b, c), w in zip(vector.tolist(), np.cos(angle[:, 0]).tolist(), strict=True):
+        x, y, z, s = found[-1]
+        found.append(
+            (
+                w * x + s * a + b * z - c * y,
+                w * y + s * b + c * x - a * z,
+                w * z + s * c + a * y - b * x,
+                w * s - a * x - b * y - c * z,
+            )
+        )
+    return np.array(found)
