@@ -121,7 +121,6 @@ if TYPE_CHECKING:
     from polhode.simulate import load as load
     from polhode.simulate import read_sheet as read_sheet
     from polhode.simulate import sampled as sampled
-    from polhode.simulate import save as save
     from polhode.simulate import simulate as simulate
     from polhode.view import Judgement as Judgement
     from polhode.view import Scene as Scene
@@ -142,7 +141,6 @@ _ROOMS = {
         "Trajectory",
         "approximated",
         "load",
-        "save",
         "read_sheet",
         "sampled",
         "simulate",

@@ -21,8 +21,7 @@ from polhode.cli._parser import Parser, assignments
 from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.cli._text import values, wrapped
 from polhode.derive import Equations, automaton
-from polhode.model import System
-from polhode.simulate import EquationsOfMotion, Trajectory, save, simulate
+from polhode.simulate import EquationsOfMotion, Trajectory, simulate
 
 _SHOWN = 12  # events in a line; a bouncing ball has hundreds
 _EXAMPLES = """examples:
@@ -105,7 +104,7 @@ def run(options: Namespace) -> int:
     )
     document = _document(entry, trajectory, numbers.start, seconds)
     _refuse_overflow(document["final"] | document["drift"])
-    files = _written(options, entry, modes.system, trajectory)
+    files = _written(options, entry, trajectory)
     if options.json:
         print_document(document | {"files": [str(path) for path in files]})
     else:
@@ -136,12 +135,10 @@ def _is_constant(expression: Expr, equations: EquationsOfMotion) -> bool:
     return isinstance(equations, Equations) and equations.rate(expression).is_zero
 
 
-def _written(
-    options: Namespace, entry: Entry, system: System, trajectory: Trajectory
-) -> list[Path]:
+def _written(options: Namespace, entry: Entry, trajectory: Trajectory) -> list[Path]:
     files = []
     if options.save:
-        save(trajectory, system, options.save)
+        trajectory.save(options.save)
         files.append(options.save)
     if not (options.out or options.page):
         return files

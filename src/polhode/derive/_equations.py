@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from polhode.algebra import (
+    ZERO,
     Expr,
     Kind,
     Matrix,
@@ -225,6 +226,19 @@ class Equations:
     def power(self) -> Expr:
         """Rate of change of the energy: work of friction, motors, moving supports, drives, W."""
         return energies.supplied_power(self.kinetics, self.lines, self._solved.least)
+
+    @cached_property
+    def powers(self) -> dict[str, Expr]:
+        """Rate of work of every load, contact and joint on the whole system, W, by its name."""
+        powers = {load.name: self.load_power(load.name) for load in self.system.loads}
+        lines = {line.name: line for line in self.lines}
+        for name, restraints in self.kinetics.restraints.items():
+            own = [lines[r.name] for r in restraints if r.name in lines]
+            powers[name] = sum((self._reaction_power(line) for line in own), ZERO)
+        return powers
+
+    def _reaction_power(self, line: Line) -> Expr:
+        return energies.reaction_power(self.kinetics, line, self._solved.least[line.name])
 
     def load_power(self, name: str) -> Expr:
         """Rate of work of one load, W."""

@@ -11,7 +11,7 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 
 from polhode.algebra import SHAPES, Expr, Vector
 from polhode.base import Codec, Shape
-from polhode.model import _contacts, _joints, _loads, _pivots, _spin, _supports, _surface
+from polhode.model import _contacts, _joints, _loads, _phases, _pivots, _spin, _supports, _surface
 from polhode.model._body import Body, BodyPoint
 from polhode.model._frame import Frame
 from polhode.model._system import System
@@ -30,6 +30,7 @@ _DECLARED = (
     _loads.Gravity,
     _loads.Spring,
     _loads.Torque,
+    _phases.Apart,
     _pivots.Hold,
     _pivots.Pivot,
     _pivots.Weld,

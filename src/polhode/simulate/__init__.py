@@ -4,14 +4,13 @@ from polhode.simulate._callable import approximated as approximated
 from polhode.simulate._drift import Drift as Drift
 from polhode.simulate._dynamics import Dynamics as Dynamics
 from polhode.simulate._dynamics import EquationsOfMotion as EquationsOfMotion
+from polhode.simulate._event import Event as Event
 from polhode.simulate._experiment import Experiment as Experiment
 from polhode.simulate._forcing import Jump as Jump
 from polhode.simulate._forcing import Pieces as Pieces
 from polhode.simulate._saved import load as load
-from polhode.simulate._saved import save as save
 from polhode.simulate._sheet_file import SheetPath as SheetPath
 from polhode.simulate._sheet_file import read_sheet as read_sheet
 from polhode.simulate._simulate import simulate as simulate
 from polhode.simulate._spline import sampled as sampled
-from polhode.simulate._trajectory import Event as Event
 from polhode.simulate._trajectory import Trajectory as Trajectory

@@ -14,8 +14,17 @@ from polhode.simulate._integrators import Array
 from polhode.simulate._quadrature import resolved
 
 _NODES = chebyshev.chebpts1(16)
-_ANALYSIS = chebyshev.chebvander(_NODES, 15).T / 8
-_ANALYSIS[0] /= 2
+
+
+def _analysis() -> Array:
+    """From values at the nodes to coefficients; refined, as the nodes themselves are rounded."""
+    values = chebyshev.chebvander(_NODES.astype(np.longdouble), 15)
+    rough = np.linalg.inv(values.astype(float))
+    return np.asarray(rough + (np.eye(16) - rough @ values) @ rough, dtype=float)
+
+
+_ANALYSIS = _analysis()
+_ROUNDING = 2.0**-50  # of the largest coefficient: what the last ones have of rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,9 +79,17 @@ def series_of(states: Callable[[Array], Array], steps: Array) -> tuple[Array, Ar
     values = states(times.ravel())
     values = values.reshape(len(values), len(left), len(_NODES))
     offset = values[:, :, :1]  # taken out, since rounding is relative to what goes in
-    series = (values - offset) @ _ANALYSIS.T
+    series = _without_noise((values - offset) @ _ANALYSIS.T)
     series[:, :, :1] += offset
     return np.append(left, right[-1:]), np.moveaxis(series, 0, 2)
+
+
+def _without_noise(series: Array) -> Array:
+    """Series whose last coefficients, where they are rounding, are nothing."""
+    sizes = np.abs(series)
+    told = sizes > _ROUNDING * np.max(sizes, axis=2, keepdims=True)
+    followed = np.logical_or.accumulate(told[:, :, ::-1], axis=2)[:, :, ::-1]
+    return np.where(followed, series, 0.0)
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,6 +22,7 @@ from polhode.algebra import (
     time,
 )
 from polhode.base import DeclarationError
+from polhode.simulate._memory import Memory
 
 
 class EquationsOfMotion(Protocol):
@@ -62,6 +63,8 @@ class EquationsOfMotion(Protocol):
 CLOCK = time.symbol or Symbol("t", Kind.TIME)
 #: Stands for the work done by everything that is not in the potential, J.
 WORK = Symbol("work done", Kind.COORDINATE)
+
+_programs: Memory[Program] = Memory()
 
 
 def constants(expressions: Iterable[Expr]) -> Iterator[Symbol]:
@@ -131,8 +134,22 @@ class Dynamics:
         arguments: tuple[Symbol, ...],
         turned: Mapping[Symbol, Symbol] = MappingProxyType({}),
     ) -> Program:
-        """Steps that compute expressions in any symbol of the system."""
-        return compile_program(expressions, arguments, self.meaning, (self.accelerations,), turned)
+        """Steps that compute expressions in any symbol of the system.
+
+        The same ones are written only once for the same equations.
+        """
+        wanted = tuple(expressions)
+        key = (wanted, arguments, tuple(turned.items()), self._meant)
+        return _programs.recall(
+            self.equations,
+            key,
+            lambda: compile_program(wanted, arguments, self.meaning, (self.accelerations,), turned),
+        )
+
+    @cached_property
+    def _meant(self) -> tuple[Any, ...]:
+        """What, besides the equations, says what symbols stand for."""
+        return (tuple(self.prescribed.items()), tuple(self.meanings.items()))
 
     def function(
         self,

@@ -15,10 +15,11 @@ from polhode.base import TIME, NumericError, Progress, SilentProgress, UnitError
 from polhode.derive import Automaton
 from polhode.model import System
 from polhode.simulate._dynamics import EquationsOfMotion
+from polhode.simulate._event import Event, placed
 from polhode.simulate._follow import Motion, Prepared, Task, prepared
 from polhode.simulate._integrators import Array, chosen
 from polhode.simulate._names import Name
-from polhode.simulate._trajectory import Event, Trajectory
+from polhode.simulate._trajectory import Trajectory
 from polhode.simulate._validity import pulling_contacts, refuse_lost_side
 from polhode.simulate._watching import with_events
 
@@ -94,6 +95,7 @@ class Experiment:
     def _trajectory(self, motion: Motion, task: Task) -> Trajectory:
         end = motion.segments[-1].end
         trajectory = Trajectory(
+            system=getattr(self.subject, "system", self.subject),
             segments=motion.segments,
             parameters=motion.parameters,
             duration=end,
@@ -113,11 +115,12 @@ class Experiment:
 
 def _events(motion: Motion) -> tuple[Event, ...]:
     end = motion.segments[-1].end
-    return (
+    events = (
         Event(0.0, "start", None, motion.segments[0].mode),
         *(Event(c.time, c.kind, c.before, c.after) for c in motion.changes),
         Event(end, "end", motion.ending, None),
     )
+    return placed(events, motion.segments)
 
 
 def _with_pulls(trajectory: Trajectory) -> tuple[Event, ...]:
@@ -125,7 +128,8 @@ def _with_pulls(trajectory: Trajectory) -> tuple[Event, ...]:
     mode = trajectory.mode
     pulls = (Event(t, f"{name} pulls", mode, mode) for t, name in pulling_contacts(trajectory))
     start, end = trajectory.events
-    return (start, *sorted(pulls, key=lambda event: event.time), end)
+    between = sorted(pulls, key=lambda event: event.time)
+    return (start, *placed(between, trajectory.segments), end)
 
 
 def _duration(value: Any) -> float:

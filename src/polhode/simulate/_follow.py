@@ -6,7 +6,7 @@ import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, Protocol
 
 import numpy as np
@@ -23,6 +23,7 @@ from polhode.simulate._dynamics import WORK, Dynamics, EquationsOfMotion
 from polhode.simulate._flow import Flow, flow_of
 from polhode.simulate._integrators import Integrator, Stepper
 from polhode.simulate._machine import Machine
+from polhode.simulate._memory import Same
 from polhode.simulate._names import Name, published
 from polhode.simulate._place import Place
 from polhode.simulate._segment import Part, Segment, state_at
@@ -78,13 +79,19 @@ class Prepared(Protocol):
 def prepared(subject: System | Automaton | EquationsOfMotion, task: Task) -> Prepared:
     """All that does not depend on the numbers, done once for every motion of a kind."""
     if isinstance(subject, System):
-        subject = automaton(subject)
+        subject = _modes(Same(subject))
     if isinstance(subject, Automaton):
         if subject.contacts and can_be_followed(subject):
             return _ThroughModes(subject, task)
         with _timed(task, "derive"):
             return _AsDeclared(subject.together.equations, task)
     return _AsDeclared(subject, task)
+
+
+@lru_cache(maxsize=8)
+def _modes(declared: Same[System]) -> Automaton:
+    """The modes of a system, derived once however often it is simulated."""
+    return automaton(declared.thing)
 
 
 # -- one mode -----------------------------------------------------------------------------------

@@ -3,21 +3,26 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from copy import copy
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cache as once
+from functools import lru_cache
+from itertools import count
 from threading import Lock
 from typing import Any
 
 import numpy as np
 
-from polhode.algebra import Arithmetic
+from polhode.algebra import Arithmetic, Kind, Program
 from polhode.base import StoreError, cache
 from polhode.simulate._flow import Flow
 from polhode.simulate._integrators import LOOKS, Array, Leg, Stepper, Watch, broken
 
 _importing = Lock()
+_compiling = Lock()
 
 
 class Taylor:
@@ -32,23 +37,37 @@ class Taylor:
 
     def prepare(self, flow: Flow, tolerance: float | None) -> Stepper:
         """Compile the core; all parameters stay open."""
-        heyoka = library()
-        states = [heyoka.make_vars(f"x{i}") for i in range(len(flow.core.symbols))]
-        later = [0.0] * (len(flow.states) - len(states))
-        constants = [heyoka.par[i] for i in range(len(flow.parameters))]
-        function = flow.core.program.function(
-            Arithmetic.of(heyoka, lambda number: heyoka.expression(float(number)))
-        )
-        rates = function(*states, *later, *constants, heyoka.time)
-        return _TaylorStepper(
-            heyoka.taylor_adaptive(
-                [(x, heyoka.expression(rate)) for x, rate in zip(states, rates, strict=True)],
-                [0.0] * len(states),
-                tol=np.finfo(float).eps if tolerance is None else tolerance,
-                opt_level=0,
-            ),
-            LOOKS if flow.is_driven else 1,
-        )
+        least = np.finfo(float).eps if tolerance is None else tolerance
+        with _compiling:
+            blank = _compiled(flow.core.program, len(flow.core.symbols), float(least))
+            integrator = copy(blank)
+        return _TaylorStepper(integrator, LOOKS if flow.is_driven else 1)
+
+
+@lru_cache(maxsize=64)
+def _compiled(program: Program, size: int, tolerance: float) -> Any:
+    """An integrator that is only ever copied: each holds the motion it is at."""
+    return library().taylor_adaptive(
+        rates_of(program, size, float), [0.0] * size, tol=tolerance, opt_level=0
+    )
+
+
+def rates_of(program: Program, size: int, number: Callable[[Fraction], Any]) -> list[Any]:
+    """Pairs of state and rate, in heyoka's expressions; all parameters stay open.
+
+    Args:
+        program: of the rates of its first arguments.
+        size: how many states there are.
+        number: what a constant is in the numbers that are integrated.
+    """
+    heyoka = library()
+    states = [heyoka.make_vars(f"x{i}") for i in range(size)]
+    constants = (heyoka.par[i] for i in count())
+    others = {Kind.PARAMETER: lambda: next(constants), Kind.TIME: lambda: heyoka.time}
+    given = [others.get(s.kind, lambda: 0.0)() for s in program.arguments[size:]]
+    arithmetic = Arithmetic.of(heyoka, lambda value: heyoka.expression(number(value)))
+    rates = program.function(arithmetic)(*states, *given)
+    return [(x, heyoka.expression(rate)) for x, rate in zip(states, rates, strict=True)]
 
 
 @dataclass(frozen=True)

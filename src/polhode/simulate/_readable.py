@@ -4,8 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from polhode.algebra import Expr
+from polhode.algebra import Expr, Kind
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
+
+_MOVING = (Kind.COORDINATE, Kind.SPEED)
+
+
+def moving(dynamics: Dynamics) -> dict[str, Expr]:
+    """Coordinates, speeds and rates, by published name; also those of other modes that follow."""
+    equations = dynamics.equations
+    own = (*equations.coordinates, *equations.speeds, *equations.kinematics, *equations.dependent)
+    lifted = {s.published: value for s, value in dynamics.lifted.items() if s.kind in _MOVING}
+    return {symbol.published: Expr.generator(symbol) for symbol in own} | lifted
 
 
 def readable(dynamics: Dynamics, invariants: Mapping[str, Expr]) -> dict[str, Expr]:
@@ -15,8 +25,10 @@ def readable(dynamics: Dynamics, invariants: Mapping[str, Expr]) -> dict[str, Ex
     moving = (*equations.coordinates, *rates, *(rate.derivative() for rate in rates))
     carried = (symbol for symbol in dynamics.carried if symbol != WORK)
     symbols = (CLOCK, *moving, *carried, *dynamics.parameters, *equations.functions)
+    powers = getattr(equations, "powers", {})
     return {
         **{symbol.published: Expr.generator(symbol) for symbol in symbols},
+        **{f"power_{name}": power for name, power in powers.items()},
         **equations.components,
         "energy": equations.energy,
         "power": equations.power,

@@ -17,13 +17,14 @@ from polhode.simulate._archive import Archive, Sampled, Stretch, series_of
 from polhode.simulate._drive import Drive
 from polhode.simulate._driver import Solution, Stop
 from polhode.simulate._dynamics import Dynamics
+from polhode.simulate._event import Event, placed
 from polhode.simulate._follow import AS_DECLARED
 from polhode.simulate._integrators import chosen
 from polhode.simulate._machine import Machine
 from polhode.simulate._sampling import samples_of
 from polhode.simulate._segment import Part, Segment
 from polhode.simulate._store import read_archive, write_archive
-from polhode.simulate._trajectory import Event, Trajectory
+from polhode.simulate._trajectory import Trajectory
 
 
 @dataclass(frozen=True)
@@ -43,14 +44,14 @@ def _table(rows: tuple[tuple[Any, Any], ...]) -> _Table:
 _CODEC = Codec((*SHAPES, Shape("table", (_Table,), lambda table: {"rows": table.rows}, _table)))
 
 
-def save(run: Trajectory, system: System, path: str | Path) -> None:
-    """Keep a motion of a declared system in a file, with all that it was made of.
+def save(run: Trajectory, path: str | Path) -> None:
+    """Keep a motion in a file, with all that it was made of.
 
     Raises:
         StoreError: where the file cannot be written, h5py is not installed, or the system has
             parts of classes that are not polhode's own.
     """
-    write_archive(path, archive_of(run, system, samples_of(run)))
+    write_archive(path, archive_of(run, samples_of(run)))
 
 
 def load(path: str | Path) -> Trajectory:
@@ -67,8 +68,8 @@ def load(path: str | Path) -> Trajectory:
 # -- from a trajectory -----------------------------------------------------------------------------
 
 
-def archive_of(run: Trajectory, system: System, samples: Mapping[str, Sampled]) -> Archive:
-    """What is kept of a motion of a declared system.
+def archive_of(run: Trajectory, samples: Mapping[str, Sampled]) -> Archive:
+    """What is kept of a motion.
 
     Raises:
         StoreError: for a system with parts of classes that are not polhode's own.
@@ -81,7 +82,7 @@ def archive_of(run: Trajectory, system: System, samples: Mapping[str, Sampled]) 
     ]
     turned = {_label(s): _label(t) for *_, p in parts for s, t in p.solution.turned.items()}
     return Archive(
-        declaration=write_declaration(system),
+        declaration=write_declaration(run.system),
         parameters=run.parameters,
         stretches=tuple(_stretch(i, segment, part) for i, segment, part in parts),
         events=tuple(event.as_json() for event in run.events),
@@ -135,13 +136,16 @@ def trajectory_of(archive: Archive) -> Trajectory:
     details = archive.details
     try:
         invariants = dict(_CODEC.read(details["invariants"], _Table).rows)
+        segments = tuple(_segments(archive, system))
+        events = (Event(e["time"], e["kind"], e["from"], e["to"]) for e in archive.events)
         return Trajectory(
-            segments=tuple(_segments(archive, system)),
+            system=system,
+            segments=segments,
             parameters=archive.parameters,
             duration=float(details["duration"]),
             t=archive.times,
             mode=details["mode"],
-            events=tuple(Event(e["time"], e["kind"], e["from"], e["to"]) for e in archive.events),
+            events=placed(events, segments),
             assumed=details["assumed"],
             seconds=details["seconds"],
             integrator=details["integrator"],

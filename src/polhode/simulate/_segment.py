@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -11,6 +12,10 @@ from polhode.algebra import Expr, Symbol
 from polhode.simulate._driver import Solution
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate._integrators import Array
+from polhode.simulate._readable import moving
+
+_RECENT = 4  # sets of times whose states are remembered
+_FEW = 10_000  # times in one of them, at most
 
 
 @dataclass(frozen=True)
@@ -21,6 +26,21 @@ class Part:
     end: float
     solution: Solution = field(repr=False)
     constants: Array = field(repr=False)
+
+    def states(self, times: Array) -> Array:
+        """States, shape (states, times); kept, as many things are read at the same times."""
+        if len(times) > _FEW:
+            return self.solution.at(times)
+        key = times.tobytes()
+        if key not in self._recent:
+            if len(self._recent) >= _RECENT:
+                self._recent.pop(next(iter(self._recent)))
+            self._recent[key] = self.solution.at(times)
+        return self._recent[key]
+
+    @cached_property
+    def _recent(self) -> dict[bytes, Array]:
+        return {}
 
 
 @dataclass(frozen=True)
@@ -47,6 +67,12 @@ class Segment:
         inside = [p.solution.steps[p.solution.steps < p.end] for p in self.parts]
         return np.unique(np.concatenate([*inside, [self.begin, self.end]]))
 
+    def state(self, time: float) -> dict[str, float]:
+        """Coordinates, speeds and rates at an instant within it, ends included, by name."""
+        named = moving(self.dynamics)
+        values = self.values(named.values(), np.array([time]))[:, 0]
+        return dict(zip(named, values.tolist(), strict=True))
+
     def values(self, expressions: Iterable[Expr], times: Array) -> Array:
         """Values of expressions in any symbol of the mode, shape (expressions, times)."""
         wanted = list(expressions)
@@ -65,7 +91,7 @@ def values_of(dynamics: Dynamics, part: Part, expressions: Sequence[Expr], times
     arguments = (*solution.symbols, *dynamics.parameters, CLOCK)
     function = dynamics.function(expressions, arguments, solution.turned)
     with np.errstate(all="ignore"):
-        values = function(*solution.at(times), *part.constants, times)
+        values = function(*part.states(times), *part.constants, times)
     return np.array([np.broadcast_to(value, times.shape) for value in values])
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,31 +15,14 @@ from polhode.base import NumericError, look_up
 from polhode.simulate._csv import write_csv
 from polhode.simulate._drift import Drift, drift_of
 from polhode.simulate._dynamics import Dynamics, EquationsOfMotion
+from polhode.simulate._event import Event
 from polhode.simulate._integrators import Array
 from polhode.simulate._readable import readable
 from polhode.simulate._segment import Segment
 
-
-@dataclass(frozen=True)
-class Event:
-    """A change of contact mode, or the start or end of the motion (then one mode is None).
-
-    Attributes:
-        time: s.
-        kind: what happened: start, slips, sticks, lifts off, touches down, bounces, goes flat, end,
-            or the name of an event that was asked for.
-        before: name of the mode up to then.
-        after: name of the mode from then on.
-    """
-
-    time: float
-    kind: str
-    before: str | None
-    after: str | None
-
-    def as_json(self) -> dict[str, Any]:
-        """As the command line prints it."""
-        return {"time": self.time, "kind": self.kind, "from": self.before, "to": self.after}
+if TYPE_CHECKING:
+    import pandas
+    import xarray
 
 
 @dataclass(frozen=True)
@@ -52,6 +35,7 @@ class Trajectory:
     At an instant at which the mode changes, the values are those just after it.
 
     Attributes:
+        system: the declaration that moves.
         segments: one per contact mode that was visited, in order.
         parameters: value of every parameter by name.
         duration: s; less than was asked for where the motion could not go on.
@@ -64,6 +48,7 @@ class Trajectory:
         invariants: expressions that the motion should keep constant, watched by `drift`.
     """
 
+    system: Any
     segments: tuple[Segment, ...]
     parameters: Mapping[str, float]
     duration: float
@@ -162,14 +147,60 @@ class Trajectory:
             StoreError: where the file cannot be written.
         """
         chosen = list(names) if names is not None else [*self._states, *self.reactions, "energy"]
-        origin = {
-            "system": self.equations.system.name,
+        write_csv(Path(path), {"t": self.t, **self.table(chosen)}, self._origin)
+
+    def to_xarray(self, names: Iterable[str] | None = None) -> xarray.Dataset:
+        """The samples over the coordinate `t` (s), each with its unit as an attribute.
+
+        Args:
+            names: what to take; by default coordinates, speeds, rates, reactions, energy, power,
+                work and the invariants watched.
+
+        Raises:
+            StoreError: where xarray is not installed.
+        """
+        from polhode.simulate import _sampling, _tables
+
+        return _tables.to_xarray(self.t, _sampling.samples_of(self, names), self._origin)
+
+    def to_pandas(self, names: Iterable[str] | None = None) -> pandas.DataFrame:
+        """The samples as a table with the times `t` (s) as its index.
+
+        Its `attrs` say what it was made with, and under "units" the unit of every column.
+
+        Args:
+            names: as for `to_xarray`.
+
+        Raises:
+            StoreError: where pandas is not installed.
+        """
+        from polhode.simulate import _sampling, _tables
+
+        return _tables.to_pandas(self.t, _sampling.samples_of(self, names), self._origin)
+
+    def save(self, path: str | Path) -> None:
+        """Keep the whole motion in a file that `polhode.load` reads: HDF5, NetCDF-4 to others.
+
+        With it go the declaration, the parameters and the samples.
+
+        Raises:
+            StoreError: where the file cannot be written, h5py is not installed, or the system has
+                parts of classes that are not polhode's own.
+        """
+        from polhode.simulate._saved import save
+
+        save(self, path)
+
+    @property
+    def _origin(self) -> dict[str, Any]:
+        """What the samples were made with."""
+        return {
+            "system": self.system.name,
             "mode": self.mode,
             "parameters": dict(self.parameters),
             "assumed": dict(self.assumed),
             "integrator": self.integrator,
         }
-        write_csv(Path(path), {"t": self.t, **self.table(chosen)}, origin)
 
     @cached_property
     def _states(self) -> tuple[str, ...]:

@@ -7,15 +7,16 @@ from dataclasses import replace
 
 from polhode.algebra import Expr
 from polhode.simulate._crossing import roots
+from polhode.simulate._event import Event
 from polhode.simulate._integrators import Array
 from polhode.simulate._segment import Segment
-from polhode.simulate._trajectory import Event, Trajectory
+from polhode.simulate._trajectory import Trajectory
 
 
 def with_events(trajectory: Trajectory, wanted: Mapping[str, Expr]) -> Trajectory:
     """The same motion with an event wherever one of some expressions passes through zero."""
     found = [
-        Event(time, name, segment.mode, segment.mode)
+        Event(time, name, segment.mode, segment.mode, segment, segment)
         for name, expression in wanted.items()
         for segment in trajectory.segments
         for time in _passages(segment, expression)
