@@ -154,6 +154,11 @@ class Automaton:
             self._known[chosen] = self._derived(chosen)
         return self._known[chosen]
 
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Of all contact modes that there could be."""
+        return tuple(self._name(chosen) for chosen in product(*self.options))
+
     def named(self, name: str) -> Phases:
         """The phases of the mode with a name.
 

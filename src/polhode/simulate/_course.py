@@ -175,7 +175,18 @@ class Walk:
         scale = self._speed_scale(entry)
         if not guarded:
             return Watched()
-        return Watched(_LOOK, places, _VANISHED * scale, _LANDED * scale)
+        over = self._is_flat(mode)
+        return Watched(_LOOK, places, _VANISHED * scale, _LANDED * scale, over)
+
+    def _is_flat(self, mode: ModeMachine) -> Callable[[float, Array], bool]:
+        """Whether a state of the core is beyond the side on which the equations hold.
+
+        What follows there may take any number of steps, and does not count.
+        """
+        if not any(guard.kind == "near-flat" for guard in mode.mode.guards):
+            return lambda time, state: False
+        values, constants, least = mode.sides, mode.parameters.tolist(), self._near_flat
+        return lambda time, state: min(values(*state.tolist(), *constants, time)) < least
 
     def _speed_scale(self, entry: Entry) -> float:
         meetings = self._meetings(entry)

@@ -42,12 +42,14 @@ class Watched:
         vectors: places in the core of vectors that stop the integration where they vanish.
         least: length, m/s, at which such a vector has vanished.
         passing: the same at an instant at which it turns round, or where steps become too short.
+        over: whether the motion is certainly over at a state, so that there is reason for a look.
     """
 
     pause: int = _MOST_STEPS
     vectors: tuple[tuple[int, ...], ...] = ()
     least: float = 0.0
     passing: float = 0.0
+    over: Callable[[float, Array], bool] = lambda time, state: False
 
 
 @dataclass(frozen=True)
@@ -217,7 +219,7 @@ class _Watch:
             self.stop = Stop.VANISHED
         elif time - self._time < self._least and time < self._end:
             self.stop = Stop.VANISHED if self._is_small(state) else Stop.STUCK
-        elif self._steps % self._watched.pause == 0:
+        elif self._steps % self._watched.pause == 0 or self._watched.over(time, state):
             self.stop = Stop.PAUSE
         self._time = time
         return self.stop is None and bool(np.all(np.abs(state) < self._limits))

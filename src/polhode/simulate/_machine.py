@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from polhode.algebra import ZERO, Expr, Kind, Symbol, compile_program, linear_parts, sqrt
+from polhode.algebra import ZERO, Compiled, Expr, Kind, Symbol, compile_program, linear_parts, sqrt
 from polhode.base import NumericError
 from polhode.derive import Automaton, Mode
 from polhode.model import Contact, Coulomb, Phase, Sliding
@@ -105,6 +105,13 @@ class ModeMachine:
     def stepper(self) -> Stepper:
         """The compiled flow."""
         return self._machine.integrator.prepare(self.flow, self._machine.tolerance)
+
+    @cached_property
+    def sides(self) -> Compiled:
+        """What stays positive where the equations hold: of the core, the parameters, the time."""
+        sides = [guard.positive for guard in self.mode.guards if guard.kind == "near-flat"]
+        given = (*self.flow.core.symbols, *self.dynamics.parameters, CLOCK)
+        return self.dynamics.program(sides, given).function()
 
     def function(self, expressions: Iterable[Expr], extra: Sequence[Symbol] = ()) -> Function:
         """Expressions as a function of the state, the time and values of extra symbols."""
