@@ -20,6 +20,7 @@ COMMANDS = {
     "invariants": "first integrals of a system",
     "exact": "the closed form of a motion, beside its simulation",
     "check": "judge a published equation against a system",
+    "lab": "play with a system in the browser",
     "tour": "work through the whole catalogue and write a page of it",
     "cache": "the cache of compiled systems",
 }

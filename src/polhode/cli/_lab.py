@@ -1,0 +1,41 @@
+"""Play with a system in the browser: sliders, steady motions, claims; served locally."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+
+from polhode.base import ParseError
+from polhode.catalogue import CATALOGUE
+from polhode.cli._parser import Parser
+from polhode.cli._systems import entry_of
+from polhode.lab import Own, serve
+
+
+def configure(parser: Parser) -> None:
+    """Add the options of the command."""
+    parser.add_argument(
+        "name",
+        metavar="FILE.py:NAME",
+        nargs="?",
+        default="",
+        help="a System of your own, offered beside the catalogue",
+    )
+    parser.add_argument("--port", metavar="P", default="", help="to listen at, on this machine")
+    parser.add_argument("--no-browser", action="store_true", help="do not open a browser")
+
+
+def run(options: Namespace) -> int:
+    """Serve the lab until it is interrupted."""
+    own = None
+    if options.name and options.name not in CATALOGUE:
+        own = Own.of(entry_of(options.name))
+    serve(own, port=_port(options.port), browser=not options.no_browser)
+    return 0
+
+
+def _port(text: str) -> int | None:
+    if not text:
+        return None
+    if not (text.isascii() and text.isdigit() and 0 <= int(text[:6]) < 65536):
+        raise ParseError(f"--port {text}", expected="a number from 0 to 65535, 0 for any free one")
+    return int(text)

@@ -1,0 +1,151 @@
+"""The lab as a web application."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from html import escape
+from typing import Any
+
+from starlette.applications import Starlette
+from starlette.exceptions import HTTPException
+from starlette.middleware import Middleware
+from starlette.requests import Request
+from starlette.responses import JSONResponse, Response
+from starlette.routing import Route
+
+from polhode.base import PolhodeError
+from polhode.lab._crew import BrokenError, Crew, GoneError, TooLongError
+from polhode.lab._files import KINDS, PAGE, built
+from polhode.lab._guard import Guard, Limits
+from polhode.lab._offer import Own, offered
+from polhode.lab._wish import Fields
+from polhode.lab._work import DONE
+
+_PURPOSES = {  # of the worker that a task is for
+    "describe": "motion",
+    "run": "motion",
+    "standing": "study",
+    "claims": "claims",
+    "judge": "claims",
+    "check": "claims",
+    "export": "files",
+}
+_PAGE = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>polhode lab</title>
+<link rel="icon" href="data:,">
+<link rel="stylesheet" href="/lab.css">
+<script src="/lab.js" defer></script>
+</head>
+<body data-systems="{systems}" data-movies="{movies}">
+<noscript><p>The lab needs its script to be allowed to run.</p></noscript>
+</body>
+</html>
+"""
+
+
+def app_of(port: int, own: Own | None = None, limits: Limits | None = None) -> Starlette:
+    """The application, for a server at a port of this machine.
+
+    Args:
+        port: that requests come to; others are refused.
+        own: a system of the user's own, offered first.
+        limits: of one request.
+    """
+    bounds = limits or Limits()
+    crew = Crew(own)
+
+    @asynccontextmanager
+    async def lifespan(app: Starlette) -> AsyncIterator[None]:
+        crew.begin()
+        yield
+        await crew.end()
+
+    async def page(request: Request) -> Response:
+        systems = escape(json.dumps(offered(own)), quote=True)
+        return Response(_PAGE.format(systems=systems, movies=""), media_type="text/html")
+
+    async def file(request: Request) -> Response:
+        name = request.url.path[1:]
+        return Response(built(name), media_type=PAGE[name])
+
+    async def task(request: Request) -> Response:
+        name = request.path_params["task"]
+        if name not in _PURPOSES:
+            raise HTTPException(404)
+        return await _answer(request, name, crew, bounds)
+
+    return Starlette(
+        routes=[
+            Route("/", page),
+            *(Route(f"/{name}", file) for name in PAGE),
+            Route("/api/{task}", task, methods=["POST"]),
+        ],
+        middleware=[Middleware(Guard, port=port, limits=bounds)],
+        exception_handlers={HTTPException: _refused, Exception: _failed},
+        lifespan=lifespan,
+    )
+
+
+async def _answer(request: Request, task: str, crew: Crew, limits: Limits) -> Response:
+    body = await request.body()
+    try:
+        system = Fields.read(body).text("system")
+    except PolhodeError as error:
+        return _problem(400, error.given, error.expected, error.advice)
+    purpose = _PURPOSES[task]
+    seconds = limits.motion if task == "run" else limits.thought
+    gone = asyncio.Event()
+    watch = asyncio.create_task(_watch(request, gone))
+    try:
+        worker = await crew.worker(f"{purpose} {system}")
+        reply = await worker.ask(f"{task}\n".encode() + body, seconds, gone)
+    except GoneError:
+        return _problem(499, "a request that was called off")
+    except TooLongError:
+        advice = "a shorter duration, or other numbers"
+        return _problem(503, f"this takes longer than {seconds:g} s", advice=advice)
+    except BrokenError:
+        return _problem(500, "the process that worked on this ended; a new one was started")
+    finally:
+        watch.cancel()
+    return _whole(task, body, reply)
+
+
+async def _watch(request: Request, gone: asyncio.Event) -> None:
+    """Tell when the one who asked leaves."""
+    while not gone.is_set():
+        message = await request.receive()
+        if message["type"] == "http.disconnect":
+            gone.set()
+
+
+def _whole(task: str, body: bytes, reply: bytes) -> Response:
+    kind, content = reply[:1], reply[1:]
+    if kind != DONE:
+        return Response(content, status_code=422, media_type="application/json")
+    if task != "export":
+        return Response(content, media_type="application/json")
+    file = KINDS[Fields.read(body).text("kind")]
+    headers = {"content-disposition": f'attachment; filename="polhode.{file.ending}"'}
+    return Response(content, headers=headers, media_type=file.media)
+
+
+def _problem(status: int, given: str, expected: str = "", advice: str = "") -> JSONResponse:
+    told = {"given": given, "expected": expected, "advice": advice}
+    return JSONResponse(told, status_code=status)
+
+
+async def _refused(request: Request, error: Any) -> Response:
+    return _problem(error.status_code, f"nothing at {request.url.path[:80]!r}")
+
+
+async def _failed(request: Request, error: Exception) -> Response:
+    return _problem(500, "something unforeseen in the lab", advice="please report it")

@@ -1,0 +1,116 @@
+"""The tasks of a worker, done with what it keeps of the systems it was asked about."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from functools import cached_property
+from typing import Any
+
+from polhode.base import Progress
+from polhode.lab._claims import answered, claims_about, judged
+from polhode.lab._controls import with_usual_numbers
+from polhode.lab._describe import described, outcome, shown
+from polhode.lab._desk import Desk
+from polhode.lab._exports import exported
+from polhode.lab._files import KINDS
+from polhode.lab._formulas import invariants_of
+from polhode.lab._offer import Own, entry_of
+from polhode.lab._standing import Family, families_of
+from polhode.lab._variants import variant
+from polhode.lab._wish import CONTACTS, Fields, question_of, wish_of
+
+_WISH = ("system", "contact", "settings", "start", "duration", "sheet")
+
+
+class Bench:
+    """Everything a worker knows how to do.
+
+    Args:
+        own: a system of the user's own.
+        progress: told of every step of a simulation.
+    """
+
+    def __init__(self, own: Own | None, progress: Progress) -> None:
+        self._own = own
+        self._progress = progress
+        self._desks: dict[str, Desk] = {}
+        self._families: dict[tuple[str, str], list[Family]] = {}
+        self._invariants: dict[tuple[str, str], list[dict[str, Any]]] = {}
+
+    def do(self, task: str, body: bytes) -> bytes:
+        """The reply to a request: a JSON document, or a file.
+
+        Raises:
+            PolhodeError: for a request that cannot be met.
+        """
+        return self._tasks[task](Fields.read(body))
+
+    @cached_property
+    def _tasks(self) -> Mapping[str, Callable[[Fields], bytes]]:
+        return {
+            "describe": self._describe,
+            "run": self._run,
+            "standing": self._standing,
+            "claims": self._claims,
+            "judge": self._judge,
+            "check": self._check,
+            "export": self._export,
+        }
+
+    def _desk(self, name: str) -> Desk:
+        if name not in self._desks:
+            entry = entry_of(name, self._own)
+            bare = variant(entry, "")
+            self._desks[name] = Desk(with_usual_numbers(entry, bare.equations))
+        return self._desks[name]
+
+    def _describe(self, fields: Fields) -> bytes:
+        fields.only("system", "contact")
+        desk = self._desk(fields.text("system"))
+        chosen = desk.variant(fields.one_of("contact", CONTACTS))
+        return _json(described(chosen, desk.variant("")))
+
+    def _run(self, fields: Fields) -> bytes:
+        wish = wish_of(fields.only(*_WISH))
+        played = self._desk(wish.system).play(wish, self._progress)
+        scene = shown(played.variant, played.run)
+        return _json({"scene": scene.as_json(), "outcome": outcome(played.run)})
+
+    def _standing(self, fields: Fields) -> bytes:
+        wish = wish_of(fields.only(*_WISH))
+        desk = self._desk(wish.system)
+        equations = desk.variant(wish.contact).equations
+        key = (wish.system, wish.contact)
+        if key not in self._families:
+            self._families[key] = families_of(equations)
+            self._invariants[key] = invariants_of(equations)
+        numbers = desk.numbers(wish)
+        state = {**numbers.parameters, **numbers.start}
+        return _json(
+            {
+                "families": [family.standing(state) for family in self._families[key]],
+                "invariants": self._invariants[key],
+            }
+        )
+
+    def _claims(self, fields: Fields) -> bytes:
+        return _json({"claims": claims_about(fields.only("system").text("system"))})
+
+    def _judge(self, fields: Fields) -> bytes:
+        return _json(judged(fields.only("system", "id").text("id")))
+
+    def _check(self, fields: Fields) -> bytes:
+        question = question_of(fields)
+        equations = self._desk(question.system).variant(question.contact).equations
+        return _json(answered(question, equations))
+
+    def _export(self, fields: Fields) -> bytes:
+        fields.only(*_WISH, "kind")
+        kind = fields.one_of("kind", tuple(KINDS))
+        wish = wish_of(fields)
+        return exported(kind, self._desk(wish.system).play(wish, self._progress))
+
+
+def _json(document: Mapping[str, Any]) -> bytes:
+    return json.dumps(document, ensure_ascii=False, allow_nan=False).encode("utf-8")

@@ -1,0 +1,87 @@
+"""The claims of the problem set about a system, and equations that are typed in, judged."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+from polhode.algebra import mathml
+from polhode.catalogue import CATALOGUE, problem_set
+from polhode.claims import Claim, Document, Verdict, audit, check, read_document
+from polhode.derive import Equations, derive
+from polhode.lab._wish import Question
+
+_LONGEST = 1500  # letters of LaTeX that is typeset, or of a residual that is shown
+
+
+@cache
+def _document() -> Document:
+    return read_document(problem_set())
+
+
+@cache
+def _equations(system: str) -> Equations:
+    return derive(CATALOGUE[system].build())
+
+
+def claims_about(system: str) -> list[dict[str, Any]]:
+    """What the problem set states about a system, in its order, without verdicts."""
+    document = _document()
+    return [_stated(c) for c in document.claims if document.part_of(c).system == system]
+
+
+def judged(id: str) -> dict[str, Any]:
+    """The verdict on a claim of the problem set.
+
+    Raises:
+        ParseError: for an id that it does not have.
+    """
+    found = audit(_document(), _equations, only=[id]).judged[0]
+    return {"id": id, **_told(found.verdict)}
+
+
+def answered(question: Question, equations: Equations) -> dict[str, Any]:
+    """The verdict on an equation that was typed in.
+
+    Raises:
+        ParseError: for a context that is not known.
+    """
+    verdict = check(question.latex, equations, context=question.context)
+    return {"formula": _set(question.latex), **_told(verdict)}
+
+
+def _stated(claim: Claim) -> dict[str, Any]:
+    return {
+        "id": claim.id,
+        "formula": _set(claim.read_as or claim.latex),
+        "printed": claim.printed,
+        "words": claim.words,
+        "context": claim.context,
+    }
+
+
+def _told(verdict: Verdict) -> dict[str, Any]:
+    correction, example = verdict.correction, verdict.counterexample
+    return {
+        "verdict": verdict.answer.value,
+        "reason": verdict.reason,
+        "correction": correction and {"what": correction.what, "formula": _set(correction.latex)},
+        "residuals": [str(residual)[:_LONGEST] for residual in verdict.residuals],
+        "counterexample": example
+        and {
+            "values": dict(example.values),
+            "left": str(example.left)[:_LONGEST],
+            "right": str(example.right)[:_LONGEST],
+        },
+        "remarks": list(verdict.remarks),
+    }
+
+
+def _set(latex: str) -> str:
+    """Typeset as MathML; empty where it cannot be."""
+    if not latex or len(latex) > _LONGEST:
+        return ""
+    try:
+        return mathml(latex)
+    except Exception:  # whatever the converter meets in LaTeX of any kind
+        return ""

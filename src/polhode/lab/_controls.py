@@ -1,0 +1,189 @@
+"""The sliders of a system: what each is of, its unit, and how far it goes."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+
+from polhode.algebra import Expr, Kind, Symbol
+from polhode.base import LENGTH, MASS, PURE, TIME, Dimension, read_quantity
+from polhode.catalogue import Entry, Parameter, numbers_of
+from polhode.derive import Equations
+
+_PLAIN = re.compile(r"\s*([+\-−]?[0-9]*\.?[0-9]+(?:[eE][+-]?[0-9]+)?)\s*([^\d\s*/(+\-][^*(+]*)?")
+_DECADE = 10.0
+_SIGNED = (PURE, PURE / TIME)  # of what may well be negative, where nothing is assumed
+_ANGLES = {"deg": (180.0, 10.0), "rad": (3.0, 0.2)}  # how far they go, and what is a small one
+_USUAL: Mapping[Dimension, float] = {  # where nothing tells how large something is
+    PURE: 1.0,
+    LENGTH: 0.2,
+    MASS: 1.0,
+    LENGTH / TIME: 0.5,
+    PURE / TIME: 10.0,
+    LENGTH / TIME**2: 9.81,
+    MASS * LENGTH**2: 1e-3,
+}
+_UNITS: Mapping[Dimension, str] = {
+    PURE: "",
+    LENGTH: "m",
+    MASS: "kg",
+    LENGTH / TIME: "m/s",
+    PURE / TIME: "rad/s",
+    LENGTH / TIME**2: "m/s^2",
+    MASS * LENGTH**2: "kg m^2",
+}
+
+
+@dataclass(frozen=True)
+class Control:
+    """A slider with its field.
+
+    Attributes:
+        name: published name.
+        symbol: MathML.
+        meaning: in words.
+        text: the usual value, as one would type it.
+        value: the same in `unit`.
+        unit: in which the slider counts.
+        size: of that unit, in SI units.
+        low: left end of the slider.
+        high: right end.
+        ratio: whether equal steps are equal ratios.
+        extra: whether it is seldom wanted.
+    """
+
+    name: str
+    symbol: str
+    meaning: str
+    text: str
+    value: float
+    unit: str
+    size: float
+    low: float
+    high: float
+    ratio: bool
+    extra: bool
+
+
+def with_usual_numbers(entry: Entry, equations: Equations) -> Entry:
+    """An entry without numbers, as of a user's own system, with some of the right dimension."""
+    known = {parameter.name for parameter in entry.parameters}
+    added = tuple(
+        Parameter(s.published, _UNITS.get(d, ""), _guess(s.published, d), "")
+        for s, d in _with_dimensions(equations, equations.parameters)
+        if s.published not in known
+    )
+    start = dict(entry.start) or {
+        s.published: "1 rad" for s in equations.coordinates if equations.dimensions.get(s) == PURE
+    }
+    forcing = {s.published: "0" for s in equations.functions} | dict(entry.forcing)
+    return replace(
+        entry,
+        parameters=(*entry.parameters, *added),
+        start=start,
+        forcing=forcing,
+        duration=entry.duration or "10 s",
+    )
+
+
+def parameters_of(entry: Entry, equations: Equations) -> list[Control]:
+    """Sliders of the parameters, in the order of the entry."""
+    values = numbers_of(entry, equations).parameters
+    signed = {s for s, d in _with_dimensions(equations, equations.parameters) if d in _SIGNED}
+    positive = {p.name for p in entry.parameters} - {s.published for s in signed if not s.positive}
+    return [
+        _parameter(p, value, positive=p.name in positive)
+        for p in entry.parameters
+        if (value := values.get(p.name, _alone(p.default))) is not None
+    ]
+
+
+def start_of(entry: Entry, equations: Equations) -> list[Control]:
+    """Sliders of coordinates and speeds at the start, those of the usual start first."""
+    values = numbers_of(entry, equations).start
+    found: list[Control] = []
+    for symbol, dimension in _states(equations):
+        name = symbol.published
+        text = entry.start.get(name, "0")
+        unit = _UNITS.get(dimension, str(dimension))
+        if dimension == PURE and "deg" not in text:
+            unit = "rad" if name in entry.start else "deg"
+        made = _control(symbol, text, unit, "", values.get(name, 0.0), positive=False)
+        found.append(replace(_widened(made, dimension, found), extra=_is_extra(symbol, entry)))
+    return sorted(found, key=lambda control: control.name not in entry.start)
+
+
+def _is_extra(symbol: Symbol, entry: Entry) -> bool:
+    return (
+        symbol.published not in entry.start and symbol.kind is Kind.COORDINATE and not symbol.order
+    )
+
+
+def _states(equations: Equations) -> Iterator[tuple[Symbol, Dimension]]:
+    yield from _with_dimensions(equations, (*equations.coordinates, *equations.speeds))
+
+
+def _with_dimensions(
+    equations: Equations, symbols: tuple[Symbol, ...]
+) -> Iterator[tuple[Symbol, Dimension]]:
+    for symbol in symbols:
+        base = equations.dimensions.get(symbol.base(), PURE)
+        yield symbol, base / TIME**symbol.order
+
+
+def _guess(name: str, dimension: Dimension) -> str:
+    size = _USUAL.get(dimension, 1.0)
+    return f"{size:g} {_UNITS.get(dimension, '')}".strip()
+
+
+def _alone(text: str) -> float | None:
+    """The value of a parameter that no equation holds, if it is a number."""
+    return read_quantity(text).value if _PLAIN.fullmatch(text) else None
+
+
+def _parameter(given: Parameter, value: float, *, positive: bool) -> Control:
+    symbol = Symbol(given.name.rstrip("_"))
+    made = _control(symbol, given.default, given.unit, given.meaning, value, positive=positive)
+    return replace(made, name=given.name)
+
+
+def _control(
+    symbol: Symbol, text: str, unit: str, meaning: str, value: float, *, positive: bool
+) -> Control:
+    """A slider in the unit that the text is in."""
+    plain = _PLAIN.fullmatch(text)
+    shown = (plain[2] or unit).strip() if plain else unit
+    size = read_quantity(f"1 {shown}").value if shown else 1.0
+    scaled = _tidy(value / size)
+    low, high, ratio = _range(scaled, shown, positive=positive)
+    letter = Expr.generator(symbol).mathml()
+    return Control(
+        symbol.published, letter, meaning, text, scaled, shown, size, low, high, ratio, extra=False
+    )
+
+
+def _tidy(value: float) -> float:
+    """Without what a change of unit leaves of rounding."""
+    return float(f"{value:.12g}")
+
+
+def _range(value: float, unit: str, *, positive: bool) -> tuple[float, float, bool]:
+    if unit in _ANGLES:
+        wide, slight = _ANGLES[unit]
+        if 0 < abs(value) <= slight:
+            return -3 * slight, 3 * slight, False
+        return (0.0 if value > 0 else -wide), wide, False
+    if positive and value > 0:
+        return value / _DECADE, value * _DECADE, True
+    size = 2 * abs(value)
+    return -size, size, False
+
+
+def _widened(control: Control, dimension: Dimension, others: list[Control]) -> Control:
+    """A slider of what is zero goes as far as its kin."""
+    if control.high > 0:
+        return control
+    kin = [other.high for other in others if other.unit == control.unit]
+    size = max(kin, default=0.0) or 2 * _USUAL.get(dimension, 1.0)
+    return replace(control, low=-size, high=size)

@@ -1,0 +1,79 @@
+"""What the page has to know of a system before anything is simulated."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict
+from typing import Any
+
+from polhode.algebra import Expr, Symbol
+from polhode.lab._controls import parameters_of, start_of
+from polhode.lab._variants import Variant, declared_contact
+from polhode.simulate import Trajectory
+from polhode.view import Scene, scene
+
+_CONTACTS = ("rolling", "smooth", "friction")
+
+
+def described(chosen: Variant, declared: Variant) -> dict[str, Any]:
+    """Sliders, contacts and prescribed functions of a system, as plain data.
+
+    Args:
+        chosen: the system with the contacts that were asked for.
+        declared: as it is declared.
+    """
+    entry, equations = chosen.entry, chosen.equations
+    contact = declared_contact(declared.system)
+    functions = [symbol.published for symbol in equations.functions]
+    return {
+        "name": entry.name,
+        "title": entry.title,
+        "about": entry.about,
+        "contact": declared_contact(chosen.system),
+        "declared": contact,
+        "contacts": list(_CONTACTS) if contact else [],
+        "duration": entry.duration,
+        "parameters": [asdict(c) for c in parameters_of(entry, equations)],
+        "start": [asdict(c) for c in start_of(entry, equations)],
+        "forcing": [
+            {"name": n, "symbol": _letter(n), "text": entry.forcing.get(n, "0")} for n in functions
+        ],
+        "sheet": {"X", "Y"} <= set(functions),
+    }
+
+
+def shown(chosen: Variant, run: Trajectory) -> Scene:
+    """The scene of a motion, with the plots of the catalogue that it has."""
+    entry = chosen.entry
+    return scene(
+        run,
+        title=entry.title,
+        about=entry.about,
+        plots=plots_of(chosen, run),
+        meanings={parameter.name: parameter.meaning for parameter in entry.parameters},
+    )
+
+
+def plots_of(chosen: Variant, run: Trajectory) -> Sequence[Sequence[str]]:
+    """Groups of quantities worth plotting."""
+    undetermined = chosen.equations.undetermined
+    readable = [name for name in run.quantities if name not in undetermined]
+    groups = [[n for n in group if n in readable] for group in chosen.entry.plots]
+    coordinates = [symbol.published for symbol in run.equations.coordinates]
+    speeds = [symbol.published for symbol in run.equations.speeds]
+    usual = groups or [coordinates, speeds, list(run.reactions)]
+    return [group for group in usual if group]
+
+
+def outcome(run: Trajectory) -> list[dict[str, Any]]:
+    """Every speed at the start and at the end."""
+    names = [symbol.published for symbol in run.equations.speeds]
+    begin, end = run.table(names, 0.0), run.table(names, run.duration)
+    return [
+        {"name": n, "symbol": _letter(n), "start": float(begin[n]), "end": float(end[n])}
+        for n in names
+    ]
+
+
+def _letter(name: str) -> str:
+    return Expr.generator(Symbol(name)).mathml()

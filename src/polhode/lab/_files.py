@@ -1,0 +1,49 @@
+"""The files that the lab hands out: those of the page, and what can be taken away."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+from polhode.base import StoreError
+
+PAGE: Mapping[str, str] = {
+    "lab.js": "text/javascript; charset=utf-8",
+    "lab.css": "text/css; charset=utf-8",
+    "LICENSES.txt": "text/plain; charset=utf-8",
+}
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of file: its ending, and what browsers call it."""
+
+    ending: str
+    media: str
+
+
+KINDS: Mapping[str, Kind] = {
+    "page": Kind("html", "text/html; charset=utf-8"),
+    "csv": Kind("csv", "text/csv; charset=utf-8"),
+    "svg": Kind("svg", "image/svg+xml"),
+    "png": Kind("png", "image/png"),
+}
+
+
+@cache
+def built(name: str) -> str:
+    """A file of the front end; read without loading the room that draws.
+
+    Raises:
+        StoreError: where it has not been built.
+    """
+    try:
+        return files("polhode").joinpath("view", "built", name).read_text("utf-8")
+    except OSError as error:
+        raise StoreError(
+            f"the front end of the lab is not there ({name})",
+            expected="a package whose front end was built when it was installed",
+            advice="install polhode again; from a checkout, run python build_frontend.py",
+        ) from error

@@ -1,0 +1,155 @@
+"""Who may ask for what: this machine's own pages alone, and little at a time."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from starlette.datastructures import Headers
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+_POLICY = (
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
+    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+)
+HEADERS = {
+    "content-security-policy": _POLICY,
+    "cross-origin-opener-policy": "same-origin",
+    "cross-origin-resource-policy": "same-origin",
+    "referrer-policy": "no-referrer",
+    "x-content-type-options": "nosniff",
+    "cache-control": "no-store",
+}
+_NAMES = ("127.0.0.1", "localhost", "[::1]")
+
+
+@dataclass(frozen=True)
+class Limits:
+    """How much one request may ask for.
+
+    Attributes:
+        body: bytes.
+        arriving: s in which it must have come.
+        motion: s for a simulation.
+        thought: s for a judgement or an analysis.
+        waiting: requests at a time.
+    """
+
+    body: int = 150_000
+    arriving: float = 5.0
+    motion: float = 30.0
+    thought: float = 60.0
+    waiting: int = 24
+
+
+class Guard:
+    """Refuses foreign hosts and origins, large and slow bodies, and crowds.
+
+    Args:
+        app: what is guarded.
+        port: that the server listens at.
+        limits: see there.
+    """
+
+    def __init__(self, app: ASGIApp, port: int, limits: Limits) -> None:
+        self._app = app
+        self._hosts = {f"{name}:{port}" for name in _NAMES}
+        if port == 80:
+            self._hosts |= set(_NAMES)
+        self._limits = limits
+        self._inside = 0
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass on what is welcome."""
+        if scope["type"] == "lifespan":
+            await self._app(scope, receive, send)
+            return
+        if scope["type"] != "http":
+            return
+        refusal = self._refusal(scope["method"], Headers(scope=scope))
+        if refusal:
+            await _refuse(send, *refusal)
+            return
+        self._inside += 1
+        try:
+            await self._pass(scope, receive, send)
+        finally:
+            self._inside -= 1
+
+    def _refusal(self, method: str, headers: Headers) -> tuple[int, str] | None:
+        hosts, origins = headers.getlist("host"), headers.getlist("origin")
+        if len(hosts) != 1 or hosts[0].lower() not in self._hosts:
+            return 403, "a host that is not this machine"
+        if any(origin.lower() != f"http://{hosts[0].lower()}" for origin in origins):
+            return 403, "an origin that is not this lab"
+        if headers.get("sec-fetch-site", "same-origin") not in ("same-origin", "none"):
+            return 403, "a request from another site"
+        if self._inside >= self._limits.waiting:
+            return 503, "too many requests at a time"
+        if method == "POST":
+            return self._wrong_body(headers)
+        return None
+
+    def _wrong_body(self, headers: Headers) -> tuple[int, str] | None:
+        if headers.get("content-type", "").split(";")[0].strip().lower() != "application/json":
+            return 415, "a body that is no JSON"
+        length = headers.get("content-length", "0")
+        if not (length.isascii() and length.isdigit()) or int(length[:20]) > self._limits.body:
+            return 413, f"a body of more than {self._limits.body} bytes"
+        return None
+
+    async def _pass(self, scope: Scope, receive: Receive, send: Send) -> None:
+        async def dressed(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                message["headers"] = [*message.get("headers", []), *_raw(HEADERS.items())]
+            await send(message)
+
+        if scope["method"] != "POST":
+            await self._app(scope, receive, dressed)
+            return
+        try:
+            async with asyncio.timeout(self._limits.arriving):
+                body = await self._whole(receive)
+        except TimeoutError:
+            await _refuse(send, 408, "a body that does not arrive")
+            return
+        if body is None:
+            await _refuse(send, 413, f"a body of more than {self._limits.body} bytes")
+            return
+        await self._app(scope, _again(body, receive), dressed)
+
+    async def _whole(self, receive: Receive) -> bytes | None:
+        """The body; none where it is too large."""
+        body = bytearray()
+        more = True
+        while more:
+            message = await receive()
+            body += message.get("body", b"")
+            more = message.get("more_body", False)
+            if len(body) > self._limits.body:
+                return None
+        return bytes(body)
+
+
+def _again(body: bytes, receive: Receive) -> Receive:
+    """Hands out a body that has been read, and then what comes after it."""
+    rest = iter([{"type": "http.request", "body": body, "more_body": False}])
+
+    async def replayed() -> Message:
+        return next(rest, None) or await receive()
+
+    return replayed
+
+
+async def _refuse(send: Send, status: int, given: str) -> None:
+    told = {"given": given, "expected": "a request of the lab's own page", "advice": ""}
+    headers = {**HEADERS, "content-type": "application/json", "connection": "close"}
+    start = {"type": "http.response.start", "status": status, "headers": _raw(headers.items())}
+    await send(start)
+    await send({"type": "http.response.body", "body": json.dumps(told).encode()})
+
+
+def _raw(headers: Iterable[tuple[str, str]]) -> list[tuple[bytes, bytes]]:
+    return [(name.encode("latin-1"), value.encode("latin-1")) for name, value in headers]

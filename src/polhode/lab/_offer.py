@@ -1,0 +1,61 @@
+"""The systems on offer: the catalogue's, and one of the user's own as plain data."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from polhode.base import look_up
+from polhode.catalogue import CATALOGUE, Entry
+from polhode.model import read_declaration, write_declaration
+
+
+@dataclass(frozen=True)
+class Own:
+    """A system of the user's own, as workers are sent it: nothing in it runs.
+
+    Attributes:
+        name: what the page calls it.
+        title: heading.
+        declaration: the document that `polhode.model` writes.
+    """
+
+    name: str
+    title: str
+    declaration: str
+
+    @classmethod
+    def of(cls, entry: Entry) -> Own:
+        """What is sent of an entry without usual numbers."""
+        return cls(entry.name, entry.title, write_declaration(entry.build()))
+
+    @property
+    def entry(self) -> Entry:
+        """The entry again."""
+        system = read_declaration(self.declaration)
+        return Entry(
+            name=self.name,
+            title=self.title,
+            about="",
+            build=lambda: system,
+            parameters=(),
+            start={},
+            duration="",
+            plots=(),
+        )
+
+
+def entry_of(name: str, own: Own | None) -> Entry:
+    """The entry of that name.
+
+    Raises:
+        DeclarationError: for a name that is not on offer.
+    """
+    if own is not None and name == own.name:
+        return own.entry
+    return look_up(name, CATALOGUE, "system of the lab")
+
+
+def offered(own: Own | None) -> list[dict[str, str]]:
+    """Names and titles, one's own system first."""
+    mine = [] if own is None else [{"name": own.name, "title": own.title}]
+    return mine + [{"name": entry.name, "title": entry.title} for entry in CATALOGUE.values()]

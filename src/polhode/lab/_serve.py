@@ -1,0 +1,66 @@
+"""Serving the lab on this machine, and opening it in the browser."""
+
+from __future__ import annotations
+
+import socket
+import threading
+import webbrowser
+from contextlib import closing
+
+from polhode.base import DeclarationError, StoreError
+from polhode.lab._offer import Own
+
+HOST = "127.0.0.1"
+PORT = 8650
+_MOST = 64  # connections at a time
+
+
+def serve(own: Own | None = None, *, port: int | None = None, browser: bool = True) -> None:
+    """Serve the lab until it is interrupted; this machine alone reaches it.
+
+    Args:
+        own: a system of the user's own, offered first.
+        port: to listen at; by default the usual one, or any that is free.
+        browser: whether to open it in the browser.
+
+    Raises:
+        DeclarationError: where the packages that the lab needs are not installed.
+        StoreError: where the port is taken.
+    """
+    try:
+        import uvicorn
+
+        from polhode.lab._app import app_of
+    except ModuleNotFoundError as error:
+        raise DeclarationError(
+            f"the lab without {error.name}",
+            expected="its packages to be installed",
+            advice="install polhode[lab]",
+        ) from error
+    with closing(_listening(port)) as listener:
+        listener.listen(_MOST)
+        chosen = listener.getsockname()[1]
+        address = f"http://{HOST}:{chosen}/"
+        print(f"The lab is at {address} (Ctrl-C ends it)", flush=True)
+        if browser:
+            threading.Timer(0.5, webbrowser.open, [address]).start()
+        app = app_of(chosen, own)
+        settings = uvicorn.Config(app, log_level="warning", limit_concurrency=_MOST)
+        uvicorn.Server(settings).run(sockets=[listener])
+
+
+def _listening(port: int | None) -> socket.socket:
+    for number in [PORT, 0] if port is None else [port]:
+        listener = socket.socket()
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            listener.bind((HOST, number))
+            return listener
+        except OSError as error:
+            listener.close()
+            reason = error.strerror
+    raise StoreError(
+        f"port {port} of this machine ({reason})",
+        expected="one that is free",
+        advice="give another one with --port, or none",
+    )
