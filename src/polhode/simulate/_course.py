@@ -67,12 +67,20 @@ class Walk:
             gone.
         progress: told of every step.
     """
+        until: what, once it happens, ends the motion.
 
-    def __init__(self, machine: Machine, near_flat: float, progress: Progress) -> None:
+    def __init__(
+        self,
+        machine: Machine,
+        near_flat: float,
+        progress: Progress,
+        until: frozenset[str] = frozenset(),
+    ) -> None:
         self._machine = machine
         self._near_flat = near_flat
         self._progress = progress
         self._segments: list[Segment] = []
+        self._until = until
         self._changes: list[Change] = []
         self._hardest = 0.0
 
@@ -88,9 +96,9 @@ class Walk:
             if outcome.guard is None and outcome.segment.end >= end:
                 break
             time, before = outcome.segment.end, outcome.segment.mode
-            if outcome.guard is not None and outcome.guard.kind == "near-flat":
-                self._changes.append(Change(time, "goes flat", before, "near-flat"))
-                return Course(tuple(self._segments), tuple(self._changes), "near-flat")
+            last = self._last(outcome)
+            if last is not None:
+                return Course(tuple(self._segments), (*self._changes, last), last.after)
             kind, entry = self._next(entry, outcome)
             after = self._machine.mode(entry.phases).mode.name
             self._changes.append(Change(time, kind, before, after))
@@ -101,6 +109,14 @@ class Walk:
     # -- one mode -------------------------------------------------------------------------------
 
     def _stay(self, entry: Entry, end: float) -> _Outcome:
+    def _last(self, outcome: _Outcome) -> Change | None:
+        """The change that ends the motion, if this is one."""
+        kind = outcome.guard.kind if outcome.guard is not None else ""
+        time, mode = outcome.segment.end, outcome.segment.mode
+        if kind == "near-flat":
+            return Change(time, "goes flat", mode, "near-flat")
+        return Change(time, kind, mode, mode) if kind in self._until else None
+
         """As long as the mode lasts."""
         mode = self._machine.mode(entry.phases)
         begin = now = entry.place.time

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
@@ -37,6 +37,7 @@ class Experiment:
     Args:
         subject: a declaration, its automaton, or equations derived from it.
         duration: s.
+        until: events that end the motion once they happen.
         tolerance, forcing, invariants, events, samples, near_flat: as in `simulate`.
 
     Raises:
@@ -55,6 +56,7 @@ class Experiment:
         events: Mapping[str, Expr] | None = None,
         samples: int | ArrayLike = SAMPLES,
         near_flat: float = NEAR_FLAT,
+        until: Collection[str] = (),
     ) -> None:
         self.subject = subject
         self.duration = _duration(duration)
@@ -72,6 +74,7 @@ class Experiment:
             tolerance=_tolerance(tolerance),
             near_flat=near_flat,
             seconds={},
+            until=frozenset(until),
         )
 
     def run(

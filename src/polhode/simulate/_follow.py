@@ -46,6 +46,7 @@ class Task:
     tolerance: float | None
     near_flat: float
     seconds: dict[str, float]
+    until: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True)
@@ -178,7 +179,7 @@ class _ThroughModes:
         check_numbers(machine)
         with _timed(task, "compile"):
             place, assumed, apart = _begin(machine, task)
-            walk = Walk(machine, task.near_flat, progress)
+            walk = Walk(machine, task.near_flat, progress, task.until)
             first = settle(machine, place, Known(apart=apart))
             machine.mode(first.phases).stepper  # noqa: B018
         with _timed(task, "integrate"):
