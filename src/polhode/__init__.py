@@ -115,6 +115,8 @@ if TYPE_CHECKING:
     from polhode.model import rod as rod
     from polhode.model import sphere as sphere
     from polhode.model import upright as upright
+    from polhode.model import with_edge as with_edge
+    from polhode.model import with_friction as with_friction
     from polhode.simulate import Pieces as Pieces
     from polhode.simulate import Trajectory as Trajectory
     from polhode.simulate import approximated as approximated
@@ -260,6 +262,8 @@ _ROOMS = {
         "rod",
         "sphere",
         "upright",
+        "with_edge",
+        "with_friction",
     ),
 }
 _HOME = {name: f"polhode.{room}" for room, names in _ROOMS.items() for name in names}

@@ -119,6 +119,9 @@ class Symbol(Generator):
     def __hash__(self) -> int:
         return hash(self.key)
 
+    def __repr__(self) -> str:
+        return self.published
+
     def chain(self, rate: Rate) -> Expr:
         return rate(self)
 
