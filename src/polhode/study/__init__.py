@@ -1,0 +1,18 @@
+"""Many motions: ensembles, sweeps, maps, sensitivities and fits."""
+
+from polhode.study._ensemble import Ensemble as Ensemble
+from polhode.study._ensemble import ensemble as ensemble
+from polhode.study._outputs import Duration as Duration
+from polhode.study._outputs import EndMode as EndMode
+from polhode.study._outputs import EventCount as EventCount
+from polhode.study._outputs import EventKinds as EventKinds
+from polhode.study._outputs import EventTime as EventTime
+from polhode.study._outputs import EventTimes as EventTimes
+from polhode.study._outputs import Fate as Fate
+from polhode.study._outputs import Final as Final
+from polhode.study._outputs import Largest as Largest
+from polhode.study._outputs import Least as Least
+from polhode.study._outputs import Output as Output
+from polhode.study._outputs import Series as Series
+from polhode.study._reasons import Reason as Reason
+from polhode.study._sweep import sweep as sweep

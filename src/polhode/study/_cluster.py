@@ -1,0 +1,139 @@
+"""Chunks computed one after the other here, by processes of this machine, or on a cluster."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from itertools import islice
+from threading import local
+from typing import Any, Protocol, TypeAlias
+
+from polhode.base import StoreError
+from polhode.simulate import Experiment
+from polhode.study._block import Block, Order, followed
+from polhode.study._columns import Members
+from polhode.study._libraries import distributed
+
+Place: TypeAlias = tuple[int, ...]
+Chunks: TypeAlias = Iterable[tuple[Place, Members]]
+
+_WAITING = 4  # chunks per worker that are handed out at a time
+_REACHED_WITHIN = 10.0  # seconds for a scheduler to answer
+_LOST = 8  # workers that one chunk may lose before it is given up
+
+_kept = local()
+
+
+class Compute(Protocol):
+    """A way of computing chunks."""
+
+    def __call__(self, order: Order, chunks: Chunks) -> Iterator[tuple[Place, Block]]:
+        """Every chunk once, in whatever order they become ready."""
+        ...
+
+
+def one_after_the_other(tick: Callable[[int], None]) -> Compute:
+    """In this process.
+
+    Args:
+        tick: told the number of members that are done.
+    """
+
+    def compute(order: Order, chunks: Chunks) -> Iterator[tuple[Place, Block]]:
+        experiment = order.experiment()
+        for place, members in chunks:
+            yield place, followed(order, members, experiment, tick)
+
+    return compute
+
+
+def on_cluster(client: Any, tick: Callable[[int], None]) -> Compute:
+    """On the workers of a Dask cluster; those that are lost are made up for by the others.
+
+    Results come here and are kept here, so that a chunk computed twice counts once.
+    """
+
+    def compute(order: Order, chunks: Chunks) -> Iterator[tuple[Place, Block]]:
+        library = distributed()
+        shared = client.scatter(order, broadcast=True, hash=False)
+        waiting, places = library.as_completed(), dict[str, Place]()
+        left = iter(chunks)
+        hand_out = max(1, len(client.scheduler_info()["workers"])) * _WAITING
+        try:
+            _hand_out(client, shared, islice(left, hand_out), waiting, places)
+            for done in waiting:
+                place = places.pop(done.key)
+                block = _received(done, place)
+                tick(len(block.reason))
+                _hand_out(client, shared, islice(left, 1), waiting, places)
+                yield place, block
+        finally:
+            client.cancel(list(waiting.futures), force=True)
+
+    return compute
+
+
+def _hand_out(
+    client: Any, shared: Any, chunks: Chunks, waiting: Any, places: dict[str, Place]
+) -> None:
+    for place, members in chunks:
+        future = client.submit(_chunk, shared, members, pure=False, retries=_LOST)
+        places[future.key] = place
+        waiting.add(future)
+
+
+def _received(done: Any, place: Place) -> Block:
+    try:
+        block: Block = done.result()
+    except Exception as error:
+        raise StoreError(
+            f"the cluster lost the chunk {place} ({type(error).__name__}: {error})"[:300],
+            expected="workers with polhode installed, in the same version, that stay alive",
+            advice="what is done is kept: go on with --resume (resume=True)",
+        ) from error
+    return block
+
+
+def _chunk(order: Order, members: Members) -> Block:
+    """On a worker; one integrator per thread, compiled for its first chunk."""
+    if getattr(_kept, "order", None) is not order:
+        _kept.order, _kept.experiment = order, order.experiment()
+    experiment: Experiment = _kept.experiment
+    return followed(order, members, experiment, _nobody)
+
+
+def _nobody(count: int) -> None:
+    """Is told nothing."""
+
+
+@contextmanager
+def scheduler(address: str) -> Iterator[Any]:
+    """A client of a scheduler.
+
+    Raises:
+        StoreError: where it does not answer.
+    """
+    library = distributed()
+    try:
+        client = library.Client(address, timeout=_REACHED_WITHIN)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise StoreError(
+            f"no scheduler answers at {address!r}",
+            expected="the address of a Dask scheduler, such as tcp://host:8786",
+            advice="start one with 'dask scheduler', and workers with 'dask worker ADDRESS'",
+        ) from error
+    with client:
+        yield client
+
+
+@contextmanager
+def processes(count: int) -> Iterator[Any]:
+    """A client of a cluster of processes on this machine."""
+    library = distributed()
+    with (
+        library.LocalCluster(
+            n_workers=count, threads_per_worker=1, processes=True, dashboard_address=None
+        ) as cluster,
+        library.Client(cluster) as client,
+    ):
+        yield client

@@ -1,0 +1,164 @@
+"""What differs from one member of an ensemble to the next, and what does not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, Protocol, TypeAlias, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from polhode.algebra import Expr, Symbol, as_symbol
+from polhode.base import DeclarationError
+
+Array: TypeAlias = NDArray[np.float64]
+Name: TypeAlias = str | Symbol | Expr
+
+
+@runtime_checkable
+class Distribution(Protocol):
+    """What values are drawn from; a frozen distribution of scipy.stats is one."""
+
+    def rvs(self, *, size: int, random_state: np.random.Generator) -> Any:
+        """That many values."""
+        ...
+
+
+@dataclass(frozen=True)
+class Column:
+    """One value per member, in the order of the members.
+
+    Attributes:
+        values: numbers, or texts with a unit.
+        unit: of the numbers; empty for SI.
+    """
+
+    values: NDArray[Any]
+    unit: str = ""
+
+    def value(self, member: int) -> Any:
+        """As `simulate` takes it."""
+        value = self.values[member].item()
+        return (value, self.unit) if self.unit else value
+
+    def rows(self, rows: slice | NDArray[np.intp]) -> Column:
+        """The column of some members."""
+        return replace(self, values=self.values[rows])
+
+
+@dataclass(frozen=True)
+class Members:
+    """The numbers of every member, by published name.
+
+    Attributes:
+        count: of members.
+        parameters: a `Column` where they differ, else the one value of all.
+        start: likewise.
+    """
+
+    count: int
+    parameters: Mapping[str, Any]
+    start: Mapping[str, Any]
+
+    def parameters_of(self, member: int) -> dict[Any, Any]:
+        """The parameters of one member."""
+        return _of(self.parameters, member)
+
+    def start_of(self, member: int) -> dict[Any, Any]:
+        """The start values of one member."""
+        return _of(self.start, member)
+
+    def rows(self, rows: slice | NDArray[np.intp]) -> Members:
+        """Some of the members."""
+        count = len(np.arange(self.count)[rows])
+        return Members(count, _rows(self.parameters, rows), _rows(self.start, rows))
+
+    @property
+    def columns(self) -> dict[str, Column]:
+        """What differs, by name."""
+        both = {**self.parameters, **self.start}
+        return {name: value for name, value in both.items() if isinstance(value, Column)}
+
+
+def _of(values: Mapping[str, Any], member: int) -> dict[Any, Any]:
+    return {n: v.value(member) if isinstance(v, Column) else v for n, v in values.items()}
+
+
+def _rows(values: Mapping[str, Any], rows: slice | NDArray[np.intp]) -> dict[str, Any]:
+    return {n: v.rows(rows) if isinstance(v, Column) else v for n, v in values.items()}
+
+
+def members_of(
+    parameters: Mapping[Name, Any], start: Mapping[Name, Any], count: int | None, seed: int
+) -> Members:
+    """Members from arrays, distributions and single values.
+
+    Raises:
+        DeclarationError: where it is not clear how many members there are.
+    """
+    given = (published_names(parameters), published_names(start))
+    size = _count([*given[0].items(), *given[1].items()], count)
+    read = ({n: _column(n, v, size, seed) for n, v in part.items()} for part in given)
+    return Members(size, *read)
+
+
+def published_names(values: Mapping[Name, Any]) -> dict[str, Any]:
+    """Values under the published names of what they are values of."""
+    return {k if isinstance(k, str) else as_symbol(k).published: v for k, v in values.items()}
+
+
+def drawn(name: str, distribution: Distribution, count: int, seed: int) -> Array:
+    """Values from a distribution.
+
+    They depend on the seed and the name alone, not on what else is drawn.
+    """
+    generator = np.random.default_rng([seed, *name.encode()])
+    return np.asarray(distribution.rvs(size=count, random_state=generator), dtype=float)
+
+
+def split_unit(value: Any) -> tuple[Any, str]:
+    """Many values and their unit; empty for SI."""
+    match value:
+        case (values, str(unit)) if is_many(values) or isinstance(values, Distribution):
+            return values, unit
+        case _:
+            return value, ""
+
+
+def is_many(value: Any) -> bool:
+    """Whether these are the values of several members."""
+    return isinstance(value, list | range) or (isinstance(value, np.ndarray) and value.ndim > 0)
+
+
+def _count(given: Iterable[tuple[str, Any]], count: int | None) -> int:
+    lengths = {n: len(v) for n, value in given if is_many(v := split_unit(value)[0])}
+    sizes = {*lengths.values(), *([count] if count is not None else [])}
+    if len(sizes) == 1 and (size := sizes.pop()) > 0:
+        return int(size)
+    if not sizes:
+        raise DeclarationError(
+            "an ensemble of nobody knows how many members",
+            expected="an array of values, or count=",
+            advice="add count=1000, for instance",
+        )
+    told = ", ".join(f"{n}: {length}" for n, length in lengths.items())
+    raise DeclarationError(
+        f"arrays and a count that do not agree ({told or 'none'}; count: {count})",
+        expected="one length for all of them, at least one",
+    )
+
+
+def _column(name: str, value: Any, count: int, seed: int) -> Any:
+    many, unit = split_unit(value)
+    if isinstance(many, Distribution):
+        return Column(drawn(name, many, count, seed), unit)
+    if not is_many(many):
+        return value
+    values = np.asarray(many)
+    if values.ndim != 1 or values.dtype.kind not in "fiuU":
+        raise DeclarationError(
+            f"{name}: an array of shape {values.shape} and type {values.dtype}",
+            expected="one number, or one text with a unit, per member",
+        )
+    return Column(values, unit)

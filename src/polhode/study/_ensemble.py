@@ -1,0 +1,171 @@
+"""Many motions of one system, with numbers and starts that differ."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from polhode.algebra import Expr
+from polhode.base import DeclarationError, Progress, SilentProgress, look_up
+from polhode.study._block import Block, Order, Subject
+from polhode.study._columns import Array, Column, Members, Name, members_of
+from polhode.study._extremes import Quantity
+from polhode.study._outputs import Output, outputs_of
+from polhode.study._reasons import Reason
+from polhode.study._workers import shared_out
+
+if TYPE_CHECKING:
+    import xarray
+
+#: What is kept unless something else is asked for.
+USUAL = ("mode",)
+
+
+@dataclass(frozen=True)
+class Ensemble:
+    """Results of many motions; `ensemble[name]` is one output of all members.
+
+    Attributes:
+        values: by output, shape (members, *shape of the output); not-a-number, and -1 for codes,
+            of members without a result.
+        labels: of outputs that are codes: what each stands for.
+        reason: a `Reason` per member, 0 for those that were followed to their end.
+        failures: why members failed, in words; of the first thousand.
+        numbers: parameters and start values that differ, shape (members,), as given.
+        seed: of what was drawn.
+    """
+
+    values: Mapping[str, Array]
+    labels: Mapping[str, tuple[str, ...]]
+    reason: NDArray[np.int8]
+    failures: Mapping[int, str]
+    numbers: Mapping[str, Column]
+    seed: int
+
+    def __len__(self) -> int:
+        return len(self.reason)
+
+    def __getitem__(self, name: str) -> Array:
+        """One output, or parameter or start value that differs, of all members.
+
+        Raises:
+            DeclarationError: for a name that is none.
+        """
+        known = {**{n: column.values for n, column in self.numbers.items()}, **self.values}
+        return look_up(name, known, "output of this ensemble")
+
+    @property
+    def done(self) -> NDArray[np.bool_]:
+        """Which members were followed to their end, shape (members,)."""
+        return np.asarray(self.reason == Reason.DONE)
+
+    @property
+    def failed(self) -> int:
+        """How many members have no result."""
+        return int(np.sum(~self.done))
+
+    def named(self, name: str) -> list[str]:
+        """An output that is a code, in words; "" where there is none.
+
+        Raises:
+            DeclarationError: for an output that is no code.
+        """
+        words = look_up(name, self.labels, "output of this ensemble that is a code")
+        return [words[int(code)] if code >= 0 else "" for code in self.values[name].ravel()]
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Everything as a data set over the dimension `member`.
+
+        Raises:
+            StoreError: where xarray is not installed.
+        """
+        from polhode.study._datasets import dataset_of
+
+        return dataset_of(self)
+
+
+def ensemble(
+    subject: Subject,
+    parameters: Mapping[Name, Any],
+    start: Mapping[Name, Any],
+    duration: Any,
+    *,
+    outputs: Mapping[str, Output | Quantity] | Sequence[Output | Quantity] = USUAL,
+    count: int | None = None,
+    seed: int | None = None,
+    workers: int = 1,
+    forcing: Mapping[Name, Any] | None = None,
+    tolerance: float | None = None,
+    near_flat: float | None = None,
+    until: Sequence[str] | None = None,
+    events: Mapping[str, Expr] | None = None,
+    progress: Progress | None = None,
+) -> Ensemble:
+    """Follow many motions, through their contact modes, and keep the chosen outputs of each.
+
+    The answers are those of `simulate` for the same numbers. A member that fails is recorded with
+    its reason and does not stop the rest.
+
+    Args:
+        subject: a declaration, its automaton, or equations derived from it.
+        parameters: the value of every parameter: one for all, or an array with one per member,
+            or a distribution of scipy.stats. Arrays and distributions of other than SI numbers
+            come with their unit: `(values, "deg")`.
+        start: coordinates and speeds, likewise.
+        duration: s.
+        outputs: what is kept, by name. A quantity alone stands for its value at the end, "mode"
+            for the mode at the end.
+        count: number of members, where no array tells.
+        seed: of what is drawn; a new one where none is given. Every quantity has its own random
+            numbers, which depend on the seed and its name alone.
+        workers: processes that share the work.
+        until: events that end a motion once they happen, such as "slips"; what comes after is
+            not computed.
+        forcing, tolerance, near_flat, events: as in `simulate`.
+        progress: told of every member.
+
+    Raises:
+        DeclarationError: for members or outputs that are not clear.
+        NumericError: for a tolerance that cannot be.
+        UnitError: for a duration that cannot be read.
+    """
+    chosen = np.random.SeedSequence().entropy % 2**62 if seed is None else seed  # type: ignore[operator]
+    members = members_of(parameters, start, count, _seed(chosen))
+    given = {
+        "forcing": forcing,
+        "tolerance": tolerance,
+        "near_flat": near_flat,
+        "until": until,
+        "events": events,
+    }
+    options = {name: value for name, value in given.items() if value is not None}
+    order = Order(subject, duration, outputs_of(outputs), options)
+    shown = progress or SilentProgress()
+    shown.begin("members", members.count)
+    try:
+        block = shared_out(order, members, workers, shown.advance)
+    finally:
+        shown.finish()
+    return _told(order, members, block, chosen)
+
+
+def _seed(seed: Any) -> int:
+    if not isinstance(seed, int | np.integer) or seed < 0:
+        raise DeclarationError(f"the seed {seed!r}", expected="a whole number, zero or more")
+    return int(seed)
+
+
+def _told(order: Order, members: Members, block: Block, seed: int) -> Ensemble:
+    labels = {name: output.labels(order.legend) for name, output in order.outputs.items()}
+    return Ensemble(
+        values=block.values,
+        labels={name: words for name, words in labels.items() if words},
+        reason=block.reason,
+        failures=block.told,
+        numbers=members.columns,
+        seed=seed,
+    )

@@ -1,0 +1,150 @@
+"""The axes of a sweep, and the members of every chunk of it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from itertools import product
+from math import ceil, prod
+from typing import Any
+
+import numpy as np
+
+from polhode.base import DeclarationError
+from polhode.study._columns import (
+    Column,
+    Distribution,
+    Members,
+    Name,
+    drawn,
+    is_many,
+    published_names,
+    split_unit,
+)
+
+SAMPLE = "sample"
+"""The axis of everything that is drawn."""
+
+_MOST_IN_CHUNK = 1024
+_FEWEST_CHUNKS = 64
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Every combination of the values of some axes.
+
+    Attributes:
+        columns: values of every quantity that differs, by published name.
+        axis: the axis of each: its own, or that of the samples.
+        chunk: members of a chunk along every axis.
+    """
+
+    columns: Mapping[str, Column]
+    axis: Mapping[str, str]
+    chunk: tuple[int, ...]
+
+    @property
+    def axes(self) -> tuple[str, ...]:
+        """Names of the axes, in order."""
+        return tuple(dict.fromkeys(self.axis.values()))
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Lengths of the axes."""
+        lengths = {self.axis[name]: len(column.values) for name, column in self.columns.items()}
+        return tuple(lengths[axis] for axis in self.axes)
+
+    @property
+    def size(self) -> int:
+        """How many members there are."""
+        return prod(self.shape)
+
+    @property
+    def chunks(self) -> tuple[int, ...]:
+        """How many chunks there are along every axis."""
+        return tuple(ceil(n / c) for n, c in zip(self.shape, self.chunk, strict=True))
+
+    def places(self) -> list[tuple[int, ...]]:
+        """Where the chunks are in the grid of chunks, in order."""
+        return list(product(*(range(n) for n in self.chunks)))
+
+    def region(self, place: tuple[int, ...]) -> tuple[slice, ...]:
+        """What a chunk covers."""
+        ends = zip(place, self.chunk, self.shape, strict=True)
+        return tuple(slice(p * c, min((p + 1) * c, n)) for p, c, n in ends)
+
+    def members(
+        self, place: tuple[int, ...], parameters: Mapping[str, Any], start: Mapping[str, Any]
+    ) -> Members:
+        """The members of a chunk, in the order of its elements.
+
+        Args:
+            parameters: of all; those that an axis stands for may be missing.
+            start: likewise; an axis that is no parameter is a start value.
+        """
+        rows = np.meshgrid(*(np.arange(r.start, r.stop) for r in self.region(place)), indexing="ij")
+        along = dict(zip(self.axes, (row.ravel() for row in rows), strict=True))
+        own = {n: column.rows(along[self.axis[n]]) for n, column in self.columns.items()}
+        return Members(
+            rows[0].size,
+            {n: own.pop(n, value) for n, value in parameters.items()},
+            {**start, **own},
+        )
+
+
+def grid_of(axes: Mapping[Name, Any], samples: int | None, seed: int, chunk: int | None) -> Grid:
+    """The grid over arrays and distributions.
+
+    Args:
+        samples: how many values are drawn from distributions.
+        chunk: members of a chunk, about.
+
+    Raises:
+        DeclarationError: for an axis that is neither, or has no values.
+    """
+    given = published_names(axes)
+    columns = {name: _column(name, value, samples, seed) for name, value in given.items()}
+    axis = {
+        name: SAMPLE if isinstance(split_unit(given[name])[0], Distribution) else name
+        for name in columns
+    }
+    if not columns:
+        raise DeclarationError("no axes", expected="at least one quantity that differs")
+    if chunk is not None and chunk < 1:
+        raise DeclarationError(f"{chunk} members in a chunk", expected="one or more")
+    whole = Grid(columns, axis, (1,) * len(set(axis.values())))
+    return Grid(columns, axis, _chunk(whole.shape, chunk))
+
+
+def _column(name: str, value: Any, samples: int | None, seed: int) -> Column:
+    many, unit = split_unit(value)
+    if isinstance(many, Distribution):
+        if samples is None or samples < 1:
+            raise DeclarationError(
+                f"{name} is drawn, but not how often", expected="samples=, one or more"
+            )
+        return Column(drawn(name, many, samples, seed), unit)
+    values = np.asarray(many) if is_many(many) else np.empty(0)
+    if values.ndim != 1 or not len(values) or values.dtype.kind not in "fiu":
+        raise DeclarationError(
+            f"the axis {name} = {value!r}"[:200],
+            expected="a list or array of numbers, or a distribution of scipy.stats",
+            advice="give the unit of the numbers beside them, as in (values, 'deg')",
+        )
+    return Column(values.astype(float), unit)
+
+
+def _chunk(shape: tuple[int, ...], wanted: int | None) -> tuple[int, ...]:
+    """As nearly cubic as the axes allow."""
+    left = wanted or max(1, min(_MOST_IN_CHUNK, prod(shape) // _FEWEST_CHUNKS))
+    found = dict[int, int]()
+    for rank, axis in enumerate(sorted(range(len(shape)), key=lambda i: shape[i])):
+        side = max(1, round(left ** (1 / (len(shape) - rank))))
+        found[axis] = min(side, shape[axis])
+        left = max(1, left // found[axis])
+    return tuple(found[i] for i in range(len(shape)))
+
+
+def split_axes(names: Collection[str], parameters: Collection[str]) -> tuple[list[str], list[str]]:
+    """Axes that are parameters, and those that are start values."""
+    return [n for n in names if n in parameters], [n for n in names if n not in parameters]

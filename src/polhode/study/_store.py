@@ -1,0 +1,210 @@
+"""Results of a sweep on disk: Zarr chunks, each whole or not there.
+
+What a chunk holds is written first, and that it is done last: whatever stops the work in between,
+a chunk that is not marked is computed again. The marks are read before anything is written.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from polhode.base import SCHEMA, StoreError, write_whole
+from polhode.study import _libraries
+from polhode.study._block import Block
+from polhode.study._grid import Grid
+from polhode.study._libraries import zarr
+from polhode.study._outputs import Legend, Outputs
+from polhode.study._reasons import Reason
+
+if TYPE_CHECKING:
+    import xarray
+
+ATTRIBUTE = "polhode"
+DONE, REASON = "done", "reason"
+
+
+@dataclass(frozen=True)
+class Store:
+    """A sweep on disk.
+
+    Attributes:
+        path: of the folder.
+        group: of its arrays.
+    """
+
+    path: Path
+    group: Any
+
+    @property
+    def origin(self) -> Mapping[str, Any]:
+        """What it was made with."""
+        return dict(self.group.attrs[ATTRIBUTE])
+
+    @property
+    def done(self) -> NDArray[np.bool_]:
+        """Which chunks are done, shaped like the grid of chunks."""
+        return np.asarray(self.group[DONE][...]).astype(bool)
+
+    def failed(self) -> int:
+        """How many members that were followed have no result; read chunk by chunk."""
+        reason = self.group[REASON]
+        return sum(
+            int(np.sum(reason.blocks[tuple(place)] > Reason.DONE))
+            for place in np.argwhere(self.done)
+        )
+
+    def write(self, grid: Grid, place: tuple[int, ...], block: Block) -> None:
+        """Keep a chunk, and then that it is done.
+
+        Raises:
+            StoreError: where it cannot be written.
+        """
+        region = grid.region(place)
+        shape = tuple(r.stop - r.start for r in region)
+        with written(self.path):
+            for name, values in block.values.items():
+                self.group[name][region] = values.reshape(*shape, *values.shape[1:])
+            self.group[REASON][region] = block.reason.reshape(shape)
+            if block.told:
+                write_whole(self._words(place), json.dumps(_words(block)).encode())
+            self.group[DONE][place] = 1
+
+    def failures(self, place: tuple[int, ...]) -> dict[int, str]:
+        """Why members of a chunk failed, in words, by their place in it."""
+        path = self._words(place)
+        if not path.exists():
+            return {}
+        return {int(i): text for i, text in json.loads(path.read_text()).items()}
+
+    def _words(self, place: tuple[int, ...]) -> Path:
+        # Within an array: a group would take them for members of it.
+        return self.path / REASON / f"words.{'.'.join(map(str, place))}.json"
+
+
+def _words(block: Block) -> dict[str, str]:
+    return {str(i): text for i, text in block.told.items()}
+
+
+def created(
+    path: Path, origin: Mapping[str, Any], grid: Grid, outputs: Outputs, legend: Legend
+) -> Store:
+    """A store with nothing in it yet.
+
+    Raises:
+        StoreError: where it cannot be written, or something is there already.
+    """
+    if path.exists() and (not path.is_dir() or any(path.iterdir())):
+        raise StoreError(
+            f"{path} is there already",
+            expected="a name that is still free, or the store of the same sweep to go on with",
+            advice="say --resume (resume=True) to go on, or choose another name",
+        )
+    with written(path):
+        group = zarr().create_group(path, zarr_format=3)
+        for name, column in grid.columns.items():
+            group.create_array(
+                coordinate_name(name, outputs),
+                data=column.values,
+                dimension_names=[grid.axis[name]],
+                attributes={"units": column.unit} if column.unit else {},
+            )
+        for name, output in outputs.items():
+            labels = output.labels(legend)
+            own = tuple(f"{name}_{k}" for k in range(len(output.shape)))
+            group.create_array(
+                name,
+                shape=(*grid.shape, *output.shape),
+                chunks=(*grid.chunk, *output.shape),
+                dtype="int16" if labels else "float64",
+                fill_value=-1 if labels else np.nan,
+                dimension_names=[*grid.axes, *own],
+                attributes={"labels": list(labels)} if labels else {},
+            )
+        group.create_array(
+            REASON,
+            shape=grid.shape,
+            chunks=grid.chunk,
+            dtype="int8",
+            fill_value=int(Reason.NOT_YET),
+            dimension_names=list(grid.axes),
+            attributes={"labels": {r.name.lower(): int(r) for r in Reason}},
+        )
+        group.create_array(
+            DONE,
+            shape=grid.chunks,
+            chunks=(1,) * len(grid.chunks),
+            dtype="uint8",
+            fill_value=0,
+            dimension_names=[f"{axis}_chunk" for axis in grid.axes],
+        )
+        group.attrs[ATTRIBUTE] = dict(origin)  # last: without it this is no store
+    return Store(path, group)
+
+
+def coordinate_name(name: str, outputs: Mapping[str, Any]) -> str:
+    """What the values of an axis are called; an output of the same name is the value at the end."""
+    return f"{name}_start" if name in outputs else name
+
+
+def opened(path: Path, mode: str = "r") -> Store:
+    """A store that is there.
+
+    Raises:
+        StoreError: where there is none, or one of another schema.
+    """
+    if not path.exists():
+        raise StoreError(f"{path} is not there", expected="a store that a sweep wrote")
+    try:
+        group = zarr().open_group(path, mode=mode, zarr_format=3)
+        schema = group.attrs[ATTRIBUTE]["schema"]
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise StoreError(
+            f"{path} is no store of a sweep ({type(error).__name__})",
+            expected="a folder that polhode sweep wrote",
+        ) from error
+    if schema != SCHEMA:
+        raise StoreError(
+            f"{path} has schema {schema!r}",
+            expected=f"schema {SCHEMA}",
+            advice="read it with the version of polhode that wrote it",
+        )
+    return Store(path, group)
+
+
+def dataset(path: Path) -> xarray.Dataset:
+    """A store as a data set that reads what it needs when it needs it.
+
+    Raises:
+        StoreError: where there is none, or xarray is not installed.
+    """
+    store = opened(path)
+    found: xarray.Dataset = _libraries.xarray().open_zarr(
+        path, consolidated=False, chunks=None, mask_and_scale=False
+    )
+    axes = store.origin["axes"]
+    return found.set_coords([axis["coordinate"] for axis in axes.values()])
+
+
+@contextmanager
+def written(path: Path) -> Iterator[None]:
+    """Around everything that writes a store.
+
+    Raises:
+        StoreError: where it cannot be written.
+    """
+    try:
+        yield
+    except OSError as error:
+        raise StoreError(
+            f"{path} cannot be written ({error.strerror or error})",
+            expected="a folder that can be written, on a disk with room",
+            advice="what is done is kept: make room, and go on with --resume (resume=True)",
+        ) from error

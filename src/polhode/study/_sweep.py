@@ -1,0 +1,258 @@
+"""Motions over a grid of numbers and starts, kept on disk as they come."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from polhode.algebra import Expr
+from polhode.base import (
+    DeclarationError,
+    Progress,
+    SilentProgress,
+    StoreError,
+    installed_version,
+    provenance,
+)
+from polhode.derive import Equations
+from polhode.model import System, write_declaration
+from polhode.simulate import Pieces
+from polhode.study._block import Order, Subject
+from polhode.study._cluster import Compute, on_cluster, one_after_the_other, processes, scheduler
+from polhode.study._columns import Name, published_names
+from polhode.study._ensemble import USUAL
+from polhode.study._extremes import Quantity
+from polhode.study._grid import Grid, grid_of, split_axes
+from polhode.study._outputs import Output, outputs_of
+from polhode.study._store import Store, coordinate_name, created, dataset, opened
+
+if TYPE_CHECKING:
+    import xarray
+
+
+def sweep(
+    subject: Subject,
+    axes: Mapping[Name, Any],
+    parameters: Mapping[Name, Any],
+    start: Mapping[Name, Any],
+    duration: Any,
+    *,
+    out: str | Path,
+    outputs: Mapping[str, Output | Quantity] | Sequence[Output | Quantity] = USUAL,
+    samples: int | None = None,
+    seed: int | None = None,
+    chunk: int | None = None,
+    resume: bool = False,
+    workers: int = 1,
+    client: Any = None,
+    address: str = "",
+    forcing: Mapping[Name, Expr] | None = None,
+    tolerance: float | None = None,
+    near_flat: float | None = None,
+    until: Sequence[str] | None = None,
+    progress: Progress | None = None,
+) -> xarray.Dataset:
+    """Follow a motion for every combination of some values, and keep chosen outputs on disk.
+
+    Memory holds a few chunks at a time, whatever the size of the whole. Chunks are written whole
+    or not at all; a sweep that was stopped, in whatever way, goes on with `resume` and ends with
+    the same bits as one that was not.
+
+    Args:
+        subject: a declaration, its automaton, or equations derived from it.
+        axes: for every quantity that differs its values, as an array, or `(array, "deg")`, or a
+            distribution of scipy.stats. Arrays span a grid; what is drawn goes along one further
+            axis, `sample`. A name that is no parameter is a start value.
+        parameters: the one value of every other parameter.
+        start: the one value of other start values.
+        duration: s.
+        out: folder to write the store to.
+        outputs: as of `ensemble`.
+        samples: how many values are drawn from distributions.
+        seed: of what is drawn; a new one where none is given.
+        chunk: members of a chunk, about.
+        resume: go on with the store that is there; where there is none, begin it.
+        workers: processes of this machine that share the work.
+        client: of a Dask cluster that is to do it.
+        address: of the scheduler of such a cluster.
+        until: as of `ensemble`.
+        forcing, tolerance, near_flat: as in `simulate`.
+        progress: told of every member.
+
+    Returns:
+        The store, opened: arrays over the axes that are read from disk when they are needed.
+
+    Raises:
+        DeclarationError: for axes or outputs that are not clear.
+        StoreError: where the store cannot be written or is another sweep's, or no scheduler
+            answers.
+        UnitError: for a duration that cannot be read.
+    """
+    path = Path(out)
+    begun = _begun(path) if resume else None
+    drawn = _seed(seed, begun)
+    grid = grid_of(axes, samples, drawn, chunk)
+    given = {"forcing": forcing, "tolerance": tolerance, "near_flat": near_flat, "until": until}
+    options = {name: value for name, value in given.items() if value is not None}
+    order = Order(subject, duration, outputs_of(outputs), options)
+    order.experiment()  # refuses what cannot be asked of any member
+    fixed = (published_names(parameters), published_names(start))
+    own, _ = split_axes(list(grid.columns), _parameters(order))
+    constants = {**fixed[0], **dict.fromkeys(own)}
+    origin = _origin(order, grid, fixed, drawn)
+    if begun is None:
+        store = created(path, origin, grid, order.outputs, order.legend)
+    else:
+        _refuse_other(begun, origin)
+        store = begun
+    left = [place for place in grid.places() if not store.done[place]]
+    chunks = ((place, grid.members(place, constants, fixed[1])) for place in left)
+    with _shown(progress, store, grid) as tick, _computing(workers, client, address, tick) as work:
+        for place, block in work(order, chunks):
+            store.write(grid, place, block)
+    return dataset(path)
+
+
+def _begun(path: Path) -> Store | None:
+    return opened(path, "r+") if path.exists() and any(path.iterdir()) else None
+
+
+def _seed(seed: int | None, begun: Store | None) -> int:
+    if seed is None and begun is not None:
+        return int(begun.origin["seed"])
+    if seed is None:
+        return int(np.random.SeedSequence().entropy) % 2**62  # type: ignore[arg-type]
+    if seed < 0:
+        raise DeclarationError(f"the seed {seed}", expected="a whole number, zero or more")
+    return seed
+
+
+def _parameters(order: Order) -> set[str]:
+    """Names that are parameters and not start values."""
+    derived = order.derived
+    bodies = derived.system.bodies
+    parts = [e for body in bodies for e in (body.mass, *sum(body.inertia.rows, ()))]
+    constants = {*derived.parameters}.union(*(part.symbols() for part in parts))
+    return {symbol.published for symbol in constants}
+
+
+@contextmanager
+def _computing(
+    workers: int, client: Any, address: str, tick: Callable[[int], None]
+) -> Iterator[Compute]:
+    """Where the work is done."""
+    if workers < 1:
+        raise DeclarationError(f"{workers} workers", expected="one or more")
+    if client is not None:
+        yield on_cluster(client, tick)
+    elif address:
+        with scheduler(address) as there:
+            yield on_cluster(there, tick)
+    elif workers > 1:
+        with processes(workers) as here:
+            yield on_cluster(here, tick)
+    else:
+        yield one_after_the_other(tick)
+
+
+@contextmanager
+def _shown(progress: Progress | None, store: Store, grid: Grid) -> Iterator[Callable[[int], None]]:
+    """Counts members; an interrupt is told what is kept."""
+    shown = progress or SilentProgress()
+    total = int(np.prod(grid.chunks))
+    shown.begin("members", grid.size)
+    shown.advance(int(np.sum(store.done)) * (grid.size // total))
+    try:
+        yield shown.advance
+    except KeyboardInterrupt as interrupt:
+        kept = int(np.sum(store.done))
+        interrupt.add_note(f"kept {kept} of {total} chunks in {store.path}; go on with --resume")
+        raise
+    finally:
+        shown.finish()
+
+
+# -- what it was made with -------------------------------------------------------------------------
+
+
+def _origin(
+    order: Order, grid: Grid, fixed: tuple[Mapping[str, Any], Mapping[str, Any]], seed: int
+) -> dict[str, Any]:
+    """Everything that the results depend on, as JSON."""
+    system = order.subject if isinstance(order.subject, System) else order.subject.system
+    found = provenance(seed)
+    for name in ("zarr", "xarray"):
+        found["versions"][name] = installed_version(name)
+    axes = {
+        name: {
+            "axis": grid.axis[name],
+            "coordinate": coordinate_name(name, order.outputs),
+            "units": column.unit,
+            "values": _digest(column.values),
+        }
+        for name, column in grid.columns.items()
+    }
+    return {
+        **found,
+        "system": system.name,
+        "declaration": json.loads(write_declaration(system)),
+        "kept_to_one_mode": isinstance(order.subject, Equations),
+        "parameters": {name: _plain(value) for name, value in fixed[0].items()},
+        "start": {name: _plain(value) for name, value in fixed[1].items()},
+        "duration": _plain(order.duration),
+        "options": {name: _plain(value) for name, value in order.options.items()},
+        "axes": axes,
+        "outputs": {name: _plain(output) for name, output in order.outputs.items()},
+        "batch": {"chunk": list(grid.chunk), "shape": list(grid.shape)},
+    }
+
+
+def _digest(values: Any) -> str:
+    from hashlib import sha256
+
+    return sha256(np.ascontiguousarray(values).tobytes()).hexdigest()
+
+
+def _plain(value: Any) -> Any:
+    match value:
+        case bool() | int() | float() | str() | None:
+            return value
+        case Mapping():
+            return {str(key): _plain(v) for key, v in value.items()}
+        case list() | tuple():
+            return [_plain(v) for v in value]
+        case np.generic():
+            return value.item()
+        case Expr():
+            return str(value)
+        case Pieces():
+            return [_digest(array) for array in (value.knots, value.coefficients)]
+        case _ if callable(value):
+            raise DeclarationError(
+                "a Python function in a sweep",
+                expected="what a store can tell: an expression of time, or samples",
+                advice="sample it, and read the samples with polhode.sampled",
+            )
+        case _:
+            return repr(value)
+
+
+def _refuse_other(store: Store, origin: Mapping[str, Any]) -> None:
+    """Refuse to go on with a store that was made with something else."""
+    before = store.origin
+    different = [key for key in origin if json.dumps(before.get(key)) != json.dumps(origin[key])]
+    if not different:
+        return
+    expected = "the same sweep with the same versions, so that the results fit together"
+    if different == ["versions"]:
+        old, new = before["versions"], origin["versions"]
+        told = [f"{n} {old.get(n)} (now {new[n]})" for n in new if old.get(n) != new[n]]
+        given = f"{store.path} was made with {', '.join(told)}"
+    else:
+        given = f"{store.path} is of a sweep with other {', '.join(different)}"
+    raise StoreError(given, expected=expected, advice="choose another name for this sweep")

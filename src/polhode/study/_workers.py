@@ -1,0 +1,71 @@
+"""Members shared out among processes of this machine."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from contextlib import contextmanager
+from multiprocessing import get_context
+
+import numpy as np
+from numpy.typing import NDArray
+
+from polhode.base import DeclarationError
+from polhode.simulate import Experiment
+from polhode.study._block import Block, Order, Tick, followed
+from polhode.study._columns import Members
+
+_SHARES = 4  # per process: members differ in what they take
+_SMALLEST = 8
+
+_here: list[tuple[Order, Experiment]] = []
+
+
+def shared_out(order: Order, members: Members, workers: int, tick: Tick) -> Block:
+    """The same block as of one process, made by several.
+
+    Raises:
+        DeclarationError: for fewer workers than one.
+    """
+    if workers < 1:
+        raise DeclarationError(f"{workers} workers", expected="one or more")
+    if workers == 1 or members.count == 1:
+        return followed(order, members, order.experiment(), tick)
+    block = Block.empty(order, members.count)
+    with _pool(order, workers) as pool:
+        waiting = {
+            pool.submit(_share, members.rows(rows)): rows
+            for rows in _shares(members.count, workers)
+        }
+        for done in as_completed(waiting):
+            block = block.put(waiting[done], done.result())
+            tick(len(waiting[done]))
+    return block
+
+
+def _shares(count: int, workers: int) -> list[NDArray[np.intp]]:
+    size = max(_SMALLEST, -(-count // (workers * _SHARES)))
+    return [np.arange(a, min(a + size, count)) for a in range(0, count, size)]
+
+
+@contextmanager
+def _pool(order: Order, workers: int) -> Iterator[ProcessPoolExecutor]:
+    # Fresh processes: a copy of one with threads in it may hang.
+    pool = ProcessPoolExecutor(workers, get_context("spawn"), _begin, (order,))
+    try:
+        yield pool
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _begin(order: Order) -> None:
+    _here[:] = [(order, order.experiment())]
+
+
+def _share(members: Members) -> Block:
+    ((order, experiment),) = _here
+    return followed(order, members, experiment, _nobody)
+
+
+def _nobody(count: int) -> None:
+    """Is told nothing."""
