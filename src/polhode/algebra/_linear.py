@@ -53,6 +53,9 @@ class Matrix:
         """Product with a column."""
         return tuple(dot(row, column) for row in self.rows)
 
+    def __repr__(self) -> str:
+        return f"[{', '.join(f'[{_listed(row)}]' for row in self.rows)}]"
+
     def latex(self) -> str:
         """LaTeX of the whole matrix."""
         body = r" \\ ".join(" & ".join(e.latex() for e in row) for row in self.rows)
@@ -60,6 +63,10 @@ class Matrix:
 
     def _repr_latex_(self) -> str:
         return f"$\\displaystyle {self.latex()}$"
+
+
+def _listed(row: Row) -> str:
+    return ", ".join(map(str, row))
 
 
 def dot(first: Iterable[Expr], second: Iterable[Expr]) -> Expr:

@@ -52,6 +52,9 @@ class Vector:
         """Component along a unit vector."""
         return self.dot(direction)
 
+    def __repr__(self) -> str:
+        return f"({', '.join(map(str, self.components))}) along {self.triad}"
+
     @property
     def is_zero(self) -> bool:
         """Whether it vanishes identically."""

@@ -38,6 +38,11 @@ class Invariants:
     found: tuple[Invariant, ...]
     ansatz: str
 
+    def __str__(self) -> str:
+        found = [f"{i.name} = {i.expression.pretty()}    ({i.meaning})" for i in self.found]
+        limits = f"Searched: {self.ansatz}. Nothing outside it is excluded."
+        return "\n".join([*found, limits])
+
     def __iter__(self) -> Iterator[Invariant]:
         return iter(self.found)
 

@@ -95,6 +95,9 @@ class SteadyMotion:
     def _is_rate(self, symbol: Symbol) -> bool:
         return symbol.order > 0 and symbol.base() in self.reduced.essential
 
+    def __repr__(self) -> str:
+        return f"SteadyMotion: {self}"
+
     def __str__(self) -> str:
         pieces = [f"{s.published} = {v}" for s, v in self.fixed.items() if not self._is_rate(s)]
         return ", ".join([*pieces, *(f"{r} = 0" for r in self.relations)]) or "every state"

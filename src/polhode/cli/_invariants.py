@@ -26,9 +26,7 @@ def run(options: Namespace) -> int:
         print_document({"system": entry.name, "invariants": described, "ansatz": found.ansatz})
         return 0
     print(f"Integrals of {entry.name}")
-    for invariant in found:
-        print(f"  {invariant.name} = {invariant.expression.pretty()}    ({invariant.meaning})")
-    print(f"Searched: {found.ansatz}. Nothing outside it is excluded.")
+    print(found)
     return 0
 
 

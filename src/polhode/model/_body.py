@@ -92,6 +92,14 @@ class Body:
     def __hash__(self) -> int:
         return hash((self.name, self.axes, self.tag))
 
+    def __repr__(self) -> str:
+        return f"Body {self.name!r}: mass {self.mass}, inertia {self._moments} along {self.axes}"
+
+    @property
+    def _moments(self) -> Matrix | tuple[Expr, ...]:
+        principal = tuple(self.inertia[i, i] for i in range(3))
+        return principal if self.inertia == Matrix.diagonal(principal) else self.inertia
+
     @cached_property
     def angular_velocity(self) -> Vector:
         """Angular velocity in inertial space, rad/s."""

@@ -55,6 +55,16 @@ class Frame:
     def __hash__(self) -> int:
         return self._hash
 
+    def __str__(self) -> str:
+        return f"{self.name} ({' '.join(self.labels)})"
+
+    def __repr__(self) -> str:
+        if self.parent is None:
+            return f"Frame {self}"
+        named = dict(zip(IDENTITY.rows, self.parent.labels, strict=True))
+        about = named.get(self.axis, f"({', '.join(map(str, self.axis))})")
+        return f"Frame {self}: {self.parent.name} turned by {self.angle} about {about}"
+
     def rotated(
         self, angle: ExprLike, about: str | Sequence[ExprLike], labels: str = "", name: str = ""
     ) -> Frame:

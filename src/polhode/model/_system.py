@@ -58,6 +58,11 @@ class System:
         for field, value in values.items():
             object.__setattr__(self, field, value)
 
+    def __repr__(self) -> str:
+        parts: tuple[Part, ...] = (*self.bodies, *self.elements, *self.loads)
+        listed = ", ".join(f"{type(part).__name__} {part.name!r}" for part in parts)
+        return f"System {self.name!r}: {listed}"
+
     @property
     def root(self) -> Frame:
         """The laboratory frame that everything is turned out of."""

@@ -60,6 +60,13 @@ class Trajectory:
     integrator: str
     invariants: Mapping[str, Expr]
 
+    def __repr__(self) -> str:
+        modes = ", ".join(dict.fromkeys(segment.mode for segment in self.segments))
+        return (
+            f"Trajectory of {self.system.name!r} over {self.duration:.6g} s: {modes}; "
+            f"{len(self.events)} events"
+        )
+
     @property
     def dynamics(self) -> Dynamics:
         """The equations of the first mode and the prescribed functions."""
