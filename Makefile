@@ -31,7 +31,7 @@ $(READY): pyproject.toml requirements.lock
 	@touch $@
 
 # Built with the package; again where its sources have changed since.
-$(FRONT_END): build_frontend.py $(wildcard web/*.*) $(wildcard web/src/*) | $(READY)
+$(FRONT_END): build_frontend.py $(wildcard web/*.*) $(wildcard web/src/*) $(wildcard web/src/*/*) | $(READY)
 	@$(BIN)/python build_frontend.py
 
 demo: $(READY) $(FRONT_END)

@@ -36,6 +36,12 @@ export class Clock {
     this.tell();
   }
 
+  /** Nobody is told of anything any more. */
+  stop(): void {
+    this.playing = false;
+    this.listeners.length = 0;
+  }
+
   toggle(): void {
     if (this.playing) this.pause();
     else this.play();

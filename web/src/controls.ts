@@ -124,7 +124,12 @@ function icon(name: keyof typeof ICONS): SVGElement {
 }
 
 /** Space plays and pauses, arrows go back and forth; on the picture they turn it. */
-export function keys(clock: Clock, picture: HTMLElement, stage: Stage | null): void {
+export function keys(
+  clock: Clock,
+  picture: HTMLElement,
+  stage: Stage | null,
+  signal?: AbortSignal,
+): void {
   const seek = (share: number) => (): void => clock.seek(clock.time + share * clock.duration);
   const everywhere: Record<string, () => void> = {
     " ": () => clock.toggle(),
@@ -144,12 +149,12 @@ export function keys(clock: Clock, picture: HTMLElement, stage: Stage | null): v
   document.addEventListener("keydown", (event) => {
     const target = event.target as HTMLElement;
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const own = target.closest("input, select, textarea, a, summary") !== null;
+    const own = target.closest("input, select, textarea, a, summary, [role=tab]") !== null;
     const pressed = event.key === " " && target.closest("button") !== null;
     if (own || pressed) return;
     const act = (target === picture && stage ? turning[event.key] : undefined) ?? everywhere[event.key];
     if (!act) return;
     event.preventDefault();
     act();
-  });
+  }, { signal });
 }

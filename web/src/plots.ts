@@ -10,15 +10,23 @@ const HEIGHT = 150;
 
 export class Plots {
   private readonly plots: Plot[];
+  private readonly fitting: ResizeObserver;
 
   constructor(panels: PanelData[], clock: Clock, holder: HTMLElement) {
     this.plots = panels.map((panel) => new Plot(panel, clock, holder));
     clock.onChange(({ time }) => {
       for (const plot of this.plots) plot.seek(time);
     });
-    new ResizeObserver(() => {
+    this.fitting = new ResizeObserver(() => {
       for (const plot of this.plots) plot.fit();
-    }).observe(holder);
+    });
+    this.fitting.observe(holder);
+  }
+
+  /** Nothing is left of them. */
+  remove(): void {
+    this.fitting.disconnect();
+    for (const plot of this.plots) plot.remove();
   }
 
   /** Colours are read again from the style of the page. */
@@ -28,6 +36,7 @@ export class Plots {
 }
 
 class Plot {
+  private readonly figure: HTMLElement;
   private readonly box: HTMLElement;
   private readonly now = make("div", { class: "now" });
   private readonly values: HTMLElement[];
@@ -50,7 +59,8 @@ class Plot {
     );
     const unit = make("span", { class: "unit" }, panel.unit);
     this.box = make("div", { class: "canvas", role: "img", "aria-label": this.described() });
-    holder.append(make("figure", { class: "plot" }, make("figcaption", {}, ...keys, unit), this.box));
+    this.figure = make("figure", { class: "plot" }, make("figcaption", {}, ...keys, unit), this.box);
+    holder.append(this.figure);
     this.plot = this.made();
   }
 
@@ -72,6 +82,11 @@ class Plot {
     this.plot.destroy();
     this.plot = this.made();
     this.mark();
+  }
+
+  remove(): void {
+    this.plot.destroy();
+    this.figure.remove();
   }
 
   private described(): string {

@@ -4,18 +4,25 @@ import {
   DirectionalLight,
   Group,
   HemisphereLight,
+  LineSegments,
+  type Material,
+  Mesh,
   type Object3D,
   PCFShadowMap,
   PerspectiveCamera,
+  Plane,
   Quaternion,
+  Raycaster,
   Scene,
+  type Texture,
+  Vector2,
   Vector3,
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Arrow } from "./arrows";
 import { Pose } from "./pose";
-import { type ArrowKind, Rows, type SceneData } from "./scene";
+import { type ArrowKind, Rows, type SceneData, type Triple } from "./scene";
 import { bodyObject, bracket, post, reach } from "./shapes";
 import { Grounds } from "./supports";
 import { Trace } from "./traces";
@@ -44,19 +51,24 @@ export class Stage {
   private readonly middle: Vector3;
   private readonly up: Vector3;
   private readonly place = new Vector3();
+  private readonly fitting = new ResizeObserver(() => this.fit());
+  private readonly sheets: Object3D[] = [];
   private frame = 0;
   private waiting = false;
+  private released = false;
 
-  /** Throws where there is no WebGL. */
+  /**
+   * Throws where there is no WebGL.
+   *
+   * It takes the place of an earlier stage, and its view of the same bodies where that is kept.
+   */
   constructor(
     readonly scene: SceneData,
     private readonly holder: HTMLElement,
+    before?: Stage,
+    keepsView = false,
   ) {
-    this.renderer = new WebGLRenderer({ antialias: true, alpha: true });
-    this.renderer.debug.checkShaderErrors = false; // waiting for them holds up the first picture
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = PCFShadowMap;
+    this.renderer = before?.renderer ?? rendererOf();
     this.up = new Vector3(...scene.up);
     this.poses = scene.bodies.map((body) => new Pose(body.pose));
     this.reach = Math.max(...scene.bodies.map(reach));
@@ -77,8 +89,58 @@ export class Stage {
     this.controls.minDistance = 1.5 * this.reach;
     this.controls.addEventListener("change", () => this.draw());
     this.home();
-    new ResizeObserver(() => this.fit()).observe(holder);
+    if (before) this.succeed(before, keepsView);
+    this.fitting.observe(holder);
     this.fit();
+  }
+
+  private succeed(before: Stage, keepsView: boolean): void {
+    if (keepsView && before.follow === this.follow) {
+      const moved = this.controls.target.clone().sub(before.controls.target);
+      if (!this.follow) moved.setScalar(0);
+      this.controls.target.copy(before.controls.target).add(moved);
+      this.camera.position.copy(before.camera.position).add(moved);
+    }
+    this.controls.enabled = before.controls.enabled;
+    before.release();
+    this.controls.update();
+  }
+
+  private release(): void {
+    this.released = true;
+    this.fitting.disconnect();
+    this.controls.dispose();
+    this.light.dispose();
+    this.world.traverse((object) => {
+      if (!(object instanceof Mesh || object instanceof LineSegments)) return;
+      object.geometry.dispose();
+      for (const material of [object.material].flat() as (Material & { map?: Texture })[]) {
+        material.map?.dispose();
+        material.dispose();
+      }
+    });
+  }
+
+  /** Whether pulling turns the view; where it does not, something else is pulled. */
+  set turns(turns: boolean) {
+    this.controls.enabled = turns;
+  }
+
+  /** The place on the level ground under a point of the screen, along the root frame; m. */
+  groundAt(x: number, y: number): Triple | null {
+    const box = this.holder.getBoundingClientRect();
+    const point = new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2);
+    const sight = new Raycaster();
+    sight.setFromCamera(point, this.camera);
+    const hit = sight.ray.intersectPlane(new Plane(this.up), this.place);
+    return hit && hit.toArray();
+  }
+
+  /** Draw sheets away from where they are at this time, m. */
+  shift(by: Triple): void {
+    this.seekFrame();
+    for (const sheet of this.sheets) sheet.position.add(new Vector3(...by));
+    this.draw();
   }
 
   get canvas(): HTMLCanvasElement {
@@ -140,11 +202,15 @@ export class Stage {
 
   seek(time: number): void {
     this.frame = (time / this.scene.duration) * (this.scene.frames - 1);
+    this.seekFrame();
+    if (this.follow) this.chase();
+    this.draw();
+  }
+
+  private seekFrame(): void {
     for (const { pose, object } of this.moving) pose.apply(this.frame, object);
     for (const arrow of this.arrows) arrow.update(this.frame);
     for (const trace of this.traces) trace.update(this.frame);
-    if (this.follow) this.chase();
-    this.draw();
   }
 
   private chase(): void {
@@ -169,6 +235,7 @@ export class Stage {
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
+      if (this.released) return;
       this.renderer.render(this.world, this.camera);
     });
   }
@@ -234,6 +301,7 @@ export class Stage {
       this.world.add(object);
       const pose = new Pose(support.pose);
       this.moving.push({ pose, object });
+      if (support.kind === "sheet") this.sheets.push(object);
       if (support.kind === "sheet") this.addTable(pose, Math.max(...support.reach) + this.radius, grid);
     }
     if (this.scene.floor !== null) this.addFloor(this.scene.floor, grid);
@@ -313,4 +381,13 @@ export class Stage {
     camera.far = 8 * range;
     camera.updateProjectionMatrix();
   }
+}
+
+function rendererOf(): WebGLRenderer {
+  const renderer = new WebGLRenderer({ antialias: true, alpha: true });
+  renderer.debug.checkShaderErrors = false; // waiting for them holds up the first picture
+  renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+  renderer.shadowMap.enabled = true;
+  renderer.shadowMap.type = PCFShadowMap;
+  return renderer;
 }

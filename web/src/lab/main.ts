@@ -1,0 +1,243 @@
+// The lab: sliders on one side, the motion they make on the other.
+
+import "uplot/dist/uPlot.min.css";
+import "../page.css";
+import "./lab.css";
+import { formula, make } from "../dom";
+import { sections } from "../text";
+import { ask, Asker } from "./ask";
+import { asking, Claims, said } from "./claims";
+import { keeping } from "./keep";
+import { Player } from "./player";
+import { SheetDrag } from "./sheet";
+import { fieldRow, shownNumber, Slider } from "./sliders";
+import { badge, invariants, steadyMotions } from "./standing";
+import { empty, read, written } from "./state";
+import { tabs } from "./tabs";
+import type { Answer, Control, Description, Offer, Outcome, Row, Standing, State } from "./types";
+
+const MOTION_DELAY = 40; // ms after the last change
+const STUDY_DELAY = 250;
+const AFTER = 1.5; // s that a motion goes on once the sheet is let go
+const RETURNED = 1e-9; // relative difference of velocities that count as equal
+const CONTACTS: Record<string, string> = { rolling: "Rolling", smooth: "Smooth", friction: "Friction" };
+
+class Lab {
+  private state: State;
+  private described: Description | null = null;
+  private sliders: Slider[] = [];
+  private readonly player = new Player();
+  private readonly claims = new Claims();
+  private readonly drag = new SheetDrag(this.player, (rows) => this.dragged(rows));
+  private readonly title = make("h1", {}, "polhode lab");
+  private readonly about = make("p", { class: "about" });
+  private readonly choice = make("select", { "aria-label": "System" });
+  private readonly contact = make("div", { class: "contact", role: "radiogroup", "aria-label": "Contact" });
+  private readonly panel = make("section", { class: "panel", "aria-label": "Numbers" });
+  private readonly message = make("p", { class: "message", role: "status" });
+  private readonly outcome = make("div", { class: "outcome" });
+  private readonly equations = make("div", {});
+  private readonly constants = make("div", {});
+  private readonly steady = make("div", {});
+  private claimsOpen = false;
+  private readonly motion = new Asker<Answer>("run", MOTION_DELAY, (answer) => this.play(answer), (message) => this.refused(message), (busy) => this.busy(busy));
+  private readonly study = new Asker<Standing>("standing", STUDY_DELAY, (standing) => this.stand(standing), () => {});
+
+  constructor(offers: Offer[], movies: string[]) {
+    this.state = read(location.hash) ?? empty(offers[0].name);
+    for (const { name, title } of offers) this.choice.append(make("option", { value: name }, title));
+    this.choice.addEventListener("change", () => this.begin(empty(this.choice.value)));
+    window.addEventListener("hashchange", () => {
+      const told = read(location.hash);
+      if (told && written(told) !== written(this.state)) void this.begin(told);
+    });
+    this.lay(movies);
+    void this.begin(this.state);
+  }
+
+  private lay(movies: string[]): void {
+    const bar = make("div", { class: "bar" }, this.choice, this.contact, keeping(() => this.wish(), movies, (text) => this.tell(text)));
+    const about = tabs([
+      { title: "Steady motions", panel: this.steady },
+      { title: "Equations", panel: this.equations },
+      { title: "Constants", panel: this.constants },
+      { title: "Claims", panel: this.claims.panel, opened: () => this.openClaims() },
+      { title: "Try an equation", panel: make("div", {}, asking(() => ({ system: this.state.system, contact: this.state.contact }))) },
+    ]);
+    const seen = make("div", { class: "seen" }, this.player.theatre, this.outcome, this.message);
+    const work = make("div", { class: "work" }, seen, this.panel, this.player.plots);
+    document.body.append(
+      make("main", { class: "lab" }, make("header", {}, make("div", { class: "masthead" }, this.title, bar), this.about), work, about),
+      make("footer", {}, "Computed on this machine by polhode; nothing leaves it."),
+    );
+  }
+
+  /** Another system, or another contact: what can be chosen is asked anew. */
+  private async begin(state: State): Promise<void> {
+    this.state = state;
+    this.choice.value = state.system;
+    this.drag.arm(false);
+    try {
+      const { system, contact } = state;
+      this.described = await ask<Description>("describe", { system, contact });
+      if (state !== this.state) return;
+      this.describe(this.described);
+      this.changed();
+      if (this.claimsOpen) void this.claims.open(system);
+    } catch (error) {
+      this.refused(said(error));
+      document.body.dataset.ready = "yes";
+    }
+  }
+
+  private describe(found: Description): void {
+    document.title = `${found.title} · polhode lab`;
+    this.title.textContent = found.title;
+    this.about.textContent = found.about;
+    this.contact.replaceChildren(...found.contacts.map((kind) => this.contactChoice(kind, found)));
+    const { settings, start } = this.state;
+    const make_ = (store: Record<string, string>) => (control: Control): Slider =>
+      new Slider(control, store[control.name] ?? control.text, (name, text) => this.put(store, control, text));
+    const parameters = found.parameters.map(make_(settings));
+    const starts = found.start.map(make_(start));
+    this.sliders = [...starts, ...parameters];
+    const usual = starts.filter(({ control }) => !control.extra);
+    const extra = starts.filter(({ control }) => control.extra);
+    const forcing = found.forcing.map(({ name, symbol, text }) =>
+      fieldRow(name, symbol, "(t)", settings[name] ?? text, (_, typed) => this.put(settings, { name, text }, typed)),
+    );
+    const duration = fieldRow("duration", "", "", this.state.duration || found.duration, (_, text) => {
+      this.state.duration = text === found.duration ? "" : text;
+      this.changed();
+    });
+    const reset = make("button", { type: "button", class: "switch" }, "Usual numbers");
+    reset.addEventListener("click", () => void this.begin({ ...empty(this.state.system), contact: this.state.contact }));
+    this.panel.replaceChildren(
+      ...(found.sheet ? [this.sheetBox()] : []),
+      make("h2", {}, "Start"),
+      ...usual.map(({ row }) => row),
+      ...(extra.length ? [make("details", {}, make("summary", {}, "Other coordinates"), ...extra.map(({ row }) => row))] : []),
+      make("h2", {}, "Parameters"),
+      ...parameters.map(({ row }) => row),
+      ...(forcing.length ? [make("h2", {}, "Prescribed"), ...forcing] : []),
+      duration,
+      reset,
+    );
+  }
+
+  private sheetBox(): HTMLElement {
+    const forget = make("button", { type: "button", class: "switch" }, "Usual path");
+    forget.addEventListener("click", () => {
+      this.state.sheet = [];
+      this.state.duration = "";
+      this.changed();
+    });
+    const words = make("p", { class: "long" }, "Press the button, then pull the sheet about in the picture. However it was pulled, the ball ends with the velocity it began with.");
+    return make("div", { class: "sheet" }, words, this.drag.button, forget);
+  }
+
+  private contactChoice(kind: string, found: Description): HTMLElement {
+    const input = make("input", { type: "radio", name: "contact", value: kind, checked: kind === found.contact });
+    input.addEventListener("change", () => {
+      const contact = kind === found.declared ? "" : kind;
+      void this.begin({ ...this.state, contact });
+    });
+    return make("label", {}, input, make("span", {}, CONTACTS[kind] ?? kind));
+  }
+
+  private put(store: Record<string, string>, control: { name: string; text: string }, text: string): void {
+    if (text === control.text || !text) delete store[control.name];
+    else store[control.name] = text;
+    this.changed();
+  }
+
+  private wish(): State {
+    const start: Record<string, string> = {};
+    for (const { name, text } of this.described?.start ?? []) {
+      const chosen = this.state.start[name] ?? text;
+      if (chosen !== "0" || name in this.state.start) start[name] = chosen;
+    }
+    const known = new Set([...(this.described?.parameters ?? []), ...(this.described?.forcing ?? [])].map(({ name }) => name));
+    const settings = Object.fromEntries(Object.entries(this.state.settings).filter(([name]) => known.has(name)));
+    const sheet = this.described?.sheet ? this.state.sheet : [];
+    return { ...this.state, settings, start, sheet };
+  }
+
+  private changed(): void {
+    history.replaceState(null, "", written(this.state));
+    this.motion.ask(this.wish());
+    this.study.ask(this.wish());
+  }
+
+  private dragged(rows: Row[]): void {
+    this.state.sheet = rows.map(([t, x, y]) => [Math.round(t * 100) / 100, Math.round(x * 1e4) / 1e4, Math.round(y * 1e4) / 1e4]);
+    this.state.duration = `${(rows[rows.length - 1][0] + AFTER).toFixed(2)} s`;
+    this.drag.arm(false);
+    this.changed();
+  }
+
+  private play({ scene, outcome }: Answer): void {
+    const first = document.body.dataset.ready !== "yes";
+    this.player.show(scene, `${this.state.system} ${this.state.sheet.length}`);
+    this.drag.arm(this.drag.armed);
+    this.equations.replaceChildren(...sections(scene));
+    this.outcome.replaceChildren(...(this.state.sheet.length ? [returned(outcome)] : []));
+    for (const slider of this.sliders) slider.wrong("");
+    this.tell("");
+    if (first) document.body.dataset.ready = "yes";
+    document.body.dataset.answers = String(Number(document.body.dataset.answers ?? 0) + 1);
+  }
+
+  private stand(standing: Standing): void {
+    this.steady.replaceChildren(...steadyMotions(standing, (values) => this.go(values)));
+    this.constants.replaceChildren(...invariants(standing));
+  }
+
+  /** Start with these values, in SI units; what is not a start value or parameter is left. */
+  private go(values: Record<string, number>): void {
+    for (const slider of this.sliders) {
+      const value = values[slider.control.name];
+      if (value !== undefined) slider.set(value);
+    }
+  }
+
+  private openClaims(): void {
+    this.claimsOpen = true;
+    if (this.described) void this.claims.open(this.state.system);
+  }
+
+  private refused(message: string): void {
+    for (const slider of this.sliders) slider.wrong(message.startsWith(`${slider.control.name}:`) || message.startsWith(`${slider.control.name} =`) ? message : "");
+    this.message.classList.add("wrong");
+    this.message.textContent = message;
+    document.body.dataset.ready = "yes";
+  }
+
+  private tell(message: string): void {
+    this.message.classList.remove("wrong");
+    this.message.textContent = message;
+  }
+
+  private busy(busy: boolean): void {
+    this.player.theatre.classList.toggle("busy", busy);
+    this.player.theatre.setAttribute("aria-busy", String(busy));
+  }
+}
+
+/** Velocity at the start and at the end, and whether they are the same. */
+function returned(outcome: Outcome[]): HTMLElement {
+  const shown = outcome.filter(({ name }) => name.startsWith("v_"));
+  const size = Math.max(...shown.flatMap(({ start, end }) => [Math.abs(start), Math.abs(end)]), 1e-30);
+  const same = shown.every(({ start, end }) => Math.abs(start - end) < RETURNED * size);
+  const cells = shown.map(({ symbol, start, end }) =>
+    make("span", { class: "ends" }, formula(symbol), ` ${shownNumber(tidy(start, size))} → ${shownNumber(tidy(end, size))} m/s`),
+  );
+  return make("p", {}, ...cells, badge(same ? "the velocity has returned" : "not the velocity it began with", same ? "holds" : "fails"));
+}
+
+function tidy(value: number, size: number): number {
+  return Math.abs(value) < 1e-12 * size ? 0 : value;
+}
+
+const { systems, movies } = document.body.dataset;
+if (systems) new Lab(JSON.parse(systems) as Offer[], (movies ?? "").split(" ").filter(Boolean));

@@ -1,0 +1,93 @@
+// The picture with its clock and plots: another motion takes the place of the one that plays.
+
+import { Clock, rates } from "../clock";
+import { keys, switches, transport } from "../controls";
+import { make } from "../dom";
+import { Plots } from "../plots";
+import type { SceneData } from "../scene";
+import { Stage } from "../stage";
+
+export class Player {
+  readonly picture = make("div", { class: "picture", tabindex: 0, role: "application", "aria-label": "Picture in three dimensions. Arrow keys turn the view, plus and minus zoom, space plays." });
+  readonly theatre = make("section", { class: "theatre", "aria-label": "Motion" }, this.picture);
+  readonly plots = make("section", { class: "plots", "aria-label": "Plots against time" });
+  stage: Stage | null = null;
+  clock: Clock | null = null;
+  private drawn: Plots | null = null;
+  private system = "";
+  private listening = new AbortController();
+  private blind = false;
+  private readonly dark = matchMedia("(prefers-color-scheme: dark)");
+
+  constructor() {
+    this.dark.addEventListener("change", () => {
+      this.drawn?.theme();
+      this.stage?.theme(this.dark.matches);
+    });
+  }
+
+  /** Play a motion; one of the same system goes on at the same time of the clock. */
+  show(scene: SceneData, system: string): void {
+    const same = system === this.system;
+    this.system = system;
+    const clock = this.follower(scene, same);
+    this.stage = this.staged(scene, same);
+    this.drawn?.remove();
+    this.drawn = new Plots(scene.panels, clock, this.plots);
+    this.controls(scene, clock);
+    this.listening.abort();
+    this.listening = new AbortController();
+    keys(clock, this.picture, this.stage, this.listening.signal);
+    const { stage } = this;
+    if (stage) clock.onChange(({ time }) => stage.seek(time));
+    stage?.theme(this.dark.matches);
+  }
+
+  private follower(scene: SceneData, same: boolean): Clock {
+    const before = this.clock;
+    const still = same && before?.duration === scene.duration;
+    const clock = new Clock(scene.duration, still && before ? before.rate : rates(scene.duration).usual);
+    if (before && same) {
+      clock.time = Math.min(before.time, scene.duration);
+      if (before.playing) clock.play();
+      before.stop();
+    }
+    this.clock = clock;
+    return clock;
+  }
+
+  private staged(scene: SceneData, same: boolean): Stage | null {
+    if (this.blind) return null;
+    try {
+      return new Stage(scene, this.picture, this.stage ?? undefined, same);
+    } catch {
+      this.blind = true;
+      this.picture.removeAttribute("tabindex");
+      this.picture.setAttribute("role", "note");
+      this.picture.removeAttribute("aria-label");
+      this.picture.classList.add("blind");
+      this.picture.append(make("p", {}, "No picture in three dimensions: this browser offers no WebGL. Plots, sliders and numbers work without it."));
+      return null;
+    }
+  }
+
+  /** The rows under the picture, with what was pressed and where the keyboard was. */
+  private controls(scene: SceneData, clock: Clock): void {
+    const before = [...this.theatre.querySelectorAll<HTMLElement>(".controls :is(button, input, select)")];
+    const focused = before.indexOf(document.activeElement as HTMLElement);
+    const pressed = new Map(before.map((button) => [told(button), button.getAttribute("aria-pressed")]));
+    const rows = make("div", { class: "controls" }, ...(this.stage ? [switches(scene, this.stage, clock)] : []), transport(clock));
+    this.theatre.querySelector(".controls")?.remove();
+    this.picture.after(rows);
+    const after = [...rows.querySelectorAll<HTMLElement>("button, input, select")];
+    for (const button of after) {
+      const wanted = pressed.get(told(button));
+      if (wanted && wanted !== button.getAttribute("aria-pressed")) button.click();
+    }
+    if (focused >= 0) after[focused]?.focus();
+  }
+}
+
+function told(button: HTMLElement): string {
+  return button.title || button.getAttribute("aria-label") || (button.textContent ?? "");
+}

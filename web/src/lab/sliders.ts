@@ -1,0 +1,106 @@
+// Sliders with a field each: a number with its unit, or a formula of other parameters.
+
+import { digits, formula, make } from "../dom";
+import type { Control } from "./types";
+
+const FINENESS = 1000; // positions of a slider
+const PLAIN = /^\s*([+\-−]?\d*\.?\d+(?:e[+-]?\d+)?)\s*(.*?)\s*$/i;
+
+export type Changed = (name: string, text: string) => void;
+
+export class Slider {
+  readonly row: HTMLElement;
+  private readonly range: HTMLInputElement;
+  private readonly field: HTMLInputElement;
+  private low: number;
+  private high: number;
+
+  constructor(
+    readonly control: Control,
+    text: string,
+    private readonly changed: Changed,
+  ) {
+    this.low = control.low;
+    this.high = control.high;
+    const called = control.meaning || control.name;
+    this.range = make("input", { type: "range", min: 0, max: FINENESS, step: 1, "aria-label": `${control.name}, ${called}` });
+    this.field = make("input", { type: "text", spellcheck: "false", autocomplete: "off", "aria-label": `${control.name}: value with unit` });
+    const label = make("span", { class: "what", title: called }, formula(control.symbol));
+    const meaning = control.meaning ? [make("small", {}, control.meaning)] : [];
+    this.row = make("div", { class: "slider", "data-name": control.name }, label, this.range, this.field, ...meaning);
+    this.range.addEventListener("input", () => this.slid());
+    this.field.addEventListener("change", () => this.typed());
+    this.show(text);
+  }
+
+  /** Set to a value in SI units. */
+  set(si: number): void {
+    this.show(this.printed(si / this.control.size));
+    this.changed(this.control.name, this.field.value);
+  }
+
+  wrong(message: string): void {
+    this.field.setAttribute("aria-invalid", String(Boolean(message)));
+    this.field.title = message;
+  }
+
+  private show(text: string): void {
+    this.field.value = text;
+    const value = this.read(text) ?? (text === this.control.text ? this.control.value : undefined);
+    if (value === undefined) return;
+    this.low = Math.min(this.low, value);
+    this.high = Math.max(this.high, value);
+    this.range.value = String(Math.round(FINENESS * this.share(value)));
+    this.range.setAttribute("aria-valuetext", text);
+  }
+
+  /** A number in the slider's unit, if the text is one. */
+  private read(text: string): number | undefined {
+    const [, number, unit] = PLAIN.exec(text) ?? [];
+    if (number === undefined) return undefined;
+    const value = Number(number.replace("−", "-"));
+    if (unit === this.control.unit) return value;
+    return unit === "" ? value / this.control.size : undefined;
+  }
+
+  private share(value: number): number {
+    if (this.control.ratio && value > 0) return Math.log(value / this.low) / Math.log(this.high / this.low);
+    return (value - this.low) / (this.high - this.low);
+  }
+
+  private slid(): void {
+    const share = Number(this.range.value) / FINENESS;
+    const value = this.control.ratio
+      ? this.low * (this.high / this.low) ** share
+      : this.rounded(this.low + share * (this.high - this.low));
+    this.field.value = this.printed(value);
+    this.range.setAttribute("aria-valuetext", this.field.value);
+    this.changed(this.control.name, this.field.value);
+  }
+
+  private rounded(value: number): number {
+    const step = 10 ** Math.floor(Math.log10((this.high - this.low) / 200));
+    return Math.round(value / step) * step;
+  }
+
+  private printed(value: number): string {
+    return `${Number(value.toPrecision(4))} ${this.control.unit}`.trim();
+  }
+
+  private typed(): void {
+    this.show(this.field.value.trim());
+    this.changed(this.control.name, this.field.value);
+  }
+}
+
+/** A field without a slider, for formulas. */
+export function fieldRow(name: string, symbol: string, hint: string, text: string, changed: Changed): HTMLElement {
+  const field = make("input", { type: "text", spellcheck: "false", autocomplete: "off", value: text, "aria-label": `${name} ${hint}`.trim() });
+  field.addEventListener("change", () => changed(name, field.value.trim()));
+  const letter = symbol ? formula(symbol) : name;
+  return make("div", { class: "slider formula", "data-name": name }, make("span", { class: "what" }, letter, make("small", {}, hint)), field);
+}
+
+export function shownNumber(value: number | null): string {
+  return value === null ? "—" : digits(value, 4);
+}

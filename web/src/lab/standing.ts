@@ -1,0 +1,90 @@
+// Steady motions and thresholds, with where the present start stands relative to them.
+
+import { formula, make } from "../dom";
+import { shownNumber } from "./sliders";
+import type { Family, Standing, Valued } from "./types";
+
+const NEAR = 1e-6; // what vanishes on a family, where a state counts as on it
+const DECADES = 1; // to either side of a threshold, on its scale
+
+export type Go = (values: Record<string, number>) => void;
+
+export function steadyMotions({ families }: Standing, go: Go): HTMLElement[] {
+  if (!families.length) return [make("p", {}, "No steady motion was found: none exists, or its conditions cannot be solved exactly.")];
+  const note = make("p", { class: "long" }, "Exact, for the system as it stands. Exponents with positive real part prove instability; imaginary ones leave it to terms of higher order.");
+  return [...families.map((family) => shown(family, go)), note];
+}
+
+function shown(family: Family, go: Go): HTMLElement {
+  const title = make("h3", { class: "equation" }, family.formula ? formula(family.formula) : family.spoken);
+  const state = family.on !== null && family.on < NEAR ? badge("you are here", "holds") : "";
+  const held = make("button", { type: "button", class: "switch" }, "Start there");
+  held.addEventListener("click", () => go(family.set));
+  return make(
+    "article",
+    { class: "family" },
+    make("div", { class: "head" }, title, state, ...(Object.keys(family.set).length ? [held] : [])),
+    ...branches(family, go),
+    ...stability(family),
+    ...valued("frequencies of small oscillations", family.frequencies),
+    ...valued("rates of growth where unstable", family.growth ?? []),
+  );
+}
+
+function branches(family: Family, go: Go): HTMLElement[] {
+  return family.branches.map((branch) => {
+    const value = make("span", { class: "number" }, branch.value === null ? " not real here" : ` = ${shownNumber(branch.value)} here`);
+    const row = make("p", { class: "branch" }, branch.formula ? formula(branch.formula) : branch.name, value);
+    const { name, value: si } = branch;
+    if (name && si !== null) {
+      const button = make("button", { type: "button", class: "switch" }, "Start there");
+      button.addEventListener("click", () => go({ ...family.set, [name]: si }));
+      row.append(" ", button);
+    }
+    return row;
+  });
+}
+
+function stability(family: Family): HTMLElement[] {
+  if (family.undecided) return [make("p", {}, badge("undecided", "unread"), ` ${family.undecided}`)];
+  if (family.stable === "true") return [make("p", {}, badge("stable", "holds"), " at every rate, to first order")];
+  if (family.stable === "false") return [make("p", {}, badge("unstable", "fails"), " at every rate")];
+  const rows = family.conditions.map((condition) => {
+    const word = condition.holds ? badge("stable here", "holds") : badge("unstable here", "fails");
+    const told = condition.formula ? formula(condition.formula) : make("span", { class: "long" }, condition.spoken);
+    return make("div", { class: "condition" }, make("p", {}, "stable when ", told), scale(condition.ratio), word);
+  });
+  return [...rows, make("p", { class: "long" }, `Loss: ${family.loss ?? ""}`)];
+}
+
+/** What speaks for an inequality over what speaks against it; the threshold is in the middle. */
+function scale(ratio: number | null): HTMLElement {
+  const power = ratio === null ? DECADES : ratio > 0 ? Math.log10(ratio) / DECADES : -DECADES;
+  const place = 50 + 50 * Math.max(-1, Math.min(1, power));
+  const mark = make("span", { class: "mark" });
+  mark.style.left = `${place}%`;
+  const said = ratio === null ? "nothing speaks against it" : `${shownNumber(ratio)} times the threshold`;
+  return make("div", { class: "scale", role: "img", "aria-label": said, title: said }, mark, make("span", { class: "told" }, said));
+}
+
+function valued(title: string, values: Valued[]): HTMLElement[] {
+  if (!values.length) return [];
+  const pieces = values.map(({ formula: text, value }) =>
+    make("span", { class: "valued" }, text ? formula(text) : "(long)", ` = ${value === null ? "not real here" : `${shownNumber(value)} rad/s`}`),
+  );
+  return [make("p", { class: "freq" }, `${title}: `, ...pieces)];
+}
+
+export function badge(text: string, kind: string): HTMLElement {
+  return make("strong", { class: `badge ${kind}` }, text);
+}
+
+export function invariants({ invariants: found }: Standing): HTMLElement[] {
+  if (!found.length) return [make("p", {}, "None was found.")];
+  return found.map(({ meaning, pieces, spoken }) => {
+    const set = pieces.length
+      ? make("div", { class: "equation", role: "math", "aria-label": spoken }, ...pieces.map(formula))
+      : make("p", { class: "long" }, spoken);
+    return make("div", {}, make("h3", {}, meaning), set);
+  });
+}

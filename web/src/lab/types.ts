@@ -1,0 +1,102 @@
+// What the lab's server says, and what it is asked; see the lab room of polhode.
+
+import type { SceneData } from "../scene";
+
+export interface Offer {
+  name: string;
+  title: string;
+}
+
+export interface Control {
+  name: string;
+  symbol: string;
+  meaning: string;
+  text: string;
+  value: number;
+  unit: string;
+  size: number;
+  low: number;
+  high: number;
+  ratio: boolean;
+  extra: boolean;
+}
+
+export interface Description {
+  name: string;
+  title: string;
+  about: string;
+  contact: string;
+  declared: string;
+  contacts: string[];
+  duration: string;
+  parameters: Control[];
+  start: Control[];
+  forcing: { name: string; symbol: string; text: string }[];
+  sheet: boolean;
+}
+
+export interface Outcome {
+  name: string;
+  symbol: string;
+  start: number;
+  end: number;
+}
+
+export interface Answer {
+  scene: SceneData;
+  outcome: Outcome[];
+}
+
+export interface Valued {
+  formula: string;
+  value: number | null;
+}
+
+export interface Family {
+  formula: string;
+  spoken: string;
+  on: number | null;
+  branches: (Valued & { name: string })[];
+  set: Record<string, number>;
+  undecided?: string;
+  stable?: string;
+  conditions: { formula: string; spoken: string; holds?: boolean; ratio: number | null }[];
+  frequencies: Valued[];
+  growth?: Valued[];
+  loss?: string;
+}
+
+export interface Standing {
+  families: Family[];
+  invariants: { name: string; meaning: string; pieces: string[]; spoken: string }[];
+}
+
+export interface Stated {
+  id: string;
+  formula: string;
+  printed: string;
+  words: string;
+  context: string;
+}
+
+export interface Verdict {
+  verdict: string;
+  reason: string;
+  formula?: string;
+  correction: { what: string; formula: string } | null;
+  residuals: string[];
+  counterexample: { values: Record<string, string>; left: string; right: string } | null;
+  remarks: string[];
+}
+
+export type Row = [number, number, number];
+
+/** What is asked for; only what differs from the usual is kept. */
+export interface State {
+  system: string;
+  contact: string;
+  settings: Record<string, string>;
+  start: Record<string, string>;
+  duration: string;
+  sheet: Row[];
+}
