@@ -15,11 +15,10 @@ import atheris
 
 with atheris.instrument_imports(include=["polhode.claims"]):
     from polhode.base import ParseError
-    from polhode.claims._statements import read_latex
-    from polhode.claims._tree import Words, walk
-    from polhode.claims._writer import write_latex
+    from polhode.claims.latex import read_latex, write_latex
+    from polhode.claims.latex._tree import Words, walk
 
-DISPLAYS = Path(__file__).parents[1] / "tests" / "claims" / "displays.txt"
+DISPLAYS = Path(__file__).parents[1] / "tests" / "claims" / "latex" / "displays.txt"
 LONGEST = 2000  # bytes
 
 

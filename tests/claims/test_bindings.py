@@ -18,9 +18,9 @@ from polhode.claims._meaning import BindingError, Meaning
 from polhode.claims._mechanics import Mechanics
 from polhode.claims._notation import Notation, letter
 from polhode.claims._phrases import quantity
-from polhode.claims._statements import read_latex
-from polhode.claims._tree import Name
 from polhode.claims._vocabulary import automatic, name_of, spelled
+from polhode.claims.latex import read_latex
+from polhode.claims.latex._tree import Name
 from polhode.derive import Equations
 
 

@@ -10,7 +10,7 @@ from polhode.catalogue import CATALOGUE
 from polhode.claims._document import Claim, Definition, Part
 from polhode.claims._notation import Notation
 from polhode.claims._read_document import read_document
-from polhode.claims._statements import read_latex
+from polhode.claims.latex import read_latex
 from polhode.derive import derive
 
 SMALL = r"""

@@ -9,8 +9,8 @@ from polhode.algebra import Expr, pi
 from polhode.base import ParseError
 from polhode.catalogue import CATALOGUE
 from polhode.claims._notation import Notation, letter
-from polhode.claims._statements import read_latex
 from polhode.claims._typed import typed, with_given, with_let, with_small
+from polhode.claims.latex import read_latex
 
 M, A = ph.symbols("m a", positive=True)
 THETA = ph.coordinate("theta")

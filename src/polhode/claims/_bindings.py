@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from polhode.algebra import ZERO, Expr, Vector
-from polhode.claims import _tree as tree
 from polhode.claims._components import Side
 from polhode.claims._evaluate import FORWARD, TIME, Evaluator
 from polhode.claims._meaning import BindingError, Meaning, Tensor, as_scalar, over, rate, zero_like
-from polhode.claims._tree import Node, Relation, Span, Statement, walk
 from polhode.claims._vocabulary import Vocabulary
+from polhode.claims.latex import _tree as tree
+from polhode.claims.latex._tree import Node, Relation, Span, Statement, walk
 
 EQUAL = ("=", "≡")
 COMPARED = (*EQUAL, "≈", "≠", "<", ">", "≤", "≥", "≪", "≫", "∝")

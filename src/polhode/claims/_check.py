@@ -10,15 +10,12 @@ from polhode.base import ParseError, PolhodeError
 from polhode.claims._asked import Asked
 from polhode.claims._contexts import CONTEXTS, judge
 from polhode.claims._notation import Notation
-from polhode.claims._places import tidied
-from polhode.claims._repair import Repaired, repaired
-from polhode.claims._statements import read_latex
-from polhode.claims._tree import Node, Statement
-from polhode.claims._trials import REPAIRED
 from polhode.claims._typed import with_given, with_let, with_small
 from polhode.claims._verdict import Answer, Correction, Verdict
 from polhode.claims._vocabulary import spelled
-from polhode.claims._writer import write_latex
+from polhode.claims.latex import read_latex, write_latex
+from polhode.claims.latex._tree import Node, Statement
+from polhode.claims.repair import REPAIRED, Repaired, repaired, tidied
 from polhode.derive import Equations
 
 

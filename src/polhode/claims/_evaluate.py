@@ -11,9 +11,9 @@ from polhode.algebra import Expr, Vector, as_symbol, cos, cosh, exp, integrate, 
 from polhode.algebra import tanh as tanh
 from polhode.base import NumericError
 from polhode.claims import _meaning as meanings
-from polhode.claims import _tree as tree
 from polhode.claims._meaning import BindingError, Meaning, as_scalar, as_vector
 from polhode.claims._vocabulary import Vocabulary, spelled
+from polhode.claims.latex import _tree as tree
 
 TIME = tree.Name("t")
 

@@ -14,9 +14,9 @@ from polhode.claims._document import Claim, Definition, Part
 from polhode.claims._evaluate import Evaluator
 from polhode.claims._meaning import BindingError, Meaning, as_scalar, signed, sort
 from polhode.claims._phrases import quantity
-from polhode.claims._statements import read_latex
-from polhode.claims._tree import Node, Statement
 from polhode.claims._vocabulary import Vocabulary, constant, name_of, spelled
+from polhode.claims.latex import read_latex
+from polhode.claims.latex._tree import Node, Statement
 from polhode.derive import Equations
 
 #: A binding of this name tells the frame that components in a bracket are along.

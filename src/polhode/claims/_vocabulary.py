@@ -11,7 +11,7 @@ from polhode.algebra import Expr, Kind, Symbol, Vector, pi, time
 from polhode.claims._meaning import BindingError, Meaning, dot, positive_root
 from polhode.claims._mechanics import Mechanics
 from polhode.claims._phrases import quantity
-from polhode.claims._tree import At, Component, Differential, Dots, Name, Node
+from polhode.claims.latex._tree import At, Component, Differential, Dots, Name, Node
 from polhode.derive import Equations
 from polhode.model import Contact, Element, Gravity, Pivot
 

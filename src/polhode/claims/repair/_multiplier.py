@@ -12,10 +12,10 @@ import numpy as np
 from polhode.algebra import Expr, Symbol
 from polhode.base import PolhodeError
 from polhode.claims._numeric import Array
-from polhode.claims._places import Place, put, times
-from polhode.claims._reading import Reading
-from polhode.claims._tree import Name, Node, Statement
-from polhode.claims._trials import Trials
+from polhode.claims.latex._tree import Name, Node, Statement
+from polhode.claims.repair._places import Place, put, times
+from polhode.claims.repair._reading import Reading
+from polhode.claims.repair._trials import Trials
 
 UNKNOWN = Symbol("multiplier")
 _LETTER = "multiplier"

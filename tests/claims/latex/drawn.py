@@ -5,8 +5,8 @@ from functools import cache
 
 from hypothesis import strategies as st
 
-from polhode.claims import _lexicon as lexicon
-from polhode.claims._tree import (
+from polhode.claims.latex import _lexicon as lexicon
+from polhode.claims.latex._tree import (
     At,
     Call,
     Case,

@@ -7,11 +7,11 @@ from fractions import Fraction
 
 from polhode.algebra import ONE, Expr, Symbol, Vector, factors
 from polhode.base import PolhodeError
-from polhode.claims._edits import Edit, letters, number_node, turned
-from polhode.claims._places import Place, added, negated, over, places, put, raised, times
-from polhode.claims._reading import Reading
-from polhode.claims._tree import Derivative, Name, Node, Root, Statement, Sum
-from polhode.claims._trials import Trials
+from polhode.claims.latex._tree import Derivative, Name, Node, Root, Statement, Sum
+from polhode.claims.repair._edits import Edit, letters, number_node, turned
+from polhode.claims.repair._places import Place, added, negated, over, places, put, raised, times
+from polhode.claims.repair._reading import Reading
+from polhode.claims.repair._trials import Trials
 
 _UNKNOWN = Symbol("missing")
 _LETTER = "missing"

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from polhode.claims import _lexicon as lexicon
-from polhode.claims._tokens import Token
+from polhode.claims.latex import _lexicon as lexicon
+from polhode.claims.latex._tokens import Token
 
 _DOTS = {str(count): name for name, count in lexicon.DOTS.items()}
 _MARKS = tuple("()[],;.:=+-*/'_^|{}")

@@ -11,15 +11,15 @@ import numpy as np
 from polhode.algebra import ZERO, Expr
 from polhode.base import PolhodeError
 from polhode.claims._asked import Asked
-from polhode.claims._edits import Edit, edits, letters, replaced_by, turned
-from polhode.claims._missing import missing_terms
-from polhode.claims._multiplier import matches, multiplier, response
 from polhode.claims._numeric import Array
-from polhode.claims._own_terms import Response, fitted
-from polhode.claims._places import Place, places, put, tidied
-from polhode.claims._reading import Reading
-from polhode.claims._tree import Dots, Name, Node, Statement
-from polhode.claims._trials import Trials, trials
+from polhode.claims.latex._tree import Dots, Name, Node, Statement
+from polhode.claims.repair._edits import Edit, edits, letters, replaced_by, turned
+from polhode.claims.repair._missing import missing_terms
+from polhode.claims.repair._multiplier import matches, multiplier, response
+from polhode.claims.repair._own_terms import Response, fitted
+from polhode.claims.repair._places import Place, places, put, tidied
+from polhode.claims.repair._reading import Reading
+from polhode.claims.repair._trials import Trials, trials
 
 Holds = Callable[[Asked], bool]
 

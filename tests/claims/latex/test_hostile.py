@@ -4,12 +4,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from claims.displays import DISPLAYS
+from claims.latex.displays import DISPLAYS
 from polhode.base import ParseError
-from polhode.claims._statements import read_latex
-from polhode.claims._tokens import LONGEST
-from polhode.claims._tree import Statement, Words, walk
-from polhode.claims._writer import write_latex
+from polhode.claims.latex import read_latex, write_latex
+from polhode.claims.latex._tokens import LONGEST
+from polhode.claims.latex._tree import Statement, Words, walk
 
 WORDS = r"""
     a d t x 1 2 0.5 + - = < ^ _ ' / | & , . ; : ( ) [ ] { } \{ \} $ $$ \\ \n * ~ \, \quad

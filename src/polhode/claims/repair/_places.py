@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from itertools import count
 
-from polhode.claims._tree import (
+from polhode.claims.latex._tree import (
     Negative,
     Node,
     Number,

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from string import ascii_letters, ascii_uppercase
 
-from polhode.claims._cursor import Cursor
-from polhode.claims._differentials import SIGNS
-from polhode.claims._labels import is_label, spelled, spells
-from polhode.claims._tokens import Token
-from polhode.claims._tree import (
+from polhode.claims.latex._cursor import Cursor
+from polhode.claims.latex._differentials import SIGNS
+from polhode.claims.latex._labels import is_label, spelled, spells
+from polhode.claims.latex._tokens import Token
+from polhode.claims.latex._tree import (
     Component,
     Dots,
     Name,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from polhode.claims._tree import (
+from polhode.claims.latex._tree import (
     NOWHERE,
     Derivative,
     Differential,

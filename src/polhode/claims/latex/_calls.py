@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from abc import abstractmethod
 
-from polhode.claims import _lexicon as lexicon
-from polhode.claims._differentials import product
-from polhode.claims._letters import LetterReader
-from polhode.claims._tree import Call, Dots, Name, Negative, Node, Number, Power
+from polhode.claims.latex import _lexicon as lexicon
+from polhode.claims.latex._differentials import product
+from polhode.claims.latex._letters import LetterReader
+from polhode.claims.latex._tree import Call, Dots, Name, Negative, Node, Number, Power
 
 _COUNTS = {"n", "k", "pi"}  # letters that stand before an angle: sin nθ
 _RATES = {"omega", "Omega", "nu", "kappa"}  # and, with the Latin ones, before a time: cos Ωt

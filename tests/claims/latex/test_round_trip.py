@@ -4,9 +4,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from claims.latex_trees import differentials, relations, trees
-from polhode.claims._statements import read_latex
-from polhode.claims._tree import (
+from claims.latex.drawn import differentials, relations, trees
+from polhode.claims.latex import read_latex, write_latex
+from polhode.claims.latex._tree import (
     Name,
     Node,
     Number,
@@ -17,7 +17,6 @@ from polhode.claims._tree import (
     parts,
     walk,
 )
-from polhode.claims._writer import write_latex
 
 
 @given(relations(3))

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from polhode.claims import _lexicon as lexicon
-from polhode.claims._differentials import derivative, product
-from polhode.claims._factors import FactorReader
-from polhode.claims._tree import (
+from polhode.claims.latex import _lexicon as lexicon
+from polhode.claims.latex._differentials import derivative, product
+from polhode.claims.latex._factors import FactorReader
+from polhode.claims.latex._tree import (
     Case,
     Cases,
     Components,

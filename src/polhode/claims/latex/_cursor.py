@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from polhode.base import ParseError
-from polhode.claims._brackets import Paired, shown
-from polhode.claims._tokens import Token, refusal
-from polhode.claims._tree import Span
+from polhode.claims.latex._brackets import Paired, shown
+from polhode.claims.latex._tokens import Token, refusal
+from polhode.claims.latex._tree import Span
 
 DEEPEST = 60  # quantities within quantities
 _NAMED = {"close": "the end", "row": "a new line", "gap": "a gap", "tag": "an equation number"}

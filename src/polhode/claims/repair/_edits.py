@@ -6,9 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
-from polhode.claims._multiplier import Match
-from polhode.claims._places import ONE, Place, negated, over, raised, times
-from polhode.claims._tree import (
+from polhode.claims.latex._tree import (
     Call,
     Dots,
     Name,
@@ -22,6 +20,8 @@ from polhode.claims._tree import (
     Sum,
     walk,
 )
+from polhode.claims.repair._multiplier import Match
+from polhode.claims.repair._places import ONE, Place, negated, over, raised, times
 
 _TURNED = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh", "tan": "cot", "cot": "tan"}
 

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 
 from polhode.base import ParseError
-from polhode.claims import _lexicon as lexicon
-from polhode.claims._prose import prose_of, split_number
-from polhode.claims._tree import Span
+from polhode.claims.latex import _lexicon as lexicon
+from polhode.claims.latex._prose import prose_of, split_number
+from polhode.claims.latex._tree import Span
 
 LONGEST = 20_000  # characters
 SHOWN = 40  # of them on either side of a place

@@ -2,11 +2,10 @@
 
 import pytest
 
-from claims.displays import DESTROYED, DISPLAYS, NUMBERED
+from claims.latex.displays import DESTROYED, DISPLAYS, NUMBERED
 from polhode.base import ParseError
-from polhode.claims._statements import read_latex
-from polhode.claims._tree import Cases, Name, Relation, walk
-from polhode.claims._writer import write_latex
+from polhode.claims.latex import read_latex, write_latex
+from polhode.claims.latex._tree import Cases, Name, Relation, walk
 
 READABLE = [number for number in DISPLAYS if number not in DESTROYED]
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from polhode.claims import _lexicon as lexicon
-from polhode.claims._labels import label_latex
-from polhode.claims._tree import Name
+from polhode.claims.latex import _lexicon as lexicon
+from polhode.claims.latex._labels import label_latex
+from polhode.claims.latex._tree import Name
 
 _ALPHABETS = {"cal": "mathcal", "bb": "mathbb", "frak": "mathfrak"}
 

@@ -8,7 +8,7 @@ from typing import Protocol
 from polhode.algebra import Expr
 from polhode.claims._asked import Asked
 from polhode.claims._components import Side
-from polhode.claims._tree import Node, Statement
+from polhode.claims.latex._tree import Node, Statement
 
 
 class Reading(Protocol):

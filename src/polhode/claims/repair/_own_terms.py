@@ -7,11 +7,11 @@ from itertools import combinations
 
 import numpy as np
 
-from polhode.claims._edits import Edit, edits
-from polhode.claims._multiplier import Match, simple_number
 from polhode.claims._numeric import Array
-from polhode.claims._places import Place
-from polhode.claims._tree import Number
+from polhode.claims.latex._tree import Number
+from polhode.claims.repair._edits import Edit, edits
+from polhode.claims.repair._multiplier import Match, simple_number
+from polhode.claims.repair._places import Place
 
 Response = Callable[[Array], Array]
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 
-from polhode.claims._brackets import Paired, closes, paired
-from polhode.claims._quantities import QuantityReader
-from polhode.claims._tokens import tokens
-from polhode.claims._tree import Case, Cases, Name, Node, Relation, Statement, Words, walk
+from polhode.claims.latex._brackets import Paired, closes, paired
+from polhode.claims.latex._quantities import QuantityReader
+from polhode.claims.latex._tokens import tokens
+from polhode.claims.latex._tree import Case, Cases, Name, Node, Relation, Statement, Words, walk
 
 _OR = re.compile(r"(?:\(.*\) *)?or")
 _WORDS_OF_CASE = re.compile(r"(?:\((.*)\) *)?(?:or)?")

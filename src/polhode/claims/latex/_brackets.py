@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from polhode.base import ParseError
-from polhode.claims import _lexicon as lexicon
-from polhode.claims._tokens import Token, refusal
+from polhode.claims.latex import _lexicon as lexicon
+from polhode.claims.latex._tokens import Token, refusal
 
 DEEPEST = 40  # brackets within brackets
 

@@ -6,10 +6,10 @@ from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from polhode.claims._calls import CallReader
-from polhode.claims._differentials import SIGNS, Operator, derivative, measured
-from polhode.claims._tokens import Token
-from polhode.claims._tree import (
+from polhode.claims.latex._calls import CallReader
+from polhode.claims.latex._differentials import SIGNS, Operator, derivative, measured
+from polhode.claims.latex._tokens import Token
+from polhode.claims.latex._tree import (
     At,
     Components,
     Differential,

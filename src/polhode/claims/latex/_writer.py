@@ -6,11 +6,11 @@ import re
 from functools import singledispatch
 from itertools import pairwise
 
-from polhode.claims import _lexicon as lexicon
-from polhode.claims._differentials import SIGNS, factors_of
-from polhode.claims._labels import label_latex
-from polhode.claims._name_latex import letter_latex, name_latex, scripts_latex
-from polhode.claims._tree import (
+from polhode.claims.latex import _lexicon as lexicon
+from polhode.claims.latex._differentials import SIGNS, factors_of
+from polhode.claims.latex._labels import label_latex
+from polhode.claims.latex._name_latex import letter_latex, name_latex, scripts_latex
+from polhode.claims.latex._tree import (
     At,
     Call,
     Case,

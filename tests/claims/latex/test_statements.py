@@ -2,8 +2,8 @@
 
 import pytest
 
-from polhode.claims._statements import read_latex
-from polhode.claims._tree import (
+from polhode.claims.latex import read_latex
+from polhode.claims.latex._tree import (
     Case,
     Cases,
     Name,

@@ -1,0 +1,6 @@
+"""The smallest correction of a claim that fails."""
+
+from polhode.claims.repair._places import tidied as tidied
+from polhode.claims.repair._repair import Repaired as Repaired
+from polhode.claims.repair._repair import repaired as repaired
+from polhode.claims.repair._trials import REPAIRED as REPAIRED
