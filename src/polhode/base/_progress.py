@@ -35,6 +35,7 @@ class TerminalProgress:
     """One line of a terminal, rewritten as the task advances and wiped when it ends."""
 
     _INTERVAL = 0.1  # seconds between rewrites
+    _SETTLED = 2.0  # seconds after which the pace tells how long it will take
 
     def __init__(self, stream: TextIO) -> None:
         self._stream = stream
@@ -42,14 +43,19 @@ class TerminalProgress:
         self._total: int | None = None
         self._done = 0
         self._due = 0.0
+        self._began = 0.0
+        self._before = 0
 
     def begin(self, task: str, total: int | None = None) -> None:
         """Show the task."""
         self._task, self._total, self._done = task, total, 0
+        self._began, self._before = time.monotonic(), 0
         self._show()
 
     def advance(self, steps: int = 1) -> None:
         """Count the steps, and show the count when it is time."""
+        if not self._done:
+            self._before = steps  # the first may be what an earlier run had done
         self._done += steps
         if time.monotonic() >= self._due:
             self._show()
@@ -60,8 +66,16 @@ class TerminalProgress:
 
     def _show(self) -> None:
         counted = f"{self._done}" if self._total is None else f"{self._done}/{self._total}"
-        self._write(f"{self._task} {counted}")
+        self._write(f"{self._task} {counted}{self._left()}")
         self._due = time.monotonic() + self._INTERVAL
+
+    def _left(self) -> str:
+        """How much longer it will take, once that can be told."""
+        passed, done = time.monotonic() - self._began, self._done - self._before
+        if self._total is None or done <= 0 or passed < self._SETTLED:
+            return ""
+        left = passed * max(self._total - self._done, 0) / done
+        return f", {left / 60:.0f} min left" if left > 90 else f", {left:.0f} s left"
 
     def _write(self, line: str) -> None:
         self._stream.write(f"\r\x1b[K{line}")

@@ -2,6 +2,8 @@
 
 from polhode.study._ensemble import Ensemble as Ensemble
 from polhode.study._ensemble import ensemble as ensemble
+from polhode.study._found import Found as Found
+from polhode.study._found import found_in as found_in
 from polhode.study._outputs import Duration as Duration
 from polhode.study._outputs import EndMode as EndMode
 from polhode.study._outputs import EventCount as EventCount
@@ -15,4 +17,6 @@ from polhode.study._outputs import Least as Least
 from polhode.study._outputs import Output as Output
 from polhode.study._outputs import Series as Series
 from polhode.study._reasons import Reason as Reason
+from polhode.study._store import Store as Store
+from polhode.study._store import open_store as open_store
 from polhode.study._sweep import sweep as sweep

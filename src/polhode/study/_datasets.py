@@ -37,7 +37,6 @@ def dataset_of(ensemble: Ensemble) -> xarray.Dataset:
     numbers = {
         name: ("member", column.values, {"units": column.unit} if column.unit else {})
         for name, column in ensemble.numbers.items()
-        if name not in columns
     }
     reason = {"reason": ("member", ensemble.reason)}
     return xarray.Dataset({**columns, **reason}, coords=numbers, attrs={"seed": ensemble.seed})

@@ -14,6 +14,7 @@ from polhode.base import DeclarationError, Progress, SilentProgress, look_up
 from polhode.study._block import Block, Order, Subject
 from polhode.study._columns import Array, Column, Members, Name, members_of
 from polhode.study._extremes import Quantity
+from polhode.study._grid import start_name
 from polhode.study._outputs import Output, outputs_of
 from polhode.study._reasons import Reason
 from polhode.study._workers import shared_out
@@ -35,7 +36,8 @@ class Ensemble:
         labels: of outputs that are codes: what each stands for.
         reason: a `Reason` per member, 0 for those that were followed to their end.
         failures: why members failed, in words; of the first thousand.
-        numbers: parameters and start values that differ, shape (members,), as given.
+        numbers: parameters and start values that differ, shape (members,), as given; those of
+            the name of an output are called `..._start`.
         seed: of what was drawn.
     """
 
@@ -166,6 +168,6 @@ def _told(order: Order, members: Members, block: Block, seed: int) -> Ensemble:
         labels={name: words for name, words in labels.items() if words},
         reason=block.reason,
         failures=block.told,
-        numbers=members.columns,
+        numbers={start_name(n, order.outputs): c for n, c in members.columns.items()},
         seed=seed,
     )

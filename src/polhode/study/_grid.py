@@ -35,11 +35,13 @@ class Grid:
 
     Attributes:
         columns: values of every quantity that differs, by published name.
+        called: what these values are called in results.
         axis: the axis of each: its own, or that of the samples.
         chunk: members of a chunk along every axis.
     """
 
     columns: Mapping[str, Column]
+    called: Mapping[str, str]
     axis: Mapping[str, str]
     chunk: tuple[int, ...]
 
@@ -92,7 +94,13 @@ class Grid:
         )
 
 
-def grid_of(axes: Mapping[Name, Any], samples: int | None, seed: int, chunk: int | None) -> Grid:
+def grid_of(
+    axes: Mapping[Name, Any],
+    samples: int | None,
+    seed: int,
+    chunk: int | None,
+    outputs: Collection[str] = (),
+) -> Grid:
     """The grid over arrays and distributions.
 
     Args:
@@ -104,16 +112,17 @@ def grid_of(axes: Mapping[Name, Any], samples: int | None, seed: int, chunk: int
     """
     given = published_names(axes)
     columns = {name: _column(name, value, samples, seed) for name, value in given.items()}
+    called = {name: start_name(name, outputs) for name in columns}
     axis = {
-        name: SAMPLE if isinstance(split_unit(given[name])[0], Distribution) else name
+        name: SAMPLE if isinstance(split_unit(given[name])[0], Distribution) else called[name]
         for name in columns
     }
     if not columns:
         raise DeclarationError("no axes", expected="at least one quantity that differs")
     if chunk is not None and chunk < 1:
         raise DeclarationError(f"{chunk} members in a chunk", expected="one or more")
-    whole = Grid(columns, axis, (1,) * len(set(axis.values())))
-    return Grid(columns, axis, _chunk(whole.shape, chunk))
+    whole = Grid(columns, called, axis, (1,) * len(set(axis.values())))
+    return Grid(columns, called, axis, _chunk(whole.shape, chunk))
 
 
 def _column(name: str, value: Any, samples: int | None, seed: int) -> Column:
@@ -143,6 +152,11 @@ def _chunk(shape: tuple[int, ...], wanted: int | None) -> tuple[int, ...]:
         found[axis] = min(side, shape[axis])
         left = max(1, left // found[axis])
     return tuple(found[i] for i in range(len(shape)))
+
+
+def start_name(name: str, outputs: Collection[str]) -> str:
+    """What given values are called beside outputs: one of the same name is the value at the end."""
+    return f"{name}_start" if name in outputs else name
 
 
 def split_axes(names: Collection[str], parameters: Collection[str]) -> tuple[list[str], list[str]]:

@@ -111,7 +111,7 @@ def created(
         group = zarr().create_group(path, zarr_format=3)
         for name, column in grid.columns.items():
             group.create_array(
-                coordinate_name(name, outputs),
+                grid.called[name],
                 data=column.values,
                 dimension_names=[grid.axis[name]],
                 attributes={"units": column.unit} if column.unit else {},
@@ -149,12 +149,7 @@ def created(
     return Store(path, group)
 
 
-def coordinate_name(name: str, outputs: Mapping[str, Any]) -> str:
-    """What the values of an axis are called; an output of the same name is the value at the end."""
-    return f"{name}_start" if name in outputs else name
-
-
-def opened(path: Path, mode: str = "r") -> Store:
+def open_store(path: Path, mode: str = "r") -> Store:
     """A store that is there.
 
     Raises:
@@ -185,7 +180,7 @@ def dataset(path: Path) -> xarray.Dataset:
     Raises:
         StoreError: where there is none, or xarray is not installed.
     """
-    store = opened(path)
+    store = open_store(path)
     found: xarray.Dataset = _libraries.xarray().open_zarr(
         path, consolidated=False, chunks=None, mask_and_scale=False
     )

@@ -27,9 +27,9 @@ from polhode.study._cluster import Compute, on_cluster, one_after_the_other, pro
 from polhode.study._columns import Name, published_names
 from polhode.study._ensemble import USUAL
 from polhode.study._extremes import Quantity
-from polhode.study._grid import Grid, grid_of, split_axes
+from polhode.study._grid import SAMPLE, Grid, grid_of, split_axes
 from polhode.study._outputs import Output, outputs_of
-from polhode.study._store import Store, coordinate_name, created, dataset, opened
+from polhode.study._store import Store, created, dataset, open_store
 
 if TYPE_CHECKING:
     import xarray
@@ -96,10 +96,10 @@ def sweep(
     path = Path(out)
     begun = _begun(path) if resume else None
     drawn = _seed(seed, begun)
-    grid = grid_of(axes, samples, drawn, chunk)
     given = {"forcing": forcing, "tolerance": tolerance, "near_flat": near_flat, "until": until}
     options = {name: value for name, value in given.items() if value is not None}
     order = Order(subject, duration, outputs_of(outputs), options)
+    grid = grid_of(axes, samples, drawn, chunk, order.outputs)
     order.experiment()  # refuses what cannot be asked of any member
     fixed = (published_names(parameters), published_names(start))
     own, _ = split_axes(list(grid.columns), _parameters(order))
@@ -119,12 +119,12 @@ def sweep(
 
 
 def _begun(path: Path) -> Store | None:
-    return opened(path, "r+") if path.exists() and any(path.iterdir()) else None
+    return open_store(path, "r+") if path.exists() and any(path.iterdir()) else None
 
 
 def _seed(seed: int | None, begun: Store | None) -> int:
     if seed is None and begun is not None:
-        return int(begun.origin["seed"])
+        return int(begun.origin["seed"] or 0)
     if seed is None:
         return int(np.random.SeedSequence().entropy) % 2**62  # type: ignore[arg-type]
     if seed < 0:
@@ -185,13 +185,13 @@ def _origin(
 ) -> dict[str, Any]:
     """Everything that the results depend on, as JSON."""
     system = order.subject if isinstance(order.subject, System) else order.subject.system
-    found = provenance(seed)
+    found = provenance(seed if SAMPLE in grid.axes else None)
     for name in ("zarr", "xarray"):
         found["versions"][name] = installed_version(name)
     axes = {
         name: {
             "axis": grid.axis[name],
-            "coordinate": coordinate_name(name, order.outputs),
+            "coordinate": grid.called[name],
             "units": column.unit,
             "values": _digest(column.values),
         }

@@ -1,0 +1,43 @@
+"""Draw what a sweep over two quantities found, with the exact thresholds of stability over it."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from pathlib import Path
+
+from polhode.cli._document import print_document
+from polhode.cli._parser import Parser
+from polhode.study import found_in
+
+_EXAMPLES = """examples:
+  polhode map fates -o fates.png
+  polhode map fates -o duration.svg --show duration
+"""
+
+
+def configure(parser: Parser) -> None:
+    """Add the options of the command."""
+    parser.epilog = _EXAMPLES
+    parser.add_argument("store", metavar="STORE", type=Path, help="that polhode sweep wrote")
+    parser.add_argument(
+        "-o", dest="file", metavar="FILE", type=Path, required=True, help=".png, .svg or .pdf"
+    )
+    parser.add_argument("--show", metavar="OUTPUT", default="", help="what to draw")
+    parser.add_argument("--json", action="store_true", help="print one JSON document")
+
+
+def run(options: Namespace) -> int:
+    """Draw one map."""
+    found = found_in(options.store, options.show)
+    from polhode.view.figures import new_figure, outcome_map, save_figure
+
+    figure = new_figure(3.4)
+    drawn = outcome_map(found, ax=figure.add_subplot())
+    save_figure(figure, options.file, origin=found.origin)
+    told = [f"{t.family}: {t.condition} = 0" for t in found.thresholds]
+    if options.json:
+        print_document({"file": str(options.file), "output": found.output, "thresholds": told})
+    else:
+        print(f"{options.file}: {found.output} of {found.system}")
+        print("\n".join(f"threshold of {text}" for text in told[: len(drawn.thresholds)]))
+    return 0

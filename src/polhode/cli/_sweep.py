@@ -1,0 +1,185 @@
+"""Simulate a system over a grid of values, and keep what becomes of every motion in a store."""
+
+from __future__ import annotations
+
+import time
+from argparse import Namespace
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from polhode.base import DeclarationError, ParseError, terminal_progress
+from polhode.catalogue import Entry, Numbers, numbers_of
+from polhode.cli._contact_options import declared
+from polhode.cli._document import print_document
+from polhode.cli._parser import Parser, assignments
+from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.cli._text import wrapped
+from polhode.derive import Equations, automaton
+from polhode.study import Duration, Fate, Final, Output, open_store, sweep
+
+_MOST = 10_000_000
+_EXAMPLES = """examples:
+  polhode sweep rolling-disk --axis theta=10deg:85deg:20 --axis omega_3=0rad/s:60rad/s:20 \\
+      --duration 1s --until "lifts off" --out fates
+  polhode sweep gyroscope --axis omega_1=500rpm:3000rpm:50 --keep theta --out tilts --workers 2
+  polhode sweep rolling-disk --axis theta=10deg:85deg:20 --out fates --resume
+"""
+
+
+def configure(parser: Parser) -> None:
+    """Add the options of the command."""
+    parser.epilog = _EXAMPLES
+    parser.add_argument("name", metavar="NAME", help=NAME_HELP)
+    parser.add_argument(
+        "--axis",
+        metavar="k=FROM:TO:COUNT",
+        action="append",
+        default=[],
+        required=True,
+        help="a parameter or start value, equally spaced between its ends",
+    )
+    parser.add_argument("--out", metavar="STORE", type=Path, required=True, help="folder to write")
+    parser.add_argument(
+        "--set", dest="settings", metavar="k=v", action="append", default=[], help="a parameter"
+    )
+    parser.add_argument("--start", metavar="k=v", action="append", default=[], help="a start value")
+    parser.add_argument("--duration", metavar="T", default="", help="such as 10s")
+    parser.add_argument("--mu", metavar="MU", default="", help="kinetic friction at the contacts")
+    parser.add_argument("--mu-static", metavar="MU", default="", help="static friction there")
+    parser.add_argument(
+        "--keep", metavar="k", action="append", default=[], help="a quantity at the end, kept too"
+    )
+    parser.add_argument(
+        "--until",
+        metavar="EVENT",
+        action="append",
+        default=[],
+        help='end a motion when this happens, such as "lifts off"',
+    )
+    parser.add_argument("--workers", metavar="N", type=int, default=1, help="processes to use")
+    parser.add_argument("--scheduler", metavar="A", default="", help="of a Dask cluster to use")
+    parser.add_argument(
+        "--resume", action="store_true", help="go on with the store, if it is there"
+    )
+    parser.add_argument("--json", action="store_true", help="print one JSON document")
+
+
+def run(options: Namespace) -> int:
+    """Sweep one system and print what came of it."""
+    began = time.perf_counter()
+    entry = entry_of(options.name)
+    settings = assignments(options.settings)
+    modes = automaton(declared(entry, options, settings))
+    equations = modes.together.equations
+    axes = [_axis(name, text) for name, text in assignments(options.axis).items()]
+    numbers = _numbers(entry, equations, options, settings, axes)
+    spread: dict[Any, Any] = {
+        axis.name: axis.values(*(_of(n, axis.name) for n in numbers)) for axis in axes
+    }
+    sweep(
+        modes,
+        spread,
+        {name: v for name, v in numbers[0].parameters.items() if name not in spread},
+        {name: v for name, v in numbers[0].start.items() if name not in spread},
+        numbers[0].duration,
+        out=options.out,
+        outputs=_kept(options.keep),
+        workers=options.workers,
+        address=options.scheduler,
+        resume=options.resume,
+        forcing=dict(numbers[0].forcing),
+        until=options.until or None,
+        progress=terminal_progress(),
+    )
+    store = open_store(options.out)
+    document: dict[str, Any] = {
+        "members": int(np.prod([axis.count for axis in axes])),
+        "failed": store.failed(),
+        "store": str(options.out),
+        "seconds": time.perf_counter() - began,
+    }
+    if options.json:
+        print_document(document)
+    else:
+        told = (f"{document['members']} members,", f"{document['failed']} failed,")
+        print("\n".join(wrapped("sweep", [*told, f"{document['seconds']:.1f} s"])))
+        print("\n".join(wrapped("store", [document["store"]])))
+    return 0
+
+
+@dataclass(frozen=True)
+class _Axis:
+    """Equally spaced values, the ends as texts with their units."""
+
+    name: str
+    first: str
+    last: str
+    count: int
+
+    def values(self, first: float, last: float) -> np.ndarray[Any, Any]:
+        return np.linspace(first, last, self.count)
+
+
+def _axis(name: str, text: str) -> _Axis:
+    parts = [part.strip() for part in text.split(":")]
+    if len(parts) != 3 or not all(parts) or not parts[2].isdecimal():
+        raise ParseError(
+            f"the axis {name}={text!r}",
+            expected="FROM:TO:COUNT, with units on the ends",
+            advice="say --axis omega_3=0rad/s:60rad/s:200, for instance",
+        )
+    count = int(parts[2])
+    if not 1 <= count <= _MOST:
+        raise ParseError(f"{count} values of {name}", expected=f"from 1 to {_MOST}")
+    return _Axis(name, parts[0], parts[1], count)
+
+
+def _numbers(
+    entry: Entry,
+    equations: Equations,
+    options: Namespace,
+    settings: Mapping[str, str],
+    axes: list[_Axis],
+) -> tuple[Numbers, Numbers]:
+    """The numbers at the first values of all axes, and at the last."""
+    constants = {p.name for p in entry.parameters} | {s.published for s in equations.parameters}
+    start = assignments(options.start)
+    for axis in axes:
+        if axis.name in settings or axis.name in start:
+            raise ParseError(f"{axis.name} is an axis and a value", expected="one of them")
+    ends = []
+    for end in ("first", "last"):
+        given = {axis.name: getattr(axis, end) for axis in axes}
+        own = {name: text for name, text in given.items() if name in constants}
+        moved = {name: text for name, text in given.items() if name not in constants}
+        ends.append(
+            numbers_of(entry, equations, {**settings, **own}, {**start, **moved}, options.duration)
+        )
+    first, last = ends
+    _refuse_followers(first, last, {axis.name for axis in axes})
+    return first, last
+
+
+def _refuse_followers(first: Numbers, last: Numbers, axes: set[str]) -> None:
+    """Refuse parameters whose default is made of one that differs."""
+    before, after = ({**n.parameters, **n.start} for n in (first, last))
+    for name, value in before.items():
+        if name not in axes and value != after[name]:
+            raise DeclarationError(
+                f"{name} follows from a quantity along an axis",
+                expected=f"one value of {name} for all members, or an axis of its own",
+                advice=f"add --set {name}=...",
+            )
+
+
+def _of(numbers: Numbers, name: str) -> float:
+    return {**numbers.parameters, **numbers.start}[name]
+
+
+def _kept(names: list[str]) -> dict[str, Output]:
+    usual: dict[str, Output] = {"fate": Fate(), "duration": Duration()}
+    return {**usual, **{name: Final(name) for name in names}}

@@ -1,0 +1,104 @@
+"""What a store of a sweep holds, as a map over two of its axes."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from polhode.base import DeclarationError, look_up, read_quantity
+from polhode.derive import Equations, automaton, derive
+from polhode.model import read_declaration
+from polhode.study._columns import Array
+from polhode.study._grid import SAMPLE
+from polhode.study._store import open_store
+from polhode.study._thresholds import Threshold, thresholds
+
+
+@dataclass(frozen=True)
+class Found:
+    """One output over two axes.
+
+    Attributes:
+        system: its name.
+        output: name of the output.
+        labels: what its codes stand for; empty for a quantity.
+        axes: values along the two axes by name, SI.
+        values: of the output, shape of the axes; not-a-number where there is none.
+        thresholds: exact curves over the axes.
+        numbers: everything else that was given.
+        origin: what the store was made with, as JSON.
+    """
+
+    system: str
+    output: str
+    labels: tuple[str, ...]
+    axes: Mapping[str, Array]
+    values: Array
+    thresholds: tuple[Threshold, ...]
+    numbers: Mapping[str, float]
+    origin: str
+
+
+def found_in(path: Path, output: str = "") -> Found:
+    """The map that a store holds.
+
+    Args:
+        output: name of what to map; by default the first that is a code.
+
+    Raises:
+        DeclarationError: for a store that does not have two axes, or an output it has not.
+        StoreError: where there is no store.
+    """
+    store = open_store(path)
+    origin = store.origin
+    names = list(origin["axes"])
+    if len(names) != 2 or any(axis["axis"] == SAMPLE for axis in origin["axes"].values()):
+        raise DeclarationError(
+            f"{path} has the axes {', '.join(names)}",
+            expected="a sweep over two quantities, for a map",
+        )
+    outputs = {name: store.group[name] for name in origin["outputs"]}
+    codes = [name for name, array in outputs.items() if "labels" in array.attrs]
+    chosen = output or next(iter([*codes, *outputs]))
+    array = look_up(chosen, outputs, "output of this sweep")
+    values = np.asarray(array[...], dtype=float)
+    if values.ndim != 2:
+        raise DeclarationError(f"{chosen} is a series", expected="an output that is one number")
+    labels = tuple(array.attrs.get("labels", ()))
+    axes = {name: _si(store.group[origin["axes"][name]["coordinate"]]) for name in names}
+    numbers = _numbers({**origin["parameters"], **origin["start"]})
+    system = read_declaration(json.dumps(origin["declaration"]))
+    equations: Equations = (
+        derive(system) if origin["kept_to_one_mode"] else automaton(system).together.equations
+    )
+    return Found(
+        system=origin["system"],
+        output=chosen,
+        labels=labels,
+        axes=axes,
+        values=np.where(values < 0, np.nan, values) if labels else values,
+        thresholds=tuple(thresholds(equations, axes, numbers)),
+        numbers=numbers,
+        origin=json.dumps(origin, sort_keys=True),
+    )
+
+
+def _si(array: Any) -> Array:
+    values = np.asarray(array[...], dtype=float)
+    unit = array.attrs.get("units", "")
+    return values * read_quantity(f"1 {unit}").value if unit else values
+
+
+def _numbers(given: Mapping[str, object]) -> dict[str, float]:
+    found = {}
+    for name, value in given.items():
+        if isinstance(value, str):
+            found[name] = read_quantity(value).value
+        elif isinstance(value, int | float):
+            found[name] = float(value)
+    return found
