@@ -21,6 +21,8 @@ COMMANDS = {
     "exact": "the closed form of a motion, beside its simulation",
     "check": "judge a published equation against a system",
     "lab": "play with a system in the browser",
+    "sweep": "simulate a system over a grid of values",
+    "map": "draw what a sweep found",
     "tour": "work through the whole catalogue and write a page of it",
     "cache": "the cache of compiled systems",
 }
