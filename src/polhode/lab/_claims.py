@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
 from typing import Any
 
@@ -11,6 +12,7 @@ from polhode.claims import Claim, Document, Verdict, audit, check, read_document
 from polhode.derive import Equations, derive
 from polhode.lab._wish import Question
 
+_MARKS = re.compile(r"\$+|\\(?:tag|label)\*?\{[^{}]*\}")
 _LONGEST = 1500  # letters of LaTeX that is typeset, or of a residual that is shown
 
 
@@ -78,7 +80,8 @@ def _told(verdict: Verdict) -> dict[str, Any]:
 
 
 def _set(latex: str) -> str:
-    """Typeset as MathML; empty where it cannot be."""
+    """Typeset as MathML, without dollar signs and numbers; empty where it cannot be."""
+    latex = _MARKS.sub(" ", latex).strip()
     if not latex or len(latex) > _LONGEST:
         return ""
     try:

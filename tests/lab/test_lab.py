@@ -1,0 +1,171 @@
+"""What the lab answers to what its page asks."""
+
+import base64
+import csv
+import io
+import json
+import math
+import struct
+
+import numpy as np
+import pytest
+from starlette.testclient import TestClient
+
+import polhode as ph
+from lab.conftest import HERE, PORT, SMALL
+from polhode.catalogue import CATALOGUE
+from polhode.lab import Own
+from polhode.lab._app import app_of
+
+
+def answer(response):
+    assert response.status_code == 200, response.text
+    return json.loads(response.content, parse_constant=pytest.fail)
+
+
+def unpacked(packed):
+    count = math.prod(packed["shape"])
+    return struct.unpack(f"<{count}f", base64.b64decode(packed["float32"]))
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_every_system_has_sliders_that_hold_their_values(ask, name):
+    described = answer(ask("describe", system=name))
+    assert described["title"] == CATALOGUE[name].title
+    controls = described["parameters"] + described["start"]
+    assert {control["name"] for control in controls} >= set(CATALOGUE[name].start)
+    for control in controls:
+        assert control["low"] < control["high"]
+        assert control["low"] <= control["value"] <= control["high"]
+        assert control["symbol"].startswith("<math")
+        assert control["low"] > 0 or not control["ratio"]
+
+
+def test_the_motion_is_that_of_the_numbers(ask):
+    start = {"theta": "75 deg", "phi_dot": "1 rad/s", "omega_3": "40 rad/s"}
+    found = answer(ask("run", system="rolling-disk", start=start, duration="1 s"))
+    panel = found["scene"]["panels"][0]
+    assert panel["unit"] == "deg"
+    theta = unpacked(panel["series"][0]["values"])
+    disk = ph.derive(CATALOGUE["rolling-disk"].build())
+    run = ph.simulate(disk, {"m": 0.2, "a": 0.03, "g": 9.81}, start, "1 s")
+    assert theta[0] == pytest.approx(75)
+    assert theta[-1] == pytest.approx(math.degrees(run.final["theta"]), abs=1e-4)
+
+
+def test_contacts_are_switched(ask):
+    kinds = {}
+    for contact in ("rolling", "smooth", "friction"):
+        described = answer(ask("describe", system="rolling-disk", contact=contact))
+        assert described["contact"] == contact
+        found = answer(ask("run", system="rolling-disk", contact=contact, duration="0.5 s"))
+        kinds[contact] = {s["name"] for panel in found["scene"]["panels"] for s in panel["series"]}
+    assert kinds["rolling"] >= {"F_x", "F_y", "F_z"}
+    assert "F_x" not in kinds["smooth"]
+    assert "mu" in {c["name"] for c in described["parameters"]}
+
+
+def test_without_friction_it_starts_as_if_it_rolled(ask):
+    places = {}
+    for contact in ("rolling", "smooth"):
+        found = answer(ask("run", system="rolling-disk", contact=contact, duration="0.01 s"))
+        place = np.reshape(unpacked(found["scene"]["bodies"][0]["pose"]["place"]), (-1, 3))
+        places[contact] = place[-1] - place[0]
+    assert np.linalg.norm(places["rolling"][:2]) > 0.01
+    assert places["smooth"][:2] == pytest.approx(places["rolling"][:2], abs=1e-4)
+
+
+def test_friction_slips_where_rolling_needs_too_much(ask):
+    numbers = {"settings": {"mu": "0.05"}, "contact": "friction", "duration": "0.6 s"}
+    path = [[t / 60, 0.1 * (1 - math.cos(t / 4)), 0] for t in range(30)]
+    found = answer(ask("run", system="ball-on-paper", sheet=path, **numbers))
+    kinds = {happening["what"].partition(":")[0] for happening in found["scene"]["happenings"]}
+    assert kinds & {"slips", "sticks"}
+
+
+def test_a_dragged_sheet_gives_the_velocity_back(ask):
+    path = [[t / 60, 0.04 * math.sin(t / 20), 0.03 * (1 - math.cos(t / 15))] for t in range(80)]
+    found = answer(ask("run", system="ball-on-paper", sheet=path, duration="3 s"))
+    speeds = {speed["name"]: speed for speed in found["outcome"]}
+    for name in ("v_x", "v_y"):
+        assert speeds[name]["end"] == pytest.approx(speeds[name]["start"], abs=1e-12)
+    moved = np.reshape(unpacked(found["scene"]["supports"][0]["pose"]["place"]), (-1, 3))
+    assert np.ptp(moved[:, 0]) > 0.03
+
+
+def test_standing_tells_on_which_side_of_a_threshold(ask):
+    """A disk on edge keeps rolling where ω₃² exceeds g/3a."""
+    limit = math.sqrt(9.81 / (3 * 0.03))
+    sides = {}
+    for factor in (0.9, 1.1):
+        start = {"theta": "90 deg", "omega_3": f"{factor * limit} rad/s"}
+        family = answer(ask("standing", system="rolling-disk", start=start))["families"][0]
+        condition = family["conditions"][0]
+        sides[factor] = condition["holds"]
+        assert condition["ratio"] == pytest.approx(factor**2, rel=1e-3)
+        assert family["on"] == pytest.approx(0, abs=1e-12)
+    assert sides == {0.9: False, 1.1: True}
+
+
+def test_standing_gives_the_rate_of_steady_motion(ask):
+    start = {"theta": "80 deg", "omega_3": "40 rad/s"}
+    family = answer(ask("standing", system="rolling-disk", start=start))["families"][0]
+    rate = min(branch["value"] for branch in family["branches"])
+    kept = {**start, "phi_dot": f"{rate!r} rad/s"}
+    found = answer(ask("run", system="rolling-disk", start=kept, duration="2 s"))
+    theta = unpacked(found["scene"]["panels"][0]["series"][0]["values"])
+    assert max(theta) - min(theta) < 1e-4
+
+
+def test_claims_are_listed_and_judged(ask):
+    claims = answer(ask("claims", system="gyroscope"))["claims"]
+    assert len(claims) > 5
+    assert all(claim["formula"] or claim["words"] for claim in claims)
+    verdict = answer(ask("judge", system="gyroscope", id=claims[0]["id"]))
+    assert verdict["verdict"] in {"holds", "fails", "approximate", "definition", "unread"}
+
+
+def test_typed_equations_are_judged(ask):
+    momentum = r"I_1 \dot\omega_1 = (I_2 - I_3)\,\omega_2\omega_3"
+    assert answer(ask("check", system="tennis-racquet", latex=momentum))["verdict"] == "holds"
+    wrong = momentum.replace("I_2 - I_3", "I_3 - I_2")
+    told = answer(ask("check", system="tennis-racquet", latex=wrong))
+    assert told["verdict"] == "fails"
+    assert told["correction"]["formula"].startswith("<math")
+
+
+@pytest.mark.parametrize(
+    ("kind", "begins"),
+    [("page", b"<!DOCTYPE html>"), ("csv", b"# polhode {"), ("svg", b"<?xml"), ("png", b"\x89PNG")],
+)
+def test_files_are_made(ask, kind, begins):
+    response = ask("export", system="gyroscope", duration="0.2 s", kind=kind)
+    assert response.status_code == 200
+    assert response.content.startswith(begins)
+    assert response.headers["content-disposition"].startswith("attachment; filename=")
+
+
+def test_the_table_is_of_the_motion_that_was_asked_for(ask):
+    start = {"theta": "50 deg", "omega_1": "100 rad/s"}
+    response = ask("export", system="gyroscope", start=start, duration="0.2 s", kind="csv")
+    rows = list(csv.DictReader(io.StringIO(response.text.partition("\n")[2])))
+    assert float(rows[0]["theta"]) == pytest.approx(math.radians(50))
+    assert float(rows[-1]["t"]) == pytest.approx(0.2)
+
+
+def test_a_system_of_ones_own_is_offered():
+    """It is sent to the workers as plain data, and given numbers to begin with."""
+    m, l, g = ph.symbols("m l g", positive=True)
+    swing = ph.Frame("lab").rotated(ph.coordinate("theta"), "y", name="axes")
+    rod = ph.rod("rod", mass=m, length=l, axes=swing, axis="z")
+    pivot = ph.Pivot(rod, at=swing["z"] * (l / 2))
+    system = ph.System(pivot, ph.Hinge(rod, axis="y"), ph.Gravity(g), name="<i>pendulum</i>")
+    own = Own("file.py:swing", system.name, ph.model.write_declaration(system))
+    with TestClient(app_of(PORT, own, SMALL), base_url=HERE) as client:
+        page = client.get("/").text
+        assert "&lt;i&gt;pendulum" in page
+        assert "<i>" not in page
+        described = client.post("/api/describe", json={"system": own.name}).json()
+        assert {c["name"] for c in described["parameters"]} == {"m", "l", "g"}
+        found = answer(client.post("/api/run", json={"system": own.name, "duration": "1 s"}))
+        assert found["scene"]["duration"] == 1
