@@ -16,7 +16,7 @@ from polhode.base._errors import (
 from polhode.base._files import write_whole
 from polhode.base._lookup import look_up
 from polhode.base._plain import Codec, Shape, digest
-from polhode.base._progress import Progress, SilentProgress, terminal_progress
+from polhode.base._progress import Enough, Progress, SilentProgress, terminal_progress
 from polhode.base._quantity import Quantity, Value, read_quantity, to_si
 from polhode.base._schema import SCHEMA, Provenance, installed_version, provenance
 from polhode.base._unit_text import read_unit
@@ -32,6 +32,7 @@ __all__ = [
     "ConstraintError",
     "DeclarationError",
     "Dimension",
+    "Enough",
     "Exit",
     "NumericError",
     "ParseError",

@@ -5,6 +5,10 @@ import time
 from typing import Protocol, TextIO
 
 
+class Enough(Exception):
+    """Raised by a listener to end a task there and keep what is done."""
+
+
 class Progress(Protocol):
     """A listener to one task at a time."""
 
@@ -12,7 +16,7 @@ class Progress(Protocol):
         """Start a task of `total` steps, or of a number that is not known."""
 
     def advance(self, steps: int = 1) -> None:
-        """Tell that so many more steps are done."""
+        """Tell that so many more steps are done; may raise `Enough`."""
 
     def finish(self) -> None:
         """End the task."""

@@ -93,7 +93,7 @@ class Walk:
         while entry.place.time < end:
             outcome = self._stay(entry, end)
             self._segments.append(outcome.segment)
-            if outcome.guard is None and outcome.segment.end >= end:
+            if outcome.guard is None and (outcome.segment.end >= end or outcome.interrupted):
                 break
             time, before = outcome.segment.end, outcome.segment.mode
             last = self._last(outcome)
@@ -142,6 +142,8 @@ class Walk:
 
     def _hop(self, mode: ModeMachine, entry: Entry) -> float:
         """How far ahead a contact that has just opened may be expected to be closed again, s.
+            if part.solution.stop is Stop.INTERRUPTED:
+                break
 
         A short hop within a long step would be lost in the rounding of the long one.
         """
@@ -419,3 +421,7 @@ def _chattering(time: float) -> NumericError:
         expected="a motion that settles",
         advice="it chatters: end the motion before that time, or change the friction",
     )
+    @property
+    def interrupted(self) -> bool:
+        """Whether who listens had enough."""
+        return self.segment.parts[-1].solution.stop is Stop.INTERRUPTED

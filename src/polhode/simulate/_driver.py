@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import TypeAlias
 
@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polhode.algebra import Symbol, arrays
-from polhode.base import NumericError, Progress
+from polhode.base import Enough, NumericError, Progress
 from polhode.simulate._crossing import bisected
 from polhode.simulate._flow import Flow, Stage
 from polhode.simulate._integrators import LOOKS, Array, Leg, Stepper, broken
+from polhode.simulate._numbers import DOUBLES, Numbers
 from polhode.simulate._quadrature import Integral, integral
 
 _TURNS = 16  # periods after which an angle is counted from zero again
@@ -28,6 +29,7 @@ class Stop(Enum):
     """Why an integration came to its end."""
 
     TIME = "the end was reached"
+    INTERRUPTED = "who listens has enough"
     PAUSE = "enough steps to look at"
     VANISHED = "a vector that was watched vanished or turned round"
     STUCK = "the motion cannot be continued"
@@ -62,6 +64,7 @@ class Solution:
         steps: where the steps of the integrator begin and end, s.
         stop: why it ends where it does.
         vanished: which of the vectors watched vanishes at its end.
+        numbers: what the states are.
     """
 
     symbols: tuple[Symbol, ...]
@@ -70,10 +73,19 @@ class Solution:
     stop: Stop
     vanished: int | None
     _at: States = field(repr=False)
+    numbers: Numbers = DOUBLES
+    _rounded_at: States | None = field(default=None, repr=False)
 
     def at(self, times: Array) -> Array:
         """States, shape (states, times)."""
         return self._at(times)
+
+    def rounded(self) -> Solution:
+        """The same in doubles."""
+        if self._rounded_at is None:
+            return self
+        steps = DOUBLES.array(self.steps)
+        return replace(self, steps=steps, _at=self._rounded_at, numbers=DOUBLES, _rounded_at=None)
 
 
 def integrate(
@@ -211,7 +223,11 @@ class _Watch:
 
     def __call__(self, time: float, state: Array) -> bool:
         self._steps += 1
-        self._progress.advance()
+        try:
+            self._progress.advance()
+        except Enough:
+            self.stop = Stop.INTERRUPTED
+            return False
         if self._steps > _MOST_STEPS:
             raise endless(time)
         vanished = [self._vanishes(k, state) for k in range(len(self._vectors))]

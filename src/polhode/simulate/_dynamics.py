@@ -17,12 +17,12 @@ from polhode.algebra import (
     Matrix,
     Program,
     Symbol,
-    arrays,
     compile_program,
     time,
 )
 from polhode.base import DeclarationError
 from polhode.simulate._memory import Memory
+from polhode.simulate._numbers import DOUBLES, Numbers
 
 
 class EquationsOfMotion(Protocol):
@@ -156,15 +156,16 @@ class Dynamics:
         expressions: Iterable[Expr],
         arguments: tuple[Symbol, ...] | None = None,
         turned: Mapping[Symbol, Symbol] = MappingProxyType({}),
+        numbers: Numbers = DOUBLES,
     ) -> Compiled:
         """Expressions as a function of NumPy arrays: of the `arguments`, or of others.
 
         The same one is made only once.
         """
-        key = (tuple(expressions), arguments or self.arguments, tuple(turned.items()))
+        key = (tuple(expressions), arguments or self.arguments, tuple(turned.items()), numbers)
         if key not in self._made:
-            wanted, given, _ = key
-            self._made[key] = self.program(wanted, given, turned).function(arrays())
+            wanted, given, *_ = key
+            self._made[key] = self.program(wanted, given, turned).function(numbers.arithmetic)
         return self._made[key]
 
     @cached_property

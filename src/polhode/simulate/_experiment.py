@@ -14,11 +14,14 @@ from polhode.algebra import Expr
 from polhode.base import TIME, NumericError, Progress, SilentProgress, UnitError, to_si
 from polhode.derive import Automaton
 from polhode.model import System
+from polhode.simulate._driver import Stop
 from polhode.simulate._dynamics import EquationsOfMotion
 from polhode.simulate._event import Event, placed
 from polhode.simulate._follow import Motion, Prepared, Task, prepared
 from polhode.simulate._integrators import Array, chosen
 from polhode.simulate._names import Name
+from polhode.simulate._numbers import DOUBLES, Precision, numbers_for
+from polhode.simulate._precisely import Wanted, precisely
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate._validity import pulling_contacts, refuse_lost_side
 from polhode.simulate._watching import with_events
@@ -38,7 +41,7 @@ class Experiment:
         subject: a declaration, its automaton, or equations derived from it.
         duration: s.
         until: events that end the motion once they happen.
-        tolerance, forcing, invariants, events, samples, near_flat: as in `simulate`.
+        tolerance, forcing, invariants, events, samples, near_flat, precision: as in `simulate`.
 
     Raises:
         NumericError: for samples or a tolerance that cannot be.
@@ -57,10 +60,12 @@ class Experiment:
         samples: int | ArrayLike = SAMPLES,
         near_flat: float = NEAR_FLAT,
         until: Collection[str] = (),
+        precision: Precision = None,
     ) -> None:
         self.subject = subject
         self.duration = _duration(duration)
         self._times = _samples(samples, self.duration)
+        self._wanted = Wanted(numbers_for(precision), duration, samples, events or {})
         self._invariants = invariants or {}
         self._events = events or {}
         self._integrator = chosen()
@@ -93,7 +98,10 @@ class Experiment:
             if self._prepared is None:
                 self._prepared = prepared(self.subject, task)
             motion = self._prepared.follow(task, shown)
-        return self._trajectory(motion, task)
+            run = self._trajectory(motion, task)
+            if self._wanted.numbers is DOUBLES:
+                return with_events(run, self._events)
+            return precisely(run, motion, task, self._wanted, shown)
 
     def _trajectory(self, motion: Motion, task: Task) -> Trajectory:
         end = motion.segments[-1].end
@@ -113,7 +121,7 @@ class Experiment:
         if motion.unguarded:
             refuse_lost_side(trajectory)
             trajectory = replace(trajectory, events=_with_pulls(trajectory))
-        return with_events(trajectory, self._events)
+        return trajectory
 
 
 def _events(motion: Motion) -> tuple[Event, ...]:
@@ -121,9 +129,13 @@ def _events(motion: Motion) -> tuple[Event, ...]:
     events = (
         Event(0.0, "start", None, motion.segments[0].mode),
         *(Event(c.time, c.kind, c.before, c.after) for c in motion.changes),
-        Event(end, "end", motion.ending, None),
+        Event(end, "interrupted" if _was_interrupted(motion) else "end", motion.ending, None),
     )
     return placed(events, motion.segments)
+
+
+def _was_interrupted(motion: Motion) -> bool:
+    return motion.segments[-1].parts[-1].solution.stop is Stop.INTERRUPTED
 
 
 def _with_pulls(trajectory: Trajectory) -> tuple[Event, ...]:

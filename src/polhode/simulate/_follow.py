@@ -13,7 +13,7 @@ import numpy as np
 
 from polhode.algebra import Symbol
 from polhode.base import ConstraintError, DeclarationError, Progress
-from polhode.derive import Automaton, automaton
+from polhode.derive import Automaton, Mode, automaton
 from polhode.model import FLIGHT, FRICTIONLESS, Apart, Coulomb, Phase, System
 from polhode.simulate._contact_checks import can_be_followed, check_numbers, refuse_below
 from polhode.simulate._course import Change, Walk
@@ -28,7 +28,7 @@ from polhode.simulate._names import Name, published
 from polhode.simulate._place import Place
 from polhode.simulate._segment import Part, Segment, state_at
 from polhode.simulate._settle import Known, settle
-from polhode.simulate._start import read_start
+from polhode.simulate._start import Start, read_start
 from polhode.simulate._values import idle_parameters, read_parameters
 
 AS_DECLARED = "as declared"
@@ -50,11 +50,21 @@ class Task:
 
 
 @dataclass(frozen=True)
+class Begun:
+    """The start as it was read, and the equations in which it was."""
+
+    dynamics: Dynamics
+    start: Start
+
+
+@dataclass(frozen=True)
 class Motion:
     """What came of it.
 
     Attributes:
         unguarded: whether the contacts were taken as declared, and not looked after.
+        begun: how the start was read.
+        mode: the contact mode it begins in, where contacts are looked after.
     """
 
     segments: tuple[Segment, ...]
@@ -63,6 +73,8 @@ class Motion:
     parameters: Mapping[str, float]
     assumed: Mapping[str, float]
     unguarded: bool
+    begun: Begun
+    mode: Mode | None = None
 
 
 class Prepared(Protocol):
@@ -135,9 +147,12 @@ class _AsDeclared:
                 solution = integrate(flow, stepper, constants, start, span, progress)
                 if solution.stop is Stop.STUCK:
                     raise stuck(solution)
+                if solution.stop is Stop.INTERRUPTED:
+                    parts.append(Part(span[0], float(solution.steps[-1]), solution, constants))
+                    break
                 parts.append(Part(*span, solution, constants))
                 state = state_at(parts[-1], span[1])
-        segment = Segment(AS_DECLARED, 0.0, task.end, dynamics, tuple(parts))
+        segment = Segment(AS_DECLARED, 0.0, parts[-1].end, dynamics, tuple(parts))
         return Motion(
             (segment,),
             (),
@@ -145,6 +160,7 @@ class _AsDeclared:
             {symbol.published: value for symbol, value in numbers.items()},
             begin.assumed,
             unguarded=True,
+            begun=Begun(dynamics, begin),
         )
 
 
@@ -178,7 +194,7 @@ class _ThroughModes:
         machine = self._with(numbers, task)
         check_numbers(machine)
         with _timed(task, "compile"):
-            place, assumed, apart = _begin(machine, task)
+            place, begun, apart = _begin(machine, task)
             walk = Walk(machine, task.near_flat, progress, task.until)
             first = settle(machine, place, Known(apart=apart))
             machine.mode(first.phases).stepper  # noqa: B018
@@ -189,8 +205,10 @@ class _ThroughModes:
             course.changes,
             course.ending,
             {symbol.published: value for symbol, value in numbers.items()},
-            assumed,
+            begun.start.assumed,
             unguarded=False,
+            begun=begun,
+            mode=machine.mode(first.phases).mode,
         )
 
     def _with(self, numbers: Mapping[Symbol, float], task: Task) -> Machine:
@@ -203,7 +221,7 @@ class _ThroughModes:
         return self._machine
 
 
-def _begin(machine: Machine, task: Task) -> tuple[Place, Mapping[str, float], frozenset[int]]:
+def _begin(machine: Machine, task: Task) -> tuple[Place, Begun, frozenset[int]]:
     """Where it starts, and which contacts are apart there.
 
     Contacts touch unless a height is given, and stick where they can unless that contradicts what
@@ -218,9 +236,9 @@ def _begin(machine: Machine, task: Task) -> tuple[Place, Mapping[str, float], fr
         and given & {above.height.published, above.rise.published}
     )
     if apart:
-        place, assumed = _read(machine, _phases(modes, apart, slips=True), task)
+        place, begun = _read(machine, _phases(modes, apart, slips=True), task)
         refuse_below(machine, place, apart)
-        return place, assumed, apart
+        return place, begun, apart
     try:
         return (*_read(machine, _phases(modes, apart, slips=False), task), apart)
     except ConstraintError:
@@ -238,15 +256,13 @@ def _phases(modes: Automaton, apart: frozenset[int], *, slips: bool) -> tuple[Ph
     return tuple(found)
 
 
-def _read(
-    machine: Machine, phases: tuple[Phase, ...], task: Task
-) -> tuple[Place, Mapping[str, float]]:
+def _read(machine: Machine, phases: tuple[Phase, ...], task: Task) -> tuple[Place, Begun]:
     mode = machine.mode(phases)
     plain = replace(mode.dynamics, carried={}, meanings={})
     numbers = dict(zip(plain.parameters, mode.parameters.tolist(), strict=True))
     start = read_start(plain, task.start, numbers)
     state = dict(zip(plain.states, (float(x) for x in start.state), strict=True))
-    return mode.lifted(0.0, state, 0.0), start.assumed
+    return mode.lifted(0.0, state, 0.0), Begun(plain, start)
 
 
 @contextmanager

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
 from polhode.algebra import Expr, Symbol
+from polhode.base import NumericError
 from polhode.simulate._driver import Solution
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate._integrators import Array
+from polhode.simulate._numbers import DOUBLES, Numbers
 from polhode.simulate._readable import moving
 
 _RECENT = 4  # sets of times whose states are remembered
@@ -29,7 +31,7 @@ class Part:
 
     def states(self, times: Array) -> Array:
         """States, shape (states, times); kept, as many things are read at the same times."""
-        if len(times) > _FEW:
+        if len(times) > _FEW or times.dtype == object:
             return self.solution.at(times)
         key = times.tobytes()
         if key not in self._recent:
@@ -37,6 +39,11 @@ class Part:
                 self._recent.pop(next(iter(self._recent)))
             self._recent[key] = self.solution.at(times)
         return self._recent[key]
+
+    def rounded(self) -> Part:
+        """The same in doubles."""
+        constants = DOUBLES.array(self.constants)
+        return Part(float(self.begin), float(self.end), self.solution.rounded(), constants)
 
     @cached_property
     def _recent(self) -> dict[bytes, Array]:
@@ -67,18 +74,28 @@ class Segment:
         inside = [p.solution.steps[p.solution.steps < p.end] for p in self.parts]
         return np.unique(np.concatenate([*inside, [self.begin, self.end]]))
 
+    @property
+    def numbers(self) -> Numbers:
+        """What it is computed in."""
+        return self.parts[0].solution.numbers
+
+    def rounded(self) -> Segment:
+        """The same in doubles."""
+        parts = tuple(part.rounded() for part in self.parts)
+        return replace(self, begin=parts[0].begin, end=parts[-1].end, parts=parts)
+
     def state(self, time: float) -> dict[str, float]:
         """Coordinates, speeds and rates at an instant within it, ends included, by name."""
         named = moving(self.dynamics)
-        values = self.values(named.values(), np.array([time]))[:, 0]
-        return dict(zip(named, values.tolist(), strict=True))
+        values = self.values(named.values(), self.numbers.array([time]))[:, 0]
+        return dict(zip(named, map(self.numbers.scalar, values), strict=True))
 
     def values(self, expressions: Iterable[Expr], times: Array) -> Array:
         """Values of expressions in any symbol of the mode, shape (expressions, times)."""
         wanted = list(expressions)
         begins = np.array([part.begin for part in self.parts])
         which = np.clip(np.searchsorted(begins, times, "right") - 1, 0, None)
-        found = np.empty((len(wanted), len(times)))
+        found = np.empty((len(wanted), len(times)), dtype=self.numbers.dtype)
         for i in np.unique(which):
             here = which == i
             found[:, here] = values_of(self.dynamics, self.parts[i], wanted, times[here])
@@ -89,10 +106,23 @@ def values_of(dynamics: Dynamics, part: Part, expressions: Sequence[Expr], times
     """Values of expressions within a part, shape (expressions, times)."""
     solution = part.solution
     arguments = (*solution.symbols, *dynamics.parameters, CLOCK)
-    function = dynamics.function(expressions, arguments, solution.turned)
-    with np.errstate(all="ignore"):
-        values = function(*part.states(times), *part.constants, times)
-    return np.array([np.broadcast_to(value, times.shape) for value in values])
+    numbers = solution.numbers
+    function = dynamics.function(expressions, arguments, solution.turned, numbers)
+    try:
+        with np.errstate(all="ignore"):
+            values = function(*part.states(times), *part.constants, times)
+    except ArithmeticError as error:
+        raise _undefined(times) from error
+    return np.array([np.broadcast_to(v, times.shape) for v in values], dtype=numbers.dtype)
+
+
+def _undefined(times: Array) -> NumericError:
+    return NumericError(
+        f"a quantity without a finite value between {float(times[0]):g} s and "
+        f"{float(times[-1]):g} s",
+        expected="one that is defined at every instant that is asked for",
+        advice="ask for it at other times",
+    )
 
 
 def state_at(part: Part, time: float) -> dict[Symbol, float]:

@@ -14,6 +14,7 @@ from polhode.model import System
 from polhode.simulate._dynamics import EquationsOfMotion
 from polhode.simulate._experiment import NEAR_FLAT, SAMPLES, Experiment
 from polhode.simulate._names import Name
+from polhode.simulate._numbers import Precision
 from polhode.simulate._trajectory import Trajectory
 
 
@@ -29,6 +30,7 @@ def simulate(
     events: Mapping[str, Expr] | None = None,
     samples: int | ArrayLike = SAMPLES,
     near_flat: float = NEAR_FLAT,
+    precision: Precision = None,
     progress: Progress | None = None,
 ) -> Trajectory:
     """Integrate the motion of a system to rounding, through all its contact modes.
@@ -55,6 +57,9 @@ def simulate(
         samples: number of equally spaced sample times, or the times, s.
         near_flat: value of the sine of the tilt of a disk, for instance, at which it counts as
             lying flat: the point of contact is not defined beyond, and the motion ends there.
+        precision: double, extended (the machine's long doubles), quadruple, or a number of
+            decimal digits; all but double within one contact mode. Values are then taken exactly
+            as they are written: "0.1 m" is a tenth, the float 0.1 its binary value.
         progress: told of every step.
 
     Raises:
@@ -72,5 +77,6 @@ def simulate(
         events=events,
         samples=samples,
         near_flat=near_flat,
+        precision=precision,
     )
     return experiment.run(parameters, start, progress)

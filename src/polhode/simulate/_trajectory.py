@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,8 +15,9 @@ from polhode.base import NumericError, look_up
 from polhode.simulate._csv import write_csv
 from polhode.simulate._drift import Drift, drift_of
 from polhode.simulate._dynamics import Dynamics, EquationsOfMotion
-from polhode.simulate._event import Event
+from polhode.simulate._event import Event, placed
 from polhode.simulate._integrators import Array
+from polhode.simulate._numbers import DOUBLES, Numbers
 from polhode.simulate._readable import readable
 from polhode.simulate._segment import Segment
 
@@ -96,6 +97,27 @@ class Trajectory:
         names = {name: None for table in tables for name in table}
         return [{name: table.get(name, _NOTHING) for name in names} for table in tables]
 
+    @property
+    def precision(self) -> str:
+        """What it was computed in: double, extended, quadruple, or so many digits."""
+        return self._numbers.name
+
+    def rounded(self) -> Trajectory:
+        """The same motion in doubles, for all that works with doubles only."""
+        segments = tuple(segment.rounded() for segment in self.segments)
+        double = DOUBLES.array
+        return replace(
+            self,
+            segments=segments,
+            duration=segments[-1].end,
+            t=double(self.t),
+            events=placed((replace(e, time=float(e.time)) for e in self.events), segments),
+        )
+
+    @property
+    def _numbers(self) -> Numbers:
+        return self.segments[0].numbers
+
     def at(self, t: float | Array) -> dict[str, Array]:
         """Coordinates, speeds and rates at one or more times, by name; shaped like `t`."""
         return self.table(self._states, t)
@@ -137,7 +159,8 @@ class Trajectory:
         """Everything at the end of the motion, by name, and the mode it ends in."""
         names = (*self._states, *self.reactions, "energy")
         values = self.table(names, self.duration)
-        return {**{name: float(value) for name, value in values.items()}, "mode": self.mode}
+        scalar = self._numbers.scalar
+        return {**{name: scalar(value) for name, value in values.items()}, "mode": self.mode}
 
     @cached_property
     def drift(self) -> Drift:
@@ -234,11 +257,11 @@ class Trajectory:
         return look_up(quantity, self._readable[segment], "quantity of this system")
 
     def _times(self, t: float | Array) -> Array:
-        times = np.asarray(t, dtype=float)
+        times: Array = self._numbers.array(t)
         if not np.all((times >= 0) & (times <= self.duration)):
             raise NumericError(
-                f"times from {np.min(times):g} s to {np.max(times):g} s",
-                expected=f"times within the motion, from 0 to {self.duration:g} s",
+                f"times from {float(np.min(times)):g} s to {float(np.max(times)):g} s",
+                expected=f"times within the motion, from 0 to {float(self.duration):g} s",
             )
         return times
 
@@ -247,7 +270,7 @@ class Trajectory:
         wanted, flat = list(quantities), times.ravel()
         begins = np.array([segment.begin for segment in self.segments])
         which = np.clip(np.searchsorted(begins, flat, "right") - 1, 0, None)
-        found = np.empty((len(wanted), len(flat)))
+        found = np.empty((len(wanted), len(flat)), dtype=self._numbers.dtype)
         for i in np.unique(which):
             here = which == i
             expressions = [self._expression(quantity, int(i)) for quantity in wanted]

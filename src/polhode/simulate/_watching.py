@@ -19,14 +19,15 @@ def with_events(trajectory: Trajectory, wanted: Mapping[str, Expr]) -> Trajector
         Event(time, name, segment.mode, segment.mode, segment, segment)
         for name, expression in wanted.items()
         for segment in trajectory.segments
-        for time in _passages(segment, expression)
+        for time in passages(segment, expression)
     ]
     first, *changes, last = trajectory.events
     between = sorted([*changes, *found], key=lambda event: event.time)
     return replace(trajectory, events=(first, *between, last))
 
 
-def _passages(segment: Segment, expression: Expr) -> list[float]:
+def passages(segment: Segment, expression: Expr) -> list[float]:
+    """When an expression passes through zero within a segment."""
     def values(times: Array) -> Array:
         return segment.values([Expr.of(expression)], times)
 
