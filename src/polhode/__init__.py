@@ -126,7 +126,9 @@ if TYPE_CHECKING:
     from polhode.simulate import simulate as simulate
     from polhode.view import Judgement as Judgement
     from polhode.view import Scene as Scene
+    from polhode.view import figures as figures
     from polhode.view import page as page
+    from polhode.view import plot as plot
     from polhode.view import scene as scene
 
     __version__: str
@@ -135,7 +137,9 @@ _ROOMS = {
     "view": (
         "Judgement",
         "Scene",
+        "figures",
         "page",
+        "plot",
         "scene",
     ),
     "simulate": (

@@ -5,16 +5,16 @@ import re
 import numpy as np
 import pytest
 
-from polhode import view
 from polhode.base import DeclarationError
 from polhode.catalogue import CATALOGUE
 from polhode.model import Contact, Rolling
+from polhode.view import figures as view
 
 SYSTEMS = list(CATALOGUE)
 LABEL = re.compile(
     r"(?P<what>.+) \((?P<unit>deg|turns|[mµn]?(m|s|N|J|W|N m|m/s|rad/s|rad/s²|m/s²)|kg.*)\)"
 )
-PURE = {r"$|E - E_0 - W|\,/\,E_{\rm max}$", r"$\mu$ needed"}
+PURE = {r"$|E - E_0 - W|\,/\,E_{\rm max}$", r"friction / normal force"}
 
 
 def labels(figure):
@@ -74,6 +74,6 @@ def test_friction_where_something_rolls(run_of, name):
         with pytest.raises(DeclarationError, match=name):
             view.friction_needed(run)
         return
-    line = view.friction_needed(run)
+    (line,) = view.friction_needed(run)
     assert_sound(line.get_figure())
     assert np.min(line.get_ydata()) >= 0

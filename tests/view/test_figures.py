@@ -5,16 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from polhode import view
 from polhode.base import DeclarationError, UnitError
-from polhode.view._globe import View
-from polhode.view._nutation import _VIEW as SKY
-from polhode.view._polhodes import _polhode, _separatrices
+from polhode.view import figures as view
+from polhode.view.figures._globe import View
+from polhode.view.figures._nutation import _VIEW as SKY
+from polhode.view.figures._polhodes import _polhode, _separatrices
 
 
 def test_a_history_is_the_quantity_in_the_unit_of_the_label(run_of):
     run = run_of("rolling-disk")
-    (line,) = view.history(run, ["theta"])
+    (line,) = view.history(run, "theta")
     assert line.axes.get_ylabel() == r"$\theta$ (deg)"
     np.testing.assert_allclose(
         line.get_ydata(), np.degrees(run.evaluate("theta", line.get_xdata()))
@@ -22,40 +22,40 @@ def test_a_history_is_the_quantity_in_the_unit_of_the_label(run_of):
 
 
 def test_small_values_get_a_prefix(run_of):
-    (line,) = view.history(run_of("marble-on-turntable"), ["F_z"])
+    (line,) = view.history(run_of("marble-on-turntable"), "F_z")
     assert line.axes.get_ylabel() == "$F_z$ (mN)"
     np.testing.assert_allclose(line.get_ydata(), 5 * 9.81)
 
 
 def test_a_quantity_that_hardly_changes_is_shown_by_its_change(run_of):
     run = run_of("gyrocompass")
-    (line,) = view.history(run, ["omega"])
+    (line,) = view.history(run, "omega")
     assert line.axes.get_ylabel() == r"$\omega - \omega(0)$ (µrad/s)"
     change = run.evaluate("omega", line.get_xdata()) - run["omega"][0]
     np.testing.assert_allclose(line.get_ydata(), change * 1e6)
 
 
 def test_a_constant_is_not_blown_up_to_its_rounding(run_of):
-    (line,) = view.history(run_of("spinning-coin"), ["omega_3"])
+    (line,) = view.history(run_of("spinning-coin"), "omega_3")
     low, high = line.axes.get_ylim()
     assert low < 1.7
     assert high > 2.3
 
 
 def test_many_turns_are_counted_in_turns(run_of):
-    (line,) = view.history(run_of("gyroscope"), ["psi"])
+    (line,) = view.history(run_of("gyroscope"), "psi")
     assert line.axes.get_ylabel() == r"$\psi$ (turns)"
     assert np.max(line.get_ydata()) == pytest.approx(2 * 150 / (2 * np.pi), rel=0.05)
 
 
 def test_one_axis_has_one_unit(run_of):
     with pytest.raises(UnitError, match="theta in rad, omega_3 in rad/s on one axis"):
-        view.history(run_of("rolling-disk"), ["theta", "omega_3"])
+        view.history(run_of("rolling-disk"), "theta", "omega_3")
 
 
 def test_a_quantity_that_is_not_there_is_named(run_of):
     with pytest.raises(DeclarationError, match="'omega_9' is no quantity of rolling-disk"):
-        view.history(run_of("rolling-disk"), ["omega_9"])
+        view.history(run_of("rolling-disk"), "omega_9")
 
 
 def test_a_group_of_several_units_gets_several_panels(run_of):
@@ -73,7 +73,7 @@ def test_forces_of_unlike_size_get_panels_of_their_own(run_of):
 
 
 def test_lines_of_a_panel_differ_in_dashes_too(run_of):
-    lines = view.history(run_of("rolling-disk"), ["F_x", "F_y", "F_z"])
+    lines = view.history(run_of("rolling-disk"), "F_x", "F_y", "F_z")
     assert len({line.get_color() for line in lines}) == 3
     assert len({str(line._dash_pattern) for line in lines}) == 3
     assert [text.get_text() for text in lines[0].axes.get_legend().get_texts()] == [
@@ -87,7 +87,7 @@ def test_figures_are_drawn_in_the_axes_given(run_of):
     run = run_of("rolling-disk")
     axes = view.new_figure(3.0).subplots(2, 3).ravel()
     drawn = [
-        view.history(run, ["theta"], ax=axes[0])[0],
+        view.history(run, "theta", ax=axes[0])[0],
         view.energies(run, ax=axes[1])[0],
         view.energy_drift(run, ax=axes[2]),
         view.floor_path(run, ax=axes[3])[0],
@@ -99,7 +99,7 @@ def test_figures_are_drawn_in_the_axes_given(run_of):
 
 def test_a_stretch_of_a_run_is_shown_alone(run_of):
     run = replace(run_of("rolling-disk"), t=np.linspace(2.0, 3.0, 50))
-    (line,) = view.history(run, ["theta"])
+    (line,) = view.history(run, "theta")
     assert line.axes.get_xlim() == (2.0, 3.0)
     assert len(line.get_xdata()) > 1000  # a smooth curve, however few the samples
 

@@ -5,9 +5,9 @@ import re
 
 import pytest
 
-from polhode import view
 from polhode.base import SCHEMA, StoreError, write_whole
-from polhode.view import _style as style
+from polhode.view import figures as view
+from polhode.view.figures import _style as style
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,7 @@ import numpy as np
 
 from polhode.catalogue import Entry
 from polhode.simulate import Trajectory
-from polhode.view import (
+from polhode.view.figures import (
     energies,
     energy_drift,
     figure_of_run,

@@ -10,7 +10,7 @@ from polhode.catalogue import CATALOGUE
 from polhode.tour._page import FIGURES, page
 from polhode.tour._report import TourReport, row_of, text_of
 from polhode.tour._work import Worked, work_through
-from polhode.view import for_dark_pages
+from polhode.view.figures import for_dark_pages
 
 
 def write_tour(

@@ -15,7 +15,7 @@ from polhode.tour import _balance as balance
 from polhode.tour._checks import Check, decided, measured
 from polhode.tour._formulations import appell, is_conservative, is_holonomic, lagrange
 from polhode.tour._pictures import pictures_of
-from polhode.view import origin_of, svg_of
+from polhode.view.figures import origin_of, svg_of
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ FORCE = MASS * LENGTH / TIME**2
 ENERGY = FORCE * LENGTH
 
 _WORDS = {"energy": ("E", "J"), "power": ("P", "W"), "work": ("W", "J")}
-_UNITS = {
+UNITS = {
     PURE: "",
     LENGTH: "m",
     TIME: "s",
@@ -85,9 +85,9 @@ def quantity(run: Trajectory, name: str) -> Quantity:
         )
     expression = run.quantities[name]
     symbol = expression.symbol or Symbol(name)
-    dimension = _dimension(equations_of(run), name, expression)
+    dimension = _dimension(run, name, expression)
     is_angle = dimension == PURE and symbol in run.equations.coordinates
-    unit = "rad" if is_angle else _UNITS.get(dimension, str(dimension))
+    unit = "rad" if is_angle else UNITS.get(dimension, str(dimension))
     return Quantity(name, math(Expr.generator(symbol)), unit)
 
 
@@ -99,6 +99,11 @@ def math(expression: Expr) -> str:
 def equations_of(run: Trajectory) -> Equations:
     """The equations behind a motion of a declared system."""
     return cast(Equations, run.equations)
+
+
+def modes_of(run: Trajectory) -> tuple[Equations, ...]:
+    """The equations of every contact mode that the motion visits."""
+    return tuple(cast(Equations, segment.dynamics.equations) for segment in run.segments)
 
 
 def common_unit(quantities: Sequence[Quantity]) -> str:
@@ -143,9 +148,10 @@ def largest(*values: Array) -> float:
     return float(max((np.max(np.abs(v), initial=0.0) for v in values), default=0.0))
 
 
-def _dimension(equations: Equations, name: str, expression: Expr) -> Dimension:
+def _dimension(run: Trajectory, name: str, expression: Expr) -> Dimension:
     """Known for a reaction from what it is, and otherwise from the expression."""
-    for line in equations.lines:
-        if line.name == name:
-            return ENERGY if line.restraint.is_couple else FORCE
-    return dimension_of(expression, equations.dimensions) or PURE
+    for equations in modes_of(run):
+        if name in equations.components:
+            couples = [line.name for line in equations.lines if line.restraint.is_couple]
+            return ENERGY if name in couples else FORCE
+    return dimension_of(expression, equations_of(run).dimensions) or PURE

@@ -12,7 +12,6 @@ from polhode.algebra import ZERO, Expr, Kind, Symbol
 from polhode.base import PURE, provenance
 from polhode.derive import Equations
 from polhode.simulate import Trajectory
-from polhode.view._history import panels
 from polhode.view._mathml import equation, symbol
 from polhode.view._quantities import (
     Array,
@@ -22,6 +21,7 @@ from polhode.view._quantities import (
     scale_for,
 )
 from polhode.view._scene import Formula, Happening, Number, Panel, Series
+from polhode.view.figures._history import panels
 
 _EVENTS = 40  # that are listed
 _POINTS = 1501  # of a plotted curve, at most

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from polhode.simulate import Trajectory
-from polhode.view._history import legend_above, time_axis
-from polhode.view._quantities import Array, equations_of, instants, largest, scale_for
-from polhode.view._style import COLOURS, MUTED, axes_or_new, house_style, line_style
+from polhode.view._quantities import Array, instants, largest, scale_for
+from polhode.view._scene_along import along
+from polhode.view.figures._history import legend_above, time_axis
+from polhode.view.figures._style import COLOURS, MUTED, axes_or_new, house_style, line_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -88,6 +89,8 @@ def _size(run: Trajectory, t: Array) -> float:
 
 
 def _shares(run: Trajectory, t: Array) -> tuple[Array, Array, Array]:
-    equations = equations_of(run)
-    kinetic = run.evaluate(equations.kinetic_energy, t)
-    return kinetic, run.evaluate(equations.potential_energy, t), run.evaluate("work", t)
+    energies = along(
+        run, lambda equations: [equations.kinetic_energy, equations.potential_energy], 2, t
+    )
+    kinetic, potential = energies.T
+    return kinetic, potential, run.evaluate("work", t)

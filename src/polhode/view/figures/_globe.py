@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polhode.view._quantities import Array
-from polhode.view._style import INK
+from polhode.view.figures._style import INK
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from polhode.simulate import Trajectory
 from polhode.view._quantities import instants, largest, quantity, scale_for
-from polhode.view._style import COLOURS, axes_or_new, house_style
+from polhode.view.figures._style import COLOURS, axes_or_new, house_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -18,7 +18,7 @@ from polhode.view._quantities import (
     quantity,
     scale_for,
 )
-from polhode.view._style import axes_or_new, house_style, line_style
+from polhode.view.figures._style import axes_or_new, house_style, line_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,11 +34,12 @@ _SHARED = {
 }
 _ROUNDING = 1e-11  # relative spread below which a quantity counts as constant
 _SLIGHT = 1e-3  # relative spread below which only the change is worth showing
+_IN_A_ROW = 4  # entries of a legend
 _DISPARATE = 25.0  # ratio of sizes that do not share an axis
 
 
 @house_style()
-def history(run: Trajectory, names: Sequence[str], *, ax: Axes | None = None) -> list[Line2D]:
+def history(run: Trajectory, *names: str, ax: Axes | None = None) -> list[Line2D]:
     """Named quantities of one unit against time; angles in degrees, or turns where many.
 
     Of a single quantity that hardly changes only the change since the start is shown.
@@ -78,9 +79,10 @@ def time_axis(axes: Axes, t: Array) -> None:
 
 
 def legend_above(axes: Axes) -> None:
-    """A legend in one row above the axes, out of the way of the lines."""
+    """A legend above the axes, out of the way of the lines; in two rows where it is long."""
     handles, _ = axes.get_legend_handles_labels()
-    axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=len(handles))
+    columns = len(handles) if len(handles) <= _IN_A_ROW else (len(handles) + 1) // 2
+    axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=columns)
 
 
 def panels(run: Trajectory, names: Sequence[str]) -> list[list[str]]:

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.integrate import cumulative_simpson
 
-from polhode.algebra import Vector
+from polhode.algebra import Expr, Vector
 from polhode.base import DeclarationError
+from polhode.derive import Equations
 from polhode.model import Contact, Plane
 from polhode.simulate import Trajectory
-from polhode.view._history import legend_above
-from polhode.view._quantities import Array, equations_of, instants, label, largest, scale_for
-from polhode.view._style import COLOURS, WIDTH, axes_or_new, house_style
+from polhode.view._quantities import Array, instants, label, largest, scale_for
+from polhode.view._scene_along import along
+from polhode.view.figures._history import legend_above
+from polhode.view.figures._style import COLOURS, WIDTH, axes_or_new, house_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,9 +37,8 @@ def floor_path(run: Trajectory, *, ax: Axes | None = None) -> list[Line2D]:
         DeclarationError: for a system in which nothing touches a support.
     """
     contact = _contact(run)
-    place = equations_of(run).kinetics.places[contact.body]
-    centre = _on_plane(run, contact.on, place)
-    touched = _on_plane(run, contact.on, place + contact.arm)
+    centre = _on_plane(run, contact.on, lambda equations: _centre(equations, contact))
+    touched = _on_plane(run, contact.on, lambda equations: _touched(equations, contact))
     paths = {"centre of mass": centre, "contact": touched}
     if largest(centre - touched) <= _SAME * largest(centre):
         paths = {"centre of mass and contact": centre}
@@ -52,8 +54,7 @@ def support_trace(run: Trajectory, *, ax: Axes | None = None) -> list[Line2D]:
     """
     contact = _contact(run)
     support = contact.on
-    place = equations_of(run).kinetics.places[contact.body]
-    x, y = _on_plane(run, support, place + contact.arm - support.origin)
+    x, y = _on_plane(run, support, lambda equations: _touched(equations, contact) - support.origin)
     turned = _angle(run, support)
     along, across = np.cos(turned), np.sin(turned)
     trace = np.array([along * x + across * y, along * y - across * x])
@@ -61,19 +62,31 @@ def support_trace(run: Trajectory, *, ax: Axes | None = None) -> list[Line2D]:
 
 
 def _contact(run: Trajectory) -> Contact:
-    for element in equations_of(run).system.elements:
+    for element in run.system.elements:
         if isinstance(element, Contact):
             return element
     raise DeclarationError(
-        f"a path on the support of {run.equations.system.name}",
+        f"a path on the support of {run.system.name}",
         expected="a system with a Rolling, Smooth or Coulomb contact",
     )
 
 
-def _on_plane(run: Trajectory, plane: Plane, place: Vector) -> Array:
+def _centre(equations: Equations, contact: Contact) -> Vector:
+    return equations.kinetics.places[contact.body]
+
+
+def _touched(equations: Equations, contact: Contact) -> Vector:
+    """The lowest point of the body, whether it touches or not."""
+    return _centre(equations, contact) + contact.arm
+
+
+def _on_plane(run: Trajectory, plane: Plane, place: Callable[[Equations], Vector]) -> Array:
     """Components along the two directions of a plane, shape (2, instants)."""
-    t = instants(run)
-    return np.array([run.evaluate(place.dot(plane.axes[name]), t) for name in plane.tangents])
+
+    def components(equations: Equations) -> list[Expr]:
+        return [place(equations).dot(plane.axes[name]) for name in plane.tangents]
+
+    return along(run, components, 2, instants(run)).T
 
 
 def _angle(run: Trajectory, support: Plane) -> Array:

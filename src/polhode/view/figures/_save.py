@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from polhode.base import StoreError, provenance, write_whole
 from polhode.simulate import Trajectory
-from polhode.view._style import house_style
+from polhode.view.figures._style import house_style
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from polhode.algebra import Expr, Symbol
+from polhode.derive import Equations
+from polhode.model import Frame
 from polhode.simulate import Trajectory
-from polhode.view._history import history
 from polhode.view._quantities import (
     Array,
     Quantity,
@@ -17,10 +19,13 @@ from polhode.view._quantities import (
     instants,
     largest,
     math,
+    modes_of,
     quantity,
     scale_for,
 )
-from polhode.view._style import COLOURS, MUTED, axes_or_new, house_style
+from polhode.view._scene_along import along
+from polhode.view.figures._history import history, legend_above, time_axis, widen
+from polhode.view.figures._style import COLOURS, MUTED, axes_or_new, house_style, line_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,16 +34,49 @@ if TYPE_CHECKING:
 
 
 @house_style()
-def reactions(run: Trajectory, contact: str, *, ax: Axes | None = None) -> list[Line2D]:
+def reactions(
+    run: Trajectory, contact: str, triad: Frame | None = None, *, ax: Axes | None = None
+) -> list[Line2D]:
     """Components of the force of one contact or joint on its body against time, N.
+
+    Args:
+        run: the motion.
+        contact: name of the contact or joint.
+        triad: directions to resolve the force along, such as the axes of the body; by default
+            those of the named components of the reaction.
+        ax: axes to draw in.
 
     Raises:
         DeclarationError: for a contact or joint the system does not have.
         NumericError: where Newton's laws leave a component open.
     """
-    element = equations_of(run).system.element(contact)
-    restraints = equations_of(run).kinetics.restraints[element.name]
-    return history(run, [r.name for r in restraints if not r.is_couple], ax=ax)
+    element = run.system.element(contact)
+    if triad is not None:
+        return _along_triad(run, element.name, triad, ax)
+    restraints = [r for e in modes_of(run) for r in e.kinetics.restraints.get(element.name, ())]
+    names = dict.fromkeys(r.name for r in restraints if not r.is_couple)
+    return history(run, *names, ax=ax)
+
+
+def _along_triad(run: Trajectory, name: str, triad: Frame, ax: Axes | None) -> list[Line2D]:
+    axes = axes_or_new(ax)
+    t = instants(run)
+
+    def components(equations: Equations) -> Sequence[Expr] | None:
+        reaction = equations.reactions.get(name)
+        return None if reaction is None else reaction.force.express(triad).components
+
+    values = np.nan_to_num(along(run, components, 3, t)).T
+    scale = scale_for("N", largest(values))
+    lines = [
+        axes.plot(t, value * scale.factor, label=f"along ${label}$", **line_style(i))[0]
+        for i, (label, value) in enumerate(zip(triad.labels, values, strict=True))
+    ]
+    widen(axes, values * scale.factor)
+    time_axis(axes, t)
+    axes.set_ylabel(f"force at {name} ({scale.unit})")
+    legend_above(axes)
+    return lines
 
 
 @house_style()

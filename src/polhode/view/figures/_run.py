@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from polhode.simulate import Trajectory
-from polhode.view._history import history, panels
-from polhode.view._style import house_style, new_figure
+from polhode.view._scene_text import everything
+from polhode.view.figures._history import history, panels
+from polhode.view.figures._style import house_style, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -15,6 +16,19 @@ if TYPE_CHECKING:
 _PANEL = 1.35  # height in inches
 _FOOT = 0.45
 _LEAST = 2.3
+
+
+def plot(run: Trajectory, *quantities: str | Sequence[str]) -> Figure:
+    """A figure of quantities against time: a panel for each name, or for each group of names.
+
+    `plot(run, "theta", ("F_x", "F_z"), "energy")`; `.savefig("run.pdf")` writes it. Without
+    names it shows coordinates, speeds and reactions.
+
+    Raises:
+        DeclarationError: for a name the run does not have.
+    """
+    groups = [(q,) if isinstance(q, str) else tuple(q) for q in quantities]
+    return figure_of_run(run, groups or everything(run))
 
 
 @house_style()
@@ -30,7 +44,7 @@ def figure_of_run(run: Trajectory, groups: Sequence[Sequence[str]]) -> Figure:
     figure = new_figure(max(_LEAST, _FOOT + _PANEL * len(stacked)))
     column = figure.subplots(len(stacked), 1, sharex=True, squeeze=False)[:, 0]
     for axes, names in zip(column, stacked, strict=True):
-        history(run, names, ax=axes)
+        history(run, *names, ax=axes)
         axes.label_outer()
     figure.align_ylabels(column)
     return figure

@@ -10,9 +10,9 @@ from polhode.algebra import Vector
 from polhode.base import DeclarationError
 from polhode.model import About, Relative
 from polhode.simulate import Trajectory
-from polhode.view._globe import View, arrow, bare, draw_on
 from polhode.view._quantities import Array, equations_of, instants
-from polhode.view._style import COLOURS, FAINT, MUTED, axes_or_new, house_style
+from polhode.view.figures._globe import View, arrow, bare, draw_on
+from polhode.view.figures._style import COLOURS, FAINT, MUTED, axes_or_new, house_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -58,7 +58,7 @@ def _spin_axis(run: Trajectory) -> Vector:
         if isinstance(body.spin, About | Relative):
             return body.axes[body.spin.axis]
     raise DeclarationError(
-        f"the axis of {run.equations.system.name}",
+        f"the axis of {run.system.name}",
         expected="a body that spins about one of its axes",
         advice="say which axis to follow, as axis=body.axes['3']",
     )

@@ -9,9 +9,9 @@ import numpy as np
 from polhode.base import DeclarationError
 from polhode.model import Body, Components
 from polhode.simulate import Trajectory
-from polhode.view._globe import View, arrow, bare, draw_on
 from polhode.view._quantities import Array, equations_of, instants
-from polhode.view._style import COLOURS, FAINT, MUTED, axes_or_new, house_style
+from polhode.view.figures._globe import View, arrow, bare, draw_on
+from polhode.view.figures._style import COLOURS, FAINT, MUTED, axes_or_new, house_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,10 +34,9 @@ def polhodes(run: Trajectory, *, ax: Axes | None = None) -> tuple[Line2D, Line2D
             principal moments are equal.
     """
     axes = axes_or_new(ax, 3.8)
-    body = _free_body(run)
-    moments = _moments(run, body)
-    t = instants(run)
-    rates = np.array([run.evaluate(c, t) for c in body.angular_velocity.components])
+    body = free_body(run)
+    moments = moments_of(run, body)
+    rates = rates_of(run, body, instants(run))
     unit = rates * np.sqrt(moments)[:, None]  # on a ball, 2T its radius squared
     unit = unit / np.sqrt(np.sum(unit**2, axis=0))
     stretch = np.sqrt(np.min(moments) / moments)[:, None]
@@ -53,7 +52,8 @@ def polhodes(run: Trajectory, *, ax: Axes | None = None) -> tuple[Line2D, Line2D
     return own
 
 
-def _free_body(run: Trajectory) -> Body:
+def free_body(run: Trajectory) -> Body:
+    """The body whose angular velocity is told along its own axes."""
     for body in equations_of(run).system.bodies:
         if isinstance(body.spin, Components):
             return body
@@ -63,7 +63,13 @@ def _free_body(run: Trajectory) -> Body:
     )
 
 
-def _moments(run: Trajectory, body: Body) -> Array:
+def rates_of(run: Trajectory, body: Body, t: Array) -> Array:
+    """Angular velocity along the body's axes, rad/s, shape (3, instants)."""
+    return np.array([run.evaluate(c, t) for c in body.angular_velocity.components])
+
+
+def moments_of(run: Trajectory, body: Body) -> Array:
+    """Principal moments of inertia, three different ones, kg m²."""
     inertia = np.array([[run.evaluate(e, 0.0) for e in row] for row in body.inertia.rows])
     moments = np.diag(inertia)
     if np.any(inertia - np.diag(moments)) or len(set(moments)) < 3:

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 #: Lines are told apart by colour (Okabe and Ito's, safe for the colour-blind) and by dashes.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#a8518f")
 DASHES: tuple[Any, ...] = ("-", (0, (5, 1.6)), (0, (1.3, 1.3)), (0, (6, 1.5, 1.3, 1.5)))
+SHADES = ("#9ecae8", "#f7c08a", "#a6dcc5", "#dcb8d2")
 INK = "#26282d"
 MUTED = "#6c7079"
 FAINT = "#dcdee3"

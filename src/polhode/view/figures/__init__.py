@@ -1,0 +1,31 @@
+"""Figures of motions: every function takes `ax=` and returns what it drew."""
+
+from polhode.view.figures._energy import energies as energies
+from polhode.view.figures._energy import energy_drift as energy_drift
+from polhode.view.figures._floor import floor_path as floor_path
+from polhode.view.figures._floor import support_trace as support_trace
+from polhode.view.figures._friction import friction_needed as friction_needed
+from polhode.view.figures._herpolhode import herpolhode as herpolhode
+from polhode.view.figures._history import history as history
+from polhode.view.figures._modes import modes as modes
+from polhode.view.figures._nutation import nutation as nutation
+from polhode.view.figures._outcome_map import OutcomeMap as OutcomeMap
+from polhode.view.figures._outcome_map import outcome_map as outcome_map
+from polhode.view.figures._phase import phase_portrait as phase_portrait
+from polhode.view.figures._polhodes import polhodes as polhodes
+from polhode.view.figures._potential import effective_potential as effective_potential
+from polhode.view.figures._power import power_balance as power_balance
+from polhode.view.figures._reactions import reaction_ranges as reaction_ranges
+from polhode.view.figures._reactions import reactions as reactions
+from polhode.view.figures._run import figure_of_run as figure_of_run
+from polhode.view.figures._run import plot as plot
+from polhode.view.figures._save import origin_of as origin_of
+from polhode.view.figures._save import save_figure as save_figure
+from polhode.view.figures._save import svg_of as svg_of
+from polhode.view.figures._stability_map import StabilityMap as StabilityMap
+from polhode.view.figures._stability_map import stability_map as stability_map
+from polhode.view.figures._style import WIDTH as WIDTH
+from polhode.view.figures._style import axes_or_new as axes_or_new
+from polhode.view.figures._style import for_dark_pages as for_dark_pages
+from polhode.view.figures._style import house_style as house_style
+from polhode.view.figures._style import new_figure as new_figure

@@ -1,0 +1,142 @@
+"""Effective potential: the energy that a tilt alone costs, with what is conserved kept constant."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from polhode.algebra import Expr, Symbol, arrays, compile_program
+from polhode.analyse import LinearIntegrals, linear_integrals, reduced
+from polhode.base import PURE, DeclarationError, to_si
+from polhode.simulate import Trajectory
+from polhode.view._quantities import Array, equations_of, instants, quantity, scale_for
+from polhode.view.figures._history import legend_above
+from polhode.view.figures._style import COLOURS, FAINT, MUTED, axes_or_new, house_style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.lines import Line2D
+
+_POINTS = 241
+_BESIDE = 0.6  # of the range of the motion: how far the curve goes on at either side
+_CLEAR = 0.03  # rad kept from where the angles are singular
+_STILL = np.radians(5)  # range drawn about a motion that does not swing
+_HIGH = 3.0  # of what the motion rises above the bottom: height of the axes
+
+
+@house_style()
+def effective_potential(
+    run: Trajectory, *, between: tuple[str, str] | None = None, ax: Axes | None = None
+) -> Line2D:
+    """Effective potential of the tilt of a motion, with the energy and its turning points, J.
+
+    It is the energy of the same motion without the rate of the tilt: every other speed as it is
+    at that tilt, by the integrals that are linear in the speeds. The tilt swings where the curve
+    is below the energy (the line), between the turning points (dots).
+
+    Args:
+        run: the motion.
+        between: least and greatest tilt to draw; by default a little beyond the motion's own.
+        ax: axes to draw in.
+
+    Raises:
+        DeclarationError: for a system whose energy changes, or that does not reduce to one tilt.
+    """
+    axes = axes_or_new(ax, 3.0)
+    tilt = _tilt(run)
+    angles = _range(run, tilt, between)
+    heights, energy = potential(run, angles), float(run["energy"][0])
+    scale = scale_for("J", max(abs(energy), float(np.min(np.abs(heights)))))
+    shown, curve, level = np.degrees(angles), heights * scale.factor, energy * scale.factor
+    (line,) = axes.plot(shown, curve, color=COLOURS[0], label=r"$V_{\rm eff}$")
+    axes.axhline(level, color=COLOURS[1], linestyle=(0, (5, 1.6)), label="energy")
+    axes.fill_between(shown, curve, level, where=curve <= level, color=FAINT, zorder=0)
+    for turn in np.degrees(turning_points(angles, heights, energy)):
+        axes.axvline(turn, color=MUTED, linewidth=0.6, linestyle=(0, (2, 2)))
+        axes.plot(turn, level, "o", color=COLOURS[1], zorder=3)
+    axes.set_ylim(*_window(curve, level))
+    axes.set_xlabel(f"{quantity(run, tilt.published).symbol} (deg)")
+    axes.set_ylabel(f"energy ({scale.unit})")
+    legend_above(axes)
+    return line
+
+
+def _window(curve: Array, level: float) -> tuple[float, float]:
+    """Heights of the axes: the well, not the walls beside it."""
+    bottom, top = float(np.min(curve)), float(np.max(curve))
+    rise = max(level - bottom, 1e-3 * (top - bottom))
+    top = min(top, bottom + _HIGH * rise)
+    return bottom - 0.08 * (top - bottom), top
+
+
+def potential(run: Trajectory, angles: Array) -> Array:
+    """Effective potential at ascending tilts, rad; J."""
+    equations, tilt = equations_of(run), _tilt(run)
+    found = linear_integrals(equations)
+    moving = found.speeds if found is not None else ()
+    still = equations.energy.subs({tilt.derivative(): Expr.of(0)})
+    fixed = tuple(s for s in still.symbols() if s not in (tilt, *moving))
+    values = [float(run.evaluate(Expr.generator(s), 0.0)) for s in fixed]
+    speeds = _speeds(run, found, angles) if found is not None else ()
+    energy = compile_program([still], (tilt, *moving, *fixed)).function(arrays())
+    return np.broadcast_to(energy(angles, *speeds, *values)[0], angles.shape)
+
+
+def _speeds(run: Trajectory, found: LinearIntegrals, angles: Array) -> Array:
+    """The speeds that go with every tilt, shape (speeds, tilts): stepped out from the start."""
+    names = [s.published for s in found.speeds]
+    tilt = found.angle.published
+    start = {name: float(run.evaluate(name, 0.0)) for name in (tilt, *names)}
+    rows = np.empty((len(angles), len(names)))
+    first = int(np.argmin(np.abs(angles - start[tilt])))
+    for order in (range(first, len(angles)), range(first - 1, -1, -1)):
+        state = start
+        for i in order:
+            rows[i] = found.values(run.parameters, state, float(angles[i]))
+            state = {tilt: float(angles[i]), **dict(zip(names, rows[i], strict=True))}
+    return rows.T
+
+
+def turning_points(angles: Array, heights: Array, energy: float) -> Array:
+    """Where the potential crosses the energy, between the angles given, rad."""
+    above = heights - energy
+    places = np.flatnonzero(np.sign(above[1:]) != np.sign(above[:-1]))
+    share = above[places] / (above[places] - above[places + 1])
+    crossings: Array = angles[places] + share * (angles[places + 1] - angles[places])
+    return crossings
+
+
+def _tilt(run: Trajectory) -> Symbol:
+    """The one coordinate that the motion reduces to."""
+    equations = equations_of(run)
+    if equations.rate(equations.energy):
+        raise _refused(run, "a system whose energy stays the same")
+    system = reduced(equations)
+    found = linear_integrals(equations)
+    known = found.speeds if found is not None else ()
+    for tilt in system.essential[:1]:
+        rate = tilt.derivative()
+        others = [s for s in system.speeds if s not in (rate, *known)]
+        constant = not any(equations.accelerations[s.derivative()] for s in others)
+        if len(system.essential) == 1 and rate in system.speeds and constant:
+            return tilt
+    raise _refused(run, "a system that reduces to one tilt, such as a top or a rolling disk")
+
+
+def _refused(run: Trajectory, expected: str) -> DeclarationError:
+    return DeclarationError(f"the effective potential of {run.system.name}", expected=expected)
+
+
+def _range(run: Trajectory, tilt: Symbol, between: tuple[str, str] | None) -> Array:
+    if between is not None:
+        low, high = (to_si(end, PURE, tilt.published) for end in between)
+        return np.linspace(low, high, _POINTS)
+    own = run.evaluate(tilt.published, instants(run))
+    low, high = float(np.min(own)), float(np.max(own))
+    beside = max(_BESIDE * (high - low), _STILL)
+    low, high = low - beside, high + beside
+    if linear_integrals(equations_of(run)) is not None:  # singular where sin θ changes its sign
+        below = np.floor((low + beside) / np.pi) * np.pi
+        low, high = max(low, below + _CLEAR), min(high, below + np.pi - _CLEAR)
+    return np.linspace(low, high, _POINTS)

@@ -1,0 +1,218 @@
+"""Where a steady motion is stable, over two quantities, with the exact threshold."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from polhode.algebra import Expr, ExprLike, Symbol, arrays, as_symbol, compile_program, dimension_of
+from polhode.analyse import Stability, SteadyMotion, stability
+from polhode.base import PURE, DeclarationError, Dimension, Value, look_up, to_si
+from polhode.derive import Equations
+from polhode.view._quantities import UNITS, Array, Scale, label, math, scale_for
+from polhode.view.figures._style import COLOURS, FAINT, SHADES, axes_or_new, house_style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.collections import QuadMesh
+    from matplotlib.colors import Colormap
+    from matplotlib.contour import QuadContourSet
+
+_POINTS = 161
+_ROUNDING = 1e-6  # relative growth that is the rounding of a double root
+
+#: A quantity with the least and the greatest value to draw, such as ("omega_3", "0", "40 rad/s").
+Span = tuple[str | Symbol | Expr, Value, Value]
+
+
+@dataclass(frozen=True)
+class StabilityMap:
+    """What `stability_map` drew.
+
+    Attributes:
+        growth: rate of the fastest growing departure, 1/s, from the roots of the characteristic
+            polynomial at every point.
+        thresholds: lines on which the exact conditions change sign, one for each condition.
+    """
+
+    growth: QuadMesh
+    thresholds: tuple[QuadContourSet, ...]
+
+
+@house_style()
+def stability_map(
+    family: SteadyMotion,
+    x: Span,
+    y: Span,
+    numbers: Mapping[Any, Value] | None = None,
+    *,
+    at: Mapping[Any, ExprLike] | None = None,
+    branch: int = 0,
+    ax: Axes | None = None,
+) -> StabilityMap:
+    """Growth of departures from a steady motion over two quantities, and the exact threshold.
+
+    White is stable. The line is where the conditions that `ph.stability` derives change sign;
+    the shade behind it is computed without them, from the exponents at every point.
+
+    Args:
+        family: from `ph.steady`.
+        x: quantity, least and greatest value along the page.
+        y: the same up the page.
+        numbers: values of the other parameters and state variables that matter.
+        at: further exact conditions on the family, as for `ph.stability`.
+        branch: which of the family's branches, where it is given by a relation; grey where
+            there is no such motion.
+        ax: axes to draw in.
+
+    Raises:
+        DeclarationError: where a value is lacking.
+        UnitError: for a value with the wrong unit.
+    """
+    axes = axes_or_new(ax, 3.2)
+    found = stability(family, at)
+    field = _Field(found, (_axis(found, x), _axis(found, y)), numbers or {}, branch)
+    across, up = (axis.values * axis.scale.factor for axis in field.axes)
+    growth = _growth(found, field)
+    axes.set_facecolor(FAINT)
+    mesh = axes.pcolormesh(
+        across, up, growth, cmap=_shades(), shading="nearest", rasterized=True, vmin=0
+    )
+    thresholds = [field.values(condition.expression) for condition in found.conditions]
+    style: dict[str, Any] = {"colors": [COLOURS[0]], "linewidths": 1.8}
+    lines = tuple(axes.contour(across, up, values, [0.0], **style) for values in thresholds)
+    axes.figure.colorbar(mesh, ax=axes, label="growth (1/s)", pad=0.03)
+    axes.grid(visible=False)
+    axes.set_xlabel(field.axes[0].label)
+    axes.set_ylabel(field.axes[1].label)
+    return StabilityMap(mesh, lines)
+
+
+@dataclass(frozen=True)
+class _Axis:
+    """A quantity with the values it takes along one side of the map, SI."""
+
+    symbol: Symbol
+    values: Array
+    scale: Scale
+
+    @property
+    def label(self) -> str:
+        return label(math(Expr.generator(self.symbol)), self.scale)
+
+
+def _axis(found: Stability, span: Span) -> _Axis:
+    name, *ends = span
+    equations = found.family.reduced.equations
+    symbol = _symbol(equations, name)
+    dimension = _dimension(equations, symbol)
+    low, high = (to_si(end, dimension, symbol.published) for end in ends)
+    is_angle = dimension == PURE and symbol in equations.coordinates
+    unit = "rad" if is_angle else UNITS.get(dimension, str(dimension))
+    values = np.linspace(low, high, _POINTS)
+    return _Axis(symbol, values, scale_for(unit, float(np.max(np.abs(values)))))
+
+
+def _symbol(equations: Equations, name: str | Symbol | Expr) -> Symbol:
+    if not isinstance(name, str):
+        return as_symbol(name)
+    rates = [q.derivative() for q in equations.coordinates]
+    known = [*equations.coordinates, *equations.speeds, *rates, *equations.parameters]
+    return look_up(name, {s.published: s for s in known}, f"quantity of {equations.system.name}")
+
+
+def _dimension(equations: Equations, symbol: Symbol) -> Dimension:
+    return dimension_of(Expr.generator(symbol), equations.dimensions) or PURE
+
+
+@dataclass(frozen=True)
+class _Field:
+    """Expressions on the family, as numbers all over the map."""
+
+    found: Stability
+    axes: tuple[_Axis, _Axis]
+    numbers: Mapping[Any, Value]
+    branch: int
+
+    def values(self, expression: Expr) -> Array:
+        """An expression at every point, shape (up, across); not a number where not real."""
+        told = expression.subs(self._related)
+        first, second = (axis.symbol for axis in self.axes)
+        others = tuple(s for s in told.symbols() if s not in (first, second))
+        known = self._known
+        lacking = [s.published for s in others if s not in known]
+        if lacking:
+            raise DeclarationError(
+                f"a map of stability without a value of {', '.join(sorted(lacking))}",
+                expected="numbers for all that is not along an axis",
+            )
+        function = compile_program([told], (first, second, *others)).function(arrays())
+        across, up = np.meshgrid(*(axis.values for axis in self.axes))
+        with np.errstate(all="ignore"):
+            (found,) = function(across, up, *(known[s] for s in others))
+        return np.broadcast_to(np.asarray(found, dtype=float), across.shape)
+
+    @cached_property
+    def _known(self) -> dict[Symbol, float]:
+        equations = self.found.family.reduced.equations
+        symbols = {_symbol(equations, name): value for name, value in self.numbers.items()}
+        return {
+            symbol: to_si(value, _dimension(equations, symbol), symbol.published)
+            for symbol, value in symbols.items()
+        }
+
+    @cached_property
+    def _related(self) -> dict[Expr, Expr]:
+        """The quantity that the family's relation gives, by the others."""
+        family = self.found.family
+        if len(family.relations) != 1:
+            return {}
+        told = {*self._known, *(axis.symbol for axis in self.axes)}
+        (relation,) = family.relations
+        for symbol in (s for s in relation.symbols() if s not in told):
+            quantity = Expr.generator(symbol)
+            slope, rest = relation.diff(symbol), relation.subs({symbol: Expr.of(0)})
+            if symbol not in slope.symbols():
+                return {quantity: -rest / slope}
+            branches = [b for b in family.branches if b.quantity == quantity]
+            return {quantity: branches[self.branch].value} if branches else {}
+        return {}
+
+
+def _growth(found: Stability, field: _Field) -> Array:
+    """Greatest real part of the exponents at every point, 1/s."""
+    step = 2 if found.is_even else 1
+    coefficients = np.array([field.values(c) for c in found.oscillating[::step]])
+    flat = coefficients.reshape(len(coefficients), -1)
+    real = np.all(np.isfinite(flat), axis=0)
+    greatest = np.full(flat.shape[1], np.nan)
+    roots = _roots(flat[:, real])
+    exponents = np.sqrt(roots.astype(complex)) if found.is_even else roots
+    size = np.max(np.abs(exponents), axis=1, initial=0.0)
+    growth = np.max(np.abs(exponents.real) if found.is_even else exponents.real, axis=1, initial=0)
+    greatest[real] = np.where(growth > _ROUNDING * size, growth, 0.0)
+    return greatest.reshape(coefficients.shape[1:])
+
+
+def _roots(coefficients: Array) -> NDArray[np.complex128]:
+    """Roots of polynomials, lowest power first: shape (powers, n) to (n, powers − 1)."""
+    degree = len(coefficients) - 1
+    companion = np.zeros((coefficients.shape[1], degree, degree))
+    companion[:, 1:, :-1] = np.eye(degree - 1)
+    companion[:, :, -1] = -(coefficients[:-1] / coefficients[-1]).T
+    found: NDArray[np.complex128] = np.linalg.eigvals(companion).astype(complex)
+    return found
+
+
+def _shades() -> Colormap:
+    """White where nothing grows, darker the faster it grows."""
+    from matplotlib.colors import LinearSegmentedColormap
+
+    return LinearSegmentedColormap.from_list(
+        "growth", ["#ffffff", SHADES[1], COLOURS[1], "#5a2400"]
+    )
