@@ -1,10 +1,15 @@
 """Numbers: start values, integration to rounding, and trajectories to read everything from."""
 
+from polhode.simulate._abreast import Abreast as Abreast
+from polhode.simulate._abreast import Flights as Flights
+from polhode.simulate._abreast import Plan as Plan
+from polhode.simulate._abreast import abreast as abreast
 from polhode.simulate._callable import approximated as approximated
 from polhode.simulate._drift import Drift as Drift
 from polhode.simulate._dynamics import Dynamics as Dynamics
 from polhode.simulate._dynamics import EquationsOfMotion as EquationsOfMotion
 from polhode.simulate._event import Event as Event
+from polhode.simulate._experiment import NEAR_FLAT as NEAR_FLAT
 from polhode.simulate._experiment import Experiment as Experiment
 from polhode.simulate._forcing import Jump as Jump
 from polhode.simulate._forcing import Pieces as Pieces

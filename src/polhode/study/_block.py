@@ -10,13 +10,18 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from polhode.base import PolhodeError
 from polhode.derive import Automaton, Equations, automaton, derive
 from polhode.model import System
-from polhode.simulate import Experiment
+from polhode.simulate import NEAR_FLAT, Abreast, Experiment, Plan, abreast
 from polhode.study._columns import Array, Members
-from polhode.study._outputs import Legend, Outputs, legend_of
+from polhode.study._happenings import OF_EVENTS
+from polhode.study._motions import Motions
+from polhode.study._output import AS_DECLARED, Legend, Quick, legend_of
+from polhode.study._outputs import Outputs
 from polhode.study._reasons import Reason, reason_of, told
 
+_FEW = 2
 MOST_TOLD = 1000
 """Failures of a block that are kept in words; of further ones the code alone."""
 
@@ -101,25 +106,103 @@ class Block:
         return Block(self.values, self.reason, kept)
 
 
-def followed(order: Order, members: Members, experiment: Experiment, tick: Tick) -> Block:
-    """Follow every member by itself; one that fails does not stop the rest.
+class Crew:
+    """Follows members, compiled for the first of them. Not to be shared by threads."""
 
-    Args:
-        tick: told the number of members that are done.
-    """
-    block = Block.empty(order, members.count)
-    words: dict[int, str] = {}
-    for i in range(members.count):
+    def __init__(self, order: Order) -> None:
+        self._order = order
+        self._experiment = order.experiment()
+        self._together = Together(order)
+
+    def follow(self, members: Members, tick: Tick) -> Block:
+        """Follow many members at once as far as that goes, and the others by themselves.
+
+        Args:
+            tick: told the number of members that are done.
+        """
+        block = Block.empty(self._order, members.count)
+        alone = self._together.follow(members, block, tick)
+        return block.put(alone, self._one_by_one(members.rows(alone), tick))
+
+    def _one_by_one(self, members: Members, tick: Tick) -> Block:
+        """One that fails does not stop the rest."""
+        order, experiment = self._order, self._experiment
+        block = Block.empty(order, members.count)
+        words: dict[int, str] = {}
+        for i in range(members.count):
+            try:
+                run = experiment.run(members.parameters_of(i), members.start_of(i))
+                found = {name: o.of(run, order.legend) for name, o in order.outputs.items()}
+            except Exception as error:  # whatever it is, it is this member's alone
+                block.reason[i] = reason_of(error)
+                if len(words) < MOST_TOLD:
+                    words[i] = told(error)
+            else:
+                block.reason[i] = Reason.DONE
+                for name, values in found.items():
+                    block.values[name][i] = values
+            tick(1)
+        return Block(block.values, block.reason, words)
+
+
+class Together:
+    """Members integrated side by side, where outputs and numbers allow it."""
+
+    def __init__(self, order: Order) -> None:
+        self._order = order
+        quick = {n: o for n, o in order.outputs.items() if isinstance(o, Quick)}
+        self._outputs = quick if len(quick) == len(order.outputs) else {}
+        self._mode: Abreast | None = None
+        self._tried = False
+
+    def follow(self, members: Members, block: Block, tick: Tick) -> NDArray[np.intp]:
+        """Put results of members into a block; returns those that are left."""
+        everybody = np.arange(members.count)
+        columns = members.si_columns()
+        if not self._outputs or columns is None or members.count < _FEW:
+            return everybody
+        if not self._tried:
+            self._mode, self._tried = self._prepared(members), True
+        if self._mode is None:
+            return everybody
+        times = self._times()
+        flights = self._mode.follow(members.count, columns, times[1:], _nobody)
+        motions = Motions(flights, self._mode, times)
+        for name, output in self._outputs.items():
+            values = output.of_many(motions, self._order.legend)
+            block.values[name][flights.kept] = values[flights.kept]
+        block.reason[flights.kept] = Reason.DONE
+        tick(int(np.sum(flights.kept)))
+        return everybody[~flights.kept]
+
+    def _prepared(self, members: Members) -> Abreast | None:
+        order, options = self._order, dict(self._order.options)
+        if options.get("events") or members.has_expressions:
+            return None
+        plan = Plan(
+            parameters=members.parameters_of(0),
+            start=members.start_of(0),
+            duration=order.experiment().duration,
+            forcing=options.get("forcing") or {},
+            tolerance=options.get("tolerance"),
+            near_flat=options.get("near_flat", NEAR_FLAT),
+            until=options.get("until") or (),
+        )
+        quantities = [q for output in self._outputs.values() for q in output.reads]
         try:
-            run = experiment.run(members.parameters_of(i), members.start_of(i))
-            found = {name: output.of(run, order.legend) for name, output in order.outputs.items()}
-        except Exception as error:  # whatever it is, it is this member's alone
-            block.reason[i] = reason_of(error)
-            if len(words) < MOST_TOLD:
-                words[i] = told(error)
-        else:
-            block.reason[i] = Reason.DONE
-            for name, values in found.items():
-                block.values[name][i] = values
-        tick(1)
-    return Block(block.values, block.reason, words)
+            mode = abreast(order.derived, plan, quantities)
+        except PolhodeError:
+            return None  # it is told member by member
+        events = any(isinstance(output, OF_EVENTS) for output in self._outputs.values())
+        pulls = mode is not None and mode.mode == AS_DECLARED and events
+        return None if pulls else mode
+
+    def _times(self) -> Array:
+        """Start, times of series, and end, s."""
+        end = self._order.experiment().duration
+        asked = {t for output in self._outputs.values() for t in output.looks if 0 < t < end}
+        return np.array([0.0, *sorted(asked), end])
+
+
+def _nobody(count: int) -> None:
+    """Is told nothing."""

@@ -9,8 +9,7 @@ from threading import local
 from typing import Any, Protocol, TypeAlias
 
 from polhode.base import StoreError
-from polhode.simulate import Experiment
-from polhode.study._block import Block, Order, followed
+from polhode.study._block import Block, Crew, Order
 from polhode.study._columns import Members
 from polhode.study._libraries import distributed
 
@@ -40,9 +39,9 @@ def one_after_the_other(tick: Callable[[int], None]) -> Compute:
     """
 
     def compute(order: Order, chunks: Chunks) -> Iterator[tuple[Place, Block]]:
-        experiment = order.experiment()
+        crew = Crew(order)
         for place, members in chunks:
-            yield place, followed(order, members, experiment, tick)
+            yield place, crew.follow(members, tick)
 
     return compute
 
@@ -97,9 +96,9 @@ def _received(done: Any, place: Place) -> Block:
 def _chunk(order: Order, members: Members) -> Block:
     """On a worker; one integrator per thread, compiled for its first chunk."""
     if getattr(_kept, "order", None) is not order:
-        _kept.order, _kept.experiment = order, order.experiment()
-    experiment: Experiment = _kept.experiment
-    return followed(order, members, experiment, _nobody)
+        _kept.order, _kept.crew = order, Crew(order)
+    crew: Crew = _kept.crew
+    return crew.follow(members, _nobody)
 
 
 def _nobody(count: int) -> None:

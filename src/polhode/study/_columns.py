@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polhode.algebra import Expr, Symbol, as_symbol
-from polhode.base import DeclarationError
+from polhode.base import DeclarationError, read_quantity
 
 Array: TypeAlias = NDArray[np.float64]
 Name: TypeAlias = str | Symbol | Expr
@@ -41,6 +41,12 @@ class Column:
         """As `simulate` takes it."""
         value = self.values[member].item()
         return (value, self.unit) if self.unit else value
+
+    @property
+    def si(self) -> Array:
+        """The numbers in SI units."""
+        factor = read_quantity(f"1 {self.unit}").value if self.unit else 1.0
+        return np.asarray(self.values, dtype=float) * factor
 
     def rows(self, rows: slice | NDArray[np.intp]) -> Column:
         """The column of some members."""
@@ -73,6 +79,18 @@ class Members:
         """Some of the members."""
         count = len(np.arange(self.count)[rows])
         return Members(count, _rows(self.parameters, rows), _rows(self.start, rows))
+
+    def si_columns(self) -> dict[str, Array] | None:
+        """SI values of what differs, by name; None where they are texts."""
+        columns = self.columns
+        if any(column.values.dtype.kind == "U" for column in columns.values()):
+            return None
+        return {name: column.si for name, column in columns.items()}
+
+    @property
+    def has_expressions(self) -> bool:
+        """Whether a value that is common to all may depend on what differs."""
+        return any(isinstance(v, Expr) for v in (*self.parameters.values(), *self.start.values()))
 
     @property
     def columns(self) -> dict[str, Column]:

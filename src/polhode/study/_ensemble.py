@@ -15,7 +15,8 @@ from polhode.study._block import Block, Order, Subject
 from polhode.study._columns import Array, Column, Members, Name, members_of
 from polhode.study._extremes import Quantity
 from polhode.study._grid import start_name
-from polhode.study._outputs import Output, outputs_of
+from polhode.study._output import Output
+from polhode.study._outputs import outputs_of
 from polhode.study._reasons import Reason
 from polhode.study._workers import shared_out
 

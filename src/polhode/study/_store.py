@@ -21,7 +21,8 @@ from polhode.study import _libraries
 from polhode.study._block import Block
 from polhode.study._grid import Grid
 from polhode.study._libraries import zarr
-from polhode.study._outputs import Legend, Outputs
+from polhode.study._output import Legend
+from polhode.study._outputs import Outputs
 from polhode.study._reasons import Reason
 
 if TYPE_CHECKING:

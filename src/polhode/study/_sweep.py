@@ -28,7 +28,8 @@ from polhode.study._columns import Name, published_names
 from polhode.study._ensemble import USUAL
 from polhode.study._extremes import Quantity
 from polhode.study._grid import SAMPLE, Grid, grid_of, split_axes
-from polhode.study._outputs import Output, outputs_of
+from polhode.study._output import Output
+from polhode.study._outputs import outputs_of
 from polhode.study._store import Store, created, dataset, open_store
 
 if TYPE_CHECKING:

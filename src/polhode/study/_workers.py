@@ -11,14 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polhode.base import DeclarationError
-from polhode.simulate import Experiment
-from polhode.study._block import Block, Order, Tick, followed
+from polhode.study._block import Block, Crew, Order, Tick
 from polhode.study._columns import Members
 
 _SHARES = 4  # per process: members differ in what they take
 _SMALLEST = 8
 
-_here: list[tuple[Order, Experiment]] = []
+_here: list[Crew] = []
 
 
 def shared_out(order: Order, members: Members, workers: int, tick: Tick) -> Block:
@@ -30,7 +29,7 @@ def shared_out(order: Order, members: Members, workers: int, tick: Tick) -> Bloc
     if workers < 1:
         raise DeclarationError(f"{workers} workers", expected="one or more")
     if workers == 1 or members.count == 1:
-        return followed(order, members, order.experiment(), tick)
+        return Crew(order).follow(members, tick)
     block = Block.empty(order, members.count)
     with _pool(order, workers) as pool:
         waiting = {
@@ -59,12 +58,11 @@ def _pool(order: Order, workers: int) -> Iterator[ProcessPoolExecutor]:
 
 
 def _begin(order: Order) -> None:
-    _here[:] = [(order, order.experiment())]
+    _here[:] = [Crew(order)]
 
 
 def _share(members: Members) -> Block:
-    ((order, experiment),) = _here
-    return followed(order, members, experiment, _nobody)
+    return _here[0].follow(members, _nobody)
 
 
 def _nobody(count: int) -> None:
