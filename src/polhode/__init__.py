@@ -124,6 +124,20 @@ if TYPE_CHECKING:
     from polhode.simulate import read_sheet as read_sheet
     from polhode.simulate import sampled as sampled
     from polhode.simulate import simulate as simulate
+    from polhode.study import Duration as Duration
+    from polhode.study import EndMode as EndMode
+    from polhode.study import Ensemble as Ensemble
+    from polhode.study import EventCount as EventCount
+    from polhode.study import EventKinds as EventKinds
+    from polhode.study import EventTime as EventTime
+    from polhode.study import EventTimes as EventTimes
+    from polhode.study import Fate as Fate
+    from polhode.study import Final as Final
+    from polhode.study import Largest as Largest
+    from polhode.study import Least as Least
+    from polhode.study import Series as Series
+    from polhode.study import ensemble as ensemble
+    from polhode.study import sweep as sweep
     from polhode.view import Judgement as Judgement
     from polhode.view import Scene as Scene
     from polhode.view import figures as figures
@@ -136,6 +150,22 @@ if TYPE_CHECKING:
 _ROOMS = {
     "view": (
         "Judgement",
+    "study": (
+        "Duration",
+        "EndMode",
+        "Ensemble",
+        "EventCount",
+        "EventKinds",
+        "EventTime",
+        "EventTimes",
+        "Fate",
+        "Final",
+        "Largest",
+        "Least",
+        "Series",
+        "ensemble",
+        "sweep",
+    ),
         "Scene",
         "figures",
         "page",
