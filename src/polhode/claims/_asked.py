@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
+from typing import TypeVar
 
 from polhode.algebra import ZERO, Expr, Symbol
+from polhode.claims._circumstances import Circumstances
 from polhode.claims._components import Component, Relation, components
 from polhode.derive import Equations
+
+States = TypeVar("States", bound=Circumstances)
 
 #: Signs that claim the equality of both sides.
 EQUALITY = ("=", "≡")
@@ -62,6 +66,10 @@ class Asked:
         """All members of a branch as scalar relations."""
         numbered = enumerate(self.branches[branch])
         return tuple(c for i, r in numbered for c in components(i, r.left, r.right))
+
+    def states(self, kind: type[States]) -> States:
+        """The states of a kind on which the claim is asked to hold."""
+        return kind(self.equations, self.given, self.relations, self.positive)
 
     def only(self, members: Collection[int]) -> Asked:
         """The claim that some of the members make; the others are left in place, as 0 = 0."""

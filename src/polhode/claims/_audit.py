@@ -11,7 +11,7 @@ from polhode.base import PolhodeError
 from polhode.claims._check import judged_claim
 from polhode.claims._document import Claim, Document
 from polhode.claims._notation import Notation
-from polhode.claims._typed import with_given
+from polhode.claims._typed import with_start
 from polhode.claims._verdict import Answer, Verdict
 from polhode.derive import Equations
 
@@ -86,7 +86,7 @@ def _verdicts(document: Document, resolver: Resolver, claims: Iterable[Claim]) -
                 notations[part.id] = Notation.of_part(resolver(part.system), part)
             notation = notations[part.id].of_claim(claim)
             start = (f"{name} = {value}" for name, value in claim.start.items())
-            notation = reduce(with_given, start, notation)
+            notation = reduce(with_start, start, notation)
             verdict = judged_claim(claim.formula, notation, claim.context, claim.when)
         except PolhodeError as error:
             verdict = Verdict(Answer.UNREAD, claim.context, reason=str(error))

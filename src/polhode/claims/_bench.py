@@ -29,7 +29,10 @@ class Numbers(dict[Symbol, float]):
         self._states = states
 
     def __missing__(self, symbol: Symbol) -> float:
-        self[symbol] = number(self._states.on(Expr.generator(symbol)), self._free)
+        image = self._states.on(Expr.generator(symbol))
+        unheard = image.symbols() - self._free.keys() - {_PI}
+        self._free |= points((), unheard, len(self._free)).floats()
+        self[symbol] = number(image, self._free)
         return self[symbol]
 
 
@@ -69,7 +72,7 @@ class Bench:
 def bench(states: Circumstances, expressions: Iterable[Expr]) -> Bench:
     """States with independent numbers for everything the circumstances leave open."""
     used = [states.on(e) for e in expressions]
-    used += [*states.settled_relations, *states.equations.assumed_positive]
+    used += [*states.settled_relations, *states.signs]
     used += list(states.equations.accelerations.values())
     equations = states.equations
     symbols = {s for e in used for s in e.symbols()}
@@ -82,9 +85,7 @@ def bench(states: Circumstances, expressions: Iterable[Expr]) -> Bench:
 def _is_real(numbers: Numbers, states: Circumstances, symbols: Iterable[Symbol]) -> bool:
     try:
         settled = {s: number(states.on(Expr.generator(s)), numbers) for s in symbols}
-        positive = all(
-            number(e, {**numbers, **settled}) > 0 for e in states.equations.assumed_positive
-        )
+        positive = all(number(states.on(e), numbers) > 0 for e in states.signs)
     except (PolhodeError, ArithmeticError, ValueError, KeyError):
         return False
     numbers.update(settled)

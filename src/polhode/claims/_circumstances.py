@@ -10,6 +10,7 @@ from functools import cached_property
 from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError
 from polhode.claims._elimination import eliminated
+from polhode.claims._meaning import with_signs
 from polhode.claims._rates import on_constraints, on_motion
 from polhode.derive import Equations
 
@@ -22,14 +23,20 @@ class Circumstances(ABC):
         equations: of the system.
         given: symbols that the claim itself restricts to values, such as θ = π/2.
         relations: further expressions that vanish, such as L² - 2 I₂ T.
+        positive: what the text takes as positive besides.
     """
 
     equations: Equations
     given: Mapping[Symbol, Expr] = field(default_factory=dict)
     relations: tuple[Expr, ...] = ()
+    positive: tuple[Expr, ...] = ()
 
     def on(self, expression: Expr) -> Expr:
         """An expression on these states; zero exactly where it vanishes on all of them."""
+        found = self._on(expression)
+        return with_signs(found, self._known_signs) if self.positive else found
+
+    def _on(self, expression: Expr) -> Expr:
         try:
             settled = self._settled(expression.subs(self._given_parameters))
             restricted = settled.subs(self.given)
@@ -48,6 +55,15 @@ class Circumstances(ABC):
     def settled_relations(self) -> tuple[Expr, ...]:
         """What vanishes on these states besides, in terms of what is left open."""
         return tuple(self._settled(r.subs(self.given)).subs(self.given) for r in self.relations)
+
+    @cached_property
+    def signs(self) -> tuple[Expr, ...]:
+        """All that is positive on these states."""
+        return (*self.equations.assumed_positive, *self.positive)
+
+    @cached_property
+    def _known_signs(self) -> tuple[Expr, ...]:
+        return (*self.positive, *map(self._on, self.positive))
 
     @cached_property
     def _given_parameters(self) -> dict[Symbol, Expr]:

@@ -8,7 +8,7 @@ from dataclasses import replace
 from polhode.base import ParseError
 from polhode.claims._asked import EQUALITY, Asked
 from polhode.claims._circumstances import AnyState, Circumstances, TrueMotion
-from polhode.claims._inequality import SENSE, judged_inequality
+from polhode.claims._inequality import SENSE, judged_inequality, judged_unequal
 from polhode.claims._judge import judged_identity, judged_motion
 from polhode.claims._launch import judged_launch
 from polhode.claims._limit import judged_limit
@@ -58,7 +58,7 @@ def _by_signs(asked: Asked, context: str) -> Iterator[Verdict]:
     equal = [i for i, sign in signs.items() if sign in EQUALITY]
     close = [i for i, sign in signs.items() if sign == "≈"]
     bounds = [i for i, sign in signs.items() if sign in SENSE]
-    if others := [s for s in signs.values() if s not in (*EQUALITY, "≈", *SENSE)]:
+    if others := [s for s in signs.values() if s not in (*EQUALITY, "≈", "≠", *SENSE)]:
         raise ParseError(
             f"the sign {others[0]} in the context {context}", expected="= ≈ or an inequality"
         )
@@ -66,8 +66,11 @@ def _by_signs(asked: Asked, context: str) -> Iterator[Verdict]:
         yield _EQUATIONS[context](asked.only(equal))
     if close:
         yield _close(asked.only(close), context)
-    for component in (c for c in asked.components() if c.member in bounds):
-        yield judged_inequality(asked, component, _states(asked, context))
+    for component in asked.components():
+        if component.member in bounds:
+            yield judged_inequality(asked, component, _states(asked, context))
+        if signs[component.member] == "≠":
+            yield judged_unequal(asked, component, _states(asked, context))
 
 
 def _close(asked: Asked, context: str) -> Verdict:
@@ -78,6 +81,5 @@ def _close(asked: Asked, context: str) -> Verdict:
 
 def _states(asked: Asked, context: str) -> Circumstances:
     if context == "steady":
-        return steady_states(asked.equations, asked.given, asked.relations)[0]
-    kind = AnyState if context == "identity" else TrueMotion
-    return kind(asked.equations, asked.given, asked.relations)
+        return steady_states(asked)[0]
+    return asked.states(AnyState if context == "identity" else TrueMotion)

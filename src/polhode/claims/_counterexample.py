@@ -49,7 +49,7 @@ def refutation(
 
 
 def _drawn(sides: tuple[Expr, Expr], states: Circumstances) -> Iterator[Point]:
-    used = [*sides, *states.settled_relations, *states.equations.assumed_positive]
+    used = [*sides, *states.settled_relations, *states.signs]
     used += states.equations.accelerations.values()
     symbols = {s for e in used for s in e.symbols()} | _state(states)
     return (points(used, symbols, seed) for seed in range(_TRIES))
@@ -71,7 +71,7 @@ def _with_rates(function: Symbol) -> Iterator[Symbol]:
 def _is_allowed(point: Point, states: Circumstances) -> bool:
     """Whether what the derivation took for positive is so."""
     values = point.floats()
-    return all(number(states.on(e), values) > 0 for e in states.equations.assumed_positive)
+    return all(number(states.on(e), values) > 0 for e in states.signs)
 
 
 def _described(point: Point, states: Circumstances) -> dict[str, str]:

@@ -65,6 +65,13 @@ class Evaluator:
 
         Raises `BindingError` for symbols without a meaning and for kinds that do not go together.
         """
+        key = node, self.upper, self.per_time
+        known = self.vocabulary.found
+        if key not in known:
+            known[key] = self._found(node)
+        return known[key]
+
+    def _found(self, node: tree.Node) -> Meaning:
         found = self.vocabulary.find(node)
         if found is not None:
             return found

@@ -19,9 +19,8 @@ def judged_inequality(asked: Asked, component: Component, states: Circumstances)
     """Proved from the signs of factors, or refuted at a state, or else left open by exception."""
     sign = asked.members[component.member].sign
     difference = states.on(component.difference)
-    assumed = (*asked.equations.assumed_positive, *asked.positive)
     sense = SENSE[sign]
-    if difference and definite_sign(difference, assumed) == sense:
+    if difference and definite_sign(difference, states.signs) == sense:
         return Verdict(Answer.HOLDS, "", reason="seen from the signs of its factors")
 
     def refutes(left: Expr, right: Expr) -> bool:
@@ -41,3 +40,14 @@ def judged_inequality(asked: Asked, component: Component, states: Circumstances)
         counterexample=example,
         confirmation=second,
     )
+
+
+def judged_unequal(asked: Asked, component: Component, states: Circumstances) -> Verdict:
+    """≠ holds where the difference has a sign; sometimes, where it does not vanish throughout."""
+    difference = states.on(component.difference)
+    residual = Residual(component.member, component.label, difference)
+    if not difference:
+        return Verdict(Answer.FAILS, "", reason="both sides are the same", residuals=(residual,))
+    if asked.when == "sometimes" or definite_sign(difference, states.signs):
+        return Verdict(Answer.HOLDS, "", reason=f"they differ by {difference}")
+    return Verdict(Answer.UNREAD, "", reason="not decided", residuals=(residual,))

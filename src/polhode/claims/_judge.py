@@ -25,13 +25,13 @@ class Failure:
 
 def judged_identity(asked: Asked) -> Verdict:
     """For all states obeying the constraints, accelerations free."""
-    states = AnyState(asked.equations, asked.given, asked.relations)
+    states = asked.states(AnyState)
     return judged(asked, [states], "identity")
 
 
 def judged_motion(asked: Asked) -> Verdict:
     """On every true motion."""
-    states = TrueMotion(asked.equations, asked.given, asked.relations)
+    states = asked.states(TrueMotion)
     return judged(asked, [states], "motion")
 
 

@@ -3,32 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import TypeAlias
-
-import numpy as np
+from dataclasses import replace
+from itertools import islice
 
 from polhode.algebra import Expr, Symbol
 from polhode.analyse import invariants
 from polhode.base import NumericError, PolhodeError
 from polhode.claims._asked import EQUALITY, Asked
 from polhode.claims._circumstances import TrueMotion
-from polhode.claims._components import Component
-from polhode.claims._inequality import SENSE, judged_inequality
-from polhode.claims._judge import failures, judged
-from polhode.claims._numeric import Array, number
-from polhode.claims._points import points
-from polhode.claims._verdict import Answer, Confirmation, Counterexample, Residual, Verdict
-from polhode.simulate import Trajectory, simulate
-
-Name: TypeAlias = str | Symbol | Expr
+from polhode.claims._course import Followed, courses
+from polhode.claims._initially import judged_initially
+from polhode.claims._judge import failures
+from polhode.claims._own_motion import followed_anew
+from polhode.claims._verdict import Answer, Counterexample, Residual, Verdict
 
 _MOTIONS = 3
-_TRIES = 20
-_DURATION = 6.0
-_SAMPLES = 400
-_CLOSE = 1e-6
+_SHORT, _LONG = 6.0, 24.0
+#: The letter of texts for the time at which a motion starts.
+_CLOCK = Symbol("t_0")
 
 
 def judged_launch(asked: Asked) -> Verdict:
@@ -38,31 +30,32 @@ def judged_launch(asked: Asked) -> Verdict:
     what is left open then, and every statement on the course of the motion, is decided by
     integrating it for several choices of the parameters.
     """
-    start = dict(asked.start) or {s: e for s, e in asked.given.items() if s.kind.varies}
-    given = {s: e for s, e in asked.given.items() if not s.kind.varies}
+    asked = _started(asked)
+    fixed = {s: e for s, e in asked.given.items() if not s.kind.varies}
     if asked.when == "initially":
-        return _initially(replace(asked, given={**given, **start}))
-    asked = replace(asked, given=given)
+        return judged_initially(replace(asked, given={**fixed, **asked.start}))
+    event = {s: e for s, e in asked.given.items() if s.kind.varies}
+    asked = replace(asked, given=fixed)
     equal = all(relation.sign in EQUALITY for relation in asked.members)
-    if equal and not asked.when and _holds_exactly(asked, _whole(asked, start)):
+    plain = equal and not asked.when and not event
+    if plain and _holds_exactly(asked, _whole(asked)):
         return Verdict(Answer.HOLDS, "launch", reason="follows from the conserved quantities")
-    return _followed(asked, start)
+    return _followed(asked, event)
 
 
-def _whole(asked: Asked, start: Mapping[Symbol, Expr]) -> dict[Symbol, Expr]:
+def _started(asked: Asked) -> Asked:
+    """With the restrictions on the state as the start, where no start is given."""
+    if asked.start:
+        return asked
+    start = {s: e for s, e in asked.given.items() if s.kind.varies}
+    fixed = {s: e for s, e in asked.given.items() if s not in start}
+    return replace(asked, start=start, given=fixed)
+
+
+def _whole(asked: Asked) -> dict[Symbol, Expr]:
     """The start, with a letter for every coordinate and speed that it leaves open."""
     state = (*asked.equations.coordinates, *asked.equations.speeds)
-    return {s: Expr.generator(Symbol(f"{s.published}_start")) for s in state} | dict(start)
-
-
-def _initially(asked: Asked) -> Verdict:
-    states = TrueMotion(asked.equations, asked.given, asked.relations)
-    equal = {i for i, r in enumerate(asked.members) if r.sign in EQUALITY}
-    verdict = judged(asked.only(equal), [states], "launch")
-    for component in (c for c in asked.components() if c.member not in equal):
-        if verdict.holds:
-            verdict = judged_inequality(asked, component, states)
-    return replace(verdict, context="launch")
+    return {s: Expr.generator(Symbol(f"{s.published}_start")) for s in state} | dict(asked.start)
 
 
 def _holds_exactly(asked: Asked, start: Mapping[Symbol, Expr]) -> bool:
@@ -70,112 +63,53 @@ def _holds_exactly(asked: Asked, start: Mapping[Symbol, Expr]) -> bool:
         kept = [i.expression for i in invariants(asked.equations)]
         fixed = [e - e.subs(start) for e in map(asked.equations.kinetics.on_speeds, kept)]
         relations = (*asked.relations, *(e for e in fixed if e))
-        states = TrueMotion(asked.equations, asked.given, relations)
+        states = replace(asked.states(TrueMotion), relations=relations)
         return next(failures(asked, [states]), None) is None
     except (PolhodeError, ArithmeticError):
         return False
 
 
-@dataclass(frozen=True, eq=False)
-class _Course:
-    """One motion by numbers, and a component of the claim along it."""
-
-    run: Trajectory
-    parameters: Mapping[Symbol, float]
-    component: Component
-    sign: str
-
-    @cached_property
-    def times(self) -> Array:
-        """Sample times, s."""
-        return np.linspace(0.0, float(self.run.duration), _SAMPLES)
-
-    @cached_property
-    def sides(self) -> tuple[Array, Array]:
-        """Values of both sides at the sample times."""
-        fixed = {Expr.generator(s): v for s, v in self.parameters.items()}
-        left, right = (
-            np.broadcast_to(self.run.evaluate(side.subs(fixed), self.times), self.times.shape)
-            for side in (self.component.left, self.component.right)
-        )
-        return left, right
-
-    @cached_property
-    def met(self) -> Array:
-        """Where the relation is met."""
-        left, right = self.sides
-        scale = max(np.abs(left).max(), np.abs(right).max(), 1e-300)
-        if self.sign in SENSE:
-            return np.asarray((left - right) * SENSE[self.sign] > -_CLOSE * scale)
-        return np.asarray(np.abs(left - right) <= _CLOSE * scale)
-
-    def exception(self, when: str) -> int | None:
-        """The sample that refutes the relation's holding this often; None where none does."""
-        wrong = self.met if when == "never" else np.logical_not(self.met)
-        if when == "sometimes":
-            return None if self.met.any() else 0
-        if when == "finally":
-            return len(wrong) - 1 if wrong[-1] else None
-        return int(np.argmax(wrong)) if wrong.any() else None
-
-
-def _followed(asked: Asked, start: Mapping[Symbol, Expr]) -> Verdict:
-    """By numbers, on several motions."""
-    runs = list(_motions(asked, start))
-    if not runs:
+def _followed(asked: Asked, event: Mapping[Symbol, Expr]) -> Verdict:
+    """By numbers, on several motions: all along them, or when something comes to pass."""
+    followed = list(_along_motions(asked, event))
+    if not followed:
         raise NumericError(
             "no motion could be followed from the start", expected="a start that fixes the motion"
         )
-    for component in asked.components():
-        sign = asked.members[component.member].sign
-        for run, parameters in runs:
-            course = _Course(run, parameters, component, sign)
-            sample = course.exception(asked.when)
-            if sample is not None:
-                return _refuted(course, sample)
-    remark = f"by numbers, on {len(runs)} motions of {_DURATION:g} s with {_SAMPLES} samples each"
+    for relation in followed:
+        sample = relation.exception(asked.when)
+        if sample is not None:
+            return _refuted(relation, sample, asked)
+    remark = f"by numbers, along {_MOTIONS} motions"
     return Verdict(Answer.HOLDS, "launch", reason=remark)
 
 
-def _refuted(course: _Course, sample: int) -> Verdict:
-    component = course.component
-    left, right = (float(side[sample]) for side in course.sides)
-    time = float(course.times[sample])
+def _along_motions(asked: Asked, event: Mapping[Symbol, Expr]) -> Iterator[Followed]:
+    components = asked.components()
+    starts = replace(asked.states(TrueMotion), given={**asked.given, **asked.start})
+    running = replace(asked.states(TrueMotion), relations=())
+    used = [running.on(side) for c in components for side in (c.left, c.right)]
+    clock = next((s for e in used for s in e.symbols() if s == _CLOCK), None)
+    duration = _LONG if event or asked.when == "finally" else _SHORT
+    found = (c.at(event) for c in courses(starts, used, clock, duration))
+    for course in islice(filter(None, found), _MOTIONS):
+        for component in components:
+            yield Followed.along(course, component, asked, running)
+
+
+def _refuted(followed: Followed, sample: int, asked: Asked) -> Verdict:
+    component, course = followed.component, followed.course
+    left, right = (float(side[sample]) for side in followed.sides)
+    since = float(course.times[sample])
     residual = Residual(component.member, component.label, component.difference)
-    said = {s.published: f"{v:.12g}" for s, v in course.parameters.items()}
-    values = {"t": f"{time:.12g}", **dict(sorted(said.items()))}
-    example = Counterexample(values, Expr.of(left), Expr.of(right), residual)
+    state = {*asked.equations.coordinates, *asked.equations.speeds, *asked.equations.parameters}
+    said = {f"{s.published}": f"{course.start[s]:.12g}" for s in state}
+    values = {"t": f"{since + course.begin:.12g}", **dict(sorted(said.items()))}
     return Verdict(
         Answer.FAILS,
         "launch",
-        reason=f"not met at t = {time:.4g} s of a motion that was followed by numbers",
+        reason=f"not met {since:.4g} s after the start of a motion that was followed by numbers",
         residuals=(residual,),
-        counterexample=example,
-        confirmation=Confirmation({"t": time}, left, right, agrees=True),
+        counterexample=Counterexample(values, Expr.of(left), Expr.of(right), residual),
+        confirmation=followed_anew(followed, sample),
     )
-
-
-def _motions(
-    asked: Asked, start: Mapping[Symbol, Expr]
-) -> Iterator[tuple[Trajectory, dict[Symbol, float]]]:
-    """Motions with different parameters and all that the start leaves open."""
-    equations = asked.equations
-    letters = {s for e in start.values() for s in e.symbols()} | {*equations.parameters}
-    state = {*equations.coordinates, *equations.speeds} - start.keys()
-    open_ = letters | state
-    found = 0
-    for seed in range(_TRIES):
-        drawn = points((), open_, seed).floats()
-        given = {s: float(number(e, drawn)) for s, e in asked.given.items()}
-        values = {**drawn, **given}
-        begin: dict[Name, float] = {s: float(number(e, values)) for s, e in start.items()}
-        begin |= {s: values[s] for s in state}
-        parameters: dict[Name, float] = {s: values[s] for s in equations.parameters}
-        try:
-            run = simulate(equations, parameters, begin, _DURATION)
-        except PolhodeError:
-            continue
-        yield run, {s: values[s] for s in letters if s in values}
-        found += 1
-        if found == _MOTIONS:
-            return

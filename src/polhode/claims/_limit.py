@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import log
 
@@ -72,12 +72,14 @@ class _Remainder:
 def _readings(asked: Asked) -> Iterator[list[_Remainder]]:
     kinds = (AnyState, TrueMotion)
     for kind in kinds:
-        states = kind(asked.equations, asked.given, asked.relations)
+        states = asked.states(kind)
         yield [_remainder(c, states, c.left, c.right, asked) for c in asked.components()]
     roots = list(steady_roots(asked))
     for branch in range(max((len(values) for _, values in roots), default=0)):
         yield [
-            _remainder(c, TrueMotion(asked.equations, asked.given), values[branch], c.right, asked)
+            _remainder(
+                c, replace(asked.states(TrueMotion), relations=()), values[branch], c.right, asked
+            )
             for c, values in roots
             if branch < len(values)
         ]

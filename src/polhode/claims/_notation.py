@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from polhode.algebra import Expr, Symbol, as_symbol
 from polhode.base import ParseError
@@ -31,11 +32,13 @@ class Notation:
         vocabulary: letters of the text.
         given: restrictions, as bound relations.
         small: quantities taken as small.
+        start: values at the start of a motion, as bound relations.
     """
 
     vocabulary: Vocabulary
     given: tuple[BoundRelation, ...] = ()
     small: tuple[Small, ...] = field(default=())
+    start: tuple[BoundRelation, ...] = ()
 
     @classmethod
     def of(cls, equations: Equations) -> Notation:
@@ -148,8 +151,18 @@ class Notation:
 
         What it merely defines is not among the members.
         """
-        further = self._saying({name_of(name): value for name, value in extra.items()})
+        further = self._knowing(tuple(extra.items()))
         return further.claimed(further.bound(statement))
+
+    def _knowing(self, extra: tuple[tuple[str, Expr], ...]) -> Notation:
+        if extra not in self._wider:
+            self._wider[extra] = self._saying({name_of(name): value for name, value in extra})
+        return self._wider[extra]
+
+    @cached_property
+    def _wider(self) -> dict[tuple[tuple[str, Expr], ...], Notation]:
+        """The same with further letters, so that what they were found to mean is kept."""
+        return {(): self}
 
     def claimed(self, bound: Bound) -> Asked:
         """The claim that a bound statement makes under this notation's restrictions."""
@@ -165,6 +178,7 @@ class Notation:
             self.small,
             self.vocabulary.positive,
             bound.digits,
+            {as_symbol(s): value for s, value in restrictions(self.start)[0].items()},
         )
 
     def value(self, node: Node) -> Side:

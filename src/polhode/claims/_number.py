@@ -16,7 +16,7 @@ def judged_number(asked: Asked) -> Verdict:
 
     Raises `ParseError` where parameters are left without a value.
     """
-    states = TrueMotion(asked.equations, asked.given, asked.relations)
+    states = asked.states(TrueMotion)
     for component in asked.components():
         left, right = states.on(component.left), states.on(component.right)
         half = states.on(asked.digits.get(component.member, ZERO))

@@ -98,7 +98,8 @@ def _draws(random: Random, pool: list[Fraction]) -> Callable[[Symbol], Fraction]
 
 def _angles(generator: Generator) -> Iterable[Symbol]:
     """Symbols that the generator takes a sine or cosine of, also under roots."""
-    if _odd(generator) is not None:
+    odd = _odd(generator)
+    if odd is not None and odd[1] < 0:
         angle = _angle(generator)[0]
         return [] if angle == _PI else [angle]
     inner = (g for argument in generator.arguments for g in argument.generators)

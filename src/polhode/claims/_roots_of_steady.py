@@ -14,7 +14,7 @@ from polhode.claims._steady_states import steady_states
 def steady_roots(asked: Asked) -> Iterator[tuple[Component, tuple[Expr, ...]]]:
     """Members whose left side is a state variable, with the values it has in steady motion."""
     try:
-        families = steady_states(asked.equations, asked.given, asked.relations)
+        families = steady_states(asked)
     except PolhodeError:
         return
     for component in asked.components():

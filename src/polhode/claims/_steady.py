@@ -21,7 +21,7 @@ def judged_steady(asked: Asked) -> Verdict:
     A member that gives a speed by a root, with or without ±, claims that every branch of it is a
     steady motion; whether it covers all of them is remarked.
     """
-    families = steady_states(asked.equations, asked.given, asked.relations)
+    families = steady_states(asked)
     solved = [solved_members(asked, branch) for branch in range(len(asked.branches))]
     if not any(solved):
         return judged(asked, families, "steady")
@@ -63,7 +63,7 @@ def _not_steady(asked: Asked, solved: Solved) -> Iterator[Failure]:
     still = {q.derivative(): ZERO for q in reduced(equations).essential}
     given = {**still, **asked.given}
     given[solved.quantity] = solved.value.subs(given)
-    states = TrueMotion(equations, given, asked.relations)
+    states = TrueMotion(equations, given, asked.relations, asked.positive)
     for symbol in equations.acceleration_symbols:
         left = states.on(Expr.generator(symbol))
         if left:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
 from polhode.algebra import ZERO, Expr, Symbol, eliminate
 from polhode.analyse import SteadyMotion, steady
+from polhode.claims._asked import Asked
 from polhode.claims._circumstances import TrueMotion
 from polhode.derive import Equations
 
@@ -31,18 +31,22 @@ class SteadyStates(TrueMotion):
         return dict.fromkeys(self.equations.acceleration_symbols, ZERO)
 
 
-def steady_states(
-    equations: Equations, given: Mapping[Symbol, Expr], relations: tuple[Expr, ...] = ()
-) -> tuple[SteadyStates, ...]:
+def steady_states(asked: Asked) -> tuple[SteadyStates, ...]:
     """Every family of steady motions that obeys the claim's own restrictions.
 
     Families where the coordinates are singular are left out: a rate of precession means nothing
     about an upright axis.
     """
     return tuple(
-        SteadyStates(equations, given, (*family.relations, *relations), family)
-        for family in steady(equations, dict(given))
-        if not _is_singular(equations, family)
+        SteadyStates(
+            asked.equations,
+            asked.given,
+            (*family.relations, *asked.relations),
+            asked.positive,
+            family,
+        )
+        for family in steady(asked.equations, dict(asked.given))
+        if not _is_singular(asked.equations, family)
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from polhode.algebra import Expr
 from polhode.analyse import Truth, stability
@@ -58,7 +58,7 @@ def judged_threshold(asked: Asked) -> Verdict:
 
 
 def _any(asked: Asked) -> AnyState:
-    return AnyState(asked.equations, asked.given, asked.relations)
+    return asked.states(AnyState)
 
 
 def _claimed(component: Component, asked: Asked) -> tuple[Component, int]:
@@ -70,7 +70,7 @@ def _claimed(component: Component, asked: Asked) -> tuple[Component, int]:
 
 def exact_conditions(asked: Asked) -> list[Exact]:
     """Conditions of stability and of existence, for every family that obeys the restrictions."""
-    families = steady_states(asked.equations, asked.given, asked.relations)
+    families = steady_states(asked)
     return [e for family in families for e in (*_stability(family), *_existence(family))]
 
 
@@ -101,16 +101,15 @@ def _equivalent(component: Component, greater: int, exact: Exact, asked: Asked) 
     """
     states = _any(asked)
     left, right = states.on(component.left), states.on(component.right)
-    assumed = asked.equations.assumed_positive
     for difference in (left - right, left * left - right * right):
-        if difference and definite_sign(difference * greater / exact.expression, assumed) == 1:
+        if difference and definite_sign(difference * greater / exact.expression, states.signs) == 1:
             return True
     return False
 
 
 def _refuted(component: Component, exact: Exact, asked: Asked) -> Verdict:
     residual = Residual(component.member, component.label, component.difference)
-    states = AnyState(asked.equations, asked.given, (*asked.relations, exact.expression))
+    states = replace(_any(asked), relations=(*asked.relations, exact.expression))
     try:
         example, second = refutation(component, residual, states, _differ_above_zero)
     except PolhodeError:

@@ -43,9 +43,17 @@ def with_given(notation: Notation, text: str) -> Notation:
     """Restricted by an equality: `theta = pi/2`, `theta = 90deg`, `2*I_2*T = L**2`."""
     if _is_latex(text):
         return notation.under([text])
+    return replace(notation, given=(*notation.given, _equality(notation, text)))
+
+
+def with_start(notation: Notation, text: str) -> Notation:
+    """With a value at the start of a motion: `theta_dot = 0`."""
+    return replace(notation, start=(*notation.start, _equality(notation, text)))
+
+
+def _equality(notation: Notation, text: str) -> BoundRelation:
     left, right = _sides(text, "an equality")
-    relation = BoundRelation(typed(notation, left), "=", typed(notation, right))
-    return replace(notation, given=(*notation.given, relation))
+    return BoundRelation(typed(notation, left), "=", typed(notation, right))
 
 
 def with_small(notation: Notation, text: str) -> Notation:

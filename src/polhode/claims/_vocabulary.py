@@ -34,6 +34,11 @@ class Vocabulary:
     positive: tuple[Expr, ...] = ()
     columns: str = ""
 
+    @cached_property
+    def found(self) -> dict[tuple[Node, bool, bool], Meaning]:
+        """What nodes were found to stand for, by how ± and differentials were read."""
+        return {}
+
     @classmethod
     def of(cls, equations: Equations) -> Vocabulary:
         """What is known from the declaration alone."""

@@ -45,18 +45,18 @@ def _differences(asked: Asked) -> list[tuple[int, Expr]]:
 
 
 def _identity(asked: Asked) -> Trials:
-    return _on(AnyState(asked.equations, asked.given, asked.relations), asked, _differences)
+    return _on(asked.states(AnyState), asked, _differences)
 
 
 def _motion(asked: Asked) -> Trials:
-    return _on(TrueMotion(asked.equations, asked.given, asked.relations), asked, _differences)
+    return _on(asked.states(TrueMotion), asked, _differences)
 
 
 def _steady(asked: Asked) -> Trials:
-    family, *_ = steady_states(asked.equations, asked.given, asked.relations)
+    family, *_ = steady_states(asked)
     if not solved_members(asked, 0):
         return _on(family, asked, _differences)
-    states = TrueMotion(asked.equations, asked.given, asked.relations)
+    states = asked.states(TrueMotion)
     relations: Sequence[Expr] = [r.numerator for r in family.settled_relations]
 
     def put_in(changed: Asked) -> list[tuple[int, Expr]]:

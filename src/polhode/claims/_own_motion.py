@@ -1,0 +1,65 @@
+"""Motions integrated from the numeric balance of every body: a second opinion on a course."""
+
+from __future__ import annotations
+
+from math import isclose
+from typing import Any
+
+from scipy.integrate import solve_ivp
+
+from polhode.algebra import Symbol
+from polhode.base import PolhodeError
+from polhode.claims._course import TIME, Followed
+from polhode.claims._newton_euler import true_motion
+from polhode.claims._numeric import Array, number
+from polhode.claims._verdict import Confirmation
+from polhode.model import System
+
+_TOLERANCE = 1e-9
+_ROUNDING = 1e-5
+
+
+def followed_anew(followed: Followed, sample: int) -> Confirmation | None:
+    """Both sides at a sample of a motion, with the motion and all accelerations found anew."""
+    course, component = followed.course, followed.component
+    system = course.run.equations.system
+    since = float(course.times[sample])
+    try:
+        state = _moved(system, dict(course.start), since)
+    except (PolhodeError, ArithmeticError, KeyError):
+        return None
+    numbers = {**course.start, **state, TIME: since + course.begin}
+    left, right = (float(number(side, numbers)) for side in (component.left, component.right))
+    told = [float(side[sample]) for side in followed.sides]
+    scale = max(*map(abs, told), 1e-12)
+    agrees = all(
+        isclose(one, other, rel_tol=_ROUNDING, abs_tol=_ROUNDING * scale)
+        for one, other in zip((left, right), told, strict=True)
+    )
+    return Confirmation({"t": since + course.begin}, left, right, agrees)
+
+
+def _moved(system: System, start: dict[Symbol, float], duration: float) -> dict[Symbol, float]:
+    """Every number of the state a while after a start."""
+    first = true_motion(system, start)
+    moving = sorted({s for s in first if s.derivative() in first}, key=lambda s: s.published)
+    fixed = {s: v for s, v in start.items() if not s.kind.varies}
+
+    def all_numbers(values: Any) -> dict[Symbol, float]:
+        return true_motion(system, {**fixed, **dict(zip(moving, values, strict=True))})
+
+    def rates(_: float, values: Array) -> list[float]:
+        found = all_numbers(values)
+        return [found[s.derivative()] for s in moving]
+
+    if not duration:
+        return first
+    run = solve_ivp(
+        rates,
+        (0.0, duration),
+        [first[s] for s in moving],
+        method="DOP853",
+        rtol=_TOLERANCE,
+        atol=_TOLERANCE,
+    )
+    return all_numbers(run.y[:, -1])
