@@ -141,15 +141,15 @@ if TYPE_CHECKING:
     from polhode.view import Judgement as Judgement
     from polhode.view import Scene as Scene
     from polhode.view import figures as figures
+    from polhode.view import movie as movie
     from polhode.view import page as page
     from polhode.view import plot as plot
     from polhode.view import scene as scene
+    from polhode.view import still as still
 
     __version__: str
 
 _ROOMS = {
-    "view": (
-        "Judgement",
     "study": (
         "Duration",
         "EndMode",
@@ -166,11 +166,15 @@ _ROOMS = {
         "ensemble",
         "sweep",
     ),
+    "view": (
+        "Judgement",
         "Scene",
         "figures",
+        "movie",
         "page",
         "plot",
         "scene",
+        "still",
     ),
     "simulate": (
         "Pieces",

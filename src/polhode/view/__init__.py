@@ -12,3 +12,6 @@ from polhode.view.figures._run import plot as plot
 from polhode.view.figures._save import origin_of as origin_of
 from polhode.view.figures._save import save_figure as save_figure
 from polhode.view.figures._save import svg_of as svg_of
+from polhode.view.stills import movie as movie
+from polhode.view.stills import picture as picture
+from polhode.view.stills import still as still

@@ -1,0 +1,140 @@
+"""Bodies of a scene as meshes, with marks so that a spin is seen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+
+import numpy as np
+
+from polhode.view._scene import SceneBody, Shape, Triple
+from polhode.view._shapes import reach_of
+from polhode.view.stills._mesh import (
+    Mesh,
+    box,
+    cap,
+    ring,
+    rod_between,
+    sphere,
+    together,
+    tube,
+)
+
+LIGHT, BLUE, DEEP, ACCENT, METAL = "#f3e9d2", "#2f6f9f", "#1d4a6d", "#e0672b", "#9aa3ad"
+_SECTORS = 12
+_REMEMBERED = 32  # bodies: those of a movie are drawn again and again
+_AXLE = 0.055  # thickness of the rod to where a body is held, against its reach
+
+
+def body_mesh(body: SceneBody) -> Mesh:
+    """A body along its own axes, with the rods to the points at which it is held."""
+    return _mesh(body.shape, body.arms)
+
+
+@lru_cache(_REMEMBERED)
+def _mesh(shape: Shape, held: tuple[Triple, ...]) -> Mesh:
+    mesh = _BUILDERS.get(shape.kind, _ball)(*shape.size)
+    if shape.kind != "ellipsoid":
+        mesh = mesh.placed(_basis(shape), np.zeros(3))
+    thick = _AXLE * max([reach_of(shape), *(float(np.linalg.norm(arm)) for arm in held)])
+    arms = [np.array(arm) for arm in held if any(arm)]
+    rods = [rod_between(np.zeros(3), arm, thick / 2, METAL) for arm in arms]
+    return together([mesh, *rods])
+
+
+def _basis(shape: Shape) -> np.ndarray:
+    axis, across = np.array(shape.axis), np.array(shape.across)
+    return np.stack([across, np.cross(axis, across), axis], axis=1)
+
+
+def _sector(column: int, columns: int, dark: str = BLUE, light: str = LIGHT) -> str:
+    number = column * _SECTORS // columns
+    return ACCENT if number == 0 else (dark if number % 2 else light)
+
+
+def _panel(i: int, j: int) -> str:
+    """A ball in panels, with a marked cap."""
+    if i < 2:
+        return ACCENT
+    if i >= 18:
+        return DEEP
+    return BLUE if (i // 5 + j // 4) % 2 else LIGHT
+
+
+def _ball(radius: float = 1.0) -> Mesh:
+    return _ellipsoid(radius, radius, radius)
+
+
+def _ellipsoid(*half_axes: float) -> Mesh:
+    return sphere(_panel).stretched(*half_axes)
+
+
+def _disk(radius: float, height: float) -> Mesh:
+    def face(i: int, j: int) -> str:
+        if i == 0:
+            return LIGHT
+        return DEEP if i == 2 else _sector(j, 48)
+
+    rings = (0.0, 0.18, 0.93, 1.0)
+    side = tube(radius, -height / 2, height / 2, lambda i, j: _sector(i, 48, DEEP, METAL))
+    return together([side, *(cap(radius, h / 2, face, rings) for h in (height, -height))])
+
+
+def _hoop(radius: float, height: float) -> Mesh:
+    thick = max(height / 2, 0.045 * radius)
+    return ring(radius, thick, lambda i, j: _sector(i, 48))
+
+
+def _wheel(radius: float, height: float) -> Mesh:
+    spokes = []
+    for i in range(6):
+        angle = np.pi * i / 3
+        tip = 0.95 * radius * np.array([np.cos(angle), np.sin(angle), 0.0])
+        spokes.append(rod_between(np.zeros(3), tip, 0.028 * radius, METAL if i else ACCENT))
+    hub = 0.1 * radius
+    plain: Callable[[int, int], str] = lambda i, j: DEEP  # noqa: E731
+    ends = [cap(0.12 * radius, side * hub, plain) for side in (-1, 1)]
+    return together([_hoop(radius, height), *spokes, tube(0.12 * radius, -hub, hub, plain), *ends])
+
+
+def _rod(length: float, radius: float) -> Mesh:
+    bar = tube(radius, -length / 2, length / 2, lambda i, j: BLUE, 20)
+    ends = [
+        sphere(lambda i, j, colour=colour: colour, 10, 16)  # type: ignore[misc]
+        .stretched(*[1.7 * radius] * 3)
+        .placed(np.eye(3), np.array([0.0, 0.0, side * length / 2]))
+        for side, colour in ((1, ACCENT), (-1, LIGHT))
+    ]
+    return together([bar, *ends])
+
+
+def _box(long: float, wide: float, thick: float) -> Mesh:
+    return box((wide, thick, long), (BLUE, BLUE, LIGHT, DEEP, ACCENT, METAL))
+
+
+def _racquet(length: float, width: float, thick: float) -> Mesh:
+    head = 0.27 * length
+    middle = np.array([0.0, 0.0, 0.5 * length - head])
+    across = np.array([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]]).T  # its plane along 1 and 3
+    frame = ring(1.0, 0.07, lambda i, j: DEEP).stretched(width / 2, head, width / 2)
+    strings = [
+        cap(0.9, side * 0.02, lambda i, j, colour=colour: colour).stretched(  # type: ignore[misc]
+            width / 2, head, width / 2
+        )
+        for side, colour in ((1, ACCENT), (-1, LIGHT))
+    ]
+    flat = together([frame, *strings]).placed(across, middle)
+    handle = tube(1.3 * thick, -length / 2, float(middle[2]) - head, lambda i, j: BLUE, 16)
+    return together([flat, handle])
+
+
+_BUILDERS: dict[str, Callable[..., Mesh]] = {
+    "ball": _ball,
+    "ellipsoid": _ellipsoid,
+    "disk": _disk,
+    "hoop": _hoop,
+    "wheel": _wheel,
+    "rod": _rod,
+    "box": _box,
+    "racquet": _racquet,
+}

@@ -1,0 +1,164 @@
+"""Stills and movies of a motion, made without a screen and without WebGL."""
+
+from __future__ import annotations
+
+import io
+import json
+import tempfile
+from collections.abc import Callable, Collection, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from polhode.base import TIME, NumericError, StoreError, Value, to_si, write_whole
+from polhode.simulate import Trajectory
+from polhode.view._scene import Scene
+from polhode.view._scene_build import scene
+from polhode.view.figures import new_figure, save_figure
+from polhode.view.stills._picture import SKY, picture
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from PIL.Image import Image
+
+_DOTS = 100  # of an inch
+_SMOOTH = 2  # dots drawn for each dot of a movie
+
+
+def still(
+    run: Trajectory | Scene,
+    path: str | Path,
+    *,
+    time: Value = 0.0,
+    size: tuple[int, int] = (800, 520),
+    arrows: Collection[str] = (),
+) -> None:
+    """Write a picture of a motion at an instant, as PNG, SVG or PDF by the ending of the name.
+
+    It is the picture that the page opens with; a file already there is replaced only once the
+    new one is complete.
+
+    Args:
+        run: the motion, or a scene of it.
+        path: of the file.
+        time: s.
+        size: width and height, pixels.
+        arrows: kinds of arrows to draw: force, load, torque, omega, momentum.
+
+    Raises:
+        NumericError: for a time outside the motion.
+        StoreError: for another ending, or where the file cannot be written.
+    """
+    target = Path(path)
+    shown = _scene(run)
+    figure = _drawn(shown, _frame(shown, to_si(time, TIME, "time")), size, arrows)
+    save_figure(figure, target, origin=json.dumps(dict(shown.origin), sort_keys=True))
+
+
+def movie(
+    run: Trajectory | Scene,
+    path: str | Path,
+    *,
+    speed: float = 1.0,
+    rate: float = 25.0,
+    size: tuple[int, int] = (640, 400),
+    arrows: Collection[str] = (),
+) -> None:
+    """Write a motion as a movie, GIF or MP4 by the ending of the name.
+
+    MP4 is encoded by ffmpeg, which comes with the extra `movie`.
+
+    Args:
+        run: the motion, or a scene of it.
+        path: of the file.
+        speed: seconds of motion in a second of the movie.
+        rate: frames per second.
+        size: width and height, pixels; even numbers.
+        arrows: kinds of arrows to draw: force, load, torque, omega, momentum.
+
+    Raises:
+        NumericError: for a speed or rate that is not positive.
+        StoreError: for another ending, where ffmpeg is not there, or where the file cannot be
+            written.
+    """
+    target = Path(path)
+    if not (speed > 0 and rate > 0):
+        raise NumericError(f"speed {speed} at {rate} frames per second", expected="positive ones")
+    write = _WRITERS.get(target.suffix.lower())
+    if write is None:
+        raise StoreError(f"a movie as {target.name}", expected="a name that ends in .gif or .mp4")
+    shown = _scene(run)
+    count = max(2, round(shown.duration / speed * rate))
+    instants = np.arange(count) / count * (shown.frames - 1)
+    images = (_image(shown, float(frame), size, arrows) for frame in instants)
+    write_whole(target, write(images, rate, size))
+
+
+def _scene(run: Trajectory | Scene) -> Scene:
+    return run if isinstance(run, Scene) else scene(run)
+
+
+def _frame(shown: Scene, time: float) -> float:
+    if not 0 <= time <= shown.duration:
+        raise NumericError(
+            f"a picture at {time:g} s", expected=f"a time from 0 to {shown.duration:g} s"
+        )
+    return time / shown.duration * (shown.frames - 1)
+
+
+def _drawn(shown: Scene, frame: float, size: tuple[int, int], arrows: Collection[str]) -> Figure:
+    width, height = size
+    figure = new_figure(height / _DOTS, width / _DOTS)
+    figure.set_layout_engine("none")
+    figure.set_facecolor(SKY)
+    picture(shown, frame, figure.add_axes((0.0, 0.0, 1.0, 1.0)), arrows)
+    return figure
+
+
+def _image(shown: Scene, frame: float, size: tuple[int, int], arrows: Collection[str]) -> Image:
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from PIL import Image
+
+    figure = _drawn(shown, frame, size, arrows)
+    figure.set_dpi(_SMOOTH * _DOTS)
+    canvas: Any = FigureCanvasAgg(figure)
+    canvas.draw()
+    large = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
+    return large.resize(size, Image.Resampling.LANCZOS)
+
+
+def _gif(images: Iterator[Image], rate: float, size: tuple[int, int]) -> bytes:
+    from PIL import Image
+
+    first, *others = (image.quantize(128, dither=Image.Dither.NONE) for image in images)
+    buffer = io.BytesIO()
+    first.save(
+        buffer, "GIF", save_all=True, append_images=others, duration=round(1000 / rate), loop=0
+    )
+    return buffer.getvalue()
+
+
+def _mp4(images: Iterator[Image], rate: float, size: tuple[int, int]) -> bytes:
+    try:
+        from imageio_ffmpeg import write_frames
+    except ImportError as error:
+        raise StoreError(
+            "a movie as MP4, where no ffmpeg is installed",
+            expected="the extra `movie`",
+            advice="pip install 'polhode[movie]', or write a .gif",
+        ) from error
+    with tempfile.TemporaryDirectory(prefix="polhode-movie-") as folder:
+        path = Path(folder) / "movie.mp4"
+        sink = write_frames(path, size, fps=rate, quality=7, macro_block_size=2)
+        sink.send(None)
+        for image in images:
+            sink.send(image.tobytes())
+        sink.close()
+        return path.read_bytes()
+
+
+_WRITERS: dict[str, Callable[[Iterator[Image], float, tuple[int, int]], bytes]] = {
+    ".gif": _gif,
+    ".mp4": _mp4,
+}

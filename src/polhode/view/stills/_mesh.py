@@ -1,0 +1,120 @@
+"""Closed surfaces as coloured faces, each seen from outside only."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from polhode.view._quantities import Array
+
+#: Colour of the face at a place of a grid, by its row and column.
+Paint = Callable[[int, int], str]
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Faces of four corners, counter-clockwise as seen from outside.
+
+    Attributes:
+        faces: corners, m, shape (faces, 4, 3).
+        colours: of the faces.
+    """
+
+    faces: Array
+    colours: tuple[str, ...]
+
+    def placed(self, turn: Array, place: Array) -> Mesh:
+        """Turned by a rotation matrix, then moved."""
+        return Mesh(self.faces @ turn.T + place, self.colours)
+
+    def stretched(self, *factors: float) -> Mesh:
+        """Made longer along the axes."""
+        return Mesh(self.faces * np.array(factors), self.colours)
+
+    @property
+    def normals(self) -> Array:
+        """Unit vectors out of the faces, shape (faces, 3)."""
+        diagonals = self.faces[:, 2] - self.faces[:, 0], self.faces[:, 3] - self.faces[:, 1]
+        normal = np.cross(*diagonals)
+        size = np.linalg.norm(normal, axis=1, keepdims=True)
+        unit: Array = normal / np.where(size > 0, size, 1.0)
+        return unit
+
+
+def together(meshes: Sequence[Mesh]) -> Mesh:
+    """Several meshes as one."""
+    faces = np.concatenate([mesh.faces for mesh in meshes])
+    return Mesh(faces, tuple(colour for mesh in meshes for colour in mesh.colours))
+
+
+def sphere(paint: Paint, rows: int = 20, columns: int = 32) -> Mesh:
+    """The unit sphere; rows from the pole of the third axis."""
+    down, round_ = _grid(np.linspace(0, np.pi, rows + 1), np.linspace(0, 2 * np.pi, columns + 1))
+    points = [np.sin(down) * np.cos(round_), np.sin(down) * np.sin(round_), np.cos(down)]
+    return _of_grid(points, paint)
+
+
+def tube(radius: float, low: float, high: float, paint: Paint, columns: int = 48) -> Mesh:
+    """The side of a cylinder about the third axis, from one height to another."""
+    round_, height = _grid(np.linspace(0, 2 * np.pi, columns + 1), np.array([low, high]))
+    return _of_grid([radius * np.cos(round_), radius * np.sin(round_), height], paint)
+
+
+def cap(radius: float, height: float, paint: Paint, rings: Sequence[float] = (0.0, 1.0)) -> Mesh:
+    """A level disk in rings, shares of the radius; seen from above where its height is positive."""
+    across, round_ = _grid(radius * np.array(rings), np.linspace(0, 2 * np.pi, 49))
+    points = [across * np.cos(round_), across * np.sin(round_), 0 * across + height]
+    mesh = _of_grid(points, paint)
+    return mesh if height >= 0 else Mesh(mesh.faces[:, ::-1], mesh.colours)
+
+
+def ring(radius: float, thick: float, paint: Paint, columns: int = 48) -> Mesh:
+    """A torus about the third axis, its outer radius given."""
+    round_, about = _grid(np.linspace(0, 2 * np.pi, columns + 1), np.linspace(0, 2 * np.pi, 11))
+    out = radius - thick + thick * np.cos(about)
+    return _of_grid([out * np.cos(round_), out * np.sin(round_), thick * np.sin(about)], paint)
+
+
+def box(sides: Sequence[float], colours: Sequence[str]) -> Mesh:
+    """A box along the axes; colours of the faces at +1, −1, +2, −2, +3, −3."""
+    faces = []
+    for i in range(3):
+        for sign in (1.0, -1.0):
+            corners = np.empty((4, 3))
+            j, k = (i + 1) % 3, (i + 2) % 3
+            corners[:, i] = sign
+            corners[:, j] = np.array([-1, 1, 1, -1])
+            corners[:, k] = np.array([-1, -1, 1, 1])
+            faces.append(corners if sign > 0 else corners[::-1])
+    return Mesh(np.array(faces) * np.array(sides) / 2, tuple(colours))
+
+
+def rod_between(foot: Array, tip: Array, radius: float, colour: str) -> Mesh:
+    """A thin rod from one point to another."""
+    along = np.asarray(tip) - np.asarray(foot)
+    length = float(np.linalg.norm(along))
+    mesh = tube(radius, 0.0, length, lambda i, j: colour, 10)
+    return mesh.placed(turned_to(along / length), np.asarray(foot))
+
+
+def turned_to(direction: Array) -> Array:
+    """A rotation matrix that takes the third axis to a unit vector."""
+    guess = np.eye(3)[int(np.argmin(np.abs(direction)))]
+    first = np.cross(guess, direction)
+    first = first / np.linalg.norm(first)
+    return np.stack([first, np.cross(direction, first), direction], axis=1)
+
+
+def _grid(rows: Array, columns: Array) -> tuple[Array, Array]:
+    first, second = np.meshgrid(rows, columns, indexing="ij")
+    return first, second
+
+
+def _of_grid(points: Sequence[Array], paint: Paint) -> Mesh:
+    p = np.stack(points, axis=-1)
+    corners = np.stack([p[:-1, :-1], p[1:, :-1], p[1:, 1:], p[:-1, 1:]], axis=2)
+    rows, columns = corners.shape[:2]
+    colours = tuple(paint(i, j) for i in range(rows) for j in range(columns))
+    return Mesh(corners.reshape(-1, 4, 3), colours)
