@@ -1,0 +1,186 @@
+"""Parameters and starts that make a motion agree with a measured one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from polhode.base import DeclarationError, NumericError
+from polhode.simulate import Experiment
+from polhode.study._block import Subject
+from polhode.study._columns import Array, Name, published_names
+from polhode.study._sensitivity import Varied
+
+_TOLERANCE = 1e-12  # relative, of the last step
+
+
+@dataclass(frozen=True)
+class Fit:
+    """The values that fit best, in SI units.
+
+    Attributes:
+        values: by name.
+        uncertainties: one standard deviation of each, from the derivatives at the best fit.
+        covariance: of all of them, in the order of `values`.
+        residuals: measured less fitted, by quantity, shape (times,).
+        scatter: standard deviation of the residuals over that of the measurements; where this was
+            not given, over one, and the uncertainties are scaled by it.
+        evaluations: motions that it took.
+    """
+
+    values: Mapping[str, float]
+    uncertainties: Mapping[str, float]
+    covariance: Array
+    residuals: Mapping[str, Array]
+    scatter: float
+    evaluations: int
+
+
+def fit(
+    subject: Subject,
+    parameters: Mapping[Name, Any],
+    start: Mapping[Name, Any],
+    times: ArrayLike,
+    measured: Mapping[str, ArrayLike],
+    *,
+    vary: Sequence[Name],
+    deviation: Mapping[str, float] | None = None,
+    forcing: Mapping[Name, Any] | None = None,
+) -> Fit:
+    """Fit parameters and start values to a measured motion, by least squares.
+
+    Args:
+        subject: a declaration, its automaton, or equations derived from it.
+        parameters: the value of every parameter, SI; of those that vary a first guess.
+        start: likewise.
+        times: of the measurements, s, increasing.
+        measured: quantities by published name, SI, shape (times,); not-a-number where missing.
+        vary: what is fitted: parameters, and coordinates or independent speeds at the start.
+        deviation: standard deviation of the measurements of each quantity, SI. Without it, all
+            are taken to have the same, which their scatter tells.
+        forcing: prescribed motions, as expressions of time.
+
+    Raises:
+        DeclarationError: for measurements that do not fit together, or names that are not known.
+        NumericError: where the best fit is not found or not determined, or a contact switches.
+    """
+    when = np.asarray(times, dtype=float)
+    data = {name: np.asarray(values, dtype=float) for name, values in measured.items()}
+    _check(when, data)
+    names = [published_names({name: 0}).popitem()[0] for name in vary]
+    numbers = (published_names(parameters), published_names(start))
+    weights = np.array([[1 / (deviation or {}).get(name, 1.0)] for name in data])
+    experiment = Experiment(subject, float(when[-1]), samples=2, forcing=forcing)
+    problem = _Problem(Varied(experiment, names, list(data)), names, numbers, when, data, weights)
+    return problem.solved(scaled=deviation is None)
+
+
+def _check(times: Array, data: Mapping[str, Array]) -> None:
+    rising = times.ndim == 1 and len(times) > 0 and np.all(np.diff(times) > 0) and times[0] >= 0
+    if not rising or times[-1] <= 0:
+        raise DeclarationError("the times of measurements", expected="increasing times, from 0 on")
+    for name, values in data.items():
+        if values.shape != times.shape:
+            raise DeclarationError(
+                f"{len(values)} measurements of {name} at {len(times)} times",
+                expected="one for every time, not-a-number where it is missing",
+            )
+    if not data:
+        raise DeclarationError("no measurements", expected="at least one quantity")
+
+
+@dataclass
+class _Problem:
+    """Residuals and their derivatives, of values in units of their first guess."""
+
+    varied: Varied
+    names: list[str]
+    numbers: tuple[dict[str, Any], dict[str, Any]]
+    times: Array
+    data: Mapping[str, Array]
+    weights: Array
+    evaluations: int = 0
+    _last: tuple[Array, Array, Array] | None = field(default=None)
+
+    def solved(self, *, scaled: bool) -> Fit:
+        from scipy.optimize import least_squares
+
+        guess = np.array([self._guess(name) for name in self.names])
+        size = np.where(guess == 0, 1.0, np.abs(guess))
+        found = least_squares(
+            self._residual, guess, self._slopes, method="lm", x_scale=size,
+            xtol=_TOLERANCE, ftol=_TOLERANCE, gtol=_TOLERANCE,
+        )  # fmt: skip
+        if not found.success:
+            raise NumericError(
+                "no best fit was found",
+                expected="first guesses near enough to the measured motion",
+                advice="fit a shorter stretch first",
+            )
+        count = len(found.fun) - len(self.names)
+        if count < 0:
+            raise NumericError(
+                f"{len(found.fun)} measurements for {len(self.names)} values",
+                expected="at least as many measurements",
+            )
+        scatter = float(np.sqrt(found.fun @ found.fun / count)) if count else 0.0
+        covariance = self._covariance(found.jac) * (scatter**2 if scaled else 1.0)
+        fitted, _ = self._at(found.x)
+        values = [float(x) for x in found.x]
+        deviations = [float(d) for d in np.sqrt(np.diag(covariance))]
+        return Fit(
+            values=dict(zip(self.names, values, strict=True)),
+            uncertainties=dict(zip(self.names, deviations, strict=True)),
+            covariance=covariance,
+            residuals={n: v - fitted[i] for i, (n, v) in enumerate(self.data.items())},
+            scatter=scatter,
+            evaluations=self.evaluations,
+        )
+
+    def _guess(self, name: str) -> float:
+        value = {**self.numbers[0], **self.numbers[1]}.get(name, 0.0)
+        if not isinstance(value, int | float | np.number):
+            raise DeclarationError(
+                f"the first guess {name} = {value!r}", expected="a number in SI units"
+            )
+        return float(value)
+
+    def _covariance(self, slopes: Array) -> Array:
+        normal = slopes.T @ slopes
+        size = np.sqrt(np.diag(normal))
+        scaled = normal / np.outer(size, size) if np.all(size > 0) else np.zeros_like(normal)
+        if np.linalg.matrix_rank(scaled, tol=1e-10) < len(normal):
+            raise NumericError(
+                f"the measurements do not determine {', '.join(self.names)} together",
+                expected="values whose changes can be told apart",
+                advice="vary fewer of them, or measure more",
+            )
+        return np.asarray(np.linalg.inv(scaled) / np.outer(size, size))
+
+    def _at(self, values: Array) -> tuple[Array, Array]:
+        if self._last is None or not np.array_equal(self._last[0], values):
+            given = dict(zip(self.names, values.tolist(), strict=True))
+            parameters, start = self.numbers
+            own = {name: given.pop(name) for name in list(given) if name in parameters}
+            motion = self.varied.along({**parameters, **own}, {**start, **given}, self.times)
+            self._last = (values.copy(), *motion)
+            self.evaluations += 1
+        return self._last[1], self._last[2]
+
+    @property
+    def _there(self) -> NDArray[np.bool_]:
+        return np.asarray(np.isfinite(np.array(list(self.data.values()))))
+
+    def _residual(self, values: Array) -> Array:
+        fitted, _ = self._at(values)
+        apart = (fitted - np.array(list(self.data.values()))) * self.weights
+        return np.asarray(apart[self._there])
+
+    def _slopes(self, values: Array) -> Array:
+        _, slopes = self._at(values)
+        weighted = slopes * self.weights[:, :, None]
+        return np.asarray(np.moveaxis(weighted, 1, 2)[self._there])
