@@ -133,10 +133,14 @@ if TYPE_CHECKING:
     from polhode.study import EventTimes as EventTimes
     from polhode.study import Fate as Fate
     from polhode.study import Final as Final
+    from polhode.study import Fit as Fit
     from polhode.study import Largest as Largest
     from polhode.study import Least as Least
+    from polhode.study import Sensitivities as Sensitivities
     from polhode.study import Series as Series
     from polhode.study import ensemble as ensemble
+    from polhode.study import fit as fit
+    from polhode.study import sensitivities as sensitivities
     from polhode.study import sweep as sweep
     from polhode.view import Judgement as Judgement
     from polhode.view import Scene as Scene
@@ -164,6 +168,10 @@ _ROOMS = {
         "Least",
         "Series",
         "ensemble",
+        "Fit",
+        "Sensitivities",
+        "fit",
+        "sensitivities",
         "sweep",
     ),
     "view": (

@@ -18,4 +18,5 @@ from polhode.simulate._sheet_file import SheetPath as SheetPath
 from polhode.simulate._sheet_file import read_sheet as read_sheet
 from polhode.simulate._simulate import simulate as simulate
 from polhode.simulate._spline import sampled as sampled
+from polhode.simulate._tangents import Tangents as Tangents
 from polhode.simulate._trajectory import Trajectory as Trajectory

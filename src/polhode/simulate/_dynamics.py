@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any, Protocol
@@ -100,6 +100,11 @@ class Dynamics:
     def states(self) -> tuple[Symbol, ...]:
         """Coordinates, independent speeds, and what is carried besides."""
         return (*self.equations.coordinates, *self.equations.speeds, *self.carried)
+
+    @cached_property
+    def without_carried(self) -> Dynamics:
+        """The same equations on coordinates and speeds alone, for modes in which nothing slides."""
+        return replace(self, carried={}, meanings={})
 
     @cached_property
     def parameters(self) -> tuple[Symbol, ...]:
