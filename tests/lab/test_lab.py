@@ -136,10 +136,16 @@ def test_typed_equations_are_judged(ask):
 
 @pytest.mark.parametrize(
     ("kind", "begins"),
-    [("page", b"<!DOCTYPE html>"), ("csv", b"# polhode {"), ("svg", b"<?xml"), ("png", b"\x89PNG")],
+    [
+        ("page", b"<!DOCTYPE html>"),
+        ("csv", b"# polhode {"),
+        ("svg", b"<?xml"),
+        ("png", b"\x89PNG"),
+        ("gif", b"GIF89a"),
+    ],
 )
 def test_files_are_made(ask, kind, begins):
-    response = ask("export", system="gyroscope", duration="0.2 s", kind=kind)
+    response = ask("export", system="gyroscope", duration="0.05 s", kind=kind)
     assert response.status_code == 200
     assert response.content.startswith(begins)
     assert response.headers["content-disposition"].startswith("attachment; filename=")

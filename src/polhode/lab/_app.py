@@ -44,7 +44,7 @@ _PAGE = """<!DOCTYPE html>
 <link rel="stylesheet" href="/lab.css">
 <script src="/lab.js" defer></script>
 </head>
-<body data-systems="{systems}" data-movies="{movies}">
+<body data-systems="{systems}">
 <noscript><p>The lab needs its script to be allowed to run.</p></noscript>
 </body>
 </html>
@@ -70,7 +70,7 @@ def app_of(port: int, own: Own | None = None, limits: Limits | None = None) -> S
 
     async def page(request: Request) -> Response:
         systems = escape(json.dumps(offered(own)), quote=True)
-        return Response(_PAGE.format(systems=systems, movies=""), media_type="text/html")
+        return Response(_PAGE.format(systems=systems), media_type="text/html")
 
     async def file(request: Request) -> Response:
         name = request.url.path[1:]
@@ -101,7 +101,7 @@ async def _answer(request: Request, task: str, crew: Crew, limits: Limits) -> Re
     except PolhodeError as error:
         return _problem(400, error.given, error.expected, error.advice)
     purpose = _PURPOSES[task]
-    seconds = limits.motion if task == "run" else limits.thought
+    seconds = {"run": limits.motion, "export": limits.file}.get(task, limits.thought)
     gone = asyncio.Event()
     watch = asyncio.create_task(_watch(request, gone))
     try:

@@ -8,7 +8,11 @@ from pathlib import Path
 
 from polhode.lab._describe import plots_of, shown
 from polhode.lab._desk import Played
-from polhode.view import figure_of_run, origin_of, page_of, save_figure
+from polhode.view import figure_of_run, movie, origin_of, page_of, save_figure
+
+_LONGEST = 6.0  # s of a movie
+_SLOWEST = 0.1  # of the speed of the motion
+_RATE = 12.0  # frames in a second of it
 
 
 def exported(kind: str, played: Played) -> bytes:
@@ -38,8 +42,15 @@ def _figure(played: Played, path: Path) -> None:
     save_figure(figure_of_run(played.run, groups), path, origin=origin_of(played.run))
 
 
+def _movie(played: Played, path: Path) -> None:
+    seen = shown(played.variant, played.run)
+    movie(seen, path, speed=max(seen.duration / _LONGEST, _SLOWEST), rate=_RATE)
+
+
 _WRITERS: Mapping[str, Callable[[Played, Path], None]] = {
     "csv": _table,
     "svg": _figure,
     "png": _figure,
+    "gif": _movie,
+    "mp4": _movie,
 }

@@ -29,6 +29,8 @@ KINDS: Mapping[str, Kind] = {
     "csv": Kind("csv", "text/csv; charset=utf-8"),
     "svg": Kind("svg", "image/svg+xml"),
     "png": Kind("png", "image/png"),
+    "gif": Kind("gif", "image/gif"),
+    "mp4": Kind("mp4", "video/mp4"),
 }
 
 

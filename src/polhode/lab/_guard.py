@@ -34,6 +34,7 @@ class Limits:
         arriving: s in which it must have come.
         motion: s for a simulation.
         thought: s for a judgement or an analysis.
+        file: s for making one, a movie for instance.
         waiting: requests at a time.
     """
 
@@ -41,6 +42,7 @@ class Limits:
     arriving: float = 5.0
     motion: float = 30.0
     thought: float = 60.0
+    file: float = 240.0
     waiting: int = 24
 
 

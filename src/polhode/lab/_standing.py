@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from polhode.algebra import FLOATS, Expr, compile_program, mathml
+from polhode.algebra import FLOATS, Expr, Generator, Symbol, compile_program, mathml
 from polhode.analyse import Branch, Condition, Stability, SteadyMotion, Truth, stability, steady
 from polhode.base import NumericError, PolhodeError
 from polhode.derive import Equations
@@ -62,10 +62,22 @@ class Family:
         return {s.published: _value(e, state) for s, e in self.motion.fixed.items()}
 
     def _distance(self, state: Values) -> float:
-        """How far a state is from the family: the largest of what vanishes on it, dimensionless
-        where it is an angle."""
-        left = [abs(_value(e, state)) for e in self.motion.conditions]
-        return max(left, default=0.0)
+        """How far a state is from the family: the largest of what vanishes on it, each against
+        the sizes of its terms with sines and cosines left out."""
+        return max((_departure(e, state) for e in self.motion.conditions), default=0.0)
+
+
+def _departure(expression: Expr, state: Values) -> float:
+    known = {"pi": np.pi, **state}
+    size = sum(
+        abs(number) * prod(abs(known.get(g.published, 0.0)) ** p for g, p in _symbols(powers))
+        for powers, number in expression.numerator.terms()
+    )
+    return abs(_value(expression.numerator, state)) / size if size else 0.0
+
+
+def _symbols(powers: Mapping[Generator, int]) -> Iterator[tuple[Symbol, int]]:
+    return ((g, power) for g, power in powers.items() if isinstance(g, Symbol))
 
 
 def families_of(equations: Equations) -> list[Family]:

@@ -48,11 +48,11 @@ export class Asker<T> {
     this.under.abort();
     this.under = new AbortController();
     const { signal } = this.under;
+    this.busy(true);
     this.waiting = window.setTimeout(() => void this.send(number, question, signal), this.delay);
   }
 
   private async send(number: number, question: object, signal: AbortSignal): Promise<void> {
-    this.busy(true);
     try {
       const answer = await ask<T>(this.task, question, signal);
       if (number === this.number) this.answer(answer);

@@ -9,9 +9,11 @@ const FILES: Record<string, string> = {
   csv: "Table (CSV)",
   svg: "Figure (SVG)",
   png: "Figure (PNG)",
+  gif: "Movie (GIF)",
+  mp4: "Movie (MP4)",
 };
 
-export function keeping(wish: () => object, movies: string[], tell: (message: string) => void): HTMLElement {
+export function keeping(wish: () => object, tell: (message: string) => void): HTMLElement {
   const share = make("button", { type: "button", class: "switch" }, "Copy link");
   share.addEventListener("click", () => {
     navigator.clipboard.writeText(location.href).then(
@@ -19,13 +21,12 @@ export function keeping(wish: () => object, movies: string[], tell: (message: st
       () => tell("The address of this state is the one this page has now."),
     );
   });
-  const kinds = { ...FILES, ...Object.fromEntries(movies.map((kind) => [kind, `Movie (${kind.toUpperCase()})`])) };
   const menu = make("select", { "aria-label": "Save as a file" }, make("option", { value: "" }, "Save …"));
-  for (const [kind, title] of Object.entries(kinds)) menu.append(make("option", { value: kind }, title));
+  for (const [kind, title] of Object.entries(FILES)) menu.append(make("option", { value: kind }, title));
   menu.addEventListener("change", () => {
     const kind = menu.value;
     menu.value = "";
-    tell("Making the file …");
+    tell("Making the file; a movie takes its time …");
     void saved(kind, wish()).then(tell, (error) => tell(said(error)));
   });
   return make("div", { class: "keeping" }, share, menu);

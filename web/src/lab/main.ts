@@ -40,10 +40,11 @@ class Lab {
   private readonly constants = make("div", {});
   private readonly steady = make("div", {});
   private claimsOpen = false;
+  private eager = false; // to play what comes next
   private readonly motion = new Asker<Answer>("run", MOTION_DELAY, (answer) => this.play(answer), (message) => this.refused(message), (busy) => this.busy(busy));
-  private readonly study = new Asker<Standing>("standing", STUDY_DELAY, (standing) => this.stand(standing), () => {});
+  private readonly study = new Asker<Standing>("standing", STUDY_DELAY, (standing) => this.stand(standing), () => this.stand({ families: [], invariants: [] }), (busy) => this.steady.setAttribute("aria-busy", String(busy)));
 
-  constructor(offers: Offer[], movies: string[]) {
+  constructor(offers: Offer[]) {
     this.state = read(location.hash) ?? empty(offers[0].name);
     for (const { name, title } of offers) this.choice.append(make("option", { value: name }, title));
     this.choice.addEventListener("change", () => this.begin(empty(this.choice.value)));
@@ -51,12 +52,12 @@ class Lab {
       const told = read(location.hash);
       if (told && written(told) !== written(this.state)) void this.begin(told);
     });
-    this.lay(movies);
+    this.lay();
     void this.begin(this.state);
   }
 
-  private lay(movies: string[]): void {
-    const bar = make("div", { class: "bar" }, this.choice, this.contact, keeping(() => this.wish(), movies, (text) => this.tell(text)));
+  private lay(): void {
+    const bar = make("div", { class: "bar" }, this.choice, this.contact, keeping(() => this.wish(), (text) => this.tell(text)));
     const about = tabs([
       { title: "Steady motions", panel: this.steady },
       { title: "Equations", panel: this.equations },
@@ -97,13 +98,14 @@ class Lab {
     this.contact.replaceChildren(...found.contacts.map((kind) => this.contactChoice(kind, found)));
     const { settings, start } = this.state;
     const make_ = (store: Record<string, string>) => (control: Control): Slider =>
-      new Slider(control, store[control.name] ?? control.text, (name, text) => this.put(store, control, text));
+      new Slider(control, store[control.name] ?? control.text, (_, text) => this.put(store, control, text));
     const parameters = found.parameters.map(make_(settings));
     const starts = found.start.map(make_(start));
     this.sliders = [...starts, ...parameters];
     const usual = starts.filter(({ control }) => !control.extra);
     const extra = starts.filter(({ control }) => control.extra);
-    const forcing = found.forcing.map(({ name, symbol, text }) =>
+    const free = found.forcing.filter(({ name }) => !(this.state.sheet.length && (name === "X" || name === "Y")));
+    const forcing = free.map(({ name, symbol, text }) =>
       fieldRow(name, symbol, "(t)", settings[name] ?? text, (_, typed) => this.put(settings, { name, text }, typed)),
     );
     const duration = fieldRow("duration", "", "", this.state.duration || found.duration, (_, text) => {
@@ -113,7 +115,7 @@ class Lab {
     const reset = make("button", { type: "button", class: "switch" }, "Usual numbers");
     reset.addEventListener("click", () => void this.begin({ ...empty(this.state.system), contact: this.state.contact }));
     this.panel.replaceChildren(
-      ...(found.sheet ? [this.sheetBox()] : []),
+      ...(found.sheet ? [this.sheetBox(found)] : []),
       make("h2", {}, "Start"),
       ...usual.map(({ row }) => row),
       ...(extra.length ? [make("details", {}, make("summary", {}, "Other coordinates"), ...extra.map(({ row }) => row))] : []),
@@ -125,11 +127,12 @@ class Lab {
     );
   }
 
-  private sheetBox(): HTMLElement {
+  private sheetBox(found: Description): HTMLElement {
     const forget = make("button", { type: "button", class: "switch" }, "Usual path");
     forget.addEventListener("click", () => {
       this.state.sheet = [];
       this.state.duration = "";
+      this.describe(found);
       this.changed();
     });
     const words = make("p", { class: "long" }, "Press the button, then pull the sheet about in the picture. However it was pulled, the ball ends with the velocity it began with.");
@@ -173,6 +176,8 @@ class Lab {
     this.state.sheet = rows.map(([t, x, y]) => [Math.round(t * 100) / 100, Math.round(x * 1e4) / 1e4, Math.round(y * 1e4) / 1e4]);
     this.state.duration = `${(rows[rows.length - 1][0] + AFTER).toFixed(2)} s`;
     this.drag.arm(false);
+    if (this.described) this.describe(this.described);
+    this.eager = true;
     this.changed();
   }
 
@@ -180,6 +185,8 @@ class Lab {
     const first = document.body.dataset.ready !== "yes";
     this.player.show(scene, `${this.state.system} ${this.state.sheet.length}`);
     this.drag.arm(this.drag.armed);
+    if (this.eager) this.player.clock?.play();
+    this.eager = false;
     this.equations.replaceChildren(...sections(scene));
     this.outcome.replaceChildren(...(this.state.sheet.length ? [returned(outcome)] : []));
     for (const slider of this.sliders) slider.wrong("");
@@ -239,5 +246,5 @@ function tidy(value: number, size: number): number {
   return Math.abs(value) < 1e-12 * size ? 0 : value;
 }
 
-const { systems, movies } = document.body.dataset;
-if (systems) new Lab(JSON.parse(systems) as Offer[], (movies ?? "").split(" ").filter(Boolean));
+const { systems } = document.body.dataset;
+if (systems) new Lab(JSON.parse(systems) as Offer[]);

@@ -35,7 +35,7 @@ export class Slider {
 
   /** Set to a value in SI units. */
   set(si: number): void {
-    this.show(this.printed(si / this.control.size));
+    this.show(this.printed(si / this.control.size, 8));
     this.changed(this.control.name, this.field.value);
   }
 
@@ -83,8 +83,8 @@ export class Slider {
     return Math.round(value / step) * step;
   }
 
-  private printed(value: number): string {
-    return `${Number(value.toPrecision(4))} ${this.control.unit}`.trim();
+  private printed(value: number, digits = 4): string {
+    return `${Number(value.toPrecision(digits))} ${this.control.unit}`.trim();
   }
 
   private typed(): void {

@@ -4,7 +4,7 @@ import { formula, make } from "../dom";
 import { shownNumber } from "./sliders";
 import type { Family, Standing, Valued } from "./types";
 
-const NEAR = 1e-6; // what vanishes on a family, where a state counts as on it
+const NEAR = 1e-5; // what vanishes on a family, against its terms, where a state counts as on it
 const DECADES = 1; // to either side of a threshold, on its scale
 
 export type Go = (values: Record<string, number>) => void;

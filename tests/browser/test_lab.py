@@ -1,0 +1,270 @@
+"""The lab in a browser: what is slid, dragged, shared and typed has its effect, and stays here."""
+
+import json
+import re
+import subprocess
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from browser.conftest import PHONE, WIDE, Opened
+
+AXE = Path(__file__).parent / "node_modules" / "axe-core" / "axe.min.js"
+PATIENCE = 60_000  # ms
+COIN = "#system=spinning-coin"
+
+
+@pytest.fixture(scope="module")
+def lab():
+    """The address of a lab that `polhode lab` serves."""
+    command = [sys.executable, "-m", "polhode", "lab", "--no-browser", "--port", "0"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as serving:
+        said = serving.stdout.readline()
+        yield re.search(r"http://\S+/", said)[0]
+        serving.terminate()
+
+
+@pytest.fixture(scope="module")
+def visit(browser, lab):
+    """Opens the lab; nothing but the lab may be asked for anything."""
+
+    @contextmanager
+    def opened(state=COIN, *, viewport=WIDE, **options):
+        context = browser.new_context(viewport=viewport, locale="en-US", **options)
+        page = context.new_page()
+        shown = Opened(page)
+        page.on("console", lambda m: shown.complaints.append(m.text) if _bad(m) else None)
+        page.on("pageerror", lambda error: shown.complaints.append(str(error)))
+        page.on("request", lambda request: shown.requests.append(request.url))
+        page.goto(lab + state)
+        page.wait_for_selector("body[data-ready]", timeout=PATIENCE)
+        yield shown
+        assert shown.complaints == []
+        assert [url for url in shown.requests if not url.startswith((lab, "blob:", "data:"))] == []
+        context.close()
+
+    return opened
+
+
+@pytest.fixture(scope="module")
+def shared(visit):
+    with visit() as shown:
+        yield shown
+
+
+@pytest.fixture
+def coin(shared):
+    """One page for several tests; at rest at the start, with the usual numbers."""
+    pause = shared.page.get_by_role("button", name="Pause")
+    if pause.count():
+        pause.click()
+    shared.page.get_by_role("button", name="Back to the start").click()
+    if shared.page.url.partition("#")[2] != COIN[1:]:
+        with answered(shared):
+            shared.page.get_by_role("button", name="Usual numbers").click()
+    return shared
+
+
+def _bad(message):
+    return message.type in ("error", "warning") and "GPU stall" not in message.text
+
+
+@contextmanager
+def answered(shown):
+    """Waits until a motion has come that was asked for within."""
+    before = shown.page.locator("body").get_attribute("data-answers")
+    yield
+    shown.page.wait_for_selector(f"body:not([data-answers='{before}'])", timeout=PATIENCE)
+
+
+def slider(shown, name):
+    return shown.page.locator(f".slider[data-name='{name}'] input[type=range]")
+
+
+def field(shown, name):
+    return shown.page.locator(f".slider[data-name='{name}'] input[type=text]")
+
+
+def differing(one, other):
+    return np.count_nonzero(np.abs(one - other).sum(axis=2) > 60)
+
+
+def test_the_body_is_seen_and_plays(coin, tmp_path):
+    before = coin.picture(tmp_path)
+    middle = before[before.shape[0] // 4 : -before.shape[0] // 4]
+    assert len(np.unique(middle.reshape(-1, 3) // 16, axis=0)) > 30
+    coin.page.get_by_role("button", name="Play").click()
+    coin.wait_until_past(0.05)
+    coin.page.get_by_role("button", name="Pause").click()
+    assert differing(coin.picture(tmp_path), before) > 200
+
+
+def test_a_slider_changes_the_motion_and_the_picture(coin, tmp_path):
+    before = coin.picture(tmp_path)
+    assert float(coin.value()) == pytest.approx(70)
+    with answered(coin):
+        slider(coin, "theta").fill("200")
+    assert field(coin, "theta").input_value() == "36 deg"
+    assert float(coin.value()) == pytest.approx(36, abs=0.1)
+    assert differing(coin.picture(tmp_path), before) > 500
+    assert "start=theta%3D36+deg" in coin.page.url
+
+
+def test_the_old_motion_plays_on_while_the_new_one_is_computed(coin):
+    coin.page.get_by_role("button", name="Play").click()
+    coin.wait_until_past(0.02)
+    with answered(coin):
+        slider(coin, "omega_3").fill("600")
+        coin.wait_until_past(coin.time())
+    assert coin.page.get_by_role("button", name="Pause").count() == 1
+
+
+def test_numbers_are_typed_with_units(coin):
+    with answered(coin):
+        field(coin, "theta").fill("0.5 rad")
+        field(coin, "theta").press("Enter")
+    assert float(coin.value()) == pytest.approx(np.degrees(0.5), abs=0.1)
+
+
+def test_what_cannot_be_read_is_told_and_the_picture_stays(coin, tmp_path):
+    before = coin.picture(tmp_path)
+    coin.complaints.clear()
+    field(coin, "theta").fill("2 furlongs")
+    field(coin, "theta").press("Enter")
+    coin.page.wait_for_selector(".message.wrong", timeout=PATIENCE)
+    assert "furlongs" in coin.page.locator(".message").inner_text()
+    assert field(coin, "theta").get_attribute("aria-invalid") == "true"
+    assert differing(coin.picture(tmp_path), before) < 50
+    assert all("422" in complaint for complaint in coin.complaints)
+    coin.complaints.clear()
+    with answered(coin):
+        field(coin, "theta").fill("70 deg")
+        field(coin, "theta").press("Enter")
+
+
+def test_contacts_are_switched(coin):
+    with answered(coin):
+        coin.page.get_by_role("radio", name="Rolling").check(force=True)
+    assert "contact=rolling" in coin.page.url
+    with answered(coin):
+        coin.page.get_by_role("radio", name="Friction").check(force=True)
+    coin.page.wait_for_selector(".slider[data-name=mu]")
+    with answered(coin):
+        coin.page.get_by_role("radio", name="Smooth").check(force=True)
+    assert "contact" not in coin.page.url
+
+
+def test_steady_motions_say_where_one_stands(coin):
+    coin.page.get_by_role("tab", name="Steady motions").click()
+    coin.page.wait_for_selector("[role=tabpanel][aria-busy=false] .family math", timeout=PATIENCE)
+    assert coin.page.locator(".family .scale").count() > 0
+    start = coin.page.get_by_role("button", name="Start there")
+    with answered(coin):
+        start.last.click()
+    coin.page.wait_for_selector(".badge:text('you are here')", timeout=PATIENCE)
+
+
+def test_a_typed_claim_is_judged(coin):
+    coin.page.get_by_role("tab", name="Try an equation").click()
+    claim = coin.page.get_by_label("Equation in LaTeX")
+    for latex, verdict in ((r"\dot{\omega}_3 = 0", "holds"), (r"\dot{\omega}_3 = 1", "fails")):
+        claim.fill(latex)
+        claim.press("Enter")
+        badge = coin.page.locator(f".result .badge.{verdict}")
+        badge.wait_for(timeout=PATIENCE)
+        assert badge.inner_text() == verdict
+
+
+def test_claims_of_the_problem_set_come_with_verdicts(coin):
+    coin.page.get_by_role("tab", name="Claims").click()
+    coin.page.wait_for_selector(".claim .badge", timeout=PATIENCE)
+    assert coin.page.locator(".claim").count() > 5
+
+
+def test_everything_is_reached_by_the_keyboard(coin):
+    page = coin.page
+    page.get_by_role("tab", name="Steady motions").click()
+    page.evaluate("document.activeElement.blur(); window.scrollTo(0, 0)")
+    wanted = page.locator(
+        ":is(button, input, select, summary, .picture, textarea):visible:not([tabindex='-1'])"
+    )
+    names = ["theta", "System", "Play", "Save as a file", "Time"]
+    reached = []
+    for _ in range(wanted.count() + 3):
+        page.keyboard.press("Tab")
+        reached.append(page.evaluate("document.activeElement.outerHTML.slice(0, 160)"))
+    for name in names:
+        assert any(name in element for element in reached), name
+    page.locator("[role=tab][aria-selected=true]").focus()
+    page.keyboard.press("ArrowRight")
+    assert page.locator("[role=tab][aria-selected=true]").inner_text() == "Equations"
+
+
+def test_a_file_is_saved(coin, tmp_path):
+    with coin.page.expect_download() as started:
+        coin.page.get_by_label("Save as a file").select_option("csv")
+    path = tmp_path / "motion.csv"
+    started.value.save_as(path)
+    assert path.read_text("utf-8").startswith("# polhode {")
+
+
+def test_axe_finds_no_serious_fault(visit):
+    """In the light with all rules, and in the dark with that on contrast."""
+    with visit("#system=ball-on-paper", bypass_csp=True) as shown:
+        shown.page.evaluate(AXE.read_text("utf-8"))
+        contrast = "axe.run({runOnly: {type: 'rule', values: ['color-contrast']}})"
+        for scheme, rules in (
+            ("light", "axe.run()"),
+            ("dark", contrast),
+        ):
+            shown.page.emulate_media(color_scheme=scheme)
+            faults = shown.page.evaluate(rules)["violations"]
+            serious = [fault for fault in faults if fault["impact"] in ("serious", "critical")]
+            assert not serious, json.dumps(serious, indent=1)[:3000]
+
+
+def test_the_sheet_is_dragged_shared_and_restored_on_a_phone(visit, tmp_path):
+    """The velocity returns; the address of it opens the same on a telephone."""
+    with visit("#system=ball-on-paper") as shown:
+        page = shown.page
+        page.get_by_role("button", name="Drag the sheet").click()
+        box = page.locator(".picture").bounding_box()
+        x, y = box["x"] + 0.5 * box["width"], box["y"] + 0.6 * box["height"]
+        page.mouse.move(x, y)
+        page.mouse.down()
+        before = shown.picture(tmp_path)
+        for step in range(6):
+            page.mouse.move(x + 20 * step, y + 5 * step)
+            page.wait_for_timeout(30)
+        assert differing(shown.picture(tmp_path), before) > 200
+        with answered(shown):
+            page.mouse.up()
+        assert "the velocity has returned" in page.locator(".outcome").inner_text()
+        shown.wait_until_past(0.1)
+        address, outcome = page.url, page.locator(".outcome").inner_text()
+    assert "sheet=" in address
+    state = "#" + address.partition("#")[2]
+    with visit(state, viewport=PHONE, is_mobile=True, has_touch=True) as shown:
+        assert shown.page.locator(".outcome").inner_text() == outcome
+        assert shown.page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
+        play = shown.page.get_by_role("button", name="Play").bounding_box()
+        assert min(play["width"], play["height"]) >= 40
+
+
+def test_a_shared_state_is_restored(visit):
+    state = "#system=gyroscope&start=theta%3D45+deg&set=M%3D0.7+kg&duration=1+s"
+    with visit(state) as shown:
+        assert field(shown, "theta").input_value() == "45 deg"
+        assert field(shown, "M").input_value() == "0.7 kg"
+        assert float(shown.value()) == pytest.approx(45, abs=0.1)
+
+
+def test_a_hostile_address_is_text(visit):
+    script = "%3Cimg+src%3Dx+onerror%3Dalert(1)%3E"
+    with visit(f"#system=gyroscope&start=theta%3D{script}&set={script}%3D1") as shown:
+        shown.page.wait_for_selector(".message.wrong")
+        assert shown.page.locator("main img").count() == 0
+        shown.complaints[:] = [c for c in shown.complaints if "422" not in c]
