@@ -140,6 +140,7 @@ if TYPE_CHECKING:
     from polhode.study import Series as Series
     from polhode.study import ensemble as ensemble
     from polhode.study import fit as fit
+    from polhode.study import refined_map as refined_map
     from polhode.study import sensitivities as sensitivities
     from polhode.study import sweep as sweep
     from polhode.view import Judgement as Judgement
@@ -171,6 +172,7 @@ _ROOMS = {
         "Fit",
         "Sensitivities",
         "fit",
+        "refined_map",
         "sensitivities",
         "sweep",
     ),
@@ -326,10 +328,17 @@ def __getattr__(name: str) -> Any:
         value: Any = version("polhode")
     elif name in _HOME:
         value = getattr(import_module(_HOME[name]), name)
+        import_module("polhode.base").show_with(_html)
     else:
         raise AttributeError(f"module 'polhode' has no attribute {name!r}")
     globals()[name] = value
     return value
+
+
+def _html(thing: object) -> str:
+    """What a notebook shows of a thing; the room that draws is fetched when first asked."""
+    html: str = import_module("polhode.view").html_of(thing)
+    return html
 
 
 def __dir__() -> list[str]:

@@ -25,7 +25,7 @@ from polhode.algebra import (
 )
 from polhode.analyse._conditions import Condition, positive
 from polhode.analyse._reduced import Reduced, reduced
-from polhode.base import NumericError
+from polhode.base import NumericError, Shown
 from polhode.derive import Equations
 
 Values = Mapping[Symbol, Expr]
@@ -47,7 +47,7 @@ class Branch:
 
 
 @dataclass(frozen=True)
-class SteadyMotion:
+class SteadyMotion(Shown):
     """A family of steady motions.
 
     Attributes:

@@ -2,6 +2,7 @@
 
 from polhode.base import _cache as cache
 from polhode.base._dimension import LENGTH, MASS, PURE, TIME, Dimension
+from polhode.base._display import Shown, show_with
 from polhode.base._errors import (
     ConstraintError,
     DeclarationError,
@@ -41,6 +42,7 @@ __all__ = [
     "Provenance",
     "Quantity",
     "Shape",
+    "Shown",
     "SilentProgress",
     "StoreError",
     "Unit",
@@ -54,6 +56,7 @@ __all__ = [
     "provenance",
     "read_quantity",
     "read_unit",
+    "show_with",
     "terminal_progress",
     "to_si",
     "write_whole",

@@ -16,7 +16,7 @@ from polhode.algebra import (
     Vector,
     variables,
 )
-from polhode.base import Dimension
+from polhode.base import Dimension, Shown
 from polhode.derive import _dimensions as units
 from polhode.derive import _energy as energies
 from polhode.derive._accelerations import LARGEST_SYMBOLIC as LARGEST_SYMBOLIC
@@ -51,7 +51,7 @@ class Reaction:
 
 
 @dataclass(frozen=True, repr=False)
-class Equations:
+class Equations(Shown):
     """Exact equations on independent speeds.
 
     The motion obeys `mass · accelerations = forcing` together with `kinematics`.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
 from polhode.algebra import Expr, Kind, Symbol, as_symbol
-from polhode.base import DeclarationError
+from polhode.base import DeclarationError, Shown
 from polhode.model._body import Body
 from polhode.model._element import Element
 from polhode.model._flight import Flight
@@ -18,7 +18,7 @@ Part = Body | Element | Load
 
 
 @dataclass(frozen=True, init=False)
-class System:
+class System(Shown):
     """An immutable declaration; building it computes nothing.
 
     Args:

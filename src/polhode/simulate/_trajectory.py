@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from polhode.algebra import Expr, Symbol
-from polhode.base import NumericError, look_up
+from polhode.base import NumericError, Shown, look_up
 from polhode.simulate._csv import write_csv
 from polhode.simulate._drift import Drift, drift_of
 from polhode.simulate._dynamics import Dynamics, EquationsOfMotion
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Trajectory:
+class Trajectory(Shown):
     """A motion over [0, duration], known at every instant.
 
     Quantities are read by published name (`run["theta"]`, `run["F_z"]`, `run["energy"]`) or as

@@ -2,6 +2,7 @@
 
 from polhode.view import figures as figures
 from polhode.view._mathml import equation as equation
+from polhode.view._notebook import html_of as html_of
 from polhode.view._page import page as page
 from polhode.view._page import page_of as page_of
 from polhode.view._scene import Judgement as Judgement

@@ -93,9 +93,9 @@ def house_style() -> Iterator[None]:
 @house_style()
 def new_figure(height: float, width: float = WIDTH) -> Figure:
     """An empty figure of a size in inches."""
-    from matplotlib.figure import Figure as New
+    from polhode.view.figures._shown import ShownFigure
 
-    return New(figsize=(width, height))
+    return ShownFigure(figsize=(width, height))
 
 
 @house_style()

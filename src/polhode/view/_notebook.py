@@ -1,0 +1,130 @@
+"""What a notebook shows of systems, equations, steady motions and motions: HTML, no extension."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import singledispatch
+from html import escape
+
+from polhode.algebra import Expr, Symbol
+from polhode.analyse import SteadyMotion, stability
+from polhode.base import NumericError
+from polhode.derive import Equations
+from polhode.model import Body, System
+from polhode.simulate import Trajectory
+from polhode.view._mathml import equation, symbol
+from polhode.view._page import page_of
+from polhode.view._scene import Formula
+from polhode.view._scene_build import scene
+
+_ZERO = Expr.of(0)
+_STYLE = (
+    "<style>.polhode{max-width:60em;overflow-x:auto}"
+    ".polhode math{font-size:1.1em;font-family:'STIX Two Math','Cambria Math','Latin Modern Math',math}"
+    ".polhode .row{margin:.45em 0 .45em 1.2em;line-height:1.9}"
+    ".polhode table{border-collapse:collapse;margin:.3em 0}"
+    ".polhode td,.polhode th{text-align:left;padding:.15em .8em .15em 0;vertical-align:baseline}"
+    ".polhode summary{cursor:pointer;font-weight:600}"
+    ".polhode caption{text-align:left;white-space:nowrap;font-weight:600;padding:.2em 0}</style>"
+)
+_TALL = 640  # pixels of the picture of a motion with its plots
+_WIDE = "min(100%, 72rem)"
+
+
+@singledispatch
+def html_of(thing: object) -> str:
+    """A declaration or result as HTML that stands by itself; other things as text."""
+    return f"<pre>{escape(str(thing))}</pre>"
+
+
+@html_of.register
+def _(thing: System) -> str:
+    bodies = _table("bodies", ("", "mass", "inertia"), map(_body, thing.bodies))
+    parts = [(escape(e.name), type(e).__name__) for e in thing.elements]
+    parts += [(escape(load.name), type(load).__name__) for load in thing.loads]
+    others = _table("what acts on them", ("", ""), parts) if parts else ""
+    return _framed(f"<strong>{escape(thing.name)}</strong>{bodies}{others}")
+
+
+@html_of.register
+def _(thing: Equations) -> str:
+    motion = [equation("", row, _ZERO) for row in thing.motion]
+    rates = {s: e for s, e in thing.kinematics.items() if s not in thing.speeds}
+    kinematics = [equation("", Expr.generator(s), e) for s, e in rates.items()]
+    reactions = [
+        equation("", Expr.generator(Symbol(name)), value)
+        for name, value in thing.components.items()
+        if name not in thing.undetermined
+    ]
+    shown = f"<strong>Equations of motion of {escape(thing.system.name)}</strong>{_rows(motion)}"
+    shown += _folded("with", kinematics) + _folded("reactions", reactions)
+    if thing.undetermined:
+        shown += f"<p>Not determined: {escape(', '.join(thing.undetermined))}</p>"
+    return _framed(shown)
+
+
+@html_of.register
+def _(thing: SteadyMotion) -> str:
+    name = escape(thing.reduced.equations.system.name)
+    rows = [equation("", condition, _ZERO) for condition in thing.conditions]
+    shown = f"<strong>Steady motion of {name}</strong>{_rows(rows)}"
+    if not rows:
+        shown += "<p>Every state.</p>"
+    for branch in thing.branches:
+        shown += _rows([equation("", branch.quantity, branch.value)])
+        exists = ", ".join(f"{symbol(c.expression)} &gt; 0" for c in branch.exists)
+        shown += f"<p>exists where {exists}</p>" if exists else ""
+    return _framed(shown + _stability(thing))
+
+
+@html_of.register
+def _(thing: Trajectory) -> str:
+    """A page in a frame of its own, which can neither reach the notebook nor any network."""
+    inner = page_of(scene(thing)).replace("&", "&amp;").replace("'", "&#39;")
+    title = escape(f"{thing.system.name}, played", quote=True)
+    return (
+        f"<iframe title=\"{title}\" sandbox='allow-scripts' srcdoc='{inner}' "
+        f"style='width:{_WIDE};height:{_TALL}px;border:0'></iframe>"
+    )
+
+
+def _framed(inner: str) -> str:
+    return f"<div class='polhode'>{_STYLE}{inner}</div>"
+
+
+def _body(body: Body) -> tuple[str, ...]:
+    inertia = body.inertia.rows
+    off = any(inertia[i][j] for i in range(3) for j in range(3) if i != j)
+    entries = [e for row in inertia for e in row] if off else [inertia[i][i] for i in range(3)]
+    return escape(body.name), symbol(body.mass), ", ".join(map(symbol, entries))
+
+
+def _table(title: str, header: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
+    head = "".join(f"<th scope='col'>{cell}</th>" for cell in header)
+    body = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
+    return f"<table><caption>{title}</caption><tr>{head}</tr>{body}</table>"
+
+
+def _rows(formulas: Iterable[Formula]) -> str:
+    return "".join(f"<div class='row'>{_formula(f)}</div>" for f in formulas)
+
+
+def _formula(formula: Formula) -> str:
+    return " ".join(formula.pieces) or escape(formula.spoken)
+
+
+def _folded(title: str, formulas: list[Formula]) -> str:
+    if not formulas:
+        return ""
+    return f"<details><summary>{title}</summary>{_rows(formulas)}</details>"
+
+
+def _stability(family: SteadyMotion) -> str:
+    try:
+        found = stability(family)
+    except NumericError:  # a family on which the coordinates are singular
+        return ""
+    if not found.conditions:
+        return f"<p>{escape(str(found))}</p>"
+    conditions = " and ".join(f"{symbol(c.expression)} &gt; 0" for c in found.conditions)
+    return f"<p>stable when {conditions}</p>"

@@ -1,0 +1,97 @@
+"""Rich display: executed in a notebook, and well-formed whatever names are used."""
+
+import re
+from html.parser import HTMLParser
+
+import nbformat
+import pytest
+from nbclient import NotebookClient
+
+import polhode as ph
+from polhode.catalogue import CATALOGUE
+from polhode.view import html_of
+
+CELLS = (
+    "import polhode as ph\n"
+    "from polhode.catalogue import CATALOGUE\n"
+    "system = CATALOGUE['gyroscope'].build()\nsystem",
+    "equations = ph.derive(system)\nequations",
+    "ph.steady(equations)[0]",
+    "numbers = {'M': 0.5, 'a': 0.06, 'I_1': 6.25e-4, 'I_2': 3.5e-4, 'g': 9.81}\n"
+    "ph.simulate(equations, numbers, {'theta': '60 deg', 'omega_1': 150}, '0.5 s')",
+    "ph.figures.history(_, 'theta')[0].axes.figure",
+)
+
+
+@pytest.fixture(scope="module")
+def executed():
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(c) for c in CELLS])
+    NotebookClient(notebook, timeout=120, kernel_name="python3").execute()
+    return [cell.outputs[-1]["data"] for cell in notebook.cells]
+
+
+def test_everything_is_shown_as_html(executed):
+    system, equations, steady, motion, figure = executed
+    assert "<caption>bodies</caption>" in system["text/html"]
+    assert equations["text/html"].count("class='row'") >= 3
+    assert "<summary>reactions</summary>" in equations["text/html"]
+    assert "exists where" in steady["text/html"]
+    assert "stable" in steady["text/html"]
+    assert motion["text/html"].startswith("<iframe")
+    assert "image/png" in figure
+
+
+def test_a_motion_is_a_frame_that_reaches_nothing(executed):
+    html = executed[3]["text/html"]
+    assert re.findall(r"sandbox='([^']*)'", html[:300]) == ["allow-scripts"]
+    assert len(html) < 1_500_000
+    (inner,) = framed(html)
+    assert "default-src 'none'" in inner
+    assert inner.startswith("<!DOCTYPE html>")
+    assert inner.rstrip().endswith("</html>")
+
+
+def framed(html):
+    """Documents within the frames of some HTML."""
+
+    class Frames(HTMLParser):
+        def __init__(self):
+            super().__init__()
+            self.found = []
+
+        def handle_starttag(self, tag, attributes):
+            if tag == "iframe":
+                self.found.append(dict(attributes)["srcdoc"])
+
+    frames = Frames()
+    frames.feed(html)
+    return frames.found
+
+
+def test_names_are_text():
+    m, g = ph.symbols("m g", positive=True)
+    lab = ph.Frame("lab")
+    name = "<script>alert('1')</script>"
+    ball = ph.sphere(name, mass=m, radius=1, axes=lab)
+    system = ph.System(ph.Rolling(ball, on=ph.Plane(lab), name="<b>"), ph.Gravity(g), name=name)
+    for thing in (system, ph.derive(system)):
+        html = html_of(thing)
+        assert "<script" not in html
+        assert "<b>" not in html
+
+
+def test_a_family_of_every_state_says_so():
+    racquet = ph.derive(CATALOGUE["gyroscope/held"].build())
+    for family in ph.steady(racquet):
+        assert "Steady motion" in html_of(family)
+
+
+def test_what_is_unknown_is_text():
+    assert html_of("1 < 2") == "<pre>1 &lt; 2</pre>"
+
+
+def test_without_a_renderer_there_is_text_alone(monkeypatch):
+    from polhode.base import _display
+
+    monkeypatch.setattr(_display, "_RENDERERS", [])
+    assert CATALOGUE["gyroscope"].build()._repr_html_() is None
