@@ -71,7 +71,7 @@ def found_in(path: Path, output: str = "") -> Found:
         raise DeclarationError(f"{chosen} is a series", expected="an output that is one number")
     labels = tuple(array.attrs.get("labels", ()))
     axes = {name: _si(store.group[origin["axes"][name]["coordinate"]]) for name in names}
-    numbers = _numbers({**origin["parameters"], **origin["start"]})
+    numbers = plain_numbers({**origin["parameters"], **origin["start"]})
     system = read_declaration(json.dumps(origin["declaration"]))
     equations: Equations = (
         derive(system) if origin["kept_to_one_mode"] else automaton(system).together.equations
@@ -94,7 +94,8 @@ def _si(array: Any) -> Array:
     return values * read_quantity(f"1 {unit}").value if unit else values
 
 
-def _numbers(given: Mapping[str, object]) -> dict[str, float]:
+def plain_numbers(given: Mapping[str, object]) -> dict[str, float]:
+    """SI values of numbers and texts with a unit; others are left out."""
     found = {}
     for name, value in given.items():
         if isinstance(value, str):

@@ -25,8 +25,8 @@ from polhode.study._columns import (
 SAMPLE = "sample"
 """The axis of everything that is drawn."""
 
-_MOST_IN_CHUNK = 1024
-_FEWEST_CHUNKS = 64
+_LEAST_IN_CHUNK, _MOST_IN_CHUNK = 64, 1024  # few fill no lanes; many are lost to a kill
+_CHUNKS = 64
 
 
 @dataclass(frozen=True)
@@ -145,7 +145,8 @@ def _column(name: str, value: Any, samples: int | None, seed: int) -> Column:
 
 def _chunk(shape: tuple[int, ...], wanted: int | None) -> tuple[int, ...]:
     """As nearly cubic as the axes allow."""
-    left = wanted or max(1, min(_MOST_IN_CHUNK, prod(shape) // _FEWEST_CHUNKS))
+    usual = min(max(prod(shape) // _CHUNKS, _LEAST_IN_CHUNK), _MOST_IN_CHUNK)
+    left = wanted or usual
     found = dict[int, int]()
     for rank, axis in enumerate(sorted(range(len(shape)), key=lambda i: shape[i])):
         side = max(1, round(left ** (1 / (len(shape) - rank))))

@@ -103,7 +103,7 @@ def sweep(
     grid = grid_of(axes, samples, drawn, chunk, order.outputs)
     order.experiment()  # refuses what cannot be asked of any member
     fixed = (published_names(parameters), published_names(start))
-    own, _ = split_axes(list(grid.columns), _parameters(order))
+    own, _ = split_axes(list(grid.columns), parameter_names(order))
     constants = {**fixed[0], **dict.fromkeys(own)}
     origin = _origin(order, grid, fixed, drawn)
     if begun is None:
@@ -133,7 +133,7 @@ def _seed(seed: int | None, begun: Store | None) -> int:
     return seed
 
 
-def _parameters(order: Order) -> set[str]:
+def parameter_names(order: Order) -> set[str]:
     """Names that are parameters and not start values."""
     derived = order.derived
     bodies = derived.system.bodies

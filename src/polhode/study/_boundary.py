@@ -1,0 +1,210 @@
+"""Maps that look closely only where outcomes meet."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from polhode.algebra import Expr
+from polhode.base import DeclarationError, Progress, SilentProgress
+from polhode.derive import Automaton, Equations
+from polhode.study._block import Crew, Order, Subject
+from polhode.study._columns import Array, Column, Members, Name, published_names
+from polhode.study._found import Found, plain_numbers
+from polhode.study._happenings import Fate
+from polhode.study._output import Output
+from polhode.study._sweep import parameter_names
+from polhode.study._thresholds import thresholds
+
+_MOST = 16_385  # points along an axis
+
+
+@dataclass(frozen=True)
+class Refined:
+    """A map whose boundaries are known to the finest grid.
+
+    Attributes:
+        found: the map, as `outcome_map` draws it; far from boundaries a point has the outcome of
+            those around it.
+        computed: which points were computed, shape of the map.
+    """
+
+    found: Found
+    computed: NDArray[np.bool_]
+
+    @property
+    def members(self) -> int:
+        """How many motions it took."""
+        return int(np.sum(self.computed))
+
+
+def refined_map(
+    subject: Subject,
+    axes: Mapping[Name, tuple[float, float]],
+    parameters: Mapping[Name, Any],
+    start: Mapping[Name, Any],
+    duration: Any,
+    *,
+    outcome: Output | None = None,
+    coarse: int = 17,
+    levels: int = 4,
+    forcing: Mapping[Name, Expr] | None = None,
+    near_flat: float | None = None,
+    until: Sequence[str] | None = None,
+    progress: Progress | None = None,
+) -> Refined:
+    """The outcome of motions over two quantities, refined where outcomes differ.
+
+    Every cell of a coarse grid whose corners do not agree, and every neighbour of such a cell, is
+    cut into four, again and again. What is thinner than a coarse cell may be missed.
+
+    Args:
+        subject: a declaration, its automaton, or equations derived from it.
+        axes: least and greatest value of two quantities, SI.
+        parameters: the value of every other parameter.
+        start: other start values.
+        duration: s.
+        outcome: an output that is one code; by default the `Fate`.
+        coarse: points of the coarse grid along each axis.
+        levels: how often a cell is cut: the map has (coarse − 1)·2^levels + 1 points a side.
+        forcing, near_flat, until: as of `ensemble`.
+        progress: told of every member.
+
+    Raises:
+        DeclarationError: for other than two axes, or an outcome that is no code.
+    """
+    given = {"forcing": forcing, "near_flat": near_flat, "until": until}
+    options = {name: value for name, value in given.items() if value is not None}
+    chosen = outcome or Fate()
+    order = Order(subject, duration, {"outcome": chosen}, options)
+    _check(axes, chosen, order, coarse, levels)
+    side = (coarse - 1) * 2**levels + 1
+    ends = published_names(axes)
+    spans = {name: np.linspace(low, high, side) for name, (low, high) in ends.items()}
+    fixed = (published_names(parameters), published_names(start))
+    shown = progress or SilentProgress()
+    shown.begin("members")
+    try:
+        points = _Points(order, spans, fixed, shown)
+        computed = _refined(points, side, 2**levels)
+    finally:
+        shown.finish()
+    numbers = plain_numbers({**fixed[0], **fixed[1]})
+    return Refined(_found(order, spans, points.codes, numbers), computed)
+
+
+def _check(
+    axes: Mapping[Name, Any],
+    outcome: Output,
+    order: Order,
+    coarse: int,
+    levels: int,
+) -> None:
+    if len(axes) != 2:
+        raise DeclarationError(f"a map over {len(axes)} axes", expected="two")
+    if outcome.shape or not outcome.labels(order.legend):
+        raise DeclarationError(f"the outcome {outcome}", expected="one code, such as Fate()")
+    if coarse < 2 or levels < 0 or (coarse - 1) * 2**levels >= _MOST:
+        raise DeclarationError(
+            f"a grid of {coarse} points cut {levels} times",
+            expected=f"two points or more, and at most {_MOST} on the finest grid",
+        )
+
+
+class _Points:
+    """Points of the finest grid, computed when they are asked for."""
+
+    def __init__(
+        self,
+        order: Order,
+        spans: Mapping[str, Array],
+        fixed: tuple[Mapping[str, Any], Mapping[str, Any]],
+        progress: Progress,
+    ) -> None:
+        side = len(next(iter(spans.values())))
+        self.codes = np.full((side, side), -1.0)
+        self._crew = Crew(order)
+        self._spans = spans
+        self._fixed = fixed
+        self._constants = parameter_names(order)
+        self._progress = progress
+
+    def compute(self, where: NDArray[np.bool_]) -> None:
+        """Compute the points of a mask."""
+        places = np.nonzero(where)
+        columns = {
+            name: Column(span[place])
+            for (name, span), place in zip(self._spans.items(), places, strict=True)
+        }
+        own = {name: c for name, c in columns.items() if name in self._constants}
+        moved = {name: c for name, c in columns.items() if name not in self._constants}
+        parameters, start = self._fixed
+        members = Members(len(places[0]), {**parameters, **own}, {**start, **moved})
+        block = self._crew.follow(members, self._progress.advance)
+        self.codes[where] = block.values["outcome"]
+
+
+def _refined(points: _Points, side: int, stride: int) -> NDArray[np.bool_]:
+    """Compute what is needed, and give everything else the outcome around it."""
+    computed = np.zeros((side, side), dtype=bool)
+    computed[::stride, ::stride] = True
+    points.compute(computed)
+    active = np.ones(((side - 1) // stride,) * 2, dtype=bool)
+    while stride > 1:
+        active &= _near(_mixed(points.codes[::stride, ::stride]))
+        half = stride // 2
+        wanted = np.zeros_like(computed)
+        for i, j in np.argwhere(active) * stride:
+            wanted[i : i + stride + 1 : half, j : j + stride + 1 : half] = True
+        new = wanted & ~computed
+        points.compute(new)
+        computed |= new
+        _inherit(points.codes, computed, stride)
+        active = np.repeat(np.repeat(active, 2, axis=0), 2, axis=1)
+        stride = half
+    return computed
+
+
+def _mixed(corners: Array) -> NDArray[np.bool_]:
+    """Cells whose corners do not agree."""
+    four = np.stack([corners[:-1, :-1], corners[1:, :-1], corners[:-1, 1:], corners[1:, 1:]])
+    return np.asarray(np.any(four != four[0], axis=0))
+
+
+def _near(cells: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """These cells and their neighbours."""
+    padded = np.pad(cells, 1)
+    rows, columns = cells.shape
+    shifted = [padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3)]
+    return np.asarray(np.any(np.stack(shifted), axis=0))
+
+
+def _inherit(codes: Array, computed: NDArray[np.bool_], stride: int) -> None:
+    """Points between those of a grid take the code of the nearest of it, unless computed."""
+    half = stride // 2
+    rows = np.arange(0, len(codes), half)
+    nearest = (rows + half // 2) // stride * stride
+    finer = codes[np.ix_(rows, rows)]
+    known = computed[np.ix_(rows, rows)]
+    codes[np.ix_(rows, rows)] = np.where(known, finer, codes[np.ix_(nearest, nearest)])
+
+
+def _found(
+    order: Order, spans: Mapping[str, Array], codes: Array, numbers: Mapping[str, float]
+) -> Found:
+    derived = order.derived
+    equations: Equations = derived.together.equations if isinstance(derived, Automaton) else derived
+    return Found(
+        system=equations.system.name,
+        output="outcome",
+        labels=order.outputs["outcome"].labels(order.legend),
+        axes=dict(spans),
+        values=np.where(codes < 0, np.nan, codes),
+        thresholds=tuple(thresholds(equations, spans, numbers)),
+        numbers=numbers,
+        origin="",
+    )
