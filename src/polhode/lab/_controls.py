@@ -66,6 +66,13 @@ class Control:
     extra: bool
 
 
+def unit_of(symbol: Symbol, equations: Equations) -> str:
+    """The SI unit of a coordinate, speed or rate; rad/s for a rate of turning."""
+    base = equations.dimensions.get(symbol.base(), PURE)
+    dimension = base / TIME**symbol.order
+    return "rad" if dimension == PURE else _UNITS.get(dimension, str(dimension))
+
+
 def with_usual_numbers(entry: Entry, equations: Equations) -> Entry:
     """An entry without numbers, as of a user's own system, with some of the right dimension."""
     known = {parameter.name for parameter in entry.parameters}

@@ -14,6 +14,7 @@ from polhode.algebra import FLOATS, Expr, Generator, Symbol, compile_program, ma
 from polhode.analyse import Branch, Condition, Stability, SteadyMotion, Truth, stability, steady
 from polhode.base import NumericError, PolhodeError
 from polhode.derive import Equations
+from polhode.lab._controls import unit_of
 
 _LONGEST = 1500  # letters of a formula that is still shown
 Values = Mapping[str, float]
@@ -44,7 +45,7 @@ class Family:
             "formula": _formula(self.motion.latex()),
             "spoken": str(self.motion)[:_LONGEST],
             "on": _finite(self._distance(state)),
-            "branches": [_branch(branch, here) for branch in self.motion.branches],
+            "branches": [self._branch(branch, here) for branch in self.motion.branches],
             "set": {n: v for n, v in self._held(state).items() if isfinite(v)},
         }
         if isinstance(self.judged, NumericError):
@@ -55,6 +56,15 @@ class Family:
             "frequencies": [_named(e, here) for e in self.judged.frequencies],
             "growth": [_named(e, here) for e in self.judged.growth],
             "loss": self.judged.loss,
+        }
+
+    def _branch(self, branch: Branch, here: Values) -> dict[str, Any]:
+        name, equations = branch.quantity.symbol, self.motion.reduced.equations
+        return {
+            "formula": _formula(f"{branch.quantity.latex()} = {branch.value.latex()}"),
+            "name": name.published if name else "",
+            "unit": unit_of(name, equations) if name else "",
+            "value": _finite(_value(branch.value, here)),
         }
 
     def _held(self, state: Values) -> dict[str, float]:
@@ -86,15 +96,6 @@ def families_of(equations: Equations) -> list[Family]:
         return [Family(motion) for motion in steady(equations)]
     except PolhodeError:
         return []
-
-
-def _branch(branch: Branch, here: Values) -> dict[str, Any]:
-    name = branch.quantity.symbol
-    return {
-        "formula": _formula(f"{branch.quantity.latex()} = {branch.value.latex()}"),
-        "name": name.published if name else "",
-        "value": _finite(_value(branch.value, here)),
-    }
 
 
 def _condition(condition: Condition, here: Values) -> dict[str, Any]:

@@ -66,9 +66,9 @@ class Lab {
       { title: "Try an equation", panel: make("div", {}, asking(() => ({ system: this.state.system, contact: this.state.contact }))) },
     ]);
     const seen = make("div", { class: "seen" }, this.player.theatre, this.outcome, this.message);
-    const work = make("div", { class: "work" }, seen, this.panel, this.player.plots);
+    const work = make("div", { class: "work" }, seen, this.panel, this.player.plots, about);
     document.body.append(
-      make("main", { class: "lab" }, make("header", {}, make("div", { class: "masthead" }, this.title, bar), this.about), work, about),
+      make("main", { class: "lab" }, make("header", {}, make("div", { class: "masthead" }, this.title, bar), this.about), work),
       make("footer", {}, "Computed on this machine by polhode; nothing leaves it."),
     );
   }

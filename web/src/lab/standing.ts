@@ -33,7 +33,7 @@ function shown(family: Family, go: Go): HTMLElement {
 
 function branches(family: Family, go: Go): HTMLElement[] {
   return family.branches.map((branch) => {
-    const value = make("span", { class: "number" }, branch.value === null ? " not real here" : ` = ${shownNumber(branch.value)} here`);
+    const value = make("span", { class: "number" }, branch.value === null ? " not real here" : ` = ${shownNumber(branch.value)} ${branch.unit} here`);
     const row = make("p", { class: "branch" }, branch.formula ? formula(branch.formula) : branch.name, value);
     const { name, value: si } = branch;
     if (name && si !== null) {

@@ -56,7 +56,7 @@ export interface Family {
   formula: string;
   spoken: string;
   on: number | null;
-  branches: (Valued & { name: string })[];
+  branches: (Valued & { name: string; unit: string })[];
   set: Record<string, number>;
   undecided?: string;
   stable?: string;
