@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TypeVar
+from functools import lru_cache
+from typing import TypeVar, cast
 
 from polhode.algebra import ZERO, Expr, Symbol
 from polhode.claims._circumstances import Circumstances
@@ -12,6 +13,8 @@ from polhode.claims._components import Component, Relation, components
 from polhode.derive import Equations
 
 States = TypeVar("States", bound=Circumstances)
+
+_KEPT = 64
 
 #: Signs that claim the equality of both sides.
 EQUALITY = ("=", "≡")
@@ -28,6 +31,31 @@ class Small:
 
     quantity: Expr
     order: int | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class The:
+    """Equations as a key: the same ones, not others that say the same."""
+
+    equations: Equations
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, The) and self.equations is other.equations
+
+    def __hash__(self) -> int:
+        return id(self.equations)
+
+
+@lru_cache(maxsize=_KEPT)
+def _states(
+    kind: type[Circumstances],
+    the: The,
+    given: tuple[tuple[Symbol, Expr], ...],
+    relations: tuple[Expr, ...],
+    positive: tuple[Expr, ...],
+) -> Circumstances:
+    """The states, kept with all that was found out about them."""
+    return kind(the.equations, dict(given), relations, positive)
 
 
 @dataclass(frozen=True)
@@ -69,7 +97,12 @@ class Asked:
 
     def states(self, kind: type[States]) -> States:
         """The states of a kind on which the claim is asked to hold."""
-        return kind(self.equations, self.given, self.relations, self.positive)
+        found = _states(kind, The(self.equations), self._given, self.relations, self.positive)
+        return cast(States, found)
+
+    @property
+    def _given(self) -> tuple[tuple[Symbol, Expr], ...]:
+        return tuple(self.given.items())
 
     def only(self, members: Collection[int]) -> Asked:
         """The claim that some of the members make; the others are left in place, as 0 = 0."""

@@ -29,7 +29,7 @@ class Numbers(dict[Symbol, float]):
         self._states = states
 
     def __missing__(self, symbol: Symbol) -> float:
-        image = self._states.on(Expr.generator(symbol))
+        image = self._states.of(symbol)
         unheard = image.symbols() - self._free.keys() - {_PI}
         self._free |= points((), unheard, len(self._free)).floats()
         self[symbol] = number(image, self._free)
@@ -84,7 +84,7 @@ def bench(states: Circumstances, expressions: Iterable[Expr]) -> Bench:
 
 def _is_real(numbers: Numbers, states: Circumstances, symbols: Iterable[Symbol]) -> bool:
     try:
-        settled = {s: number(states.on(Expr.generator(s)), numbers) for s in symbols}
+        settled = {s: number(states.of(s), numbers) for s in symbols}
         positive = all(number(states.on(e), numbers) > 0 for e in states.signs)
     except (PolhodeError, ArithmeticError, ValueError, KeyError):
         return False

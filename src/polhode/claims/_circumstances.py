@@ -36,6 +36,16 @@ class Circumstances(ABC):
         found = self._on(expression)
         return with_signs(found, self._known_signs) if self.positive else found
 
+    def of(self, symbol: Symbol) -> Expr:
+        """One symbol on these states."""
+        if symbol not in self._images:
+            self._images[symbol] = self.on(Expr.generator(symbol))
+        return self._images[symbol]
+
+    @cached_property
+    def _images(self) -> dict[Symbol, Expr]:
+        return {}
+
     def _on(self, expression: Expr) -> Expr:
         try:
             settled = self._settled(expression.subs(self._given_parameters))

@@ -78,7 +78,7 @@ def _described(point: Point, states: Circumstances) -> dict[str, str]:
     """The state in full, with what the circumstances determine."""
     values = point.described()
     for symbol in _state(states):
-        image = states.on(Expr.generator(symbol))
+        image = states.of(symbol)
         if image != Expr.generator(symbol):
             values[symbol.published] = str(point(image))
     return dict(sorted(values.items()))
@@ -110,7 +110,7 @@ def _numbers(point: Point, states: Circumstances) -> dict[Symbol, float]:
     drawn = point.floats()
     state = dict(drawn)
     for symbol in _state(states):
-        image = states.on(Expr.generator(symbol))
+        image = states.of(symbol)
         state[symbol] = number(image, drawn)
     system = states.equations.system
     if isinstance(states, AnyState):

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 from polhode.algebra import ZERO, Expr, Symbol, eliminate
 from polhode.analyse import SteadyMotion, steady
-from polhode.claims._asked import Asked
+from polhode.claims._asked import Asked, The
 from polhode.claims._circumstances import TrueMotion
 from polhode.derive import Equations
+
+_KEPT = 64
 
 
 @dataclass(frozen=True)
@@ -37,16 +39,21 @@ def steady_states(asked: Asked) -> tuple[SteadyStates, ...]:
     Families where the coordinates are singular are left out: a rate of precession means nothing
     about an upright axis.
     """
+    given = tuple(asked.given.items())
+    return _families(The(asked.equations), given, asked.relations, asked.positive)
+
+
+@lru_cache(maxsize=_KEPT)
+def _families(
+    the: The,
+    given: tuple[tuple[Symbol, Expr], ...],
+    relations: tuple[Expr, ...],
+    positive: tuple[Expr, ...],
+) -> tuple[SteadyStates, ...]:
     return tuple(
-        SteadyStates(
-            asked.equations,
-            asked.given,
-            (*family.relations, *asked.relations),
-            asked.positive,
-            family,
-        )
-        for family in steady(asked.equations, dict(asked.given))
-        if not _is_singular(asked.equations, family)
+        SteadyStates(the.equations, dict(given), (*family.relations, *relations), positive, family)
+        for family in steady(the.equations, dict(given))
+        if not _is_singular(the.equations, family)
     )
 
 
