@@ -1,7 +1,10 @@
 """Many motions: ensembles, sweeps, maps, sensitivities and fits."""
 
+from polhode.study._block import Crew as Crew
+from polhode.study._block import Order as Order
 from polhode.study._boundary import Refined as Refined
 from polhode.study._boundary import refined_map as refined_map
+from polhode.study._columns import members_of as members_of
 from polhode.study._ensemble import Ensemble as Ensemble
 from polhode.study._ensemble import ensemble as ensemble
 from polhode.study._fit import Fit as Fit

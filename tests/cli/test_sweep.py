@@ -1,0 +1,63 @@
+"""`polhode sweep` and `polhode map`, as a shell has them."""
+
+import json
+
+import pytest
+
+from polhode.cli import main
+
+SWEEP = ["sweep", "rolling-disk", "--axis", "theta=50deg:85deg:3", "--axis", "omega_3=5rad/s:20:2"]
+SHORT = ["--start", "phi_dot=1rad/s", "--duration", "0.05s", "--until", "lifts off"]
+
+
+@pytest.fixture(scope="module")
+def store(tmp_path_factory):
+    path = str(tmp_path_factory.mktemp("cli") / "fates")
+    assert main([*SWEEP, *SHORT, "--keep", "theta", "--out", path, "--json"]) == 0
+    return path
+
+
+def test_a_sweep_tells_its_members(store, capsys):
+    assert main([*SWEEP, *SHORT, "--keep", "theta", "--out", store, "--resume", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["members"] == 6
+    assert told["failed"] == 0
+    assert told["store"] == store
+    assert told["seconds"] > 0
+    assert told["schema"] == 1
+
+
+def test_a_map_is_drawn(store, tmp_path, capsys):
+    for suffix, show in ((".png", []), (".svg", ["--show", "duration"])):
+        picture = tmp_path / f"fates{suffix}"
+        assert main(["map", store, "-o", str(picture), *show]) == 0
+        assert picture.stat().st_size > 1000
+    assert "3*a*omega_3**2 - g = 0" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ([*SWEEP, *SHORT], "--out"),
+        (["sweep", "rolling-disk", "--axis", "theta=1:2", "--out", "x"], "FROM:TO:COUNT"),
+        (["sweep", "rolling-disk", "--axis", "theta=1:2:0", "--out", "x"], "0 values"),
+        (["sweep", "rolling-disk", "--axis", "thete=1:2:3", "--out", "x"], "thete"),
+        (["sweep", "rolling-disk", "--axis", "theta=1s:2s:3", "--out", "x"], "theta"),
+        (["sweep", "gyrocompass", "--axis", "m=1kg:2kg:3", "--out", "x"], "follows from"),
+        ([*SWEEP, *SHORT, "--start", "theta=1", "--out", "x"], "an axis and a value"),
+        ([*SWEEP, *SHORT, "--workers", "0", "--out", "x"], "0 workers"),
+        ([*SWEEP, *SHORT, "--out", "/dev/null/x"], "cannot be written"),
+        ([*SWEEP, *SHORT, "--scheduler", "nowhere", "--out", "x"], "no scheduler answers"),
+        (["map", "nothing", "-o", "x.png"], "is not there"),
+    ],
+)
+def test_refusals(words, told, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("polhode.study._cluster._REACHED_WITHIN", 0.5)
+    assert main(words) == 2
+    assert told in capsys.readouterr().err
+
+
+def test_a_map_needs_an_output_that_is_there(store, tmp_path, capsys):
+    assert main(["map", store, "-o", str(tmp_path / "a.png"), "--show", "fates"]) == 2
+    assert "fates" in capsys.readouterr().err
