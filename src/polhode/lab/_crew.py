@@ -44,6 +44,11 @@ class Worker:
         """Whether it is at work."""
         return self._turn.locked()
 
+    @property
+    def pid(self) -> int:
+        """Number of its process."""
+        return int(self._process.pid)
+
     async def ask(self, request: bytes, seconds: float, gone: asyncio.Event) -> bytes:
         """The reply to a request.
 

@@ -16,6 +16,7 @@ from polhode.base import NumericError, PolhodeError
 from polhode.derive import Equations
 from polhode.lab._controls import unit_of
 
+_LARGEST = 1e15
 _LONGEST = 1500  # letters of a formula that is still shown
 Values = Mapping[str, float]
 
@@ -143,4 +144,5 @@ def _value(expression: Expr, known: Values) -> float:
 
 
 def _finite(value: float) -> float | None:
-    return value if isfinite(value) else None
+    """None for what is not defined, or grows beyond what can be meant."""
+    return value if isfinite(value) and abs(value) < _LARGEST else None
