@@ -68,6 +68,8 @@ if TYPE_CHECKING:
     from polhode.base import PolhodeError as PolhodeError
     from polhode.base import StoreError as StoreError
     from polhode.base import UnitError as UnitError
+    from polhode.catalogue import audit as audit
+    from polhode.claims import Report as Report
     from polhode.claims import Verdict as Verdict
     from polhode.claims import check as check
     from polhode.derive import Automaton as Automaton
@@ -258,7 +260,9 @@ _ROOMS = {
         "StoreError",
         "UnitError",
     ),
+    "catalogue": ("audit",),
     "claims": (
+        "Report",
         "Verdict",
         "check",
     ),

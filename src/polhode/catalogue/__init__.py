@@ -1,34 +1,12 @@
 """The seven systems of the problem set, by name."""
 
-from polhode.catalogue._ball_on_paper import BALL_ON_PAPER
+from polhode.catalogue._audit import audit as audit
+from polhode.catalogue._audit import document_of as document_of
 from polhode.catalogue._entry import Entry as Entry
 from polhode.catalogue._entry import Parameter as Parameter
 from polhode.catalogue._exact import exact_values as exact_values
-from polhode.catalogue._gyrocompass import GYROCOMPASS, MOTOR_DRIVEN
-from polhode.catalogue._gyroscope import GYROSCOPE, HELD, IN_VERTICAL_PLANE, UPRIGHT
-from polhode.catalogue._marble_on_turntable import MARBLE_ON_TURNTABLE, TILTED
 from polhode.catalogue._numbers import Numbers as Numbers
+from polhode.catalogue._numbers import exactly as exactly
 from polhode.catalogue._numbers import numbers_of as numbers_of
 from polhode.catalogue._problem_set import problem_set as problem_set
-from polhode.catalogue._rolling_disk import ROLLING_DISK
-from polhode.catalogue._spinning_coin import SPINNING_COIN
-from polhode.catalogue._tennis_racquet import TENNIS_RACQUET
-
-#: Every catalogue system, in the order of the problem set.
-CATALOGUE: dict[str, Entry] = {
-    entry.name: entry
-    for entry in (
-        SPINNING_COIN,
-        ROLLING_DISK,
-        MARBLE_ON_TURNTABLE,
-        TILTED,
-        GYROCOMPASS,
-        MOTOR_DRIVEN,
-        TENNIS_RACQUET,
-        BALL_ON_PAPER,
-        GYROSCOPE,
-        UPRIGHT,
-        HELD,
-        IN_VERTICAL_PLANE,
-    )
-}
+from polhode.catalogue._systems import CATALOGUE as CATALOGUE

@@ -1,7 +1,7 @@
 """Claims of texts, read, bound to a model, and judged."""
 
-from polhode.claims._audit import Judged as Judged
-from polhode.claims._audit import Report as Report
+from polhode.claims._apart import Limits as Limits
+from polhode.claims._apart import audit_apart as audit_apart
 from polhode.claims._audit import audit as audit
 from polhode.claims._bindings import Bound as Bound
 from polhode.claims._bindings import BoundRelation as BoundRelation
@@ -13,6 +13,10 @@ from polhode.claims._document import Part as Part
 from polhode.claims._meaning import BindingError as BindingError
 from polhode.claims._notation import Notation as Notation
 from polhode.claims._read_document import read_document as read_document
+from polhode.claims._report import Consequence as Consequence
+from polhode.claims._report import Judged as Judged
+from polhode.claims._report import Report as Report
+from polhode.claims._report import told as told
 from polhode.claims._verdict import Answer as Answer
 from polhode.claims._verdict import Confirmation as Confirmation
 from polhode.claims._verdict import Correction as Correction
@@ -22,3 +26,4 @@ from polhode.claims._verdict import Verdict as Verdict
 from polhode.claims.latex import Statement as Statement
 from polhode.claims.latex import read_latex as read_latex
 from polhode.claims.latex import write_latex as write_latex
+from polhode.claims.repair import tidied as tidied

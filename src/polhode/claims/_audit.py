@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cache, reduce
+from time import perf_counter
 
 from polhode.base import PolhodeError
 from polhode.claims._check import judged_claim
-from polhode.claims._document import Claim, Document
+from polhode.claims._document import Claim, Document, Part
 from polhode.claims._notation import Notation
+from polhode.claims._report import Judged, Report
 from polhode.claims._typed import with_start
 from polhode.claims._verdict import Answer, Verdict
 from polhode.derive import Equations
@@ -19,75 +20,75 @@ Resolver = Callable[[str], Equations]
 
 
 @dataclass(frozen=True)
-class Judged:
-    """One claim with its verdict.
+class Desk:
+    """Where claims are judged; what a part says of its letters is worked out once.
 
     Attributes:
-        claim: of the document.
-        system: name of the system it is about.
-        verdict: the judgement.
-        fed_by: failed claims that it follows from, directly or through others.
+        resolver: gives the equations of a system by its name.
     """
 
-    claim: Claim
-    system: str
-    verdict: Verdict
-    fed_by: tuple[str, ...] = ()
+    resolver: Resolver
+    _notations: dict[str, Notation] = field(default_factory=dict)
 
+    def verdict(self, part: Part, claim: Claim) -> Verdict:
+        """The verdict on one claim; unread where it, or its part, cannot be read or bound."""
+        try:
+            notation = self._notation(part).of_claim(claim)
+            start = (f"{name} = {value}" for name, value in claim.start.items())
+            notation = reduce(with_start, start, notation)
+            return judged_claim(claim.formula, notation, claim.context, claim.when)
+        except PolhodeError as error:
+            return Verdict(Answer.UNREAD, claim.context, reason=str(error))
 
-@dataclass(frozen=True)
-class Report:
-    """The verdicts on all claims of a document, in its order."""
-
-    document: Document
-    judged: tuple[Judged, ...]
-
-    @property
-    def counts(self) -> dict[str, int]:
-        """How many claims got each answer."""
-        found = Counter(judged.verdict.answer for judged in self.judged)
-        return {answer.value: found[answer] for answer in Answer}
-
-    def __str__(self) -> str:
-        rows = [f"{j.claim.id:>8}  {j.system:<24}  {j.verdict}" for j in self.judged]
-        total = ", ".join(f"{count} {name}" for name, count in self.counts.items() if count)
-        return "\n".join([*rows, total])
+    def _notation(self, part: Part) -> Notation:
+        if part.id not in self._notations:
+            self._notations[part.id] = Notation.of_part(self.resolver(part.system), part)
+        return self._notations[part.id]
 
 
 def audit(document: Document, resolver: Resolver, *, only: Iterable[str] = ()) -> Report:
-    """Judge every claim of a document, or those with some ids.
+    """Judge every claim of a document, or those with some ids, in this process.
 
     Args:
         document: what a text states, and how its symbols are meant.
         resolver: gives the equations of a system by its name.
         only: ids of the claims to judge; all of them if empty.
 
-    Raises `ParseError` for an id that the document does not have.
+    Raises:
+        ParseError: for an id that the document does not have.
     """
-    wanted = [document.claim(id) for id in only] or list(document.claims)
-    found = tuple(_verdicts(document, cache(resolver), wanted))
-    failed = [j.claim.id for j in found if j.verdict.answer is Answer.FAILS]
+    began = perf_counter()
+    desk = Desk(cache(resolver))
+    asked = asked_for(document, only)
+    verdicts = {c.id: desk.verdict(document.part_of(c), c) for c in asked}
+    return reported(document, asked, verdicts, perf_counter() - began)
+
+
+def asked_for(document: Document, only: Iterable[str]) -> tuple[Claim, ...]:
+    """The claims with some ids, in the document's order; all of them where there are no ids.
+
+    Raises:
+        ParseError: for an id that the document does not have.
+    """
+    wanted = {document.claim(id).id for id in only}
+    return tuple(c for c in document.claims if not wanted or c.id in wanted)
+
+
+def reported(
+    document: Document, asked: Sequence[Claim], verdicts: Mapping[str, Verdict], seconds: float
+) -> Report:
+    """A report of verdicts by id of their claim; those asked for that have none are left."""
+    failed = [id for id, verdict in verdicts.items() if verdict.answer is Answer.FAILS]
     reached = {id: document.consequences(id) for id in failed}
-    return Report(
-        document,
-        tuple(
-            replace(j, fed_by=tuple(id for id in failed if j.claim.id in reached[id]))
-            for j in found
-        ),
+    judged = tuple(
+        Judged(
+            claim,
+            document.part_of(claim).system,
+            verdicts[claim.id],
+            tuple(id for id in failed if claim.id in reached[id]),
+        )
+        for claim in asked
+        if claim.id in verdicts
     )
-
-
-def _verdicts(document: Document, resolver: Resolver, claims: Iterable[Claim]) -> Iterator[Judged]:
-    notations: dict[str, Notation] = {}
-    for claim in claims:
-        part = document.part_of(claim)
-        try:
-            if part.id not in notations:
-                notations[part.id] = Notation.of_part(resolver(part.system), part)
-            notation = notations[part.id].of_claim(claim)
-            start = (f"{name} = {value}" for name, value in claim.start.items())
-            notation = reduce(with_start, start, notation)
-            verdict = judged_claim(claim.formula, notation, claim.context, claim.when)
-        except PolhodeError as error:
-            verdict = Verdict(Answer.UNREAD, claim.context, reason=str(error))
-        yield Judged(claim, part.system, verdict)
+    left = tuple(claim.id for claim in asked if claim.id not in verdicts)
+    return Report(document, judged, left, seconds)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 
 from polhode.algebra import Expr
+from polhode.base import Shown
 
 
 class Answer(Enum):
@@ -87,7 +88,7 @@ class Correction:
 
 
 @dataclass(frozen=True)
-class Verdict:
+class Verdict(Shown):
     """The judgement on one claim.
 
     Attributes:

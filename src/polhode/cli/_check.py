@@ -56,8 +56,8 @@ def _document(verdict: Verdict) -> dict[str, Any]:
     return {
         "verdict": verdict.answer.value,
         "context": verdict.context,
-        "correction": _corrected(verdict.correction),
-        "alternatives": [_corrected(other) for other in verdict.alternatives],
+        "correction": correction_document(verdict.correction),
+        "alternatives": [correction_document(other) for other in verdict.alternatives],
         "counterexample": _counterexample(verdict),
         "confirmation": _confirmation(verdict),
         "order": verdict.order,
@@ -71,7 +71,8 @@ def _document(verdict: Verdict) -> dict[str, Any]:
     }
 
 
-def _corrected(correction: Correction | None) -> dict[str, str] | None:
+def correction_document(correction: Correction | None) -> dict[str, str] | None:
+    """A correction as it stands in a JSON document."""
     return None if correction is None else {"what": correction.what, "latex": correction.latex}
 
 

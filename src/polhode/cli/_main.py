@@ -20,6 +20,7 @@ COMMANDS = {
     "invariants": "first integrals of a system",
     "exact": "the closed form of a motion, beside its simulation",
     "check": "judge a published equation against a system",
+    "audit": "judge every claim of a document, such as the problem set",
     "lab": "play with a system in the browser",
     "sweep": "simulate a system over a grid of values",
     "map": "draw what a sweep found",

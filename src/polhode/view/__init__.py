@@ -1,6 +1,8 @@
 """Scenes, pages, figures, stills and movies of motions."""
 
 from polhode.view import figures as figures
+from polhode.view._audit_page import audit_html as audit_html
+from polhode.view._audit_page import audit_page as audit_page
 from polhode.view._mathml import equation as equation
 from polhode.view._notebook import html_of as html_of
 from polhode.view._page import page as page
@@ -8,6 +10,7 @@ from polhode.view._page import page_of as page_of
 from polhode.view._scene import Judgement as Judgement
 from polhode.view._scene import Scene as Scene
 from polhode.view._scene_build import scene as scene
+from polhode.view._typeset import typeset as typeset
 from polhode.view.figures._run import figure_of_run as figure_of_run
 from polhode.view.figures._run import plot as plot
 from polhode.view.figures._save import origin_of as origin_of

@@ -1,0 +1,59 @@
+"""A document of claims judged against the systems it names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from polhode.base import Progress, look_up, terminal_progress
+from polhode.catalogue._problem_set import problem_set
+from polhode.catalogue._systems import CATALOGUE
+from polhode.claims import Document, Limits, Report, audit_apart, read_document
+from polhode.model import System
+
+
+def audit(
+    document: Document | str | Path | None = None,
+    *,
+    systems: Mapping[str, System] | None = None,
+    only: Iterable[str] = (),
+    workers: int = 2,
+    limits: Limits | None = None,
+    progress: Progress | None = None,
+) -> Report:
+    """Judge every claim of a document, each against the system that its part treats.
+
+    Several processes judge; a claim that takes too long is given up and reported as unread. An
+    interruption keeps what is judged by then.
+
+    Args:
+        document: a document, its TOML text or a file that holds it; the problem set by default.
+        systems: those that the document names, besides the catalogue's.
+        only: ids of the claims to judge; all of them if empty.
+        workers: number of processes.
+        limits: of time and memory for one claim.
+        progress: told of every claim judged; by default a line where there is a terminal.
+
+    Raises:
+        ParseError: for what is no document, and for an id that it does not have.
+    """
+    own = systems or {}
+
+    def find(name: str) -> System:
+        return own[name] if name in own else look_up(name, CATALOGUE, "system").build()
+
+    return audit_apart(
+        document_of(document),
+        find,
+        only=only,
+        workers=workers,
+        limits=limits,
+        progress=progress or terminal_progress(),
+    )
+
+
+def document_of(source: Document | str | Path | None) -> Document:
+    """A document as such, from its TOML text, or from a file; the problem set for None."""
+    if isinstance(source, Document):
+        return source
+    return read_document(problem_set() if source is None else source)

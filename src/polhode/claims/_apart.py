@@ -1,0 +1,212 @@
+"""Claims judged in processes of their own, which end where they take too long."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from contextlib import ExitStack, closing, suppress
+from dataclasses import dataclass
+from functools import cache
+from multiprocessing.connection import Connection, wait
+from subprocess import DEVNULL, PIPE, Popen
+from time import monotonic, perf_counter
+
+from polhode.base import DeclarationError, Enough, PolhodeError, Progress, SilentProgress
+from polhode.claims._audit import asked_for, reported
+from polhode.claims._document import Claim, Document
+from polhode.claims._report import Report
+from polhode.claims._verdict import Answer, Verdict
+from polhode.claims._worker import Request
+from polhode.model import System
+
+Declared = Callable[[str], System]
+
+_GRACE = 5.0  # s after which a worker that nobody ended ends itself
+_ALONE = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # workers share the cores
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What one claim may cost.
+
+    Attributes:
+        seconds: of time.
+        memory: bytes, where the operating system has such a bound.
+    """
+
+    seconds: float = 30.0
+    memory: int = 4 << 30
+
+
+def audit_apart(
+    document: Document,
+    declared: Declared,
+    *,
+    only: Iterable[str] = (),
+    workers: int = 2,
+    limits: Limits | None = None,
+    progress: Progress | None = None,
+) -> Report:
+    """Judge every claim of a document, or those with some ids, in processes of their own.
+
+    A claim that takes too long or too much memory is unread, with that as its reason; the others
+    go on. An interruption keeps what is judged by then, and names what is left.
+
+    Args:
+        document: what a text states, and how its symbols are meant.
+        declared: gives a system by its name.
+        only: ids of the claims to judge; all of them if empty.
+        workers: number of processes.
+        limits: what one claim may cost.
+        progress: told of every claim.
+
+    Raises:
+        ParseError: for an id that the document does not have.
+        DeclarationError: for fewer workers than one.
+    """
+    if workers < 1:
+        raise DeclarationError(f"{workers} workers", expected="one or more")
+    began, told = perf_counter(), progress or SilentProgress()
+    asked, bounds = asked_for(document, only), limits or Limits()
+    requests, verdicts = _requests(document, asked, cache(declared), bounds)
+    told.begin("audit", len(requests))
+    try:
+        with closing(_judged(requests, workers, bounds)) as judged:
+            for claim, verdict in judged:
+                verdicts[claim.id] = verdict
+                told.advance()
+    except (KeyboardInterrupt, Enough):
+        pass  # the report names what is left
+    finally:
+        told.finish()
+    return reported(document, asked, verdicts, perf_counter() - began)
+
+
+def _requests(
+    document: Document, asked: Iterable[Claim], declared: Declared, limits: Limits
+) -> tuple[list[Request], dict[str, Verdict]]:
+    """What workers are to judge, and the verdicts on claims whose system is not there."""
+    requests: list[Request] = []
+    unread: dict[str, Verdict] = {}
+    for claim in asked:
+        part = document.part_of(claim)
+        try:
+            system = declared(part.system)
+        except PolhodeError as error:
+            unread[claim.id] = Verdict(Answer.UNREAD, claim.context, reason=str(error))
+        else:
+            requests.append(Request(part, claim, system, limits.seconds + _GRACE))
+    return requests, unread
+
+
+def _judged(
+    requests: Sequence[Request], workers: int, limits: Limits
+) -> Generator[tuple[Claim, Verdict]]:
+    queue = _Queue(requests)
+    with ExitStack() as crew:
+        busy = [_Worker(limits) for _ in range(min(workers, len(requests)))]
+        for worker in busy:
+            crew.callback(worker.end)
+        while busy:
+            wait([worker.replies for worker in busy], min(worker.left for worker in busy))
+            for worker in busy:
+                yield from worker.collected()
+                worker.take(queue)
+            busy = [worker for worker in busy if not worker.idle]
+
+
+class _Queue:
+    """Requests by system, so that a worker derives few of them."""
+
+    def __init__(self, requests: Iterable[Request]) -> None:
+        self._waiting: dict[str, list[Request]] = {}
+        for request in requests:
+            self._waiting.setdefault(request.part.system, []).insert(0, request)
+
+    def next(self, system: str) -> Request | None:
+        """One about this system, or else about that of which most are waiting."""
+        if not self._waiting.get(system):
+            system = max(self._waiting, key=lambda name: len(self._waiting[name]))
+        waiting = self._waiting[system]
+        return waiting.pop() if waiting else None
+
+
+class _Worker:
+    """A process that judges one claim at a time; one that does not come back is replaced."""
+
+    def __init__(self, limits: Limits) -> None:
+        self._limits = limits
+        self._begin()
+
+    def _begin(self) -> None:
+        self._process = Popen(
+            [sys.executable, "-m", "polhode.claims._worker", str(self._limits.memory)],
+            stdin=PIPE,
+            stdout=PIPE,
+            stderr=DEVNULL,
+            env={**os.environ, **_ALONE},
+        )
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        self._requests = Connection(os.dup(self._process.stdin.fileno()), readable=False)
+        self.replies = Connection(os.dup(self._process.stdout.fileno()), writable=False)
+        self._process.stdin.close()
+        self._process.stdout.close()
+        self._request: Request | None = None
+        self._system = ""
+        self._deadline = monotonic() + self._limits.seconds
+        self.idle = False
+
+    @property
+    def left(self) -> float:
+        """Seconds that it may still take."""
+        return max(self._deadline - monotonic(), 0.0)
+
+    def collected(self) -> Iterator[tuple[Claim, Verdict]]:
+        """The verdict, if it is there or overdue."""
+        if self.replies.poll():
+            yield from self._reply()
+        elif not self.left:
+            yield from self._lost(f"not decided within {self._limits.seconds:g} s")
+
+    def _reply(self) -> Iterator[tuple[Claim, Verdict]]:
+        try:
+            verdict: Verdict | None = self.replies.recv()
+        except (EOFError, OSError):
+            yield from self._lost("not decided: its process ended, for lack of memory perhaps")
+            return
+        if self._request is not None and verdict is not None:
+            yield self._request.claim, verdict
+        self._request, self.idle = None, True
+
+    def _lost(self, reason: str) -> Iterator[tuple[Claim, Verdict]]:
+        self.end()
+        if self._request is None:
+            raise DeclarationError(
+                "a worker process that does not start",
+                expected=f"{sys.executable} to import polhode",
+                advice="judge in this process, with polhode.claims.audit",
+            )
+        claim = self._request.claim
+        self._begin()
+        yield claim, Verdict(Answer.UNREAD, claim.context, reason=reason)
+
+    def take(self, queue: _Queue) -> None:
+        """Begin the next claim, if there is one."""
+        if not self.idle:
+            return
+        self._request = queue.next(self._system)
+        if self._request is not None:
+            self._system = self._request.part.system
+            self._deadline = monotonic() + self._limits.seconds
+            with suppress(BrokenPipeError):  # its replies will tell that it has ended
+                self._requests.send(self._request)
+            self.idle = False
+
+    def end(self) -> None:
+        """End the process, whatever it does."""
+        self._process.kill()
+        self._process.wait()
+        self._requests.close()
+        self.replies.close()

@@ -1,0 +1,100 @@
+"""The process that judges claims for another: one at a time, within bounds of time and memory."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import partial
+from multiprocessing.connection import Connection
+
+from polhode.claims._audit import Desk
+from polhode.claims._document import Claim, Part
+from polhode.claims._verdict import Answer, Verdict
+from polhode.derive import Equations, derive
+from polhode.model import System
+
+
+@dataclass(frozen=True)
+class Request:
+    """A claim to be judged.
+
+    Attributes:
+        part: of the document that it stands in.
+        claim: itself.
+        system: that it is about.
+        seconds: after which the process ends itself, should nobody be left to end it.
+    """
+
+    part: Part
+    claim: Claim
+    system: System
+    seconds: float
+
+
+def work(requests: Connection, replies: Connection) -> None:
+    """Send None when ready, then a verdict for every request, until no more come."""
+    systems: dict[str, System] = {}
+    equations: dict[str, Equations] = {}
+
+    def resolved(name: str) -> Equations:
+        if name not in equations:
+            equations[name] = derive(systems[name])
+        return equations[name]
+
+    desk = Desk(resolved)
+    replies.send(None)
+    while True:
+        try:
+            request: Request = requests.recv()
+        except EOFError:
+            return
+        systems[request.part.system] = request.system
+        _alarm(request.seconds)
+        replies.send(_verdict(desk, request))
+        _alarm(0)
+
+
+def _verdict(desk: Desk, request: Request) -> Verdict:
+    unread = partial(Verdict, Answer.UNREAD, request.claim.context)
+    try:
+        return desk.verdict(request.part, request.claim)
+    except MemoryError:
+        return unread(reason="not decided: it needs more memory than a claim is allowed")
+    except Exception as error:  # a fault of the program's is told, and the others go on
+        return unread(reason=f"unexpected {type(error).__name__}: {error}"[:500])
+
+
+def _alarm(seconds: float) -> None:
+    """Have the kernel end this process after some time; after none at all, do not."""
+    if hasattr(signal, "setitimer"):
+        signal.setitimer(signal.ITIMER_REAL, seconds)
+
+
+def _bound_memory(most: int) -> None:
+    with suppress(ImportError, ValueError, OSError):  # where there is no such bound
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_AS, (most, most))
+
+
+def _own_output() -> int:
+    """The pipe to whoever asks, out of reach of anything that prints."""
+    pipe = os.dup(sys.stdout.fileno())
+    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
+    return pipe
+
+
+def main() -> None:
+    """Work for the process at the other end of standard input and output."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # who asks ends us
+    _bound_memory(int(sys.argv[1]))
+    replies = Connection(_own_output(), readable=False)
+    with suppress(BrokenPipeError):
+        work(Connection(os.dup(sys.stdin.fileno()), writable=False), replies)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,69 @@
+"""Judge every claim of a document, by default all equations of the problem set."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from pathlib import Path
+
+from polhode.base import Exit, StoreError
+from polhode.catalogue import audit, document_of
+from polhode.claims import Document, Report
+from polhode.cli._document import print_document
+from polhode.cli._parser import Parser
+from polhode.cli._systems import entry_of
+from polhode.model import System
+
+
+def configure(parser: Parser) -> None:
+    """Add the options of the command."""
+    parser.add_argument(
+        "file", nargs="?", type=Path, metavar="FILE", help="a document of claims, in TOML"
+    )
+    parser.add_argument(
+        "--only", action="append", default=[], metavar="ID", help="judge this claim (repeatable)"
+    )
+    parser.add_argument("--html", type=Path, metavar="F", help="write the report as a page")
+    parser.add_argument("--json", action="store_true", help="print one JSON document")
+
+
+def run(options: Namespace) -> int:
+    """Judge them and print the report; 0 where all hold, 1 where one fails, 2 where one is unread.
+
+    Raises:
+        StoreError: for a document that cannot be read, and a page that cannot be written.
+    """
+    document = _read(options.file)
+    report = audit(document, systems=_own(document, options.file), only=options.only)
+    if options.html is not None:
+        from polhode.view import audit_page
+
+        audit_page(report, options.html)
+    if options.json:
+        print_document(report.to_json())
+    else:
+        print(report)
+    return _code(report)
+
+
+def _read(path: Path | None) -> Document:
+    try:
+        return document_of(path)
+    except OSError as error:
+        raise StoreError(
+            f"{path} cannot be read ({error.strerror})", expected="a document of claims in TOML"
+        ) from error
+
+
+def _own(document: Document, path: Path | None) -> dict[str, System]:
+    """Systems in Python files that the document names, as seen from its folder."""
+    folder = Path() if path is None else path.parent
+    named = {part.system for part in document.parts if ".py" in part.system}
+    return {name: entry_of(str(folder / name)).build() for name in sorted(named)}
+
+
+def _code(report: Report) -> int:
+    if report.left:
+        return Exit.INTERRUPTED
+    if report.failures:
+        return Exit.FAILED
+    return Exit.REFUSED if report.counts["unread"] else Exit.DONE
