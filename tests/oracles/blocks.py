@@ -19,34 +19,52 @@ class Shaken:
     g: float
 
     @property
-    def slips(self) -> float:
-        """First instant at which the sheet accelerates by μ_s g."""
-        return float(np.arcsin(self.mu_static * self.g / (self.reach * self.w**2))) / self.w
-
-    def speed(self, t: float) -> float:
-        """Of the block, slipping since then: the sheet decelerates faster than friction can."""
-        start = self.reach * self.w * np.cos(self.w * self.slips)
-        return float(start - self.mu * self.g * (t - self.slips))
-
-    def slip(self, t: float) -> float:
-        return float(self.speed(t) - self.reach * self.w * np.cos(self.w * t))
+    def crest(self) -> float:
+        """The static limit over the largest acceleration of the sheet: sine of the phase then."""
+        return float(self.mu_static * self.g / (self.reach * self.w**2))
 
     @property
-    def sticks(self) -> float:
-        """When the sheet has its speed again."""
-        looks = self.slips + np.linspace(1e-3, 1.0, 4000) * 2 * np.pi / self.w
-        signs = np.array([self.slip(t) for t in looks])
+    def slips(self) -> float:
+        """First instant at which the sheet accelerates by μ_s g."""
+        return float(np.arcsin(self.crest)) / self.w
+
+    def slip(self, phase: float) -> float:
+        """Over R w, a phase after it has begun: cos φ − (μ/μ_s) θ sin φ − cos(φ + θ)."""
+        sine = self.crest
+        cosine = np.sqrt((1 - sine) * (1 + sine))
+        lag = _sine_less_angle(phase) + phase * (1 - self.mu / self.mu_static)
+        return float(2 * cosine * np.sin(phase / 2) ** 2 + sine * lag)
+
+    @property
+    def lasts(self) -> float:
+        """Phase over which it slips: until the sheet has its speed again."""
+        looks = np.geomspace(1e-9, 2 * np.pi, 20_000)
+        signs = np.array([self.slip(phase) for phase in looks])
         after = int(np.argmax(signs < 0))
         return float(brentq(self.slip, looks[after - 1], looks[after], xtol=1e-15, rtol=1e-14))
 
     @property
+    def sticks(self) -> float:
+        return self.slips + self.lasts / self.w
+
+    @property
     def shift(self) -> float:
         """How far it has slipped in between, m."""
-        t = self.sticks - self.slips
-        start = self.reach * self.w * np.cos(self.w * self.slips)
-        own = start * t - self.mu * self.g * t * t / 2
-        sheet = self.reach * (np.sin(self.w * self.sticks) - np.sin(self.w * self.slips))
-        return float(own - sheet)
+        steps, weights = np.polynomial.legendre.leggauss(40)
+        half = self.lasts / 2
+        slips = np.array([self.slip(half * (1 + step)) for step in steps])
+        return float(self.reach * half * (weights @ slips))
+
+
+def _sine_less_angle(angle: float) -> float:
+    """sin θ − θ, to its last digit."""
+    if abs(angle) > 0.5:
+        return float(np.sin(angle) - angle)
+    term = total = -(angle**3) / 6
+    for n in range(5, 25, 2):
+        term *= -(angle**2) / (n * (n - 1))
+        total += term
+    return total
 
 
 @dataclass(frozen=True)

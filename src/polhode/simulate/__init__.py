@@ -13,6 +13,7 @@ from polhode.simulate._experiment import NEAR_FLAT as NEAR_FLAT
 from polhode.simulate._experiment import Experiment as Experiment
 from polhode.simulate._forcing import Jump as Jump
 from polhode.simulate._forcing import Pieces as Pieces
+from polhode.simulate._numbers import numbers_for as numbers_for
 from polhode.simulate._saved import load as load
 from polhode.simulate._sheet_file import SheetPath as SheetPath
 from polhode.simulate._sheet_file import read_sheet as read_sheet

@@ -163,10 +163,9 @@ class Abreast:
         self, quantity: str | Symbol | Expr, states: Array, parameters: Array, clock: Array
     ) -> Array:
         """A quantity of many motions, shape (motions,)."""
-        arguments = (*self._lanes.states, *self._dynamics.parameters, CLOCK)
-        function = self._dynamics.function([self._expression(quantity)], arguments)
+        function = self._dynamics.function([self._expression(quantity)], self._lanes.arguments)
         with np.errstate(all="ignore"):
-            (found,) = function(*states, *parameters, clock)
+            (found,) = function(*states, *[0.0] * len(self._idle), *parameters, clock)
         return np.array(np.broadcast_to(found, clock.shape), dtype=float)
 
     # -- what is integrated ---------------------------------------------------------------------
@@ -201,12 +200,17 @@ class Abreast:
         places = self._dynamics.program(expressions, given).reads
         return {given[i] for i in places} & set(self._rates)
 
+    @property
+    def _idle(self) -> tuple[Symbol, ...]:
+        return tuple(symbol for symbol in self._rates if symbol not in self._states)
+
     @cached_property
     def _lanes(self) -> Lanes:
         rates = self._rates
         return Lanes(
             self._dynamics,
             self._states,
+            self._idle,
             [rates[s] for s in self._states],
             [ending.positive for ending in self.endings],
             self._plan.tolerance,

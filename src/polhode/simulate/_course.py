@@ -29,6 +29,7 @@ _LANDED = 1e-10  # the same at an instant at which the slip velocity turns round
 _REBOUND = 1e-13  # of the hardest landing: a rebound that is none
 _STIFF = 30.0  # ratio of the times of slipping and of turning the slip that explicit steps bear
 _MOST_EVENTS = 50_000
+_MOST_AT_ONCE = 32  # changes of mode while no time passes: far more than contacts can have
 _STILL = 1e-14  # approach, relative to the velocities it is the difference of, that is none
 
 
@@ -66,8 +67,8 @@ class Walk:
         near_flat: value at which an expression that must stay positive, such as sin θ, counts as
             gone.
         progress: told of every step.
-    """
         until: what, once it happens, ends the motion.
+    """
 
     def __init__(
         self,
@@ -79,8 +80,8 @@ class Walk:
         self._machine = machine
         self._near_flat = near_flat
         self._progress = progress
-        self._segments: list[Segment] = []
         self._until = until
+        self._segments: list[Segment] = []
         self._changes: list[Change] = []
         self._hardest = 0.0
 
@@ -104,11 +105,16 @@ class Walk:
             self._changes.append(Change(time, kind, before, after))
             if len(self._changes) > _MOST_EVENTS:
                 raise _chattering(time)
+            if self._stands_still():
+                raise _undecided(time, {before, after})
         return Course(tuple(self._segments), tuple(self._changes), self._segments[-1].mode)
 
-    # -- one mode -------------------------------------------------------------------------------
+    def _stands_still(self) -> bool:
+        """Whether mode has followed mode for long while no time has passed."""
+        last = self._changes[-_MOST_AT_ONCE:]
+        passed = last[-1].time - last[0].time
+        return len(last) == _MOST_AT_ONCE and passed <= 8 * np.spacing(last[-1].time)
 
-    def _stay(self, entry: Entry, end: float) -> _Outcome:
     def _last(self, outcome: _Outcome) -> Change | None:
         """The change that ends the motion, if this is one."""
         kind = outcome.guard.kind if outcome.guard is not None else ""
@@ -117,6 +123,9 @@ class Walk:
             return Change(time, "goes flat", mode, "near-flat")
         return Change(time, kind, mode, mode) if kind in self._until else None
 
+    # -- one mode -------------------------------------------------------------------------------
+
+    def _stay(self, entry: Entry, end: float) -> _Outcome:
         """As long as the mode lasts."""
         mode = self._machine.mode(entry.phases)
         begin = now = entry.place.time
@@ -133,6 +142,8 @@ class Walk:
             part, guard = stretch(mode, entry, state, (now, limit))
             parts.append(part)
             now, state = part.end, state_at(part, part.end)
+            if part.solution.stop is Stop.INTERRUPTED:
+                break
             if now in drive.jerks:
                 break
         own = {s: state[s] for s in mode.dynamics.states if s not in mode.dynamics.carried}
@@ -142,8 +153,6 @@ class Walk:
 
     def _hop(self, mode: ModeMachine, entry: Entry) -> float:
         """How far ahead a contact that has just opened may be expected to be closed again, s.
-            if part.solution.stop is Stop.INTERRUPTED:
-                break
 
         A short hop within a long step would be lost in the rounding of the long one.
         """
@@ -333,10 +342,12 @@ class Walk:
             size, psi = values[-2], values[-1]
             return np.vstack([values[:-2], size * np.cos(psi), size * np.sin(psi)])
 
-        solution = Solution(
-            (*symbols, *slip_symbols(contact)), {}, found.times, Stop.PAUSE, None, at
+        stop, vanished = (
+            (Stop.VANISHED, sorted(entry.slips).index(i)) if found.ends else (Stop.PAUSE, None)
         )
-        part = Part(entry.place.time, float(found.times[-1]), solution, constants)
+        times = np.append(found.times[:-1], found.end)
+        solution = Solution((*symbols, *slip_symbols(contact)), {}, times, stop, vanished, at)
+        part = Part(entry.place.time, found.end, solution, constants)
         return self._cut(mode, entry, part)
 
     def _grip(self, mode: ModeMachine, state: Array, entry: Entry, i: int) -> float:
@@ -414,6 +425,21 @@ class _Outcome:
     guard: Guard | None
     place: Place
 
+    @property
+    def interrupted(self) -> bool:
+        """Whether who listens had enough."""
+        return self.segment.parts[-1].solution.stop is Stop.INTERRUPTED
+
+
+def _undecided(time: float, modes: set[str]) -> NumericError:
+    # Where N vanishes while unlimited friction still pulls, the contact cannot open, for without
+    # friction it would close again; nor can it hold, for it would have to pull (Painlevé).
+    return NumericError(
+        f"at t = {time:.9g} s no mode can follow: {' and '.join(sorted(modes))} exclude each other",
+        expected="friction that gives way before the contact has to open",
+        advice="give the contact a friction coefficient mu, or end the motion before that time",
+    )
+
 
 def _chattering(time: float) -> NumericError:
     return NumericError(
@@ -421,7 +447,3 @@ def _chattering(time: float) -> NumericError:
         expected="a motion that settles",
         advice="it chatters: end the motion before that time, or change the friction",
     )
-    @property
-    def interrupted(self) -> bool:
-        """Whether who listens had enough."""
-        return self.segment.parts[-1].solution.stop is Stop.INTERRUPTED

@@ -15,12 +15,19 @@ from numpy.polynomial import legendre
 from threadpoolctl import threadpool_limits
 
 from polhode.base import NumericError
+from polhode.simulate._crossing import bisected
 from polhode.simulate._integrators import Array
 
 _STAGES = 9
 _RESOLVED = 1e-14  # last coefficients of a step, relative to the largest
 _ROUNDED = 1e-11  # the same, of a series that a shorter step resolves no better: rounding
 _TURN = 10.0  # rad: what the rounding of an angle is relative to, as that of a small difference
+_NOISE = 1e-15  # of a slip speed, relative to its largest within a step
+_PARTS = np.concatenate([np.geomspace(1e-6, 0.02, 30), np.linspace(0.03, 1.0, 98)])
+_WELL_INSIDE, _CLOSER = (
+    0.2,
+    0.01,
+)  # part of a step at which slip ends in it that calls for a shorter
 _NEWTON = 12
 _SHORTEST = 1e-13
 
@@ -50,10 +57,14 @@ class Creep:
     Attributes:
         times: ends of the steps, s.
         series: Legendre coefficients of the states, shape (steps, orders, states).
+        end: how far it goes; within the last step if the slip vanishes there, s.
+        ends: whether the slip vanishes at the end.
     """
 
     times: Array
     series: Array
+    end: float
+    ends: bool
 
     def at(self, times: Array) -> Array:
         """States, shape (states, times)."""
@@ -106,28 +117,36 @@ def _followed(
 ) -> Creep:
     now, state = begin, start
     times, series = [begin], list[Array]()
-    length = min(end - begin, 1e-3)
-    unresolved = np.inf
-    while now < end:
+    length, unresolved, ends = min(end - begin, 1e-3), np.inf, False
+    shortest = _SHORTEST * max(end - begin, abs(begin))
+    while now < end and not ends:
         length = min(length, end - now)
         step = _step(rates, now, length, state, pull)
+        if length < shortest and series:
+            break
+        if length < shortest:
+            raise NumericError(
+                f"slip that begins at t = {begin:.9g} s cannot be followed",
+                expected="a direction in which it grows steadily",
+            )
         if step is None or not step.is_resolved(unresolved):
             unresolved = np.inf if step is None else step.tail
             length /= 4
-            if length < _SHORTEST * max(end - begin, abs(begin)):
-                raise NumericError(
-                    f"slip that begins at t = {begin:.9g} s cannot be followed",
-                    expected="a direction in which it grows steadily",
-                )
             continue
-        state, unresolved = step.end, np.inf
-        now = min(now + length, end)
-        times.append(now)
+        unresolved = np.inf
+        last = step.vanishing
+        if last is not None and last < _WELL_INSIDE and length > 4 * shortest:
+            length *= max(last, _CLOSER)
+            continue
+        ends = last is not None
+        state = step.end
+        times.append(min(now + length, end))
         series.append(step.series)
-        if state[-2] <= 0 or enough(now - begin, state):
+        now = now + length * last if last is not None else times[-1]
+        if enough(now - begin, state):
             break
         length *= 2
-    return Creep(np.array(times), np.array(series))
+    return Creep(np.array(times), np.array(series), now, ends)
 
 
 @dataclass(frozen=True)
@@ -141,6 +160,23 @@ class _Step:
     def is_resolved(self, before: float) -> bool:
         """Whether the series ends, or ends no sooner than over a step four times as long did."""
         return self.tail <= _RESOLVED or before / 4 <= self.tail <= _ROUNDED
+
+    @property
+    def vanishing(self) -> float | None:
+        """The part of the step after which ρ vanishes (not where it begins to grow), if it does."""
+        series = self.series[:, -2]
+
+        def size(part: float) -> float:
+            return float(legendre.legval(2 * part - 1, series))
+
+        noise = _NOISE * float(np.max(np.abs(series)))
+        sizes = legendre.legval(2 * _PARTS - 1, series)
+        beyond = np.flatnonzero(sizes < -noise)
+        if not len(beyond):
+            return None
+        after = int(beyond[0])
+        before = max(_PARTS[:after][sizes[:after] > 0].tolist(), default=0.0)
+        return bisected(size, before, float(_PARTS[after]))
 
 
 def _step(rates: Rates, begin: float, length: float, start: Array, pull: float) -> _Step | None:
@@ -186,11 +222,11 @@ def _system(
     leading[-1] = stages[-2]
     residual = leading * slopes - rates(stages, times)
     tiny = 1e-30
-    inner = np.empty((states, states, count))
-    for j in range(states):
-        moved = stages.astype(complex)
-        moved[j] += 1j * tiny
-        inner[:, j] = -np.imag(rates(moved, times)) / tiny
+    moved = np.repeat(stages[:, None, :].astype(complex), states, axis=1)
+    each = np.arange(states)
+    moved[each, each] += 1j * tiny
+    found = rates(moved.reshape(states, -1), np.tile(times, states))
+    inner = -np.imag(found).reshape(moved.shape) / tiny
     inner[-1, -2] += slopes[-1]
     full = np.zeros((states, count, states, count))
     spread = _SLOPES[1:, 1:] / length

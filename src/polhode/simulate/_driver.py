@@ -10,10 +10,10 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.algebra import Symbol, arrays
+from polhode.algebra import Program, Symbol, arrays
 from polhode.base import Enough, NumericError, Progress
 from polhode.simulate._crossing import bisected
-from polhode.simulate._flow import Flow, Stage
+from polhode.simulate._flow import Flow
 from polhode.simulate._integrators import LOOKS, Array, Leg, Stepper, broken
 from polhode.simulate._numbers import DOUBLES, Numbers
 from polhode.simulate._quadrature import Integral, integral
@@ -120,7 +120,9 @@ def integrate(
     known = size
     for stage in flow.stages:
         own = start[known : known + len(stage.symbols)]
-        at = _with_stage(at, _rates(flow, stage, parameters), own, steps)
+        at = _with_stage(at, _values(flow, stage.program, parameters), own, steps)
+        if stage.known is not None:
+            at = _with_known(at, _of_time(flow, stage.known, parameters), span[0])
         known += len(stage.symbols)
     return Solution(flow.symbols, flow.turned, steps, path.stop, vanished, at)
 
@@ -277,12 +279,31 @@ def _with_stage(
     return at
 
 
-def _rates(flow: Flow, stage: Stage, parameters: Array) -> Callable[[Array, Array], Array]:
-    function = stage.program.function(arrays())
+def _with_known(inner: States, known: States, begin: float) -> States:
+    """The same states, the last of them with what they have by themselves since the beginning."""
+    first = known(np.array([begin]))
 
-    def rates(states: Array, times: Array) -> Array:
+    def at(times: Array) -> Array:
+        states = inner(times)
+        states[-len(first) :] += known(times) - first
+        return states
+
+    return at
+
+
+def _values(flow: Flow, program: Program, parameters: Array) -> Callable[[Array, Array], Array]:
+    """Of a program of a stage, from the states before it and the times."""
+    function = program.function(arrays())
+
+    def values(states: Array, times: Array) -> Array:
         later = np.zeros(len(flow.symbols) - len(states))
-        values = function(*states, *later, *parameters, times)
-        return np.array([np.broadcast_to(value, times.shape) for value in values])
+        found = function(*states, *later, *parameters, times)
+        return np.array([np.broadcast_to(value, times.shape) for value in found])
 
-    return rates
+    return values
+
+
+def _of_time(flow: Flow, program: Program, parameters: Array) -> States:
+    """Of a program of a stage that reads no states."""
+    values = _values(flow, program, parameters)
+    return lambda times: values(np.empty((0, len(times))), times)

@@ -24,6 +24,7 @@ from polhode.simulate._numbers import DOUBLES, Precision, numbers_for
 from polhode.simulate._precisely import Wanted, precisely
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate._validity import pulling_contacts, refuse_lost_side
+from polhode.simulate._values import evaluate
 from polhode.simulate._watching import with_events
 
 SAMPLES = 1001
@@ -148,7 +149,8 @@ def _with_pulls(trajectory: Trajectory) -> tuple[Event, ...]:
 
 
 def _duration(value: Any) -> float:
-    duration = to_si(value, TIME, "duration")
+    given = evaluate(value, {}) if isinstance(value, Expr) else value
+    duration = to_si(given, TIME, "duration")
     if duration <= 0:
         raise UnitError(f"a duration of {duration:g} s", expected="a positive one")
     return duration

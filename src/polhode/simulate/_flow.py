@@ -14,18 +14,25 @@ from math import lcm, pi
 
 from polhode.algebra import Expr, Kind, Op, Program, Symbol
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
+from polhode.simulate._primitives import primitive
 
 
 @dataclass(frozen=True)
 class Stage:
     """States whose rates follow from the states of earlier stages (and, in the core, their own).
 
-    The program computes the rates. Its arguments are all symbols of the flow, of which later ones
-    are not used, then parameters and time.
+    Arguments of the programs are all symbols of the flow, of which later ones are not used, then
+    parameters and time.
+
+    Attributes:
+        symbols: the states.
+        program: their rates; of a quadrature, less those of what is known of it.
+        known: of each quadrature the part that is a function of time.
     """
 
     symbols: tuple[Symbol, ...]
     program: Program
+    known: Program | None = None
 
 
 @dataclass(frozen=True)
@@ -81,10 +88,12 @@ def flow_of(dynamics: Dynamics, *, reduced: bool) -> Flow:
     periods = tuple(period_in(program, i) for i in range(len(core)))
     turned = {s: _less_turns(s) for s, period in zip(core, periods, strict=True) if period}
     arguments = (*core, *turned.values(), *given)
-    stages = (
-        Stage(layer, dynamics.program([rates[s] for s in layer], arguments, turned))
-        for layer in layers
-    )
+    stages = []
+    for layer in layers:
+        parts = [primitive(dynamics, s, rates[s]) for s in layer]
+        rests = dynamics.program([part.rest for part in parts], arguments, turned)
+        known = dynamics.program([part.known for part in parts], arguments, turned)
+        stages.append(Stage(layer, rests, known if any(p.known for p in parts) else None))
     return Flow(Stage(core, program), periods, turned, tuple(stages), dynamics.parameters)
 
 
@@ -111,13 +120,15 @@ def _influences(dynamics: Dynamics, rates: dict[Symbol, Expr]) -> dict[Symbol, s
 
 
 def _peeled(influences: dict[Symbol, set[Symbol]]) -> Iterator[tuple[Symbol, ...]]:
-    """Layers of states that influence none of those within; what remains is the core."""
+    """Layers of states that influence none of those within; at least one remains as the core."""
     remaining = dict(influences)
-    while remaining:
+    while len(remaining) > 1:
         felt = set[Symbol]().union(*remaining.values())
         layer = tuple(symbol for symbol in remaining if symbol not in felt)
-        if not layer or len(layer) == len(remaining):
+        if not layer:
             return
+        if len(layer) == len(remaining):
+            layer = layer[:-1]
         yield layer
         remaining = {s: needs for s, needs in remaining.items() if s not in layer}
 

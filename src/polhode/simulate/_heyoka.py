@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import sqlite3
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache as once
 from functools import lru_cache
 from itertools import count
+from pathlib import Path
 from threading import Lock
 from typing import Any
 
@@ -20,6 +22,8 @@ from polhode.algebra import Arithmetic, Kind, Program
 from polhode.base import StoreError, cache
 from polhode.simulate._flow import Flow
 from polhode.simulate._integrators import LOOKS, Array, Leg, Stepper, Watch, broken
+
+_LONG = 3000  # operations
 
 _importing = Lock()
 _compiling = Lock()
@@ -48,8 +52,17 @@ class Taylor:
 def _compiled(program: Program, size: int, tolerance: float) -> Any:
     """An integrator that is only ever copied: each holds the motion it is at."""
     return library().taylor_adaptive(
-        rates_of(program, size, float), [0.0] * size, tol=tolerance, opt_level=0
+        rates_of(program, size, float),
+        [0.0] * size,
+        tol=tolerance,
+        opt_level=0,
+        compact_mode=is_long(program),
     )
+
+
+def is_long(program: Program) -> bool:
+    """Whether its code, written out, would not find room on the stack."""
+    return program.operations > _LONG
 
 
 def rates_of(program: Program, size: int, number: Callable[[Fraction], Any]) -> list[Any]:
@@ -110,11 +123,28 @@ def library() -> Any:
     """The heyoka module, its cache of compiled code set to a folder of polhode's."""
     with _importing, _without_sympy():
         import heyoka
+    heyoka.set_logger_level_critical()  # its words would come on standard output
     try:
-        heyoka.llvm_state.set_diskcache_path(cache.folder("heyoka"))
+        kept = cache.folder("heyoka")
+        _drop_damaged(kept / "cache.db")
+        heyoka.llvm_state.set_diskcache_path(kept)
     except StoreError:
         heyoka.llvm_state.set_diskcache_enabled(False)
     return heyoka
+
+
+def _drop_damaged(database: Path) -> None:
+    """Take away what is no data base, so that it is made anew."""
+    if not database.exists():
+        return
+    try:
+        with closing(sqlite3.connect(database)) as opened:
+            opened.execute("PRAGMA schema_version")
+    except sqlite3.OperationalError:  # another process holds it
+        return
+    except sqlite3.DatabaseError:
+        for part in database.parent.glob(f"{database.name}*"):
+            part.unlink(missing_ok=True)
 
 
 @contextmanager

@@ -48,6 +48,7 @@ class Lanes:
     Args:
         dynamics: the equations.
         states: what is integrated.
+        idle: other states, which nothing that is integrated depends on.
         rates: of the states.
         guards: positive while the motion lasts.
         tolerance: relative, of one step.
@@ -58,6 +59,7 @@ class Lanes:
         self,
         dynamics: Dynamics,
         states: Sequence[Symbol],
+        idle: Sequence[Symbol],
         rates: Sequence[Expr],
         guards: Sequence[Expr],
         tolerance: float | None,
@@ -65,6 +67,8 @@ class Lanes:
         driven: bool,
     ) -> None:
         self.states = tuple(states)
+        self._rest = [0.0] * len(idle)
+        self.arguments = (*states, *idle, *dynamics.parameters, CLOCK)
         self._dynamics = dynamics
         self._rates = tuple(rates)
         self._guards = tuple(guards)
@@ -111,8 +115,8 @@ class Lanes:
 
     def _scales(self, start: Array, parameters: Array) -> Array:
         """What brings the guards to order one, shape (guards, motions)."""
-        arguments = (*self.states, *self._dynamics.parameters, CLOCK)
-        values = self._dynamics.function(self._guards, arguments)(*start, *parameters, 0.0)
+        function = self._dynamics.function(self._guards, self.arguments)
+        values = function(*start, *self._rest, *parameters, 0.0)
         sizes = [np.broadcast_to(np.abs(v), start.shape[1:]) for v in values]
         rows = np.array(sizes, dtype=float).reshape(len(sizes), start.shape[1])
         return np.asarray(1 / np.where(rows > 0, rows, 1.0))
@@ -125,8 +129,8 @@ class Lanes:
         states = [heyoka.make_vars(f"x{i}") for i in range(size)]
         constants = [heyoka.par[i] for i in range(len(own))]
         arithmetic = Arithmetic.of(heyoka, lambda value: heyoka.expression(float(value)))
-        program = self._dynamics.program((*self._rates, *self._guards), (*self.states, *own, CLOCK))
-        values = program.function(arithmetic)(*states, *constants, heyoka.time)
+        program = self._dynamics.program((*self._rates, *self._guards), self.arguments)
+        values = program.function(arithmetic)(*states, *self._rest, *constants, heyoka.time)
         rates = [heyoka.expression(value) for value in values[:size]]
         if not self._guards:
             return self._batch([(x, rate) for x, rate in zip(states, rates, strict=True)], [])

@@ -86,7 +86,7 @@ class ModeMachine:
         self._machine = machine
         carried, meanings = _carried(mode)
         idle = tuple(machine.constants)
-        known = {**mode.lifted, **_silent(machine.automaton, mode)}
+        known = {**mode.lifted, **_silent(machine.automaton, mode), **_slips(mode, carried)}
         self.dynamics = Dynamics(
             mode.equations, machine.drive.expressions, idle, carried, meanings, known
         )
@@ -285,6 +285,13 @@ def _silent(modes: Automaton, mode: Mode) -> dict[Symbol, Expr]:
     """Reactions of contacts that are open, by name: nothing."""
     own = mode.equations.components
     return {Symbol(n): ZERO for n in modes.together.equations.components if n not in own}
+
+
+def _slips(mode: Mode, carried: Mapping[Symbol, Expr]) -> dict[Symbol, Expr]:
+    """Slip velocities of the contacts that are closed, where they follow from the state."""
+    closed = (t for t, phase in zip(mode.touches, mode.phases, strict=True) if not phase.flies)
+    slips = (zip(slip_symbols(t.contact), t.slip, strict=True) for t in closed)
+    return {symbol: slip for pair in slips for symbol, slip in pair if symbol not in carried}
 
 
 def _carried(mode: Mode) -> tuple[dict[Symbol, Expr], dict[Symbol, Expr]]:

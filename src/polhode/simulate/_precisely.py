@@ -101,7 +101,7 @@ def _switch(time: float, kind: str, numbers: Numbers) -> NumericError:
     return NumericError(
         f"{kind} at t = {time:.15g} s, in {numbers.name} precision",
         expected="a motion within one contact mode: only in doubles are modes followed",
-        advice=f"end before {time:.6g} s, and start the next mode from there",
+        advice="end before that time, and start the next mode from there",
     )
 
 

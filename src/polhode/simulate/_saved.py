@@ -21,6 +21,7 @@ from polhode.simulate._event import Event, placed
 from polhode.simulate._follow import AS_DECLARED
 from polhode.simulate._integrators import chosen
 from polhode.simulate._machine import Machine
+from polhode.simulate._numbers import DOUBLES
 from polhode.simulate._sampling import samples_of
 from polhode.simulate._segment import Part, Segment
 from polhode.simulate._store import read_archive, write_archive
@@ -51,6 +52,12 @@ def save(run: Trajectory, path: str | Path) -> None:
         StoreError: where the file cannot be written, h5py is not installed, or the system has
             parts of classes that are not polhode's own.
     """
+    if run.precision != DOUBLES.name:
+        raise StoreError(
+            f"a motion in {run.precision} precision, to be kept in doubles",
+            expected="a motion in doubles",
+            advice="save run.rounded(), or its samples with to_csv, which keeps all digits",
+        )
     write_archive(path, archive_of(run, samples_of(run)))
 
 
