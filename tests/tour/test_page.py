@@ -20,6 +20,8 @@ from polhode.view import svg_of
 
 VOID = {"meta", "link", "img", "source", "br", "hr"}
 SYSTEMS = list(CATALOGUE)
+PROBLEMS = list(dict.fromkeys(name.partition("/")[0] for name in CATALOGUE))
+PAGES = ["index", *PROBLEMS]
 
 
 class Page(HTMLParser):
@@ -50,14 +52,14 @@ class Page(HTMLParser):
         return [attributes for name, attributes in self.elements if name == tag]
 
 
-@pytest.fixture(scope="module")
-def page(tour):
-    return Page(tour.page)
+@pytest.fixture(params=PAGES)
+def page(tour, request):
+    return Page(tour.pages[request.param])
 
 
 def section(tour, name):
-    anchor = name.replace("/", "-")
-    (found,) = re.findall(rf'<section id="{anchor}">.*?</section>', tour.page, re.DOTALL)
+    anchor, text = name.replace("/", "-"), tour.pages[name.partition("/")[0]]
+    (found,) = re.findall(rf'<section id="{anchor}">.*?</section>', text, re.DOTALL)
     return found
 
 
@@ -71,26 +73,32 @@ def test_every_tag_is_closed_and_every_id_is_unique(page):
 
 
 def test_nothing_is_fetched_from_elsewhere(tour, page):
-    for tag, attributes in page.elements:
+    for _tag, attributes in page.elements:
         for name in ("src", "srcset", "href", "action", "data", "poster"):
-            target = attributes.get(name, "#")
-            assert target.startswith(("#", "figures/")) or (tag, target) == ("link", "data:,")
-    style = tour.page.partition("<style>")[2].partition("</style>")[0]
-    assert "url(" not in style
-    assert "@import" not in style
-    assert "http" not in re.sub(r"<script.*?</script>", "", tour.page, flags=re.DOTALL)
+            target = attributes.get(name, "#").partition("#")[0]
+            assert not target or (tour.folder / target).is_file() or target == "data:,"
+    for text in tour.pages.values():
+        style = text.partition("<style>")[2].partition("</style>")[0]
+        assert "url(" not in style
+        assert "@import" not in style
     assert [s for s in page.all("script") if s.get("type") != "application/json"] == []
 
 
-def test_every_link_leads_somewhere(page):
-    ids = {attributes.get("id") for _, attributes in page.elements}
-    targets = [a["href"] for a in page.all("a")]
-    assert len(targets) >= len(SYSTEMS)
-    assert all(target.removeprefix("#") in ids for target in targets)
+def test_every_link_leads_somewhere(tour):
+    pages = {name: Page(text) for name, text in tour.pages.items()}
+    ids = {name: {a.get("id") for _, a in page.elements} for name, page in pages.items()}
+    assert sorted(tour.pages) == sorted(PAGES)
+    links = [a["href"] for page in pages.values() for a in page.all("a")]
+    assert {f"{name}.html" for name in PAGES} <= set(links)
+    for link in links:
+        target, _, anchor = link.partition("#")
+        assert not anchor or anchor in ids[target.removesuffix(".html")]
 
 
-def test_every_picture_is_there_twice_and_described(tour, page):
-    images, sources = page.all("img"), page.all("source")
+def test_every_picture_is_there_twice_and_described(tour):
+    pages = [Page(tour.pages[name]) for name in PROBLEMS]
+    images = [image for page in pages for image in page.all("img")]
+    sources = [source for page in pages for source in page.all("source")]
     assert len(images) == len(sources) == sum(len(pictures_of(e)) for e in CATALOGUE.values())
     for image, source in zip(images, sources, strict=True):
         assert image["alt"]
@@ -103,6 +111,29 @@ def test_every_picture_is_there_twice_and_described(tour, page):
             )
 
 
+def test_the_front_page_shows_every_problem(tour):
+    cards = [a for a in Page(tour.pages["index"]).all("a") if a.get("class") == "card"]
+    assert [card["href"] for card in cards] == [f"{name}.html" for name in PROBLEMS]
+    for image in Page(tour.pages["index"]).all("img"):
+        assert (tour.folder / image["src"]).stat().st_size > 5000
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_every_system_can_be_seen_in_motion(tour, name):
+    target = f"{name.replace('/', '-')}-3d.html"
+    (frame,) = list(Page(section(tour, name)).all("iframe"))
+    assert (frame["src"], frame["sandbox"]) == (target, "allow-scripts")
+    assert 500_000 < (tour.folder / target).stat().st_size < 1_500_000
+
+
+def test_claims_stand_with_their_verdicts(tour):
+    assert "3 claims: " in tour.pages["index"]
+    rows = {name: tour.pages[name].count("<td>(") for name in PROBLEMS}
+    assert sum(rows.values()) == 3
+    for name, count in rows.items():
+        assert ("What the text claims" in tour.pages[name]) == (count > 0)
+
+
 def test_no_picture_holds_what_is_not_a_number(tour):
     files = list((tour.folder / "figures").glob("*.svg"))
     assert files
@@ -110,9 +141,11 @@ def test_no_picture_holds_what_is_not_a_number(tour):
         assert not re.search(r"\b(nan|inf)\b", path.read_text("utf-8"), re.IGNORECASE)
 
 
-def test_nothing_is_left_beside_the_page(tour):
-    assert sorted(path.name for path in tour.folder.iterdir()) == ["figures", "index.html"]
-    assert {path.suffix for path in (tour.folder / "figures").iterdir()} == {".svg"}
+def test_nothing_is_left_beside_the_pages(tour):
+    played = [f"{name.replace('/', '-')}-3d" for name in SYSTEMS]
+    left = sorted(path.name for path in tour.folder.iterdir())
+    assert left == sorted(["figures", *(f"{name}.html" for name in (*PAGES, *played))])
+    assert {path.suffix for path in (tour.folder / "figures").iterdir()} == {".svg", ".png"}
 
 
 @pytest.mark.parametrize("name", SYSTEMS)
@@ -139,6 +172,7 @@ def test_every_system_is_told_whole(tour, name):
     entry, found = CATALOGUE[name], section(tour, name)
     headings = re.findall("<h3>(.*?)</h3>", found)
     assert headings == [
+        "In motion",
         "Declaration",
         "Assumptions",
         "Coordinates and speeds",
@@ -156,7 +190,7 @@ def test_every_system_is_told_whole(tour, name):
 
 
 def test_the_page_says_what_it_was_made_with(tour):
-    (text,) = re.findall(r'<script type="application/json".*?>(.*?)</script>', tour.page)
+    (text,) = re.findall(r'<script type="application/json".*?>(.*?)</script>', tour.pages["index"])
     made_with = json.loads(text)
     assert made_with["schema"] == SCHEMA
     assert list(made_with["runs"]) == sorted(SYSTEMS)

@@ -1,62 +1,150 @@
-"""The page of all systems: one document that needs nothing but the figures beside it."""
+"""The site of all systems: a front page, and a page for each problem."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from importlib.resources import files
 
 from polhode.base import installed_version, provenance
+from polhode.tour._claims import Told
 from polhode.tour._html import Markup, joined, tag
-from polhode.tour._sections import picture, section, summary
+from polhode.tour._sections import picture, problem_of, section, summary
+from polhode.tour._verdicts import counted, verdicts
 from polhode.tour._work import Worked
 
 FIGURES = "figures"
-_TITLE = "polhode: seven problems in rigid-body mechanics"
+CARD = (480, 300)
+"""Width and height of the picture of a problem on the front page, pixels."""
+
+_TITLE = "Seven problems in rigid-body mechanics"
 
 
-def page(all_worked: Sequence[Worked]) -> str:
-    """The whole document."""
+@dataclass(frozen=True)
+class Problem:
+    """A problem of the text with its variants.
+
+    Attributes:
+        name: of its page, without ending.
+        systems: worked through, the problem itself first.
+        claims: what the text says about them.
+    """
+
+    name: str
+    systems: tuple[Worked, ...]
+    claims: tuple[Told, ...]
+
+    @property
+    def title(self) -> str:
+        """Heading."""
+        return self.systems[0].entry.title
+
+
+def problems(all_worked: Iterable[Worked], claims: Iterable[Told]) -> tuple[Problem, ...]:
+    """Systems and claims sorted by problem."""
+    found: dict[str, list[Worked]] = {}
+    for worked in all_worked:
+        found.setdefault(problem_of(worked), []).append(worked)
+    told = tuple(claims)
+    return tuple(
+        Problem(name, tuple(systems), tuple(c for c in told if c.problem == name))
+        for name, systems in found.items()
+    )
+
+
+def front_page(all_problems: Sequence[Problem]) -> str:
+    """The page that leads to all others."""
+    cards = tag("div", *map(_card, all_problems), class_="cards")
+    everything = [worked for problem in all_problems for worked in problem.systems]
+    body = (
+        tag("header", tag("h1", _TITLE), *_opening(all_problems)),
+        tag("main", cards, *_closing_table(everything)),
+        tag("footer", *_closing(everything)),
+    )
+    return _document(f"polhode: {_TITLE.lower()}", body)
+
+
+def problem_page(problem: Problem, all_problems: Sequence[Problem]) -> str:
+    """The page of one problem."""
+    body = (
+        tag("nav", *_links(problem, all_problems), aria_label="problems"),
+        tag("header", tag("h1", problem.title)),
+        tag("main", *map(_section, problem.systems), verdicts(problem.claims)),
+        tag("footer", *_closing(problem.systems)),
+    )
+    return _document(f"{problem.title} · polhode", body)
+
+
+def _document(title: str, body: Iterable[Markup]) -> str:
     head = tag(
         "head",
         tag("meta", charset="utf-8"),
         tag("meta", name="viewport", content="width=device-width, initial-scale=1"),
         tag("meta", name="color-scheme", content="light dark"),
-        tag("title", _TITLE),
+        tag("title", title),
         tag("link", rel="icon", href="data:,"),
         tag("style", Markup(_style())),
     )
-    body = tag(
-        "body",
-        tag("header", *_opening(all_worked)),
-        tag("main", *(_section(worked) for worked in all_worked)),
-        tag("footer", *_closing(all_worked)),
-    )
-    return f"<!DOCTYPE html>\n{tag('html', head, body, lang='en')}\n"
+    return f"<!DOCTYPE html>\n{tag('html', head, tag('body', *body), lang='en')}\n"
 
 
 def _style() -> str:
     return files("polhode.tour").joinpath("style.css").read_text("utf-8")
 
 
-def _opening(all_worked: Sequence[Worked]) -> tuple[Markup, ...]:
-    return (
-        tag("h1", "Seven problems in rigid-body mechanics"),
-        tag(
-            "p",
-            "Each system is declared once: its bodies, what touches or holds them, what pulls. "
-            "From that follow, exactly, its equations of motion and every reaction; they are "
-            "checked against a second formulation, run with default numbers, and drawn. "
-            "Everything here was computed when this page was written.",
-        ),
-        summary(all_worked),
-        tag(
-            "p",
-            "Drifts are the largest along the default run: of the energy, relative to its size; "
-            "and of the place of the centre of mass from where the velocities that the "
-            "constraints allow would have taken it.",
-        ),
+def _opening(all_problems: Sequence[Problem]) -> Iterable[Markup]:
+    yield tag(
+        "p",
+        "Each system is declared once: its bodies, what touches or holds them, what pulls. "
+        "From that follow, exactly, its equations of motion and every reaction; they are "
+        "checked against a second formulation, run with default numbers, and drawn. "
+        "Everything here was computed when these pages were written.",
     )
+    claims = [claim for problem in all_problems for claim in problem.claims]
+    if claims:
+        yield tag(
+            "p", "The text they come from was held to account as well: ", counted(claims), "."
+        )
+
+
+def _card(problem: Problem) -> Markup:
+    width, height = CARD
+    image = tag(
+        "img",
+        src=f"{FIGURES}/{problem.name}-card.png",
+        alt="",
+        width=str(width),
+        height=str(height),
+    )
+    words = tag("p", _first_sentence(problem.systems[0].entry.about))
+    return tag(
+        "a", image, tag("h2", problem.title), words, class_="card", href=f"{problem.name}.html"
+    )
+
+
+def _first_sentence(text: str) -> str:
+    return text.partition(". ")[0].rstrip(".") + "."
+
+
+def _closing_table(everything: Sequence[Worked]) -> Iterable[Markup]:
+    yield tag("h2", "All checks")
+    yield summary(everything)
+    yield tag(
+        "p",
+        "Drifts are the largest along the default run: of the energy, relative to its size; "
+        "and of the place of the centre of mass from where the velocities that the "
+        "constraints allow would have taken it.",
+    )
+
+
+def _links(problem: Problem, all_problems: Sequence[Problem]) -> Iterable[Markup]:
+    yield tag("a", "All problems", href="index.html")
+    for other in all_problems:
+        if other.name == problem.name:
+            yield tag("span", other.title, aria_current="page")
+        else:
+            yield tag("a", other.title, href=f"{other.name}.html")
 
 
 def _section(worked: Worked) -> Markup:
@@ -64,7 +152,7 @@ def _section(worked: Worked) -> Markup:
     return section(worked, tag("div", *shown, class_="figures"))
 
 
-def _closing(all_worked: Sequence[Worked]) -> tuple[Markup, ...]:
+def _closing(everything: Sequence[Worked]) -> tuple[Markup, ...]:
     version = installed_version("polhode") or "(not installed)"
     made_with = {
         **provenance(),
@@ -75,7 +163,7 @@ def _closing(all_worked: Sequence[Worked]) -> tuple[Markup, ...]:
                 "duration": worked.run.duration,
                 "integrator": worked.run.integrator,
             }
-            for worked in all_worked
+            for worked in everything
         },
     }
     text = json.dumps(made_with, sort_keys=True).replace("<", "\\u003c")

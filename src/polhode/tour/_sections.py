@@ -34,6 +34,8 @@ def section(worked: Worked, figures: Markup) -> Markup:
         tag("h2", entry.title),
         tag("p", tag("code", f"polhode run {entry.name}", class_="command")),
         tag("p", with_formulas(entry.about)),
+        tag("h3", "In motion"),
+        player(worked),
         tag("h3", "Declaration"),
         tag("pre", tag("code", source_of(entry.build)), tabindex="0"),
         *_assumptions(worked),
@@ -54,7 +56,31 @@ def section(worked: Worked, figures: Markup) -> Markup:
 
 def anchor(worked: Worked) -> str:
     """The fragment of the page's address where the system stands."""
-    return worked.entry.name.replace("/", "-")
+    return stem(worked.entry.name)
+
+
+def stem(name: str) -> str:
+    """Name of the files of a system of the catalogue."""
+    return name.replace("/", "-")
+
+
+def problem_of(worked: Worked) -> str:
+    """The problem that a system of the catalogue belongs to."""
+    return worked.entry.name.partition("/")[0]
+
+
+def player(worked: Worked) -> Markup:
+    """The system in motion: its page in three dimensions, in a frame."""
+    target = f"{stem(worked.entry.name)}-3d.html"
+    frame = tag(
+        "iframe",
+        src=target,
+        title=f"{worked.entry.title}, played",
+        sandbox="allow-scripts",
+        loading="lazy",
+    )
+    whole = tag("p", tag("a", "The page by itself", href=target))
+    return tag("div", frame, whole, class_="player")
 
 
 def picture(worked: Worked, drawing: Drawing, folder: str) -> Markup:
@@ -212,7 +238,7 @@ def summary(all_worked: Iterable[Worked]) -> Markup:
     """A row for every system, linked to where it stands."""
     rows = (
         (
-            tag("a", worked.entry.title, href=f"#{anchor(worked)}"),
+            tag("a", worked.entry.title, href=f"{problem_of(worked)}.html#{anchor(worked)}"),
             str(len(worked.equations.motion)),
             str(len(worked.equations.components)),
             _passed(worked),

@@ -1,0 +1,72 @@
+"""The problem set's claims judged, in a process of their own beside the work on the systems."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from concurrent.futures import Future, ProcessPoolExecutor
+from contextlib import contextmanager
+from dataclasses import dataclass
+from multiprocessing import get_context
+
+import polhode as ph
+from polhode.catalogue import CATALOGUE, problem_set
+from polhode.claims import Judged, audit, read_document
+from polhode.derive import Equations
+
+
+@dataclass(frozen=True)
+class Told:
+    """A claim and its verdict, as text.
+
+    Attributes:
+        id: in the document of claims, such as "12".
+        system: name in the catalogue.
+        stated: LaTeX as the text prints it, or words.
+        is_formula: whether it is LaTeX.
+        answer: holds, approximate, definition, fails or unread.
+        reason: in words.
+        correction: LaTeX of the least change that makes it hold; empty for none.
+    """
+
+    id: str
+    system: str
+    stated: str
+    is_formula: bool
+    answer: str
+    reason: str
+    correction: str
+
+    @property
+    def problem(self) -> str:
+        """The problem it belongs to."""
+        return self.system.partition("/")[0]
+
+
+@contextmanager
+def judging(only: Iterable[str]) -> Iterator[Future[tuple[Told, ...]]]:
+    """The verdicts to come, on claims with some ids or on all of them."""
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as workers:
+        yield workers.submit(judged, tuple(only))
+
+
+def judged(only: tuple[str, ...]) -> tuple[Told, ...]:
+    """Judge the claims of the problem set with these ids, or all of them."""
+    report = audit(read_document(problem_set()), _equations, only=only)
+    return tuple(map(_told, report.judged))
+
+
+def _equations(system: str) -> Equations:
+    return ph.derive(CATALOGUE[system].build())
+
+
+def _told(judged: Judged) -> Told:
+    claim, verdict = judged.claim, judged.verdict
+    return Told(
+        id=claim.id,
+        system=judged.system,
+        stated=claim.printed,
+        is_formula=bool(claim.latex),
+        answer=verdict.answer.value,
+        reason=verdict.reason,
+        correction=verdict.correction.latex if verdict.correction is not None else "",
+    )
