@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import reduce
 
 from polhode.base import ParseError, PolhodeError
 from polhode.claims._asked import Asked
 from polhode.claims._contexts import CONTEXTS, judge
+from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims._notation import Notation
 from polhode.claims._typed import with_given, with_let, with_small
 from polhode.claims._verdict import Answer, Correction, Verdict
@@ -52,19 +53,40 @@ def check(
     return judged_claim(latex, notation, context)
 
 
-def judged_claim(latex: str, notation: Notation, context: str, when: str = "") -> Verdict:
-    """The verdict on a claim read in some notation, with a correction where it fails."""
+def judged_claim(
+    latex: str,
+    notation: Notation,
+    context: str,
+    when: str = "",
+    tell: Callable[[Verdict], object] = lambda verdict: None,
+) -> Verdict:
+    """The verdict on a claim read in some notation, with a correction where it fails.
+
+    A failure is told as soon as it is found, for a correction may take long.
+    """
     try:
         statement = read_latex(latex)
         bound = notation.bound(statement)
         if bound.is_definition:
             return Verdict(Answer.DEFINITION, context, reason=_defined(bound.defined))
-        verdict = judge(replace(notation.asked(statement, {}), when=when), context)
+        asked = replace(notation.asked(statement, {}), when=when)
     except (PolhodeError, ZeroDivisionError) as error:
         return Verdict(Answer.UNREAD, context, reason=str(error))
+    verdict = _judged(asked, context)
     if verdict.answer is not Answer.FAILS or context not in REPAIRED:
         return verdict
+    tell(verdict)
     return _corrected(verdict, statement, notation, context)
+
+
+def _judged(asked: Asked, context: str) -> Verdict:
+    """The verdict, with terms of different dimensions named where it does not hold."""
+    try:
+        verdict = judge(asked, context)
+    except (PolhodeError, ZeroDivisionError) as error:
+        verdict = Verdict(Answer.UNREAD, context, reason=str(error))
+    odd = "" if verdict.holds else dimensions_at_odds(asked)
+    return replace(verdict, reason=f"{verdict.reason}; {odd}") if odd else verdict
 
 
 def _defined(letters: Iterable[Node]) -> str:

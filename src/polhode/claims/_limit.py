@@ -111,7 +111,8 @@ def _judged(asked: Asked, remainders: Sequence[_Remainder]) -> Verdict:
                 reached.append((_HIGHEST + 1, ZERO))
             continue
         order, term = next(iter(left.orders.items()))
-        wanted = min(stated) if stated else left.leading
+        kept = _highest_printed(left.component, asked)
+        wanted = max(min(stated), kept) if stated else left.leading
         if order <= wanted:
             return _failed(left, order, restored(term, asked.small))
         reached.append((order, term))
@@ -126,6 +127,15 @@ def _judged(asked: Asked, remainders: Sequence[_Remainder]) -> Verdict:
         dropped=restored(dropped, asked.small),
         remarks=tuple(_measured(remainders)),
     )
+
+
+def _highest_printed(component: Component, asked: Asked) -> int:
+    """The highest order among several terms whose sum is to vanish: they are printed to be kept."""
+    sides = [scaled(side, asked.small) for side in (component.left, component.right) if side]
+    terms = [powers for side in sides for powers, _ in side.numerator.terms()]
+    if len(sides) > 1 or len(terms) < 2:
+        return 0
+    return max(powers.get(SMALLNESS, 0) for powers in terms)
 
 
 def _failed(left: _Remainder, order: int, term: Expr) -> Verdict:

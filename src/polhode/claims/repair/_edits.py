@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from polhode.claims.latex._tree import (
@@ -23,6 +23,7 @@ from polhode.claims.latex._tree import (
 from polhode.claims.repair._multiplier import Match
 from polhode.claims.repair._places import ONE, Place, negated, over, raised, times
 
+_AXES = (("1", "2", "3"), ("x", "y", "z"), ("rho", "phi", "z"))
 _TURNED = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh", "tan": "cot", "cot": "tan"}
 
 
@@ -213,3 +214,18 @@ def letters(node: Node) -> Iterator[Node]:
     for piece in walk(node):
         if isinstance(piece, Name | Dots | Call):
             yield piece
+
+
+def relabelled(node: Node) -> Iterator[Node]:
+    """The same letter with the label of another axis: L_2 for L_3, a unit vector for another."""
+    match node:
+        case Name(decoration="hat", letter=label):
+            yield from (replace(node, letter=other) for other in _other_labels(label))
+        case Name(subscript=label):
+            yield from (replace(node, subscript=other) for other in _other_labels(label))
+        case Dots(of, count):
+            yield from (Dots(other, count) for other in relabelled(of))
+
+
+def _other_labels(label: str) -> Iterator[str]:
+    return (other for axes in _AXES if label in axes for other in axes if other != label)

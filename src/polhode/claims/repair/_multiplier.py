@@ -22,6 +22,7 @@ _LETTER = "multiplier"
 _CLOSE = 1e-8
 _STEPS = 25
 _LARGEST = 60
+_TRIED = (Fraction(-1), *(Fraction(n, d) for n in range(1, 5) for d in range(1, 5) if n != d))
 
 
 def response(
@@ -66,6 +67,15 @@ def multiplier(function: Callable[[Array], Array], states: int) -> Array | None:
     scale = size.max(axis=1, keepdims=True) + np.abs(at)
     vanishes = np.isfinite(here).all() and (np.abs(here) <= _CLOSE * scale).all()
     return at if vanishes else None
+
+
+def simple_numbers(function: Callable[[Array], Array], states: int) -> Iterator[Fraction]:
+    """The simple factors at which all vanishes; what is not linear may have several."""
+    size = np.abs(function(np.full(states, 1.0))).max(axis=1, keepdims=True)
+    for number in _TRIED:
+        left = function(np.full(states, float(number)))
+        if np.isfinite(left).all() and (np.abs(left) <= _CLOSE * (size + 1)).all():
+            yield number
 
 
 @dataclass(frozen=True)

@@ -2,20 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
-from polhode.algebra import ZERO, Expr
+from polhode.algebra import ZERO, Expr, Vector
 from polhode.base import PolhodeError
 from polhode.claims._asked import Asked
 from polhode.claims._numeric import Array
-from polhode.claims.latex._tree import Dots, Name, Node, Statement
-from polhode.claims.repair._edits import Edit, edits, letters, replaced_by, turned
+from polhode.claims.latex._tree import Call, Dots, Name, Node, Power, Product, Quotient, Statement
+from polhode.claims.repair._edits import Edit, edits, letters, relabelled, replaced_by, turned
 from polhode.claims.repair._missing import missing_terms
-from polhode.claims.repair._multiplier import matches, multiplier, response
+from polhode.claims.repair._multiplier import (
+    Match,
+    matches,
+    multiplier,
+    response,
+    simple_numbers,
+)
 from polhode.claims.repair._own_terms import Response, fitted
 from polhode.claims.repair._places import Place, places, put, tidied
 from polhode.claims.repair._reading import Reading
@@ -67,10 +74,18 @@ def repaired(
 
 
 def _sound(repair: Repaired, reading: Reading, holds: Holds) -> bool:
+    if _says_nothing(repair.statement):
+        return False
     try:
         return holds(reading.asked(repair.statement, {}))
     except (PolhodeError, ArithmeticError):
         return False
+
+
+def _says_nothing(statement: Statement) -> bool:
+    """Whether some member has the same on both sides."""
+    sides = (tuple(map(tidied, relation.sides)) for relation in statement.relations)
+    return any(one == other for chain in sides for one, other in pairwise(chain))
 
 
 def _smallest(found: Sequence[Repaired]) -> tuple[Repaired, ...]:
@@ -109,7 +124,8 @@ class _Workshop:
         found += [(edit,) for edit in self._single(open_, responses, kept)]
         if not found:
             found += fitted(responses, self._tried.bench.size)
-            found += [(edit,) for target in targets for edit in self._missing(target, kept)]
+            inner = [p for p, f in responses.items() if self._can_take_terms(p, f)]
+            found += [(edit,) for target in targets for edit in self._missing(target, kept, inner)]
         smallest = sorted(map(self._applied, found), key=lambda repair: repair.size)
         return smallest[:_TRIED]
 
@@ -137,15 +153,23 @@ class _Workshop:
             yield from self._vectors(place, kept)
         if function is None:
             return
+        for number in simple_numbers(function, self._tried.bench.size):
+            yield from edits(place, Match(number))
         factor = multiplier(function, self._tried.bench.size)
         if factor is not None:
             for match in matches(factor, self._known):
                 yield from edits(place, match)
             yield from self._exchanged(place, factor)
 
-    def _missing(self, target: int, kept: set[int]) -> Iterator[Edit]:
+    def _missing(self, target: int, kept: set[int], inner: Collection[Place]) -> Iterator[Edit]:
         sides = self._sides(target)
-        yield from missing_terms(self._statement, sides, self._reading, self._tried, kept)
+        yield from missing_terms(self._statement, sides, self._reading, self._tried, kept, inner)
+
+    def _can_take_terms(self, place: Place, function: Response) -> bool:
+        """Whether it is a factor or the like, and could be made right by another value."""
+        if not isinstance(place.parent, Product | Quotient | Power | Call):
+            return False
+        return multiplier(function, self._tried.bench.size) is not None
 
     def _exchanged(self, place: Place, factor: Array) -> Iterator[Edit]:
         """Other letters whose value is what the place would have to be."""
@@ -171,7 +195,9 @@ class _Workshop:
     def _vocabulary(self) -> dict[Node, Expr | None]:
         """Letters of the claim and of the text, and the scalars they stand for."""
         own = [n for place in places(self._statement) for n in letters(place.node)]
-        wide = [*own, *(t for n in own if (t := turned(n)) is not None), *self._reading.names]
+        turns = [t for n in own if (t := turned(n)) is not None]
+        indexed = [other for n in own for other in relabelled(n)]
+        wide = [*own, *turns, *indexed, *self._reading.names]
         return {node: self._scalar(node) for node in dict.fromkeys(wide)}
 
     def _scalar(self, node: Node) -> Expr | None:
@@ -196,7 +222,16 @@ class _Workshop:
 
     @cached_property
     def _other_vectors(self) -> list[Node]:
-        return [n for n, e in self._vocabulary.items() if e is None and isinstance(n, Name | Dots)]
+        named = (n for n, e in self._vocabulary.items() if e is None and isinstance(n, Name | Dots))
+        return [n for n in named if not self._vanishes(n)]
+
+    def _vanishes(self, node: Node) -> bool:
+        """Whether a vector is zero in these circumstances, so that it can stand for anything."""
+        try:
+            value = self._reading.value(node)
+        except (PolhodeError, ArithmeticError):
+            return True
+        return isinstance(value, Vector) and not any(map(self._tried.states.on, value.components))
 
     # -- which sides a member relates -----------------------------------------------------------
 

@@ -1,0 +1,194 @@
+"""The mutation test: claims that hold get a slip; whether it is caught, and put right."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from functools import cache, reduce
+from random import Random
+
+from claims.mutants import Mutant, mutants
+from claims.oracle import JUDGED, Oracle
+from polhode.algebra import Expr
+from polhode.base import PolhodeError
+from polhode.catalogue import CATALOGUE, problem_set
+from polhode.claims import Answer, Claim, Document, Notation, read_document
+from polhode.claims._asked import Asked
+from polhode.claims._check import judged_claim
+from polhode.claims._components import Component
+from polhode.claims._typed import with_start
+from polhode.claims.latex import Statement, read_latex, write_latex
+from polhode.derive import Equations, derive
+
+
+@cache
+def document() -> Document:
+    return read_document(problem_set())
+
+
+@cache
+def _equations(system: str) -> Equations:
+    return derive(CATALOGUE[system].build())
+
+
+@dataclass(frozen=True)
+class Original:
+    """A claim of the document that holds."""
+
+    claim: Claim
+    notation: Notation
+    statement: Statement
+    asked: Asked
+
+    @classmethod
+    def of(cls, claim: Claim) -> Original:
+        part = document().part_of(claim)
+        notation = Notation.of_part(_equations(part.system), part).of_claim(claim)
+        start = (f"{name} = {value}" for name, value in claim.start.items())
+        notation = reduce(with_start, start, notation)
+        statement = read_latex(claim.formula)
+        return cls(claim, notation, statement, notation.asked(statement, {}))
+
+    def oracle(self) -> Oracle:
+        scalars = self.notation.vocabulary.mechanics.scalars.values()
+        letters = (e.symbol for e in scalars if e.symbol is not None)
+        return Oracle(self.asked, self.claim.context, letters)
+
+
+@dataclass
+class Counts:
+    """What became of the mutants."""
+
+    total: Counter[str] = field(default_factory=Counter)
+    slips: Counter[tuple[str, str]] = field(default_factory=Counter)
+    missed: list[str] = field(default_factory=list)
+    alarms: list[str] = field(default_factory=list)
+    unlike: list[str] = field(default_factory=list)
+
+    def enter(self, what: str, slip: str) -> None:
+        self.total[what] += 1
+        self.slips[slip, what] += 1
+
+    @property
+    def untrue(self) -> int:
+        return self.total["caught"] + self.total["missed"]
+
+    @property
+    def caught(self) -> float:
+        return self.total["caught"] / self.untrue
+
+    @property
+    def repaired(self) -> float:
+        return self.total["repaired"] / self.total["caught"]
+
+    def __str__(self) -> str:
+        told = ", ".join(f"{count} {what}" for what, count in sorted(self.total.items()))
+        rows = sorted({slip for slip, _ in self.slips})
+        each = [
+            f"  {slip}: "
+            + ", ".join(
+                f"{count} {what}" for (s, what), count in sorted(self.slips.items()) if s == slip
+            )
+            for slip in rows
+        ]
+        share = f"caught {self.caught:.2%}, repaired to the original {self.repaired:.2%}"
+        return "\n".join([told, share, *each])
+
+
+def true_claims(every: int = 1) -> Iterator[Original]:
+    """Every so-manieth claim that holds, in contexts that the oracle can speak of."""
+    for claim in [c for c in document().claims if c.context in JUDGED][::every]:
+        original = Original.of(claim)
+        if original.asked.members and _verdict(original, claim.formula).answer is Answer.HOLDS:
+            yield original
+
+
+def tried(
+    originals: Iterable[Original],
+    most: int,
+    seed: int,
+    tell: Callable[[str], None] = lambda _: None,
+) -> Counts:
+    """Judge up to so many mutants of every claim, drawn at random."""
+    counts = Counts()
+    for original in originals:
+        oracle = original.oracle()
+        if not oracle.is_true(original.asked):
+            counts.enter("claims set aside", "")
+            continue
+        counts.enter("claims", "")
+        every = list(dict.fromkeys(mutants(original.statement)))
+        for mutant in Random(seed).sample(every, min(most, len(every))):
+            _try(original, oracle, mutant, counts)
+        tell(
+            f"{original.claim.id}\n{counts}\n"
+            + "\n".join([*counts.missed, *counts.alarms, *counts.unlike])
+        )
+    return counts
+
+
+def _try(original: Original, oracle: Oracle, mutant: Mutant, counts: Counts) -> None:
+    latex = write_latex(mutant.statement)
+    where = f"{original.claim.id} {mutant.slip}: {latex}"
+    try:
+        asked = original.notation.asked(mutant.statement, {})
+        said = [len(r.components()) for r in (asked, original.asked)]
+    except (PolhodeError, ArithmeticError):
+        counts.enter("without meaning", mutant.slip)
+        return
+    true = oracle.is_true(asked) if said[0] == said[1] else None
+    if true is None:
+        counts.enter("set aside", mutant.slip)
+        return
+    verdict = _verdict(original, latex)
+    if true:
+        counts.enter("true still", mutant.slip)
+        if verdict.answer is Answer.FAILS:
+            counts.enter("true, and refused", mutant.slip)
+            counts.alarms.append(where)
+        return
+    if verdict.answer is not Answer.FAILS:
+        counts.enter("missed", mutant.slip)
+        counts.missed.append(f"{where}: {verdict}")
+        return
+    counts.enter("caught", mutant.slip)
+    first, *others = [verdict.correction, *verdict.alternatives]
+    if first is not None and _is_original(original, first.latex):
+        counts.enter("repaired", mutant.slip)
+    elif any(c is not None and _is_original(original, c.latex) for c in others):
+        counts.enter("repaired", mutant.slip)
+        counts.enter("repaired, one of several as small", mutant.slip)
+    else:
+        what = "repaired otherwise" if first is not None else "not repaired"
+        counts.enter(what, mutant.slip)
+        counts.unlike.append(f"{where} -> {first and first.latex}")
+
+
+def _verdict(original: Original, latex: str):
+    return judged_claim(latex, original.notation, original.claim.context, original.claim.when)
+
+
+def _is_original(original: Original, latex: str) -> bool:
+    """Whether a correction says the same: every component but for a number that multiplies it."""
+    try:
+        asked = original.notation.asked(read_latex(latex), {})
+    except (PolhodeError, ArithmeticError):
+        return False
+    if len(asked.branches) != len(original.asked.branches):
+        return False
+    return all(
+        len(ours := asked.components(branch)) == len(theirs := original.asked.components(branch))
+        and all(map(_same, ours, theirs))
+        for branch in range(len(asked.branches))
+    )
+
+
+def _same(one: Component, other: Component) -> bool:
+    if other.difference and one.difference:
+        return (one.difference / other.difference).rational is not None
+    return not one.difference and not other.difference and _same_side(one.left, other.left)
+
+
+def _same_side(one: Expr, other: Expr) -> bool:
+    return one in (other, -other)

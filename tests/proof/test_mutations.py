@@ -1,0 +1,23 @@
+"""Every slip in every claim of the problem set that holds: caught, and put right?
+
+Whether a mutant is true still is decided by the oracles, which know nothing of polhode.
+"""
+
+import pytest
+
+from claims.mutation import document, tried, true_claims
+from proof.ledger import Ledger
+
+MOST = 1000  # of one claim: all of them
+
+
+def test_mutants_of_the_problem_set(ledger: Ledger, capsys: pytest.CaptureFixture[str]) -> None:
+    counts = tried(true_claims(), MOST, seed=1)
+    with capsys.disabled():
+        print(f"\n{counts}")
+        print("\n".join([*counts.missed, *counts.alarms, *counts.unlike]))
+    ledger.part = document().title
+    ledger.cases, ledger.aside = counts.untrue, counts.total["set aside"]
+    ledger.error(1 - counts.caught, 0.01, 1.0, "untrue mutants not caught")
+    ledger.error(1 - counts.repaired, 0.10, 1.0, "caught mutants not put right")
+    assert counts.alarms == []
