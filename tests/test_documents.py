@@ -1,7 +1,6 @@
-"""The Python in README and docs runs, and prints what the page says it prints."""
+"""The Python in README and docs runs, prints what the page says, and makes the figures shown."""
 
-import contextlib
-import io
+import importlib.util
 import re
 from pathlib import Path
 
@@ -11,22 +10,43 @@ ROOT = Path(__file__).parents[1]
 PAGES = [
     page
     for page in (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))
-    if "```python" in page.read_text()
+    if "```python" in page.read_text("utf-8")
 ]
-BLOCK = re.compile(r"^```(python|text)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+PICTURE = re.compile(r"!\[[^]]+\]\(([^)]+)\)")
+
+
+@pytest.fixture(scope="module")
+def hooks():
+    """What builds the documents."""
+    spec = importlib.util.spec_from_file_location("docs_hooks", ROOT / "docs_hooks.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_page_tells_the_truth(page):
-    names: dict[str, object] = {}
-    printed = ""
-    for kind, block in BLOCK.findall(page.read_text()):
-        if kind == "text":
-            assert printed == block
-            printed = ""
-            continue
-        assert not printed, f"{page.name} hides what is printed before: {block}"
-        with contextlib.redirect_stdout(io.StringIO()) as out:
-            exec(compile(block, str(page), "exec"), names)
-        printed = out.getvalue()
-    assert not printed
+def test_page_tells_the_truth(hooks, page, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = page.read_text("utf-8")
+    hooks.run_page(text, page.name)
+    for picture in PICTURE.findall(text):
+        assert (tmp_path / picture).is_file() or (page.parent / picture).is_file()
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        ("```python\nprint(1)\n```\n\n```text\n2\n```\n", "says:\n2\n"),
+        ("```python\nprint(1)\n```\n", "hides what is printed at its end"),
+        ("```python\nprint(1)\n```\n```python\nx = 1\n```\n", "hides what is printed before"),
+    ],
+)
+def test_an_untrue_page_is_found(hooks, text, fault):
+    with pytest.raises(hooks.ExampleError, match=fault):
+        hooks.run_page(text, "page.md")
+
+
+def test_every_page_is_in_the_table_of_contents():
+    listed = re.findall(r"[\w/-]+\.md", (ROOT / "mkdocs.yml").read_text("utf-8"))
+    pages = [page.relative_to(ROOT / "docs").as_posix() for page in (ROOT / "docs").rglob("*.md")]
+    assert sorted(listed) == sorted(pages)
