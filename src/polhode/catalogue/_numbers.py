@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from graphlib import CycleError, TopologicalSorter
 from types import MappingProxyType
 from typing import Any
 
-from polhode.algebra import Expr, Kind, Symbol, dimension_of
-from polhode.base import PURE, TIME, DeclarationError, Dimension, UnitError, look_up, read_unit
+from polhode.algebra import Expr, Kind, Symbol, dimension_of, pi
+from polhode.base import (
+    PURE,
+    TIME,
+    DeclarationError,
+    Dimension,
+    UnitError,
+    look_up,
+    read_quantity,
+    read_unit,
+)
 from polhode.catalogue._entry import Entry
 from polhode.catalogue._values import in_si, read_value
 from polhode.derive import Equations
@@ -28,10 +37,10 @@ class Numbers:
         duration: s.
     """
 
-    parameters: Mapping[Any, float]
+    parameters: Mapping[Any, Any]
     forcing: Mapping[Any, Expr]
-    start: Mapping[Any, float]
-    duration: float
+    start: Mapping[Any, Any]
+    duration: Any
 
 
 def numbers_of(
@@ -79,6 +88,44 @@ def numbers_of(
         start=_start(equations, _asked(entry, equations, start), constants, dimensions, values),
         duration=_duration(duration or entry.duration),
     )
+
+
+def exactly(
+    entry: Entry,
+    equations: Equations,
+    numbers: Numbers,
+    settings: Mapping[str, str] = _NOTHING,
+    start: Mapping[str, str] = _NOTHING,
+    duration: str = "",
+) -> Numbers:
+    """The same numbers as constant expressions, each the decimal that was written.
+
+    Args:
+        numbers: from `numbers_of`, which has checked them.
+        entry, equations, settings, start, duration: what it was given.
+    """
+    constants = _constants(entry, equations)
+    chosen = {**_defaults(entry), **settings}
+    read = {n: read_value(n, chosen[n], constants) for n in constants if n in chosen}
+    values: dict[Any, Expr] = {}
+    for name in _in_order(read):
+        values[constants[name]] = _constant(read[name], values)
+    asked = _asked(entry, equations, start)
+    texts = {name: read_value(name, text, constants) for name, text in asked.items()}
+    wanted = read_value("duration", duration or entry.duration, {})
+    return replace(
+        numbers,
+        parameters={name: values[constants[name]] for name in numbers.parameters},
+        start={name: _constant(text, values) for name, text in texts.items()},
+        duration=_constant(wanted, {}),
+    )
+
+
+def _constant(value: Expr | str, known: Mapping[Any, Expr]) -> Expr:
+    if isinstance(value, Expr):
+        return value.subs(dict(known))
+    quantity = read_quantity(value)
+    return Expr.of(quantity.coefficient) * pi**quantity.pi_power
 
 
 def _constants(entry: Entry, equations: Equations) -> dict[str, Symbol]:

@@ -22,7 +22,7 @@ def write_run(folder: Path, entry: Entry, trajectory: Trajectory) -> list[Path]:
     table, picture = folder / f"{stem}.csv", folder / f"{stem}.png"
     trajectory.to_csv(table)
     try:
-        figure = figure_of_run(trajectory, entry.plots or _everything(trajectory))
+        figure = figure_of_run(trajectory.rounded(), entry.plots or _everything(trajectory))
         save_figure(figure, picture, origin=origin_of(trajectory))
     except KeyboardInterrupt as interrupt:
         interrupt.add_note(f"kept {table}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import time
 from argparse import Namespace
 from collections.abc import Iterator, Mapping, Sequence
@@ -13,15 +14,16 @@ from typing import Any
 
 from polhode.algebra import Expr
 from polhode.analyse import Ansatz, invariants
-from polhode.base import NumericError, terminal_progress
-from polhode.catalogue import Entry, numbers_of
+from polhode.base import Exit, NumericError, StoreError, terminal_progress
+from polhode.catalogue import Entry, exactly, numbers_of
 from polhode.cli._contact_options import declared, sheet_of, watched_for
 from polhode.cli._document import print_document
+from polhode.cli._interrupt import Interruptible
 from polhode.cli._parser import Parser, assignments
 from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.cli._text import values, wrapped
 from polhode.derive import Equations, automaton
-from polhode.simulate import EquationsOfMotion, Trajectory, simulate
+from polhode.simulate import EquationsOfMotion, Trajectory, numbers_for, simulate
 
 _SHOWN = 12  # events in a line; a bouncing ball has hundreds
 _EXAMPLES = """examples:
@@ -68,6 +70,12 @@ def configure(parser: Parser) -> None:
         default=[],
         help="list all events; with a formula, also where it passes through zero",
     )
+    parser.add_argument(
+        "--precision",
+        metavar="P",
+        default="double",
+        help="double, extended, quadruple, or a number of decimal digits",
+    )
     parser.add_argument("--save", metavar="F", type=Path, help="keep the whole motion, F.h5")
     parser.add_argument("--page", metavar="F", type=Path, help="write a page that plays it, F.html")
     parser.add_argument("--json", action="store_true", help="print one JSON document")
@@ -82,23 +90,21 @@ def run(options: Namespace) -> int:
     equations = modes.together.equations
     seconds = time.perf_counter() - began
     sheet = sheet_of(options, equations)
-    numbers = numbers_of(
-        entry,
-        equations,
-        settings,
-        assignments(options.start),
-        options.duration,
-    )
+    _check_precision(options)
+    asked = (settings, assignments(options.start), options.duration)
+    numbers = numbers_of(entry, equations, *asked)
+    given = exactly(entry, equations, numbers, *asked) if _is_finer(options) else numbers
     trajectory = _kept(
         simulate(
             modes,
-            numbers.parameters,
-            numbers.start,
-            numbers.duration,
+            given.parameters,
+            given.start,
+            given.duration,
             forcing=dict[Any, Any](numbers.forcing) | sheet,
             invariants=_watched(equations),
             events=watched_for(options.events, equations),
-            progress=terminal_progress(),
+            progress=Interruptible(terminal_progress()),
+            precision=options.precision,
         ),
         equations,
     )
@@ -109,7 +115,29 @@ def run(options: Namespace) -> int:
         print_document(document | {"files": [str(path) for path in files]})
     else:
         print("\n".join(_told(entry, document, files, everything=bool(options.events))))
-    return 0
+    return _code(trajectory)
+
+
+def _code(trajectory: Trajectory) -> int:
+    last = trajectory.events[-1]
+    if last.kind != "interrupted":
+        return Exit.DONE
+    print(f"polhode: interrupted at t = {float(last.time):g} s; kept so far", file=sys.stderr)
+    return Exit.INTERRUPTED
+
+
+def _is_finer(options: Namespace) -> bool:
+    return bool(options.precision != "double")
+
+
+def _check_precision(options: Namespace) -> None:
+    numbers_for(options.precision)
+    if _is_finer(options) and options.save:
+        raise StoreError(
+            f"--save with --precision {options.precision}: a file of doubles",
+            expected="one or the other",
+            advice="write the samples with --out, which keeps all digits",
+        )
 
 
 def _watched(equations: Equations) -> dict[str, Expr]:
@@ -147,7 +175,7 @@ def _written(options: Namespace, entry: Entry, trajectory: Trajectory) -> list[P
     if options.out:
         files += write_run(options.out, entry, trajectory)
     if options.page:
-        files.append(write_page(options.page, entry, trajectory))
+        files.append(write_page(options.page, entry, trajectory.rounded()))
     return files
 
 
@@ -156,16 +184,22 @@ def _document(
 ) -> dict[str, Any]:
     return {
         "system": entry.name,
-        "duration": trajectory.duration,
+        "duration": float(trajectory.duration),
+        "precision": trajectory.precision,
         "parameters": dict(trajectory.parameters),
         "start": dict(start),
         "assumed": dict(trajectory.assumed),
-        "final": trajectory.final,
+        "final": {name: _plain(value) for name, value in trajectory.final.items()},
         "drift": trajectory.drift.as_json(),
-        "events": [event.as_json() for event in trajectory.events],
+        "events": [event.as_json() | {"time": _plain(event.time)} for event in trajectory.events],
         "integrator": trajectory.integrator,
         "seconds": {**trajectory.seconds, "derive": derived + trajectory.seconds["derive"]},
     }
+
+
+def _plain(value: Any) -> float | str:
+    """As it is, or with all its digits as text: readers of JSON round numbers to doubles."""
+    return value if isinstance(value, float | str) else str(value)
 
 
 def _refuse_overflow(results: Mapping[str, Any]) -> None:
@@ -202,8 +236,8 @@ def _events(events: Sequence[Mapping[str, Any]], everything: bool) -> Iterator[s
         yield "events"
         for event in events:
             modes = " to ".join(mode for mode in (event["from"], event["to"]) if mode)
-            yield f"  {event['time']:<22.15g} s  {event['kind']}: {modes}"
+            yield f"  {float(event['time']):<22.15g} s  {event['kind']}: {modes}"
         return
-    told = [f"{event['time']:g} s {event['kind']}," for event in events[:_SHOWN]]
+    told = [f"{float(event['time']):g} s {event['kind']}," for event in events[:_SHOWN]]
     rest = [f"and {len(events) - _SHOWN} more (--events)"] if len(events) > _SHOWN else []
     yield from wrapped("events", told + rest)

@@ -19,6 +19,7 @@ def wrapped(label: str, words: Iterable[str], indent: str = "  ") -> Iterator[st
         yield f"{indent}{start:<{_LABEL}}{line.replace(chr(0xA0), ' ')}"
 
 
-def values(numbers: Mapping[str, float]) -> list[str]:
-    """Names with their values, each to be followed by another."""
-    return [f"{name} = {value:.9g}," for name, value in numbers.items()]
+def values(numbers: Mapping[str, float | str]) -> list[str]:
+    """Names with their values, each to be followed by another; texts as they are."""
+    shown = {n: v if isinstance(v, str) else f"{v:.9g}" for n, v in numbers.items()}
+    return [f"{name} = {value}," for name, value in shown.items()]

@@ -28,6 +28,7 @@ def with_events(trajectory: Trajectory, wanted: Mapping[str, Expr]) -> Trajector
 
 def passages(segment: Segment, expression: Expr) -> list[float]:
     """When an expression passes through zero within a segment."""
+
     def values(times: Array) -> Array:
         return segment.values([Expr.of(expression)], times)
 
