@@ -38,7 +38,7 @@ def test_a_killed_worker_loses_nothing_and_counts_nothing_twice(tmp_path):
         Client(cluster) as client,
     ):
         killer = _Killer(client)
-        fates(tmp_path / "cluster", client=client, progress=killer)
+        fates(tmp_path / "cluster", address=cluster.scheduler_address, progress=killer)
     assert killer.killed
     assert killer.done == 30
     assert np.all(open_store(tmp_path / "cluster").done)

@@ -13,6 +13,7 @@ import scipy.stats as st
 import zarr
 
 from polhode.base import DeclarationError, StoreError
+from polhode.catalogue import CATALOGUE
 from polhode.simulate import simulate
 from polhode.study import Final, Reason, found_in, open_store, sweep
 from polhode.view.figures import new_figure, outcome_map
@@ -174,3 +175,14 @@ def test_a_map_shows_the_exact_threshold(whole):
     (line,) = drawn.thresholds
     up = line.get_paths()[0].vertices[:, 1]
     assert up == pytest.approx(np.sqrt(9.81 / (3 * 0.03)), rel=1e-3)
+
+
+def test_a_python_function_cannot_be_told_to_a_store(tmp_path):
+    ball = CATALOGUE["ball-on-paper"].build()
+    numbers = {"m": 0.05, "a": 0.02, "k": 0.4, "g": 9.81}
+    forcing = {"X": lambda t: 0.0 * t, "Y": lambda t: 0.0 * t, "chi": lambda t: 0.0 * t}
+    with pytest.raises(DeclarationError, match="Python function"):
+        sweep(
+            ball, {"x": [0.0]}, numbers, {}, 0.1, out=tmp_path / "s", outputs=["mode"],
+            forcing=forcing,
+        )  # fmt: skip

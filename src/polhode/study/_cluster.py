@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from itertools import islice
 from threading import local
 from typing import Any, Protocol, TypeAlias
+from uuid import uuid4
 
 from polhode.base import StoreError
 from polhode.study._block import Block, Crew, Order
@@ -54,17 +56,17 @@ def on_cluster(client: Any, tick: Callable[[int], None]) -> Compute:
 
     def compute(order: Order, chunks: Chunks) -> Iterator[tuple[Place, Block]]:
         library = distributed()
-        shared = client.scatter(order, broadcast=True, hash=False)
+        task = _Task(uuid4().hex, order)
         waiting, places = library.as_completed(), dict[str, Place]()
         left = iter(chunks)
         hand_out = max(1, len(client.scheduler_info()["workers"])) * _WAITING
         try:
-            _hand_out(client, shared, islice(left, hand_out), waiting, places)
+            _hand_out(client, task, islice(left, hand_out), waiting, places)
             for done in waiting:
                 place = places.pop(done.key)
                 block = _received(done, place)
                 tick(len(block.reason))
-                _hand_out(client, shared, islice(left, 1), waiting, places)
+                _hand_out(client, task, islice(left, 1), waiting, places)
                 yield place, block
         finally:
             client.cancel(list(waiting.futures), force=True)
@@ -73,10 +75,10 @@ def on_cluster(client: Any, tick: Callable[[int], None]) -> Compute:
 
 
 def _hand_out(
-    client: Any, shared: Any, chunks: Chunks, waiting: Any, places: dict[str, Place]
+    client: Any, task: _Task, chunks: Chunks, waiting: Any, places: dict[str, Place]
 ) -> None:
     for place, members in chunks:
-        future = client.submit(_chunk, shared, members, pure=False, retries=_LOST)
+        future = client.submit(_chunk, task, members, pure=False, retries=_LOST)
         places[future.key] = place
         waiting.add(future)
 
@@ -93,10 +95,21 @@ def _received(done: Any, place: Place) -> Block:
     return block
 
 
-def _chunk(order: Order, members: Members) -> Block:
-    """On a worker; one integrator per thread, compiled for its first chunk."""
-    if getattr(_kept, "order", None) is not order:
-        _kept.order, _kept.crew = order, Crew(order)
+@dataclass(frozen=True)
+class _Task:
+    """An order, and a name under which a worker knows it again.
+
+    It goes with every chunk: one copy for all would be lost with the worker that holds it.
+    """
+
+    name: str
+    order: Order
+
+
+def _chunk(task: _Task, members: Members) -> Block:
+    """On a worker; one crew per thread, compiled for its first chunk."""
+    if getattr(_kept, "name", None) != task.name:
+        _kept.name, _kept.crew = task.name, Crew(task.order)
     crew: Crew = _kept.crew
     return crew.follow(members, _nobody)
 
