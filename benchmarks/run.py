@@ -64,6 +64,10 @@ OUR_DISK = ("ours/derive_disk.py",)
 OUR_GYROSCOPE = ("ours/derive_gyroscope.py",)
 OUR_COLD_RUN = ("ours/run_disk.py", "--cold")
 OUR_WARM_RUN = ("ours/run_disk.py", "--warm")
+OUR_DISKS = ("ours/ensemble_disk.py",)
+BARE_DISKS = ("ours/ensemble_disk.py", "--bare")
+SCIPY_DISKS = ("peers/scipy_disks.py",)
+DIFFRAX_DISKS = ("peers/diffrax_disks.py",)
 KANE_DISK = ("peers/kane_disk.py",)
 KANE_GYROSCOPE = ("peers/kane_gyroscope.py",)
 PYDY = ("peers/pydy_disk.py",)
@@ -92,6 +96,9 @@ COMPARISONS = (
         Figure(KANE_DISK, "operations"),
         ours_at_most(52),
     ),
+    derivation("each of 2048 disks / bare heyoka", OUR_DISKS, BARE_DISKS, times_less(0.9)),
+    derivation("each of 2048 disks / SciPy", OUR_DISKS, SCIPY_DISKS, times_less(100)),
+    derivation("each of 2048 disks / diffrax", OUR_DISKS, DIFFRAX_DISKS, times_less(20)),
     process("10 s of disk, cold / PyDy", OUR_COLD_RUN, PYDY, times_less(4)),
     process("10 s of disk, warm / PyDy", OUR_WARM_RUN, PYDY, times_less(8)),
     process("10 s of disk, cold / PyDy cython", OUR_COLD_RUN, PYDY_CYTHON, times_less(4)),
