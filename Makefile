@@ -49,14 +49,27 @@ check: $(READY)
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy --strict src
+	@cd web && npm ci --ignore-scripts --no-audit --no-fund --loglevel=error && npm run check --silent
 
 bench: $(READY)
 	@$(BIN)/python -m pip install $(QUIETLY) -r benchmarks/requirements.txt
 	@$(BIN)/python benchmarks/run.py
 
-proof: $(READY)
-	@mkdir -p proof
-	@$(BIN)/python -m pytest tests/proof --hypothesis-profile proof -n 2 -vv --no-header | tee proof/log.txt
+# One log for each campaign, so that an interrupted proof is not lost; `make proof/algebra.txt` runs
+# one of them again, and `make proof` those whose log is missing or older than the campaign.
+CAMPAIGNS := $(patsubst tests/proof/test_%.py,%,$(wildcard tests/proof/test_*.py))
+LOGS := $(CAMPAIGNS:%=proof/%.txt)
+
+proof: proof/log.txt
+
+proof/log.txt: $(LOGS)
+	@cat $^ > $@
+
+proof/%.txt: tests/proof/test_%.py | $(READY)
+	@mkdir -p $(@D)
+	@{ $(BIN)/python tests/proof/heading.py $*; \
+		$(BIN)/python -m pytest $< --hypothesis-profile proof -n 2 -vv --no-header; } | tee $@.part
+	@mv $@.part $@
 
 docs: $(READY)
 	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict

@@ -181,6 +181,35 @@ def test_nothing_moves_by_itself(disk, tmp_path):
     assert np.array_equal(disk.picture(tmp_path), before)
 
 
+def test_who_asks_for_less_motion_gets_none_unasked(opened, written, tmp_path):
+    with opened(written("rolling-disk"), viewport=SMALL, reduced_motion="reduce") as shown:
+        before = shown.picture(tmp_path)
+        moving = shown.page.evaluate(
+            "[...document.querySelectorAll('*')].map(e => getComputedStyle(e)).filter(s => "
+            "[s.transitionDuration, s.animationDuration].some(d => parseFloat(d) > 0)"
+            " || s.scrollBehavior === 'smooth').length"
+        )
+        assert moving == 0
+        assert np.array_equal(shown.picture(tmp_path), before)
+        shown.page.get_by_role("button", name="Play").click()
+        shown.wait_until_past(0)
+
+
+def test_the_directions_turn_with_the_view(disk):
+    triad = disk.page.locator(".triad")
+    assert triad.locator("text").all_text_contents() == ["x", "y", "z"]
+    tips = "e => [...e.querySelectorAll('line')].map(l => [l.x2, l.y2].map(v => v.baseVal.value))"
+    before = np.array(triad.evaluate(tips))
+    assert before[2][0] == pytest.approx(0, abs=0.1)
+    assert before[2][1] < -10
+    disk.page.locator(".picture").focus()
+    disk.page.keyboard.press("ArrowLeft")
+    disk.page.wait_for_timeout(150)
+    after = np.array(triad.evaluate(tips))
+    assert np.abs(after - before)[:2].max() > 1
+    assert after[2][0] == pytest.approx(0, abs=0.1)
+
+
 def test_names_are_text(opened, written):
     with opened(written("double pendulum")) as shown:
         assert shown.page.locator("h1").inner_text().split() == HOSTILE.split()

@@ -26,6 +26,7 @@ import { type ArrowKind, Rows, type SceneData, type Triple } from "./scene";
 import { bodyObject, bracket, post, reach } from "./shapes";
 import { Grounds } from "./supports";
 import { Trace } from "./traces";
+import { Triad } from "./triad";
 
 const FAR = 5.5; // reaches of the body that are in view when it is followed
 // Usual lengths of the longest arrows, in reaches: unlike, so that parallel ones are told apart.
@@ -43,6 +44,7 @@ export class Stage {
   private readonly controls: OrbitControls;
   private readonly light = new DirectionalLight("#fff6e8", 1.9);
   private readonly grounds = new Grounds();
+  private readonly triad: Triad;
   private readonly moving: { pose: Pose; object: Object3D }[] = [];
   private readonly poses: Pose[];
   private readonly carriers: Object3D[] = [];
@@ -70,6 +72,7 @@ export class Stage {
   ) {
     this.renderer = before?.renderer ?? rendererOf();
     this.up = new Vector3(...scene.up);
+    this.triad = new Triad(scene.directions);
     this.poses = scene.bodies.map((body) => new Pose(body.pose));
     this.reach = Math.max(...scene.bodies.map(reach));
     [this.middle, this.radius] = this.extent();
@@ -83,7 +86,7 @@ export class Stage {
     this.camera = new PerspectiveCamera(32, 1, this.reach / 8, 300 * Math.max(this.radius, this.reach));
     this.camera.up.copy(this.up);
     this.addLights();
-    holder.append(this.renderer.domElement);
+    holder.append(this.renderer.domElement, this.triad.element);
     this.controls = new OrbitControls(this.camera, holder);
     this.controls.maxDistance = 40 * Math.max(this.radius, this.reach);
     this.controls.minDistance = 1.5 * this.reach;
@@ -109,6 +112,7 @@ export class Stage {
   private release(): void {
     this.released = true;
     this.fitting.disconnect();
+    this.triad.element.remove();
     this.controls.dispose();
     this.light.dispose();
     this.world.traverse((object) => {
@@ -237,6 +241,7 @@ export class Stage {
       this.waiting = false;
       if (this.released) return;
       this.renderer.render(this.world, this.camera);
+      this.triad.update(this.camera);
     });
   }
 
