@@ -5,7 +5,7 @@ from __future__ import annotations
 import socket
 import threading
 import webbrowser
-from contextlib import closing
+from contextlib import closing, suppress
 
 from polhode.base import DeclarationError, StoreError
 from polhode.lab._offer import Own
@@ -46,7 +46,8 @@ def serve(own: Own | None = None, *, port: int | None = None, browser: bool = Tr
             threading.Timer(0.5, webbrowser.open, [address]).start()
         app = app_of(chosen, own)
         settings = uvicorn.Config(app, log_level="warning", limit_concurrency=_MOST)
-        uvicorn.Server(settings).run(sockets=[listener])
+        with suppress(KeyboardInterrupt):  # how one ends it
+            uvicorn.Server(settings).run(sockets=[listener])
 
 
 def _listening(port: int | None) -> socket.socket:
