@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import pytest
 
 import polhode as ph
@@ -28,7 +30,36 @@ def test_every_claim_gets_its_verdict_and_consequences_are_told():
     assert answers == {"a": Answer.HOLDS, "b": Answer.FAILS, "c": Answer.UNREAD}
     assert report.judged[2].fed_by == ("b",)
     assert report.counts["fails"] == 1
-    assert "fails; wrong sign" in str(report)
+    assert "fails       wrong sign" in str(report)
+
+
+def test_what_a_failure_feeds_is_told():
+    (drawn,) = audit(DOCUMENT, equations_of).consequences
+    assert (drawn.failed, drawn.feeds, drawn.results, drawn.surviving) == ("b", ("c",), ("c",), ())
+    assert "(b) feeds (c); what does not: (c)" in str(drawn)
+
+
+def test_a_result_that_holds_survives_the_failure_it_was_drawn_from():
+    wrong = Claim("1", "7", latex=r"F_z = 2Mg")
+    right = Claim("2", "7", latex=r"\dot\omega_1 = 0", follows_from=("1",))
+    report = audit(Document("A text", "", (PART,), (wrong, right)), equations_of)
+    assert report.consequences[0].surviving == ("2",)
+    assert "what survives: (2)" in report.table()
+
+
+def test_the_document_of_a_report_is_plain():
+    document = json.loads(json.dumps(audit(DOCUMENT, equations_of).to_json()))
+    assert document["counts"]["fails"] == 1
+    claim = document["claims"][1]
+    assert claim["verdict"] == "fails"
+    assert claim["correction"]["what"] == "wrong sign"
+    assert document["claims"][2]["follows_from"] == ["b"]
+
+
+def test_the_short_table_counts_by_part_and_shows_what_fails():
+    short = audit(DOCUMENT, equations_of).short_table()
+    assert "Gyroscope  1 holds, 1 fails, 1 unread" in short
+    assert "wrong sign" in short
 
 
 def test_some_claims_can_be_asked_for():

@@ -6,7 +6,7 @@ import os
 import sys
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from contextlib import ExitStack, closing, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from multiprocessing.connection import Connection, wait
 from subprocess import DEVNULL, PIPE, Popen
@@ -17,12 +17,13 @@ from polhode.claims._audit import asked_for, reported
 from polhode.claims._document import Claim, Document
 from polhode.claims._report import Report
 from polhode.claims._verdict import Answer, Verdict
-from polhode.claims._worker import Request
+from polhode.claims._worker import Reply, Request
 from polhode.model import System
 
 Declared = Callable[[str], System]
 
-_GRACE = 5.0  # s after which a worker that nobody ended ends itself
+_PATIENCE = 6.0  # times the processor time that a claim may take, on a machine that has others
+_OUT_OF_TIME = (-27, -9)  # ended by its own clock (SIGPROF), or by us
 _ALONE = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # workers share the cores
 
 
@@ -31,7 +32,7 @@ class Limits:
     """What one claim may cost.
 
     Attributes:
-        seconds: of time.
+        seconds: of processor time.
         memory: bytes, where the operating system has such a bound.
     """
 
@@ -96,7 +97,7 @@ def _requests(
         except PolhodeError as error:
             unread[claim.id] = Verdict(Answer.UNREAD, claim.context, reason=str(error))
         else:
-            requests.append(Request(part, claim, system, limits.seconds + _GRACE))
+            requests.append(Request(part, claim, system, limits.seconds))
     return requests, unread
 
 
@@ -154,8 +155,9 @@ class _Worker:
         self._process.stdin.close()
         self._process.stdout.close()
         self._request: Request | None = None
+        self._failure: Verdict | None = None
         self._system = ""
-        self._deadline = monotonic() + self._limits.seconds
+        self._deadline = monotonic() + _PATIENCE * self._limits.seconds
         self.idle = False
 
     @property
@@ -168,19 +170,25 @@ class _Worker:
         if self.replies.poll():
             yield from self._reply()
         elif not self.left:
-            yield from self._lost(f"not decided within {self._limits.seconds:g} s")
+            yield from self._lost()
 
     def _reply(self) -> Iterator[tuple[Claim, Verdict]]:
         try:
-            verdict: Verdict | None = self.replies.recv()
+            reply: Reply | None = self.replies.recv()
         except (EOFError, OSError):
-            yield from self._lost("not decided: its process ended, for lack of memory perhaps")
+            yield from self._lost()
             return
-        if self._request is not None and verdict is not None:
+        if self._request is None or reply is None:  # it is ready
+            self.idle = True
+            return
+        verdict, self.idle = reply
+        if self.idle:
             yield self._request.claim, verdict
-        self._request, self.idle = None, True
+        else:
+            self._failure = verdict
 
-    def _lost(self, reason: str) -> Iterator[tuple[Claim, Verdict]]:
+    def _lost(self) -> Iterator[tuple[Claim, Verdict]]:
+        """Begin again without the claim at hand."""
         self.end()
         if self._request is None:
             raise DeclarationError(
@@ -188,9 +196,20 @@ class _Worker:
                 expected=f"{sys.executable} to import polhode",
                 advice="judge in this process, with polhode.claims.audit",
             )
-        claim = self._request.claim
+        yield self._request.claim, self._last_word(self._request.claim)
         self._begin()
-        yield claim, Verdict(Answer.UNREAD, claim.context, reason=reason)
+
+    def _last_word(self, claim: Claim) -> Verdict:
+        """What is known of a claim whose process ended."""
+        if self._failure is not None:
+            return replace(self._failure, remarks=(*self._failure.remarks, self._why))
+        return Verdict(Answer.UNREAD, claim.context, reason=f"not decided: {self._why}")
+
+    @property
+    def _why(self) -> str:
+        if self._process.returncode in _OUT_OF_TIME:
+            return f"looking further took more than {self._limits.seconds:g} s of processor time"
+        return "the process that looked further ended, for lack of memory perhaps"
 
     def take(self, queue: _Queue) -> None:
         """Begin the next claim, if there is one."""
@@ -198,8 +217,9 @@ class _Worker:
             return
         self._request = queue.next(self._system)
         if self._request is not None:
+            self._failure = None
             self._system = self._request.part.system
-            self._deadline = monotonic() + self._limits.seconds
+            self._deadline = monotonic() + _PATIENCE * self._limits.seconds
             with suppress(BrokenPipeError):  # its replies will tell that it has ended
                 self._requests.send(self._request)
             self.idle = False

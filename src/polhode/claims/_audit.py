@@ -30,13 +30,21 @@ class Desk:
     resolver: Resolver
     _notations: dict[str, Notation] = field(default_factory=dict)
 
-    def verdict(self, part: Part, claim: Claim) -> Verdict:
-        """The verdict on one claim; unread where it, or its part, cannot be read or bound."""
+    def verdict(
+        self,
+        part: Part,
+        claim: Claim,
+        tell: Callable[[Verdict], object] = lambda verdict: None,
+    ) -> Verdict:
+        """The verdict on one claim; unread where it, or its part, cannot be read or bound.
+
+        A failure is told before a correction is looked for.
+        """
         try:
             notation = self._notation(part).of_claim(claim)
             start = (f"{name} = {value}" for name, value in claim.start.items())
             notation = reduce(with_start, start, notation)
-            return judged_claim(claim.formula, notation, claim.context, claim.when)
+            return judged_claim(claim.formula, notation, claim.context, claim.when, tell)
         except PolhodeError as error:
             return Verdict(Answer.UNREAD, claim.context, reason=str(error))
 

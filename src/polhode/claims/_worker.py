@@ -16,6 +16,9 @@ from polhode.claims._verdict import Answer, Verdict
 from polhode.derive import Equations, derive
 from polhode.model import System
 
+#: A verdict, and whether it is the last word on its claim.
+Reply = tuple[Verdict, bool]
+
 
 @dataclass(frozen=True)
 class Request:
@@ -25,7 +28,7 @@ class Request:
         part: of the document that it stands in.
         claim: itself.
         system: that it is about.
-        seconds: after which the process ends itself, should nobody be left to end it.
+        seconds: of processor time, after which the process ends itself.
     """
 
     part: Part
@@ -35,7 +38,7 @@ class Request:
 
 
 def work(requests: Connection, replies: Connection) -> None:
-    """Send None when ready, then a verdict for every request, until no more come."""
+    """Send None when ready, then verdicts for every request, until no more come."""
     systems: dict[str, System] = {}
     equations: dict[str, Equations] = {}
 
@@ -53,14 +56,14 @@ def work(requests: Connection, replies: Connection) -> None:
             return
         systems[request.part.system] = request.system
         _alarm(request.seconds)
-        replies.send(_verdict(desk, request))
+        replies.send((_verdict(desk, request, replies), True))
         _alarm(0)
 
 
-def _verdict(desk: Desk, request: Request) -> Verdict:
+def _verdict(desk: Desk, request: Request, replies: Connection) -> Verdict:
     unread = partial(Verdict, Answer.UNREAD, request.claim.context)
     try:
-        return desk.verdict(request.part, request.claim)
+        return desk.verdict(request.part, request.claim, lambda v: replies.send((v, False)))
     except MemoryError:
         return unread(reason="not decided: it needs more memory than a claim is allowed")
     except Exception as error:  # a fault of the program's is told, and the others go on
@@ -68,9 +71,9 @@ def _verdict(desk: Desk, request: Request) -> Verdict:
 
 
 def _alarm(seconds: float) -> None:
-    """Have the kernel end this process after some time; after none at all, do not."""
+    """Have the kernel end this process after some processor time; after none at all, do not."""
     if hasattr(signal, "setitimer"):
-        signal.setitimer(signal.ITIMER_REAL, seconds)
+        signal.setitimer(signal.ITIMER_PROF, seconds)
 
 
 def _bound_memory(most: int) -> None:

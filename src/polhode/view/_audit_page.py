@@ -21,6 +21,7 @@ from polhode.claims import (
     told,
     write_latex,
 )
+from polhode.view._notebook import html_of
 from polhode.view._typeset import typeset, typeset_change
 
 _SHOWN = 1200  # characters of a residual or of one side of a counterexample
@@ -50,6 +51,23 @@ def audit_page(report: Report, path: str | Path) -> None:
 def audit_html(report: Report) -> str:
     """The same as a piece of HTML, for a notebook."""
     return f"<style>{_style()}</style><div class='audit'>{_body(report)}</div>"
+
+
+@html_of.register
+def _(thing: Report) -> str:
+    return audit_html(thing)
+
+
+@html_of.register
+def _(thing: Verdict) -> str:
+    correction = thing.correction
+    shown = f"<p>{_badge(thing.answer)} {escape(thing.reason)}</p>"
+    if correction is not None:
+        shown += f"<p>{escape(correction.what)}; it holds as {_formula(correction.latex)}</p>"
+    evidence = "".join((*_residuals(thing), *_example(thing), *_remarks(thing)))
+    if evidence:
+        shown += f"<details><summary>Evidence</summary><div>{evidence}</div></details>"
+    return f"<style>{_style()}</style><div class='audit'><article>{shown}</article></div>"
 
 
 def _style() -> str:
@@ -152,7 +170,7 @@ def _correction(judged: Judged, correction: Correction | None) -> str:
         after = f"<code>{escape(correction.latex)}</code>"
     return (
         f"<div class='correction'><p>{escape(correction.what)}</p>"
-        f"<div class='was'><span>read</span>{before}</div>"
+        f"<div class='was'><span>printed</span>{before}</div>"
         f"<div class='is'><span>holds</span>{after}</div></div>"
     )
 
@@ -174,10 +192,10 @@ def _evidence(judged: Judged) -> Iterator[str]:
         yield f"<p>Or, {escape(other.what)}: {_formula(other.latex)}</p>"
     yield from _residuals(verdict)
     yield from _example(verdict)
-    yield from (f"<p>{escape(remark)}</p>" for remark in verdict.remarks)
+    yield from _remarks(verdict)
     if judged.fed_by:
         links = ", ".join(f"<a href='#claim-{escape(i)}'>({escape(i)})</a>" for i in judged.fed_by)
-        yield f"<p>Drawn from {links}, which fails.</p>"
+        yield f"<p>Drawn from {links}, which {'fail' if len(judged.fed_by) > 1 else 'fails'}.</p>"
 
 
 def _residuals(verdict: Verdict) -> Iterator[str]:
@@ -207,6 +225,10 @@ def _example(verdict: Verdict) -> Iterator[str]:
             f"<p>By numbers, from the balance of every body alone: "
             f"{second.left:.9g} and {second.right:.9g}, which says {said}.</p>"
         )
+
+
+def _remarks(verdict: Verdict) -> Iterator[str]:
+    return (f"<p>{escape(remark)}</p>" for remark in verdict.remarks)
 
 
 def _consequences(report: Report) -> str:

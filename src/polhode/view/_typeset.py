@@ -10,7 +10,8 @@ from xml.etree.ElementTree import Element
 from polhode.algebra import mathml
 
 LONGEST = 1500  # characters of LaTeX that is still typeset
-_MARKS = re.compile(r"\$+|\\(?:tag|label)\*?\s*\{[^{}]*\}")
+_MARKS = re.compile(r"\$+|\\(?:tag|label)\*?\s*\{[^{}]*\}|\\n(?![A-Za-z])")
+_NUMBER = re.compile(r"(?:\\q?quad)?\s*(?:\(\d+\)|\\text\s*\{\s*\(\d+\)\s*\})\s*$")
 _NAMESPACE = "{http://www.w3.org/1998/Math/MathML}"
 _LEAVES = ("mi", "mn", "mo", "mtext")
 
@@ -36,7 +37,7 @@ def typeset_change(before: str, after: str) -> tuple[str, str]:
 
 
 def _tree(latex: str) -> Element | None:
-    bare = _MARKS.sub(" ", latex).strip()
+    bare = _NUMBER.sub("", _MARKS.sub(" ", latex).strip()).strip()
     if not bare or len(bare) > LONGEST:
         return None
     try:

@@ -1,0 +1,93 @@
+"""`polhode audit`: its table, document, page and exit codes."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from polhode.cli import main
+
+HEAD = """schema = 1
+[document]
+title = "A text"
+[[part]]
+id = "7"
+system = "gyroscope"
+"""
+RIGHT = r"""[[claim]]
+id = "1"
+part = "7"
+latex = '\dot\omega_1 = 0'
+"""
+WRONG = r"""[[claim]]
+id = "2"
+part = "7"
+latex = 'F_z = Mg + Ma(\ddot\theta\sin\theta + \dot\theta^2\cos\theta)'
+follows_from = ["1"]
+"""
+UNREAD = r"""[[claim]]
+id = "3"
+part = "7"
+latex = 'F_z = q'
+"""
+KEYS = {"id", "system", "latex", "read_as", "verdict", "correction", "reason", "follows_from"}
+
+
+@pytest.fixture
+def audit(tmp_path, capsys):
+    """Audits a document of some claims; returns exit code, output and error output."""
+
+    def run(*claims, options=()):
+        (tmp_path / "text.toml").write_text("\n".join([HEAD, *claims]))
+        code = main(["audit", str(tmp_path / "text.toml"), *options])
+        return code, *capsys.readouterr()
+
+    return run
+
+
+def test_the_document_has_what_the_contract_says(audit):
+    code, out, _ = audit(RIGHT, WRONG, UNREAD, options=["--json"])
+    document = json.loads(out)
+    assert code == 1
+    assert document["counts"].items() >= {"holds": 1, "fails": 1, "unread": 1}.items()
+    assert document["seconds"] > 0
+    assert all(claim.keys() >= KEYS for claim in document["claims"])
+
+
+def test_all_that_is_asked_for_holds(audit):
+    code, out, _ = audit(RIGHT, WRONG, options=["--only", "1"])
+    assert code == 0
+    assert "1 claims: 1 holds" in out
+
+
+def test_what_is_unread_is_exit_code_two(audit):
+    assert audit(RIGHT, UNREAD)[0] == 2
+
+
+def test_a_page_is_written_that_needs_nothing_else(audit, tmp_path):
+    wrong = WRONG.replace('follows_from = ["1"]', "")
+    assert audit(wrong, options=["--html", str(tmp_path / "page.html")])[0] == 1
+    page = (tmp_path / "page.html").read_text()
+    assert "<math" in page
+    assert 'class="changed"' in page
+    assert "<script" not in page
+    assert "http://" not in page.replace("http://www.w3.org/1998/Math/MathML", "")
+
+
+@pytest.mark.parametrize("words", [["--only", "no-such"], ["nowhere.toml"]])
+def test_bad_input_is_refused(words, capsys):
+    assert main(["audit", *words]) == 2
+    assert capsys.readouterr().err.startswith("polhode: ")
+
+
+def test_a_system_beside_the_document_is_found(tmp_path, capsys):
+    (tmp_path / "top.py").write_text(
+        "import polhode as ph\n"
+        "from polhode.catalogue import CATALOGUE\n"
+        "top = CATALOGUE['gyroscope'].build()\n"
+    )
+    text = HEAD.replace('"gyroscope"', '"top.py:top"') + RIGHT
+    (tmp_path / "text.toml").write_text(text)
+    assert main(["audit", str(tmp_path / "text.toml")]) == 0
+    assert "holds" in capsys.readouterr().out
