@@ -10,13 +10,14 @@ from random import Random
 
 from claims.mutants import Mutant, mutants
 from claims.oracle import JUDGED, Oracle
-from polhode.algebra import Expr
+from polhode.algebra import Expr, Vector
 from polhode.base import PolhodeError
 from polhode.catalogue import CATALOGUE, problem_set
 from polhode.claims import Answer, Claim, Document, Notation, read_document
 from polhode.claims._asked import Asked
 from polhode.claims._check import judged_claim
-from polhode.claims._components import Component
+from polhode.claims._circumstances import AnyState
+from polhode.claims._components import Relation, Side
 from polhode.claims._typed import with_start
 from polhode.claims.latex import Statement, read_latex, write_latex
 from polhode.derive import Equations, derive
@@ -170,25 +171,51 @@ def _verdict(original: Original, latex: str):
 
 
 def _is_original(original: Original, latex: str) -> bool:
-    """Whether a correction says the same: every component but for a number that multiplies it."""
+    """Whether a correction says the same: every member but for a number that multiplies it."""
     try:
         asked = original.notation.asked(read_latex(latex), {})
     except (PolhodeError, ArithmeticError):
         return False
-    if len(asked.branches) != len(original.asked.branches):
-        return False
-    return all(
-        len(ours := asked.components(branch)) == len(theirs := original.asked.components(branch))
-        and all(map(_same, ours, theirs))
-        for branch in range(len(asked.branches))
+    states = original.asked.states(AnyState)
+    pairs = list(zip(asked.branches, original.asked.branches, strict=False))
+    return len(asked.branches) == len(original.asked.branches) and all(
+        len(ours) == len(theirs)
+        and all(_same(one, other, states) for one, other in zip(ours, theirs, strict=True))
+        for ours, theirs in pairs
     )
 
 
-def _same(one: Component, other: Component) -> bool:
-    if other.difference and one.difference:
-        return (one.difference / other.difference).rational is not None
-    return not one.difference and not other.difference and _same_side(one.left, other.left)
+def _same(one: Relation, other: Relation, states: AnyState) -> bool:
+    """Whether the differences of both sides are in proportion, or else the sides themselves."""
+    if one.sign != other.sign:
+        return False
+    ours, theirs = (_scalars(_difference(r)) for r in (one, other))
+    if any(theirs):
+        return _in_proportion(ours, theirs)
+    sides = [
+        [states.on(x) for side in (r.left, r.right) for x in _scalars(side)] for r in (one, other)
+    ]
+    return not any(ours) and _in_proportion(*sides)
 
 
-def _same_side(one: Expr, other: Expr) -> bool:
-    return one in (other, -other)
+def _difference(relation: Relation) -> Side:
+    left, right = relation.left, relation.right
+    if isinstance(left, Vector) and isinstance(right, Expr):
+        return left
+    if isinstance(right, Vector) and isinstance(left, Expr):
+        return -right
+    return left - right
+
+
+def _scalars(side: Side) -> list[Expr]:
+    if isinstance(side, Expr):
+        return [side]
+    return list(side.express(side.triad.root).components)
+
+
+def _in_proportion(ours: list[Expr], theirs: list[Expr]) -> bool:
+    if len(ours) != len(theirs):
+        return False
+    ratios = {(a / b).rational for a, b in zip(ours, theirs, strict=True) if a and b}
+    alike = all(bool(a) == bool(b) for a, b in zip(ours, theirs, strict=True))
+    return alike and len(ratios) <= 1 and None not in ratios

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import isclose
 from typing import Any
 
@@ -10,6 +11,7 @@ from scipy.integrate import solve_ivp
 from polhode.algebra import Symbol
 from polhode.base import PolhodeError
 from polhode.claims._course import TIME, Followed
+from polhode.claims._declared import declared
 from polhode.claims._newton_euler import true_motion
 from polhode.claims._numeric import Array, number
 from polhode.claims._verdict import Confirmation
@@ -25,7 +27,7 @@ def followed_anew(followed: Followed, sample: int) -> Confirmation | None:
     system = course.run.equations.system
     since = float(course.times[sample])
     try:
-        state = _moved(system, dict(course.start), since)
+        state = _moved(system, _whole(system, course.start), since)
     except (PolhodeError, ArithmeticError, KeyError):
         return None
     numbers = {**course.start, **state, TIME: since + course.begin}
@@ -37,6 +39,11 @@ def followed_anew(followed: Followed, sample: int) -> Confirmation | None:
         for one, other in zip((left, right), told, strict=True)
     )
     return Confirmation({"t": since + course.begin}, left, right, agrees)
+
+
+def _whole(system: System, start: Mapping[Symbol, float]) -> dict[Symbol, float]:
+    """With a number for parameters on which the motion does not depend."""
+    return dict.fromkeys(declared(system).parameters, 1.0) | dict(start)
 
 
 def _moved(system: System, start: dict[Symbol, float], duration: float) -> dict[Symbol, float]:

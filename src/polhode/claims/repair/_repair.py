@@ -63,7 +63,8 @@ def repaired(
     repair = Repaired(statement, ())
     for _ in range(_MOST_EDITS):
         workshop = _Workshop(repair, reading, context)
-        whole = [r for r in workshop.corrected(workshop.failing) if _sound(r, reading, holds)]
+        found = workshop.corrected(workshop.failing)
+        whole = [r for r in found if _sound(r, workshop.failing, reading, holds)]
         if whole:
             return _smallest(whole)
         first = workshop.corrected(workshop.failing[:1])
@@ -73,13 +74,20 @@ def repaired(
     return ()
 
 
-def _sound(repair: Repaired, reading: Reading, holds: Holds) -> bool:
+def _sound(repair: Repaired, failing: Sequence[int], reading: Reading, holds: Holds) -> bool:
     if _says_nothing(repair.statement):
         return False
     try:
-        return holds(reading.asked(repair.statement, {}))
+        asked = reading.asked(repair.statement, {})
+        return not any(_is_empty(asked, member) for member in failing) and holds(asked)
     except (PolhodeError, ArithmeticError):
         return False
+
+
+def _is_empty(asked: Asked, member: int) -> bool:
+    """Whether both sides of a member vanish by themselves."""
+    sides = (c for c in asked.components() if c.member == member)
+    return not any(c.left or c.right for c in sides)
 
 
 def _says_nothing(statement: Statement) -> bool:

@@ -1,0 +1,57 @@
+"""Claims along a motion: closed forms, starts, events, and a second opinion of their own."""
+
+import pytest
+
+from claims.mutation import Original, document
+from polhode.claims import Answer, Verdict
+from polhode.claims._check import judged_claim
+
+
+def verdict_on(id: str, old: str = "", new: str = "", when: str | None = None) -> Verdict:
+    """On a claim of the problem set, with something else put in."""
+    original = Original.of(document().claim(id))
+    claim = original.claim
+    assert old in claim.formula
+    formula = claim.formula.replace(old, new, 1) if old else claim.formula
+    return judged_claim(formula, original.notation, "launch", claim.when if when is None else when)
+
+
+@pytest.mark.parametrize("id", ["12", "13", "w51", "w65", "w71", "w75"])
+def test_what_is_true_along_the_motion_holds(id):
+    assert verdict_on(id).answer is Answer.HOLDS
+
+
+@pytest.mark.parametrize(
+    ("id", "old", "new"),
+    [
+        ("12", r"\operatorname{sech}[k", r"\operatorname{sech}[2k"),
+        ("13", r"\omega_2 = ", r"\omega_2 = -"),
+        ("w51", r"\omega_1 = 0", r"\omega_1 = \omega_{2,\max}"),
+        ("w71", r"\ddot{\phi} > 0", r"\ddot{\phi} < 0"),
+    ],
+)
+def test_what_is_not_fails(id, old, new):
+    assert verdict_on(id, old, new).answer is Answer.FAILS
+
+
+def test_a_motion_integrated_from_the_balance_of_every_body_says_the_same():
+    verdict = verdict_on("12", r"\operatorname{sech}[k", r"\operatorname{sech}[2k")
+    assert verdict.confirmation is not None
+    assert verdict.confirmation.agrees
+    assert verdict.confirmation.left != pytest.approx(verdict.confirmation.right)
+
+
+def test_a_printed_number_is_met_within_its_digits_when_something_comes_to_pass():
+    assert verdict_on("w65", "0.7", "0.8").answer is Answer.FAILS
+
+
+def test_what_never_happens_does_not_happen_sometimes():
+    assert verdict_on("w75", when="sometimes").answer is Answer.FAILS
+    assert verdict_on("w77", when="never").answer is Answer.FAILS
+
+
+def test_terms_of_different_dimensions_are_named():
+    original = Original.of(document().claim("147"))
+    verdict = judged_claim(original.claim.formula, original.notation, "motion")
+    assert verdict.answer is Answer.FAILS
+    assert "terms of different dimensions: kg m/s^2 and m/s^2 in member 1" in verdict.reason
