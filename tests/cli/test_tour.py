@@ -16,6 +16,9 @@ class Report:
     def table(self):
         return "the table"
 
+    def audit_table(self):
+        return "the verdicts"
+
 
 @pytest.mark.parametrize(("holds", "expected"), [(True, 0), (False, 1)])
 def test_the_report_is_printed_and_decides_the_exit_code(polhode, monkeypatch, holds, expected):
@@ -27,4 +30,4 @@ def test_the_report_is_printed_and_decides_the_exit_code(polhode, monkeypatch, h
     monkeypatch.setattr(_tour, "write_tour", write_tour)
     code, out, err = polhode("tour", "somewhere")
     assert (code, err) == (expected, "")
-    assert out == "a system\nthe table\n\nwritten to somewhere/index.html\n"
+    assert out == "a system\nthe table\n\nthe verdicts\n\nwritten to somewhere/index.html\n"

@@ -1,7 +1,10 @@
 """Claims on the pages of the tour: counted, typeset, and never taken for markup."""
 
+from pathlib import Path
+
 import pytest
 
+from polhode.tour import TourReport
 from polhode.tour._claims import Told, judged
 from polhode.tour._verdicts import counted, formula, verdicts
 
@@ -56,3 +59,11 @@ def test_judging_gives_text(id, system):
     assert claim.problem in (system, claim.problem)
     assert claim.answer == "holds"
     assert claim.is_formula
+
+
+def test_the_closing_table_counts_by_problem_and_shows_what_fails():
+    claims = (told(), told("fails", id="13", correction="a > b"), told("fails", reason="odd"))
+    lines = TourReport(Path("page"), (), claims).audit_table().splitlines()
+    assert lines[0] == "gyroscope  3 claims: 1 hold, 2 fail as printed"
+    assert lines[2].split() == ["13", "fails;", "holds", "as", "a", ">", "b"]
+    assert lines[3].endswith("fails; odd")

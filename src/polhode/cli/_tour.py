@@ -30,6 +30,6 @@ def run(options: Namespace) -> int:
         print(text, flush=True)
 
     report = write_tour(Path(options.directory), progress, tell)
-    print(report.table())
+    print(f"{report.table()}\n\n{report.audit_table()}")
     print(f"\nwritten to {report.page}")
     return Exit.DONE if report.all_hold else Exit.FAILED

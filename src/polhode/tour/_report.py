@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from textwrap import shorten
 
+from polhode.tour._claims import Told
 from polhode.tour._numerals import power_of_ten
+from polhode.tour._verdicts import counted
 from polhode.tour._work import Worked
 
 
@@ -47,6 +50,7 @@ class Row:
         )
 
 
+_WIDEST = 100  # letters of a correction or reason
 HEADER = ("system", "equations", "reactions", "checks", "energy drift", "constraint drift", "s")
 
 
@@ -57,10 +61,12 @@ class TourReport:
     Attributes:
         page: the page written.
         rows: one for each system.
+        claims: what the text claims, and the verdicts.
     """
 
     page: Path
     rows: tuple[Row, ...]
+    claims: tuple[Told, ...] = ()
 
     @property
     def all_hold(self) -> bool:
@@ -72,6 +78,21 @@ class TourReport:
         lines = [HEADER, *(row.cells for row in self.rows)]
         widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
         return "\n".join(_aligned(cells, widths) for cells in lines)
+
+    def audit_table(self) -> str:
+        """How the claims about each problem fared, then those that fail, with corrections."""
+        grouped: dict[str, list[Told]] = {}
+        for claim in self.claims:
+            grouped.setdefault(claim.problem, []).append(claim)
+        width = max(map(len, grouped), default=0)
+        counts = [f"{problem:<{width}}  {counted(found)}" for problem, found in grouped.items()]
+        fails = [_failure(claim) for claim in self.claims if claim.answer == "fails"]
+        return "\n".join([*counts, "", *fails])
+
+
+def _failure(claim: Told) -> str:
+    said = f"holds as  {claim.correction}" if claim.correction else claim.reason
+    return f"{claim.id:>5}  fails; {shorten(said, _WIDEST, placeholder=' …')}"
 
 
 def row_of(worked: Worked) -> Row:

@@ -48,11 +48,12 @@ def write_tour(
                 _write_motion(directory, all_worked[-1])
                 tell(text_of(all_worked[-1]))
                 progress.advance()
-            found = problems(all_worked, claims.result())
+            told = claims.result()
+            found = problems(all_worked, told)
             progress.advance()
     finally:
         progress.finish()
-    return TourReport(_written(directory, found), tuple(map(row_of, all_worked)))
+    return TourReport(_written(directory, found), tuple(map(row_of, all_worked)), told)
 
 
 def _write_motion(directory: Path, worked: Worked) -> None:
