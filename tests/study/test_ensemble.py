@@ -101,7 +101,7 @@ def test_switching_members_are_single_runs():
 
 def test_equations_are_kept_to():
     equations = derive(disk())
-    found = ensemble(equations, NUMBERS, STARTS, 1.0, outputs=["theta", "energy"], count=6, seed=2)
+    found = ensemble(equations, NUMBERS, STARTS, 1.0, outputs=["theta", "energy"], count=8, seed=2)
     for member in (0, 5):
         run = single(equations, member, found)
         assert found["theta"][member] == pytest.approx(run.final["theta"], rel=1e-10)

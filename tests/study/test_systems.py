@@ -17,7 +17,7 @@ def test_members_agree_with_single_runs(name):
     modes = automaton(entry.build())
     numbers = numbers_of(entry, modes.together.equations)
     random = np.random.default_rng(len(name))
-    jitter = {key: 1 + SPREAD * random.standard_normal(3) for key in numbers.start}
+    jitter = {key: 1 + SPREAD * random.standard_normal(8) for key in numbers.start}
     starts = {key: value * jitter[key] for key, value in numbers.start.items()}
     time = min(numbers.duration, 0.5)
     names = [s.published for s in modes.together.equations.speeds]

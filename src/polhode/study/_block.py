@@ -21,7 +21,7 @@ from polhode.study._output import AS_DECLARED, Legend, Quick, legend_of
 from polhode.study._outputs import Outputs
 from polhode.study._reasons import Reason, reason_of, told
 
-_FEW = 2
+_FEW = 8  # members that are followed one by one before lanes for them are compiled
 MOST_TOLD = 1000
 """Failures of a block that are kept in words; of further ones the code alone."""
 
