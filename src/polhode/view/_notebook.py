@@ -20,7 +20,8 @@ from polhode.view._scene_build import scene
 _ZERO = Expr.of(0)
 _STYLE = (
     "<style>.polhode{max-width:60em;overflow-x:auto}"
-    ".polhode math{font-size:1.1em;font-family:'STIX Two Math','Cambria Math','Latin Modern Math',math}"
+    ".polhode math{font-size:1.1em;"
+    "font-family:'STIX Two Math','Cambria Math','Latin Modern Math',math}"
     ".polhode .row{margin:.45em 0 .45em 1.2em;line-height:1.9}"
     ".polhode table{border-collapse:collapse;margin:.3em 0}"
     ".polhode td,.polhode th{text-align:left;padding:.15em .8em .15em 0;vertical-align:baseline}"
