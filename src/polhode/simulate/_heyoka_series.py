@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from polhode.algebra import Program
-from polhode.simulate._heyoka import is_long, library, rates_of
+from polhode.simulate._heyoka import library, rates_of
 from polhode.simulate._integrators import broken
 from polhode.simulate._numbers import LongDoubles, Numbers, number
 from polhode.simulate._series import Launch, Series, Watch, limbs_of
@@ -65,7 +65,7 @@ def _compiled(program: Program, size: int, numbers: Numbers) -> Any:
         rates_of(program, size, read),
         [read(0)] * size,
         opt_level=0,
-        compact_mode=is_long(program),
+        compact_mode=True,  # at such orders the code would be endless, written out
         **read.kind,
     )
 

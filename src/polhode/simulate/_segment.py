@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -31,9 +31,9 @@ class Part:
 
     def states(self, times: Array) -> Array:
         """States, shape (states, times); kept, as many things are read at the same times."""
-        if len(times) > _FEW or times.dtype == object:
+        if len(times) > _FEW:
             return self.solution.at(times)
-        key = times.tobytes()
+        key = tuple(times.tolist()) if times.dtype == object else times.tobytes()
         if key not in self._recent:
             if len(self._recent) >= _RECENT:
                 self._recent.pop(next(iter(self._recent)))
@@ -46,7 +46,7 @@ class Part:
         return Part(float(self.begin), float(self.end), self.solution.rounded(), constants)
 
     @cached_property
-    def _recent(self) -> dict[bytes, Array]:
+    def _recent(self) -> dict[Hashable, Array]:
         return {}
 
 
