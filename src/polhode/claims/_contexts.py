@@ -10,7 +10,6 @@ from polhode.claims._asked import EQUALITY, Asked
 from polhode.claims._circumstances import AnyState, Circumstances, TrueMotion
 from polhode.claims._inequality import SENSE, judged_inequality, judged_unequal
 from polhode.claims._judge import judged_identity, judged_motion
-from polhode.claims._launch import judged_launch
 from polhode.claims._limit import judged_limit
 from polhode.claims._number import judged_number
 from polhode.claims._steady import judged_steady
@@ -20,6 +19,14 @@ from polhode.claims._verdict import Answer, Verdict
 
 Judge = Callable[[Asked], Verdict]
 
+
+def _judged_launch(asked: Asked) -> Verdict:
+    """Along the motion from a start; what simulates is loaded for this context alone."""
+    from polhode.claims._launch import judged_launch
+
+    return judged_launch(asked)
+
+
 _EQUATIONS: dict[str, Judge] = {
     "identity": judged_identity,
     "motion": judged_motion,
@@ -28,7 +35,7 @@ _EQUATIONS: dict[str, Judge] = {
 _WHOLE: dict[str, Judge] = {
     "threshold": judged_threshold,
     "limit": judged_limit,
-    "launch": judged_launch,
+    "launch": _judged_launch,
     "number": judged_number,
 }
 #: Where a claim may be asked to hold.
