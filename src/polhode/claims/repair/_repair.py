@@ -34,6 +34,7 @@ _CLOSE = 1e-8
 _EQUALLY_SMALL = 0.15
 _TRIED = 12
 _MOST_EDITS = 4
+_MOST_INNER = 8
 
 
 @dataclass(frozen=True)
@@ -132,7 +133,7 @@ class _Workshop:
         found += [(edit,) for edit in self._single(open_, responses, kept)]
         if not found:
             found += fitted(responses, self._tried.bench.size)
-            inner = [p for p, f in responses.items() if self._can_take_terms(p, f)]
+            inner = [p for p, f in responses.items() if self._can_take_terms(p, f)][:_MOST_INNER]
             found += [(edit,) for target in targets for edit in self._missing(target, kept, inner)]
         smallest = sorted(map(self._applied, found), key=lambda repair: repair.size)
         return smallest[:_TRIED]
