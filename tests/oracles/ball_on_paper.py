@@ -290,7 +290,7 @@ class _Walk:
                     options={"xatol": 1e-12},
                 )
                 self.course.nearest_limit = min(self.course.nearest_limit, abs(low.fun))
-                if low.fun < 0 and low.x < after:
+                if low.fun < 0 and (low.x < after or values[i + 1] > 0):
                     after = low.x
             if reserve(after) < 0 and (i > 0 or values[0] > 0 or self.course.switches):
                 begin = before if reserve(before) > 0 else before + 1e-9 * (after - before)

@@ -10,27 +10,23 @@ import numpy as np
 from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError, Progress
 from polhode.derive import Guard
-from polhode.model import Coulomb, Phase, Rolling
-from polhode.simulate._creep import creep
 from polhode.simulate._crossing import first_fall
-from polhode.simulate._driver import Solution, Stop, Watched, integrate, stuck
+from polhode.simulate._driver import Stop, Watched, integrate, stuck
 from polhode.simulate._dynamics import CLOCK, WORK
 from polhode.simulate._integrators import Array
 from polhode.simulate._machine import Machine, ModeMachine, gap_symbol, slip_symbols
+from polhode.simulate._onset import onset
 from polhode.simulate._place import Place
 from polhode.simulate._segment import Part, Segment, state_at
-from polhode.simulate._settle import Entry, Known, painleve, settle
-from polhode.simulate._shock import Roughness, coulomb_shock, rough_shock, smooth_shock
+from polhode.simulate._settle import Entry, painleve
 from polhode.simulate._touching import Meeting
+from polhode.simulate._transition import Transitions, beyond, index_of
 
 _LOOK = 400  # steps after which the guards are looked at
 _VANISHED = 1e-14  # slip speed, relative to the velocities around, that is none
 _LANDED = 1e-10  # the same at an instant at which the slip velocity turns round
-_REBOUND = 1e-13  # of the hardest landing: a rebound that is none
-_STIFF = 30.0  # ratio of the times of slipping and of turning the slip that explicit steps bear
 _MOST_EVENTS = 50_000
 _MOST_AT_ONCE = 32  # changes of mode while no time passes: far more than contacts can have
-_STILL = 1e-14  # approach, relative to the velocities it is the difference of, that is none
 
 
 @dataclass(frozen=True)
@@ -83,7 +79,7 @@ class Walk:
         self._until = until
         self._segments: list[Segment] = []
         self._changes: list[Change] = []
-        self._hardest = 0.0
+        self._transitions = Transitions(machine)
 
     def along(self, entry: Entry, end: float) -> Course:
         """Follow the motion up to a time, or to where it goes flat.
@@ -100,7 +96,7 @@ class Walk:
             last = self._last(outcome)
             if last is not None:
                 return Course(tuple(self._segments), (*self._changes, last), last.after)
-            kind, entry = self._next(entry, outcome)
+            kind, entry = self._transitions.next(entry, outcome.guard, outcome.place)
             after = self._machine.mode(entry.phases).mode.name
             self._changes.append(Change(time, kind, before, after))
             if len(self._changes) > _MOST_EVENTS:
@@ -138,8 +134,9 @@ class Walk:
             limit = drive.until(now, end)
             if not parts:
                 limit = min(limit, now + self._hop(mode, entry))
-            stretch = self._creeping if entry.onset and not parts else self._stretch
-            part, guard = stretch(mode, entry, state, (now, limit))
+            follow = self._creep if entry.onset and not parts else self._stretch
+            part = follow(mode, entry, state, (now, limit))
+            part, guard = self._cut(mode, entry, part)
             parts.append(part)
             now, state = part.end, state_at(part, part.end)
             if part.solution.stop is Stop.INTERRUPTED:
@@ -183,14 +180,22 @@ class Walk:
         entry: Entry,
         state: dict[Symbol, float],
         span: tuple[float, float],
-    ) -> tuple[Part, Guard | None]:
+    ) -> Part:
         flow = mode.flow
         start = np.array([state[s] for s in flow.states])
         constants = mode.parameters
         watched = self._watched(mode, entry)
         solution = integrate(flow, mode.stepper, constants, start, span, self._progress, watched)
-        part = Part(span[0], float(solution.steps[-1]), solution, constants)
-        return self._cut(mode, entry, part)
+        return Part(span[0], float(solution.steps[-1]), solution, constants)
+
+    def _creep(
+        self,
+        mode: ModeMachine,
+        entry: Entry,
+        state: dict[Symbol, float],
+        span: tuple[float, float],
+    ) -> Part:
+        return onset(mode, entry, state, span, self._machine.automaton.contacts)
 
     def _watched(self, mode: ModeMachine, entry: Entry) -> Watched:
         core = mode.flow.core.symbols
@@ -220,7 +225,7 @@ class Walk:
         return max((meeting.scale for meeting in meetings), default=0.0) or 1.0
 
     def _meetings(self, entry: Entry) -> list[Meeting]:
-        return self._machine.touching.at(entry.place, _beyond(entry.phases))
+        return self._machine.touching.at(entry.place, beyond(entry.phases))
 
     # -- guards ---------------------------------------------------------------------------------
 
@@ -255,7 +260,7 @@ class Walk:
         leaving = [
             k
             for k, guard in enumerate(watched)
-            if guard.kind == "touches down" and self._place(guard) in entry.gaps
+            if guard.kind == "touches down" and index_of(guard, self._machine) in entry.gaps
         ]
 
         def values(times: Array) -> Array:
@@ -278,10 +283,6 @@ class Walk:
             return guard.positive - self._near_flat
         return guard.positive
 
-    def _place(self, guard: Guard) -> int:
-        names = [contact.name for contact in self._machine.automaton.contacts]
-        return names.index(guard.contact.name) if guard.contact is not None else -1
-
     def _landing(self, mode: ModeMachine, entry: Entry, part: Part) -> Guard | None:
         """The contact whose slip velocity vanishes at the end of a part."""
         if part.solution.vanished is None:
@@ -293,130 +294,6 @@ class Walk:
             for g in mode.mode.guards
             if g.kind == "sticks" and g.contact and g.contact.name == name
         )
-
-    # -- the beginning of slip ------------------------------------------------------------------
-
-    def _creeping(
-        self,
-        mode: ModeMachine,
-        entry: Entry,
-        state: dict[Symbol, float],
-        span: tuple[float, float],
-    ) -> tuple[Part, Guard | None]:
-        ((i, angle),) = entry.onset.items()
-        contact = self._machine.automaton.contacts[i]
-        element = mode.mode.element(contact)
-        polars = slip_symbols(contact)
-        own = tuple(s for s in mode.dynamics.states if s not in polars and s != WORK)
-        symbols = (*own, WORK)
-        motion = mode.mode.equations.kinetics
-        slips = [s.chain(motion.rate) for s in mode.mode.touches[i].slip]
-        rates = dict(zip(mode.dynamics.states, mode.dynamics.rates, strict=True))
-        wanted = [*(rates[s] for s in own), mode.mode.equations.power, *slips]
-        turning = (*element.direction, element.slip_speed)  # type: ignore[attr-defined]
-        arguments = (*symbols, *turning, *mode.dynamics.parameters, CLOCK)
-        function = mode.dynamics.function(wanted, arguments)
-        constants = mode.parameters
-
-        def polar(states: Array, times: Array) -> Array:
-            size, psi = states[-2], states[-1]
-            c, s = np.cos(psi), np.sin(psi)
-            found = function(*states[:-2], c, s, size, *constants, times)
-            values = np.array([np.broadcast_to(v, states[0].shape) for v in found])
-            along, across = values[-2], values[-1]
-            return np.vstack(
-                [values[:-2], [along * c + across * s], [across * c - along * s]]
-            ).reshape(states.shape)
-
-        start = np.array([*(state[s] for s in symbols), 0.0, angle])
-
-        pull = self._grip(mode, start[: len(own)], entry, i)
-
-        def enough(elapsed: float, reached: Array) -> bool:
-            return pull * elapsed < _STIFF * float(reached[-2])
-
-        found = creep(polar, start, *span, pull, enough)
-
-        def at(times: Array) -> Array:
-            values = found.at(times)
-            size, psi = values[-2], values[-1]
-            return np.vstack([values[:-2], size * np.cos(psi), size * np.sin(psi)])
-
-        stop, vanished = (
-            (Stop.VANISHED, sorted(entry.slips).index(i)) if found.ends else (Stop.PAUSE, None)
-        )
-        times = np.append(found.times[:-1], found.end)
-        solution = Solution((*symbols, *slip_symbols(contact)), {}, times, stop, vanished, at)
-        part = Part(entry.place.time, found.end, solution, constants)
-        return self._cut(mode, entry, part)
-
-    def _grip(self, mode: ModeMachine, state: Array, entry: Entry, i: int) -> float:
-        """How strongly friction pulls at the slip velocity, m/s²."""
-        time = entry.place.time
-        along = mode.slip_rates(state, time, [1.0, 0.0, 0.0])[i]
-        against = mode.slip_rates(state, time, [-1.0, 0.0, 0.0])[i]
-        return float(np.hypot(*(along - against))) / 2
-
-    # -- from one mode to the next --------------------------------------------------------------
-
-    def _next(self, entry: Entry, outcome: _Outcome) -> tuple[str, Entry]:
-        guard = outcome.guard
-        apart = frozenset(k for k, phase in enumerate(entry.phases) if phase.flies)
-        if guard is None:
-            self._machine.move_on(outcome.place.time)
-            return "jerk", settle(self._machine, outcome.place, Known(apart))
-        i = self._place(guard)
-        still = frozenset(k for k, phase in enumerate(entry.phases) if phase.rolls)
-        if guard.kind == "touches down":
-            return self._land(entry, outcome.place, i, apart)
-        if guard.kind == "lifts off":
-            known = Known(apart | {i}, still - {i}, beyond=_beyond(entry.phases))
-            found = settle(self._machine, outcome.place, known)
-            return "lifts off", replace(found, gaps={i: 0.0})
-        beyond = _beyond(entry.phases)
-        if guard.kind == "crosses the edge":
-            known = Known(apart, still - {i}, beyond=beyond ^ {i})
-        elif guard.kind == "slips":
-            known = Known(apart, still - {i}, frozenset({i}), beyond)
-        else:
-            known = Known(apart, still | {i}, beyond=beyond)
-        return guard.kind, settle(self._machine, outcome.place, known)
-
-    def _land(self, entry: Entry, place: Place, i: int, apart: frozenset[int]) -> tuple[str, Entry]:
-        """A shock, then contact or another flight."""
-        contact = self._machine.automaton.contacts[i]
-        if len(apart) < len(entry.phases):
-            raise NumericError(
-                f"{contact.name} lands at t = {place.time:.9g} s while another contact touches",
-                expected="one contact at a time: several shocks at once are not determined",
-                advice="end the motion before that time",
-            )
-        meeting = self._machine.touching.at(place, self._machine.touching.beyond(place))[i]
-        if meeting.velocity[2] >= -_STILL * meeting.scale:
-            return "touches down", settle(self._machine, place, Known(apart - {i}))
-        mass = self._machine.apart.mass(place)
-        felt = meeting.arms @ np.linalg.solve(mass, meeting.arms.T)
-        restitution = self._machine.value(contact.restitution)
-        if isinstance(contact, Coulomb):
-            kinetic, static = (self._machine.value(m) for m in (contact.mu, contact.mu_static))
-            shock = coulomb_shock(felt, meeting.velocity, Roughness(kinetic, static, restitution))
-        elif isinstance(contact, Rolling):
-            shock = rough_shock(felt, meeting.velocity, restitution)
-        else:
-            shock = smooth_shock(felt, meeting.velocity, restitution)
-        work = shock.impulse @ (meeting.support + (meeting.velocity + shock.velocity) / 2)
-        change = np.asarray(np.linalg.solve(mass, meeting.arms.T @ shock.impulse), dtype=float)
-        after = place.kicked(change, float(work))
-        self._hardest = max(self._hardest, -float(meeting.velocity[2]))
-        if shock.velocity[2] > _REBOUND * self._hardest:
-            bounced = settle(self._machine, after, Known(apart))
-            return "bounces", replace(bounced, gaps={i: 0.0})
-        stuck_ = frozenset({i}) if shock.sticks else frozenset()
-        return "touches down", settle(self._machine, after, Known(apart - {i}, stuck_))
-
-
-def _beyond(phases: tuple[Phase, ...]) -> frozenset[int]:
-    return frozenset(i for i, phase in enumerate(phases) if phase.is_beyond)
 
 
 @dataclass(frozen=True)
