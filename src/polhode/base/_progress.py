@@ -5,7 +5,7 @@ import time
 from typing import Protocol, TextIO
 
 
-class Enough(Exception):
+class Enough(Exception):  # noqa: N818  (no error: what was asked for is done)
     """Raised by a listener to end a task there and keep what is done."""
 
 
