@@ -13,7 +13,18 @@ from polhode.algebra import ZERO, Expr, Vector
 from polhode.base import PolhodeError
 from polhode.claims._asked import Asked
 from polhode.claims._numeric import Array
-from polhode.claims.latex._tree import Call, Dots, Name, Node, Power, Product, Quotient, Statement
+from polhode.claims.latex._tree import (
+    Call,
+    Cross,
+    Dots,
+    Name,
+    Node,
+    Power,
+    Product,
+    Quotient,
+    Statement,
+    walk,
+)
 from polhode.claims.repair._edits import Edit, edits, letters, relabelled, replaced_by, turned
 from polhode.claims.repair._missing import missing_terms
 from polhode.claims.repair._multiplier import (
@@ -64,6 +75,8 @@ def repaired(
     repair = Repaired(statement, ())
     for _ in range(_MOST_EDITS):
         workshop = _Workshop(repair, reading, context)
+        if not workshop.failing:
+            return ()
         found = workshop.corrected(workshop.failing)
         whole = [r for r in found if _sound(r, workshop.failing, reading, holds)]
         if whole:
@@ -78,9 +91,11 @@ def repaired(
 def _sound(repair: Repaired, failing: Sequence[int], reading: Reading, holds: Holds) -> bool:
     if _says_nothing(repair.statement):
         return False
+    grown = any(change.what == "missing term" for change in repair.changes)
     try:
         asked = reading.asked(repair.statement, {})
-        return not any(_is_empty(asked, member) for member in failing) and holds(asked)
+        cancelled = grown and any(_is_empty(asked, member) for member in failing)
+        return not cancelled and holds(asked)
     except (PolhodeError, ArithmeticError):
         return False
 
@@ -92,9 +107,10 @@ def _is_empty(asked: Asked, member: int) -> bool:
 
 
 def _says_nothing(statement: Statement) -> bool:
-    """Whether some member has the same on both sides."""
+    """Whether some member has the same on both sides, or a vector is crossed with itself."""
     sides = (tuple(map(tidied, relation.sides)) for relation in statement.relations)
-    return any(one == other for chain in sides for one, other in pairwise(chain))
+    same = any(one == other for chain in sides for one, other in pairwise(chain))
+    return same or any(isinstance(p, Cross) and p.left == p.right for p in walk(statement))
 
 
 def _smallest(found: Sequence[Repaired]) -> tuple[Repaired, ...]:
@@ -120,7 +136,7 @@ class _Workshop:
         residuals = self._tried.residuals(self._asked)
         values = self._tried.bench.values([e for _, e in residuals])
         size = 1 + np.abs(values).max(initial=0.0)
-        bad = np.abs(values).max(axis=1) > _CLOSE * size
+        bad = np.abs(values).max(axis=1, initial=0.0) > _CLOSE * size
         return tuple(dict.fromkeys(m for (m, _), off in zip(residuals, bad, strict=True) if off))
 
     def corrected(self, targets: Sequence[int]) -> list[Repaired]:
