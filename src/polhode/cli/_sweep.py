@@ -177,7 +177,7 @@ def _refuse_followers(first: Numbers, last: Numbers, axes: set[str]) -> None:
 
 
 def _of(numbers: Numbers, name: str) -> float:
-    return {**numbers.parameters, **numbers.start}[name]
+    return float({**numbers.parameters, **numbers.start}[name])
 
 
 def _kept(names: list[str]) -> dict[str, Output]:
