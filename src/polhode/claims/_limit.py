@@ -112,7 +112,8 @@ def _judged(asked: Asked, remainders: Sequence[_Remainder]) -> Verdict:
             continue
         order, term = next(iter(left.orders.items()))
         kept = _highest_printed(left.component, asked)
-        wanted = max(min(stated), kept) if stated else left.leading
+        # terms printed to be kept may be products of what is small, each to its stated order
+        wanted = max(min(stated), min(kept, sum(stated))) if stated else left.leading
         if order <= wanted:
             return _failed(left, order, restored(term, asked.small))
         reached.append((order, term))
