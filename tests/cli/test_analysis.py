@@ -83,3 +83,11 @@ def test_what_cannot_be_is_said_in_words(capsys, words, said):
     captured = capsys.readouterr()
     assert said in captured.err
     assert not captured.out
+
+
+def test_an_angle_without_exact_sine_is_printed_in_decimals(capsys):
+    assert main(["steady", "rolling-disk", "--at", "theta=80deg"]) == 0
+    out = capsys.readouterr().out
+    assert "theta = 1.396263402" in out
+    assert "0.984807753" in out
+    assert "/2500000000000000" not in out

@@ -22,6 +22,7 @@ from polhode.catalogue import exact_values
 from polhode.cli._document import print_document, printed, printed_all
 from polhode.cli._parser import Parser, assignments
 from polhode.cli._systems import NAME_HELP, entry_of
+from polhode.cli._text import in_decimals
 from polhode.derive import derive
 
 
@@ -50,7 +51,7 @@ def run(options: Namespace) -> int:
     else:
         print(f"Steady motions of {entry.name}")
         for family, judged in families:
-            print("\n".join(_told(family, judged)))
+            print(in_decimals("\n".join(_told(family, judged))))
         print(f"\n{PROVES}")
     return 0
 
