@@ -77,8 +77,9 @@ def test_an_interrupted_run_ends_with_130():
         time.sleep(3)
         run.send_signal(signal.SIGINT)
         out, err = run.communicate(timeout=60)
-    assert (run.returncode, out) == (130, "")
-    assert err == "polhode: interrupted\n"
+    assert run.returncode == 130
+    assert "interrupted" in out or out == ""  # what was done by then is told
+    assert err.startswith("polhode: interrupted")
 
 
 def test_what_an_interrupted_run_had_written_is_told(polhode, monkeypatch, tmp_path):

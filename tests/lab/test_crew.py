@@ -4,6 +4,7 @@ import asyncio
 import json
 import os
 import signal
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -24,6 +25,12 @@ LONG = (
 PATIENCE = 100.0
 
 
+def in_a_thread(run):
+    """Run a coroutine function where no event loop is: tests in a browser leave one behind."""
+    with ThreadPoolExecutor(1) as pool:
+        pool.submit(asyncio.run, run()).result()
+
+
 def with_worker(act):
     """Run a coroutine function on one worker of a crew, which is ended afterwards."""
 
@@ -35,7 +42,7 @@ def with_worker(act):
         finally:
             await crew.end()
 
-    asyncio.run(run())
+    in_a_thread(run)
 
 
 async def answers(worker):
@@ -114,4 +121,4 @@ def test_workers_not_asked_for_longest_make_room():
         finally:
             await crew.end()
 
-    asyncio.run(run())
+    in_a_thread(run)

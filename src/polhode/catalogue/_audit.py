@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from polhode.base import Progress, look_up, terminal_progress
 from polhode.catalogue._problem_set import problem_set
 from polhode.catalogue._systems import CATALOGUE
-from polhode.claims import Document, Limits, Report, audit_apart, read_document
 from polhode.model import System
+
+if TYPE_CHECKING:
+    from polhode.claims import Document, Limits, Report
 
 
 def audit(
@@ -37,6 +40,8 @@ def audit(
     Raises:
         ParseError: for what is no document, and for an id that it does not have.
     """
+    from polhode.claims import audit_apart  # only here: a list of the catalogue needs no claims
+
     own = systems or {}
 
     def find(name: str) -> System:
@@ -54,6 +59,8 @@ def audit(
 
 def document_of(source: Document | str | Path | None) -> Document:
     """A document as such, from its TOML text, or from a file; the problem set for None."""
+    from polhode.claims import Document, read_document
+
     if isinstance(source, Document):
         return source
     return read_document(problem_set() if source is None else source)
