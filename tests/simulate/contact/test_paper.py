@@ -7,7 +7,7 @@ from oracles.ball_on_paper import follow
 from simulate.contact.paper import LAST, RADIUS, Case, case
 
 GRID = np.linspace(0.31, LAST, 12)
-SEEDS = (*range(8), 9, 10, 11, 13, 14, 15)  # not the ones whose oracle takes long
+SEEDS = range(100_000, 100_100)
 
 
 def switches(run) -> list[tuple[float, str]]:
