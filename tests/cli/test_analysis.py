@@ -91,3 +91,9 @@ def test_an_angle_without_exact_sine_is_printed_in_decimals(capsys):
     assert "theta = 1.396263402" in out
     assert "0.984807753" in out
     assert "/2500000000000000" not in out
+
+
+def test_what_is_declared_positive_has_no_other_value(polhode):
+    code, out, err = polhode("steady", "rolling-disk", "--at", "a=-1")
+    assert (code, out) == (2, "")
+    assert "expected a positive a" in err

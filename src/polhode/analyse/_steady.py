@@ -142,6 +142,13 @@ def _refuse_strangers(equations: Equations, given: Values) -> None:
             expected="values of its coordinates, speeds and parameters",
             advice=", ".join(sorted(s.published for s in known)),
         )
+    for symbol in equations.parameters:
+        value = given[symbol].rational if symbol.positive and symbol in given else None
+        if value is not None and value <= 0:
+            raise NumericError(
+                f"{symbol.published} = {value}",
+                expected=f"a positive {symbol.published}, as it is declared",
+            )
 
 
 def _families(
