@@ -14,6 +14,7 @@ from polhode.base._errors import (
     UnitError,
     exit_code,
 )
+from polhode.base._extras import extra
 from polhode.base._files import write_whole
 from polhode.base._lookup import look_up
 from polhode.base._plain import Codec, Shape, digest
@@ -51,6 +52,7 @@ __all__ = [
     "cache",
     "digest",
     "exit_code",
+    "extra",
     "installed_version",
     "look_up",
     "provenance",

@@ -51,5 +51,19 @@ class Entry:
     plots: tuple[tuple[str, ...], ...]
     forcing: Mapping[str, str] = field(default_factory=dict)
 
+    @classmethod
+    def bare(cls, name: str, title: str, system: System) -> Entry:
+        """A system of somebody's own, with no defaults."""
+        return cls(
+            name=name,
+            title=title,
+            about="",
+            build=lambda: system,
+            parameters=(),
+            start={},
+            duration="",
+            plots=(),
+        )
+
 
 GRAVITY = Parameter("g", "m/s^2", "9.81 m/s^2", "acceleration of gravity")

@@ -192,7 +192,7 @@ def _plain(judged: Judged) -> dict[str, Any]:
         "words": claim.words,
         "read_as": claim.read_as,
         "verdict": verdict.answer.value,
-        "correction": correction and {"what": correction.what, "latex": correction.latex},
+        "correction": correction and correction.to_json(),
         "reason": verdict.reason,
         "follows_from": list(claim.follows_from),
         "fed_by": list(judged.fed_by),

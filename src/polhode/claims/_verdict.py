@@ -86,6 +86,10 @@ class Correction:
     what: str
     latex: str
 
+    def to_json(self) -> dict[str, str]:
+        """As it stands in a JSON document."""
+        return {"what": self.what, "latex": self.latex}
+
 
 @dataclass(frozen=True)
 class Verdict(Shown):

@@ -6,7 +6,7 @@ from argparse import Namespace
 from collections.abc import Iterator
 from typing import Any
 
-from polhode.claims import Answer, Correction, Verdict, check
+from polhode.claims import Answer, Verdict, check
 from polhode.cli._document import print_document, printed
 from polhode.cli._parser import Parser
 from polhode.cli._systems import NAME_HELP, entry_of
@@ -56,8 +56,8 @@ def _document(verdict: Verdict) -> dict[str, Any]:
     return {
         "verdict": verdict.answer.value,
         "context": verdict.context,
-        "correction": correction_document(verdict.correction),
-        "alternatives": [correction_document(other) for other in verdict.alternatives],
+        "correction": verdict.correction and verdict.correction.to_json(),
+        "alternatives": [other.to_json() for other in verdict.alternatives],
         "counterexample": _counterexample(verdict),
         "confirmation": _confirmation(verdict),
         "order": verdict.order,
@@ -69,11 +69,6 @@ def _document(verdict: Verdict) -> dict[str, Any]:
         "reason": verdict.reason,
         "remarks": list(verdict.remarks),
     }
-
-
-def correction_document(correction: Correction | None) -> dict[str, str] | None:
-    """A correction as it stands in a JSON document."""
-    return None if correction is None else {"what": correction.what, "latex": correction.latex}
 
 
 def _counterexample(verdict: Verdict) -> dict[str, Any] | None:

@@ -42,13 +42,4 @@ def _declared(name: str, path: Path, variable: str) -> Entry:
             expected=" or ".join(f"{path}:{key}" for key in systems) or "a System in that file",
         )
     system: System = found[variable]
-    return Entry(
-        name=name,
-        title=system.name,
-        about="",
-        build=lambda: system,
-        parameters=(),
-        start={},
-        duration="",
-        plots=(),
-    )
+    return Entry.bare(name, system.name, system)

@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-import re
 from functools import cache
 from typing import Any
 
-from polhode.algebra import mathml
-from polhode.catalogue import CATALOGUE, problem_set
-from polhode.claims import Claim, Document, Verdict, audit, check, read_document
+from polhode.catalogue import CATALOGUE, document_of
+from polhode.claims import Claim, Document, Verdict, audit, check
 from polhode.derive import Equations, derive
 from polhode.lab._wish import Question
+from polhode.view import typeset
 
-_MARKS = re.compile(r"\$+|\\(?:tag|label)\*?\{[^{}]*\}")
-_LONGEST = 1500  # letters of LaTeX that is typeset, or of a residual that is shown
+_LONGEST = 1500  # letters of a residual that is shown
 
 
 @cache
 def _document() -> Document:
-    return read_document(problem_set())
+    return document_of(None)
 
 
 @cache
@@ -49,13 +47,13 @@ def answered(question: Question, equations: Equations) -> dict[str, Any]:
         ParseError: for a context that is not known.
     """
     verdict = check(question.latex, equations, context=question.context)
-    return {"formula": _set(question.latex), **_told(verdict)}
+    return {"formula": typeset(question.latex), **_told(verdict)}
 
 
 def _stated(claim: Claim) -> dict[str, Any]:
     return {
         "id": claim.id,
-        "formula": _set(claim.read_as or claim.latex),
+        "formula": typeset(claim.read_as or claim.latex),
         "printed": claim.printed,
         "words": claim.words,
         "context": claim.context,
@@ -67,7 +65,8 @@ def _told(verdict: Verdict) -> dict[str, Any]:
     return {
         "verdict": verdict.answer.value,
         "reason": verdict.reason,
-        "correction": correction and {"what": correction.what, "formula": _set(correction.latex)},
+        "correction": correction
+        and {"what": correction.what, "formula": typeset(correction.latex)},
         "residuals": [str(residual)[:_LONGEST] for residual in verdict.residuals],
         "counterexample": example
         and {
@@ -77,14 +76,3 @@ def _told(verdict: Verdict) -> dict[str, Any]:
         },
         "remarks": list(verdict.remarks),
     }
-
-
-def _set(latex: str) -> str:
-    """Typeset as MathML, without dollar signs and numbers; empty where it cannot be."""
-    latex = _MARKS.sub(" ", latex).strip()
-    if not latex or len(latex) > _LONGEST:
-        return ""
-    try:
-        return mathml(latex)
-    except Exception:  # whatever the converter meets in LaTeX of any kind
-        return ""

@@ -31,17 +31,7 @@ class Own:
     @property
     def entry(self) -> Entry:
         """The entry again."""
-        system = read_declaration(self.declaration)
-        return Entry(
-            name=self.name,
-            title=self.title,
-            about="",
-            build=lambda: system,
-            parameters=(),
-            start={},
-            duration="",
-            plots=(),
-        )
+        return Entry.bare(self.name, self.title, read_declaration(self.declaration))
 
 
 def entry_of(name: str, own: Own | None) -> Entry:

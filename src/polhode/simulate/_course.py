@@ -134,8 +134,11 @@ class Walk:
             limit = drive.until(now, end)
             if not parts:
                 limit = min(limit, now + self._hop(mode, entry))
-            follow = self._creep if entry.onset and not parts else self._stretch
-            part = follow(mode, entry, state, (now, limit))
+            span = (now, limit)
+            if entry.onset and not parts:
+                part = onset(mode, entry, state, span, machine.automaton.contacts)
+            else:
+                part = self._stretch(mode, entry, state, span)
             part, guard = self._cut(mode, entry, part)
             parts.append(part)
             now, state = part.end, state_at(part, part.end)
@@ -187,15 +190,6 @@ class Walk:
         watched = self._watched(mode, entry)
         solution = integrate(flow, mode.stepper, constants, start, span, self._progress, watched)
         return Part(span[0], float(solution.steps[-1]), solution, constants)
-
-    def _creep(
-        self,
-        mode: ModeMachine,
-        entry: Entry,
-        state: dict[Symbol, float],
-        span: tuple[float, float],
-    ) -> Part:
-        return onset(mode, entry, state, span, self._machine.automaton.contacts)
 
     def _watched(self, mode: ModeMachine, entry: Entry) -> Watched:
         core = mode.flow.core.symbols

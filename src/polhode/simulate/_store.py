@@ -16,9 +16,8 @@ from typing import Any
 
 import numpy as np
 
-from polhode.base import SCHEMA, StoreError, write_whole
+from polhode.base import SCHEMA, StoreError, extra, write_whole
 from polhode.simulate._archive import Archive, Sampled, Stretch
-from polhode.simulate._extras import extra
 from polhode.simulate._integrators import Array
 
 _FORMAT = "polhode motion"
@@ -34,7 +33,7 @@ def write_archive(path: str | Path, archive: Archive) -> None:
     Raises:
         StoreError: where the file cannot be written, or h5py is not installed.
     """
-    with extra("h5py"):
+    with extra("h5py", "data"):
         import h5py
     memory = io.BytesIO()
     with h5py.File(memory, "w", track_order=True) as root:
@@ -52,7 +51,7 @@ def read_archive(path: str | Path) -> Archive:
         StoreError: for a file that cannot be read, is damaged, was not written by polhode or by
             another version of it.
     """
-    with extra("h5py"):
+    with extra("h5py", "data"):
         import h5py
     content = _unsealed(Path(path))
     try:

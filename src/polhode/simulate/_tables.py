@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from polhode.base import extra
 from polhode.simulate._archive import Sampled
-from polhode.simulate._extras import extra
 from polhode.simulate._integrators import Array
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ def to_xarray(
     Raises:
         StoreError: where xarray is not installed.
     """
-    with extra("xarray"):
+    with extra("xarray", "data"):
         import xarray
     columns = {name: ("t", s.values, _attributes(s)) for name, s in samples.items() if name != "t"}
     clock = ("t", times, {"units": "s"})
@@ -49,7 +49,7 @@ def to_pandas(
     Raises:
         StoreError: where pandas is not installed.
     """
-    with extra("pandas"):
+    with extra("pandas", "data"):
         import pandas
     index = pandas.Index(times, name="t")
     columns = {name: s.values for name, s in samples.items() if name != "t"}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polhode.base import StoreError
+from polhode.base import extra
 
 if TYPE_CHECKING:
     import xarray
@@ -18,14 +18,8 @@ def dataset_of(ensemble: Ensemble) -> xarray.Dataset:
     Raises:
         StoreError: where xarray is not installed.
     """
-    try:
+    with extra("xarray", "study"):
         import xarray
-    except ImportError as error:
-        raise StoreError(
-            "xarray is not installed",
-            expected="the extra of polhode that brings it",
-            advice="pip install 'polhode[study]'",
-        ) from error
     columns = {
         name: (
             ("member", *(f"{name}_{axis}" for axis in range(values.ndim - 1))),

@@ -2,46 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
-from polhode.base import StoreError
+from polhode.base import extra
 
 
 def zarr() -> Any:
     """The zarr module."""
-    with _extra("zarr"):
+    with extra("zarr", "study"):
         import zarr
     return zarr
 
 
 def xarray() -> Any:
     """The xarray module."""
-    with _extra("xarray"):
+    with extra("xarray", "study"):
         import xarray
     return xarray
 
 
 def distributed() -> Any:
     """Dask's module for clusters."""
-    with _extra("dask.distributed"):
+    with extra("dask.distributed", "study"):
         import distributed
     return distributed
-
-
-@contextmanager
-def _extra(name: str) -> Iterator[None]:
-    """Around an import.
-
-    Raises:
-        StoreError: where the library is not installed.
-    """
-    try:
-        yield
-    except ImportError as error:
-        raise StoreError(
-            f"{name} is not installed",
-            expected="the extra of polhode that brings it",
-            advice="pip install 'polhode[study]'",
-        ) from error

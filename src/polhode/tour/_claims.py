@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from multiprocessing import get_context
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE, problem_set
-from polhode.claims import Judged, audit, read_document
+from polhode.catalogue import CATALOGUE, document_of
+from polhode.claims import Judged, audit
 from polhode.derive import Equations
 
 
@@ -51,7 +51,7 @@ def judging(only: Iterable[str]) -> Iterator[Future[tuple[Told, ...]]]:
 
 def judged(only: tuple[str, ...]) -> tuple[Told, ...]:
     """Judge the claims of the problem set with these ids, or all of them."""
-    report = audit(read_document(problem_set()), _equations, only=only)
+    report = audit(document_of(None), _equations, only=only)
     return tuple(map(_told, report.judged))
 
 

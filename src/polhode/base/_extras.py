@@ -1,16 +1,16 @@
-"""Libraries that polhode can do without."""
+"""Libraries that polhode can do without, told of where they are missed."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from polhode.base import StoreError
+from polhode.base._errors import StoreError
 
 
 @contextmanager
-def extra(name: str) -> Iterator[None]:
-    """Around the import of a library for files and tables.
+def extra(library: str, name: str) -> Iterator[None]:
+    """Around the import of a library that an extra of polhode brings.
 
     Raises:
         StoreError: where it is not installed.
@@ -19,7 +19,7 @@ def extra(name: str) -> Iterator[None]:
         yield
     except ImportError as error:
         raise StoreError(
-            f"{name} is not installed",
+            f"{library} is not installed",
             expected="the extra of polhode that brings it",
-            advice="pip install 'polhode[data]'",
+            advice=f"pip install 'polhode[{name}]'",
         ) from error
