@@ -4,7 +4,7 @@ import numpy as np
 
 from oracles.shocks import lost, random_shock
 from polhode.base import PolhodeError
-from polhode.simulate._shock import Roughness, coulomb_shock
+from polhode.simulate.contact._shock import Roughness, coulomb_shock
 from proof.ledger import Ledger
 from simulate.contact import test_bounce as bounce
 

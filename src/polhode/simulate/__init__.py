@@ -1,23 +1,23 @@
 """Numbers: start values, integration to rounding, and trajectories to read everything from."""
 
-from polhode.simulate._abreast import Abreast as Abreast
-from polhode.simulate._abreast import Flights as Flights
-from polhode.simulate._abreast import Plan as Plan
-from polhode.simulate._abreast import abreast as abreast
-from polhode.simulate._callable import approximated as approximated
 from polhode.simulate._drift import Drift as Drift
 from polhode.simulate._dynamics import Dynamics as Dynamics
 from polhode.simulate._dynamics import EquationsOfMotion as EquationsOfMotion
 from polhode.simulate._event import Event as Event
 from polhode.simulate._experiment import NEAR_FLAT as NEAR_FLAT
 from polhode.simulate._experiment import Experiment as Experiment
-from polhode.simulate._forcing import Jump as Jump
-from polhode.simulate._forcing import Pieces as Pieces
-from polhode.simulate._numbers import numbers_for as numbers_for
-from polhode.simulate._saved import load as load
-from polhode.simulate._sheet_file import SheetPath as SheetPath
-from polhode.simulate._sheet_file import read_sheet as read_sheet
 from polhode.simulate._simulate import simulate as simulate
-from polhode.simulate._spline import sampled as sampled
-from polhode.simulate._tangents import Tangents as Tangents
 from polhode.simulate._trajectory import Trajectory as Trajectory
+from polhode.simulate.files._saved import load as load
+from polhode.simulate.forcing._callable import approximated as approximated
+from polhode.simulate.forcing._pieces import Jump as Jump
+from polhode.simulate.forcing._pieces import Pieces as Pieces
+from polhode.simulate.forcing._sheet_file import SheetPath as SheetPath
+from polhode.simulate.forcing._sheet_file import read_sheet as read_sheet
+from polhode.simulate.forcing._spline import sampled as sampled
+from polhode.simulate.integrate._numbers import numbers_for as numbers_for
+from polhode.simulate.many._abreast import Abreast as Abreast
+from polhode.simulate.many._abreast import Flights as Flights
+from polhode.simulate.many._abreast import Plan as Plan
+from polhode.simulate.many._abreast import abreast as abreast
+from polhode.simulate.many._tangents import Tangents as Tangents

@@ -10,8 +10,8 @@ import numpy as np
 
 from polhode.algebra import Expr
 from polhode.simulate._dynamics import WORK
-from polhode.simulate._integrators import Array
 from polhode.simulate._segment import Segment
+from polhode.simulate.integrate._integrators import Array
 
 _MOST_CHECKED = 20_000  # instants of a segment that are looked at
 

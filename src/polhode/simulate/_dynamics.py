@@ -22,7 +22,7 @@ from polhode.algebra import (
 )
 from polhode.base import DeclarationError
 from polhode.simulate._memory import Memory
-from polhode.simulate._numbers import DOUBLES, Numbers
+from polhode.simulate.integrate._numbers import DOUBLES, Numbers
 
 
 class EquationsOfMotion(Protocol):

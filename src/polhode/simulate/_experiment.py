@@ -14,18 +14,18 @@ from polhode.algebra import Expr
 from polhode.base import TIME, NumericError, Progress, SilentProgress, UnitError, to_si
 from polhode.derive import Automaton
 from polhode.model import System
-from polhode.simulate._driver import Stop
 from polhode.simulate._dynamics import EquationsOfMotion
 from polhode.simulate._event import Event, placed
 from polhode.simulate._follow import Motion, Prepared, Task, prepared
-from polhode.simulate._integrators import Array, chosen
 from polhode.simulate._names import Name
-from polhode.simulate._numbers import DOUBLES, Precision, numbers_for
-from polhode.simulate._precisely import Wanted, precisely
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate._validity import pulling_contacts, refuse_lost_side
 from polhode.simulate._values import evaluate
 from polhode.simulate._watching import with_events
+from polhode.simulate.integrate._driver import Stop
+from polhode.simulate.integrate._integrators import Array, chosen
+from polhode.simulate.integrate._numbers import DOUBLES, Precision, numbers_for
+from polhode.simulate.precise._precisely import Wanted, precisely
 
 SAMPLES = 1001
 #: Sine of the tilt at which a disk counts as lying flat.

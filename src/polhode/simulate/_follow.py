@@ -15,21 +15,21 @@ from polhode.algebra import Symbol
 from polhode.base import ConstraintError, DeclarationError, Progress
 from polhode.derive import Automaton, Mode, automaton
 from polhode.model import FLIGHT, FRICTIONLESS, Apart, Coulomb, Phase, System
-from polhode.simulate._contact_checks import can_be_followed, check_numbers, refuse_below
-from polhode.simulate._course import Change, Walk
-from polhode.simulate._drive import Drive, drive_of
-from polhode.simulate._driver import Stop, integrate, stuck
 from polhode.simulate._dynamics import WORK, Dynamics, EquationsOfMotion
-from polhode.simulate._flow import Flow, flow_of
-from polhode.simulate._integrators import Integrator, Stepper
-from polhode.simulate._machine import Machine
 from polhode.simulate._memory import Same
 from polhode.simulate._names import Name, published
-from polhode.simulate._place import Place
 from polhode.simulate._segment import Part, Segment, state_at
-from polhode.simulate._settle import Known, settle
 from polhode.simulate._start import Start, read_start
 from polhode.simulate._values import idle_parameters, read_parameters
+from polhode.simulate.contact._checks import can_be_followed, check_numbers, refuse_below
+from polhode.simulate.contact._course import Change, Walk
+from polhode.simulate.contact._machine import Machine
+from polhode.simulate.contact._place import Place
+from polhode.simulate.contact._settle import Known, settle
+from polhode.simulate.forcing._drive import Drive, drive_of
+from polhode.simulate.integrate._driver import Stop, integrate, stuck
+from polhode.simulate.integrate._flow import Flow, flow_of
+from polhode.simulate.integrate._integrators import Integrator, Stepper
 
 AS_DECLARED = "as declared"
 

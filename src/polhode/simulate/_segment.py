@@ -10,11 +10,11 @@ import numpy as np
 
 from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError
-from polhode.simulate._driver import Solution
 from polhode.simulate._dynamics import CLOCK, Dynamics
-from polhode.simulate._integrators import Array
-from polhode.simulate._numbers import DOUBLES, Numbers
 from polhode.simulate._readable import moving
+from polhode.simulate.integrate._driver import Solution
+from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._numbers import DOUBLES, Numbers
 
 _RECENT = 4  # sets of times whose states are remembered
 _FEW = 10_000  # times in one of them, at most

@@ -14,8 +14,8 @@ from polhode.model import System
 from polhode.simulate._dynamics import EquationsOfMotion
 from polhode.simulate._experiment import NEAR_FLAT, SAMPLES, Experiment
 from polhode.simulate._names import Name
-from polhode.simulate._numbers import Precision
 from polhode.simulate._trajectory import Trajectory
+from polhode.simulate.integrate._numbers import Precision
 
 
 def simulate(

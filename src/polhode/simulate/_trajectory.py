@@ -12,14 +12,14 @@ import numpy as np
 
 from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError, Shown, look_up
-from polhode.simulate._csv import write_csv
 from polhode.simulate._drift import Drift, drift_of
 from polhode.simulate._dynamics import Dynamics, EquationsOfMotion
 from polhode.simulate._event import Event, placed
-from polhode.simulate._integrators import Array
-from polhode.simulate._numbers import DOUBLES, Numbers
 from polhode.simulate._readable import readable
 from polhode.simulate._segment import Segment
+from polhode.simulate.files._csv import write_csv
+from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._numbers import DOUBLES, Numbers
 
 if TYPE_CHECKING:
     import pandas
@@ -189,7 +189,7 @@ class Trajectory(Shown):
         Raises:
             StoreError: where xarray is not installed.
         """
-        from polhode.simulate import _sampling, _tables
+        from polhode.simulate.files import _sampling, _tables
 
         return _tables.to_xarray(self.t, _sampling.samples_of(self, names), self._origin)
 
@@ -204,7 +204,7 @@ class Trajectory(Shown):
         Raises:
             StoreError: where pandas is not installed.
         """
-        from polhode.simulate import _sampling, _tables
+        from polhode.simulate.files import _sampling, _tables
 
         return _tables.to_pandas(self.t, _sampling.samples_of(self, names), self._origin)
 
@@ -217,7 +217,7 @@ class Trajectory(Shown):
             StoreError: where the file cannot be written, h5py is not installed, or the system has
                 parts of classes that are not polhode's own.
         """
-        from polhode.simulate._saved import save
+        from polhode.simulate.files._saved import save
 
         save(self, path)
 

@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from polhode.algebra import Expr
-from polhode.simulate._crossing import roots
 from polhode.simulate._event import Event
-from polhode.simulate._integrators import Array
 from polhode.simulate._segment import Segment
 from polhode.simulate._trajectory import Trajectory
+from polhode.simulate.integrate._crossing import roots
+from polhode.simulate.integrate._integrators import Array
 
 
 def with_events(trajectory: Trajectory, wanted: Mapping[str, Expr]) -> Trajectory:

@@ -12,8 +12,8 @@ import numpy as np
 import polhode as ph
 from oracles.ball_on_paper import Ball, Stretch, bumps, polynomials
 from polhode.derive import Automaton, automaton
-from polhode.simulate._forcing import Pieces
-from polhode.simulate._spline import sampled
+from polhode.simulate.forcing._pieces import Pieces
+from polhode.simulate.forcing._spline import sampled
 
 RADIUS, MASS = 0.02, 0.05
 NAMES = ("X", "Y", "chi")

@@ -6,7 +6,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from oracles.shocks import felt_inertia, lost, random_shock, stepped
-from polhode.simulate._shock import Roughness, coulomb_shock, rough_shock, smooth_shock
+from polhode.simulate.contact._shock import Roughness, coulomb_shock, rough_shock, smooth_shock
 
 RESTITUTIONS = st.sampled_from([0.0, 0.3, 0.7, 1.0])
 FRICTIONS = st.sampled_from([0.0, 0.05, 0.2, 0.6, 1.5])

@@ -1,0 +1,80 @@
+"""What contacts are refused for once the numbers are known."""
+
+from __future__ import annotations
+
+from polhode.base import ConstraintError, DeclarationError, NumericError
+from polhode.derive import Automaton
+from polhode.model import Contact, Coulomb
+from polhode.simulate.contact._machine import Machine
+from polhode.simulate.contact._place import Place
+
+_ROUNDING = 1e-12  # depth below a support, over the size of the place, that is none
+
+
+def can_be_followed(modes: Automaton) -> bool:
+    """Whether the forces that tell when contacts change are determined.
+
+    Raises:
+        NumericError: where they are not, and friction makes the motion depend on them.
+    """
+    loose = set(modes.together.equations.undetermined)
+    held = [contact for contact in modes.contacts if loose & set(_components(contact))]
+    rubbing = [contact.name for contact in held if isinstance(contact, Coulomb)]
+    if rubbing:
+        raise NumericError(
+            f"undetermined forces at {', '.join(rubbing)}, on which friction depends",
+            expected="contacts whose normal and friction forces Newton's laws determine",
+            advice="declare the contacts Rolling or Smooth, or take one of them away",
+        )
+    return not held
+
+
+def _components(contact: Contact) -> list[str]:
+    return [contact.component(label) for label in (*contact.on.tangents, contact.on.normal)]
+
+
+def check_numbers(machine: Machine) -> None:
+    """Refuse coefficients that no contact can have.
+
+    Raises:
+        DeclarationError: with the contact and the value.
+    """
+    for contact in machine.automaton.contacts:
+        restitution = machine.value(contact.restitution)
+        if not 0 <= restitution <= 1:
+            raise _impossible("restitution", restitution, contact, "a number from 0 to 1")
+        if isinstance(contact, Coulomb):
+            _check_friction(machine, contact)
+
+
+def _check_friction(machine: Machine, contact: Coulomb) -> None:
+    kinetic, static = (machine.value(mu) for mu in (contact.mu, contact.mu_static))
+    if kinetic < 0:
+        raise _impossible("friction coefficient mu", kinetic, contact, "zero or more")
+    if static < kinetic:
+        raise _impossible(
+            "friction coefficient mu_static", static, contact, f"no less than mu = {kinetic:g}"
+        )
+
+
+def _impossible(what: str, value: float, contact: Contact, expected: str) -> DeclarationError:
+    return DeclarationError(f"{what} = {value:g} of contact {contact.name!r}", expected=expected)
+
+
+def refuse_below(machine: Machine, place: Place, apart: frozenset[int]) -> None:
+    """Refuse a start in which a body is within its support.
+
+    Raises:
+        ConstraintError: with the depth.
+    """
+    meetings = machine.touching.at(place, machine.touching.beyond(place))
+    size = max((abs(float(q)) for q in place.coordinates), default=0.0)
+    for i in apart:
+        if meetings[i].gap < -_ROUNDING * size:
+            contact = machine.automaton.contacts[i]
+            height = contact.on.normal + contact.body.tag
+            raise ConstraintError(
+                f"{contact.body.name} starts {-meetings[i].gap:g} m below its support",
+                expected=f"a height {height} at which it touches or is above",
+                advice=f"leave out {height} to start in contact",
+            )

@@ -1,0 +1,320 @@
+"""The course of a motion through its contact modes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from polhode.algebra import Expr, Symbol
+from polhode.base import NumericError, Progress
+from polhode.derive import Guard
+from polhode.simulate._dynamics import CLOCK, WORK
+from polhode.simulate._segment import Part, Segment, state_at
+from polhode.simulate.contact._machine import Machine, ModeMachine, gap_symbol, slip_symbols
+from polhode.simulate.contact._onset import onset
+from polhode.simulate.contact._place import Place
+from polhode.simulate.contact._settle import Entry, painleve
+from polhode.simulate.contact._touching import Meeting
+from polhode.simulate.contact._transition import Transitions, beyond, index_of
+from polhode.simulate.integrate._crossing import first_fall
+from polhode.simulate.integrate._driver import Stop, Watched, integrate, stuck
+from polhode.simulate.integrate._integrators import Array
+
+_LOOK = 400  # steps after which the guards are looked at
+_VANISHED = 1e-14  # slip speed, relative to the velocities around, that is none
+_LANDED = 1e-10  # the same at an instant at which the slip velocity turns round
+_MOST_EVENTS = 50_000
+_MOST_AT_ONCE = 32  # changes of mode while no time passes: far more than contacts can have
+
+
+@dataclass(frozen=True)
+class Change:
+    """A change of contact mode.
+
+    Attributes:
+        time: s.
+        kind: what happened.
+        before: name of the mode it ended.
+        after: name of the mode it began.
+    """
+
+    time: float
+    kind: str
+    before: str
+    after: str
+
+
+@dataclass(frozen=True)
+class Course:
+    """Segments and the changes between them; the motion may end before its time."""
+
+    segments: tuple[Segment, ...]
+    changes: tuple[Change, ...]
+    ending: str
+
+
+class Walk:
+    """Follows a motion from mode to mode.
+
+    Args:
+        machine: the modes.
+        near_flat: value at which an expression that must stay positive, such as sin θ, counts as
+            gone.
+        progress: told of every step.
+        until: what, once it happens, ends the motion.
+    """
+
+    def __init__(
+        self,
+        machine: Machine,
+        near_flat: float,
+        progress: Progress,
+        until: frozenset[str] = frozenset(),
+    ) -> None:
+        self._machine = machine
+        self._near_flat = near_flat
+        self._progress = progress
+        self._until = until
+        self._segments: list[Segment] = []
+        self._changes: list[Change] = []
+        self._transitions = Transitions(machine)
+
+    def along(self, entry: Entry, end: float) -> Course:
+        """Follow the motion up to a time, or to where it goes flat.
+
+        Raises:
+            NumericError: where it cannot be continued.
+        """
+        while entry.place.time < end:
+            outcome = self._stay(entry, end)
+            self._segments.append(outcome.segment)
+            if outcome.guard is None and (outcome.segment.end >= end or outcome.interrupted):
+                break
+            time, before = outcome.segment.end, outcome.segment.mode
+            last = self._last(outcome)
+            if last is not None:
+                return Course(tuple(self._segments), (*self._changes, last), last.after)
+            kind, entry = self._transitions.next(entry, outcome.guard, outcome.place)
+            after = self._machine.mode(entry.phases).mode.name
+            self._changes.append(Change(time, kind, before, after))
+            if len(self._changes) > _MOST_EVENTS:
+                raise _chattering(time)
+            if self._stands_still():
+                raise _undecided(time, {before, after})
+        return Course(tuple(self._segments), tuple(self._changes), self._segments[-1].mode)
+
+    def _stands_still(self) -> bool:
+        """Whether mode has followed mode for long while no time has passed."""
+        last = self._changes[-_MOST_AT_ONCE:]
+        passed = last[-1].time - last[0].time
+        return len(last) == _MOST_AT_ONCE and passed <= 8 * np.spacing(last[-1].time)
+
+    def _last(self, outcome: _Outcome) -> Change | None:
+        """The change that ends the motion, if this is one."""
+        kind = outcome.guard.kind if outcome.guard is not None else ""
+        time, mode = outcome.segment.end, outcome.segment.mode
+        if kind == "near-flat":
+            return Change(time, "goes flat", mode, "near-flat")
+        return Change(time, kind, mode, mode) if kind in self._until else None
+
+    # -- one mode -------------------------------------------------------------------------------
+
+    def _stay(self, entry: Entry, end: float) -> _Outcome:
+        """As long as the mode lasts."""
+        mode = self._machine.mode(entry.phases)
+        begin = now = entry.place.time
+        machine, drive = self._machine, self._machine.drive
+        parts = list[Part]()
+        state = self._start(mode, entry)
+        guard: Guard | None = None
+        while guard is None and now < end:
+            machine.move_on(now)
+            limit = drive.until(now, end)
+            if not parts:
+                limit = min(limit, now + self._hop(mode, entry))
+            span = (now, limit)
+            if entry.onset and not parts:
+                part = onset(mode, entry, state, span, machine.automaton.contacts)
+            else:
+                part = self._stretch(mode, entry, state, span)
+            part, guard = self._cut(mode, entry, part)
+            parts.append(part)
+            now, state = part.end, state_at(part, part.end)
+            if part.solution.stop is Stop.INTERRUPTED:
+                break
+            if now in drive.jerks:
+                break
+        own = {s: state[s] for s in mode.dynamics.states if s not in mode.dynamics.carried}
+        place = mode.lifted(now, own, state.get(WORK, entry.place.work))
+        segment = Segment(mode.mode.name, begin, now, mode.dynamics, tuple(parts))
+        return _Outcome(segment, guard, place)
+
+    def _hop(self, mode: ModeMachine, entry: Entry) -> float:
+        """How far ahead a contact that has just opened may be expected to be closed again, s.
+
+        A short hop within a long step would be lost in the rounding of the long one.
+        """
+        if not entry.gaps:
+            return np.inf
+        state = np.concatenate([entry.coordinates, entry.speeds])
+        falls = mode.closing_rates(state, entry.place.time)
+        rises = [meeting.velocity[2] for meeting in self._meetings(entry)]
+        hops = [3 * rises[i] / -falls[i] for i in entry.gaps if falls[i] < 0 < rises[i]]
+        return float(min(hops, default=np.inf))
+
+    def _start(self, mode: ModeMachine, entry: Entry) -> dict[Symbol, float]:
+        equations = mode.mode.equations
+        values = (*entry.coordinates, *entry.speeds)
+        state = dict(zip((*equations.coordinates, *equations.speeds), values, strict=True))
+        meetings = self._meetings(entry)
+        for i, touch in enumerate(mode.mode.touches):
+            if gap_symbol(touch.contact) in mode.dynamics.carried:
+                state[gap_symbol(touch.contact)] = entry.gaps.get(i, meetings[i].gap)
+            for k, symbol in enumerate(slip_symbols(touch.contact)):
+                if symbol in mode.dynamics.carried:
+                    state[symbol] = float(entry.slips[i][k])
+        return {**state, WORK: entry.place.work}
+
+    def _stretch(
+        self,
+        mode: ModeMachine,
+        entry: Entry,
+        state: dict[Symbol, float],
+        span: tuple[float, float],
+    ) -> Part:
+        flow = mode.flow
+        start = np.array([state[s] for s in flow.states])
+        constants = mode.parameters
+        watched = self._watched(mode, entry)
+        solution = integrate(flow, mode.stepper, constants, start, span, self._progress, watched)
+        return Part(span[0], float(solution.steps[-1]), solution, constants)
+
+    def _watched(self, mode: ModeMachine, entry: Entry) -> Watched:
+        core = mode.flow.core.symbols
+        guarded = bool(mode.mode.guards)
+        vectors = [slip_symbols(self._machine.automaton.contacts[i]) for i in sorted(entry.slips)]
+        places = tuple(
+            tuple(core.index(s) for s in pair) for pair in vectors if set(pair) <= set(core)
+        )
+        scale = self._speed_scale(entry)
+        if not guarded:
+            return Watched()
+        over = self._is_flat(mode)
+        return Watched(_LOOK, places, _VANISHED * scale, _LANDED * scale, over)
+
+    def _is_flat(self, mode: ModeMachine) -> Callable[[float, Array], bool]:
+        """Whether a state of the core is beyond the side on which the equations hold.
+
+        What follows there may take any number of steps, and does not count.
+        """
+        if not any(guard.kind == "near-flat" for guard in mode.mode.guards):
+            return lambda time, state: False
+        values, constants, least = mode.sides, mode.parameters.tolist(), self._near_flat
+        return lambda time, state: min(values(*state.tolist(), *constants, time)) < least
+
+    def _speed_scale(self, entry: Entry) -> float:
+        meetings = self._meetings(entry)
+        return max((meeting.scale for meeting in meetings), default=0.0) or 1.0
+
+    def _meetings(self, entry: Entry) -> list[Meeting]:
+        return self._machine.touching.at(entry.place, beyond(entry.phases))
+
+    # -- guards ---------------------------------------------------------------------------------
+
+    def _cut(self, mode: ModeMachine, entry: Entry, part: Part) -> tuple[Part, Guard | None]:
+        """The part up to the first guard that falls, and that guard."""
+        solution = part.solution
+        watched = [g for g in mode.mode.guards if g.kind != "sticks"]
+        jams = mode.can_jam
+        fall = None
+        if watched or jams:
+            values = self._values(mode, entry, part, watched)
+            fall = first_fall(values, solution.steps)
+        if fall is not None:
+            if fall.guard == len(watched):
+                raise painleve(", ".join(e.name for e in mode.sliding), fall.time)
+            return replace(part, end=fall.time), watched[fall.guard]
+        if solution.stop is Stop.STUCK:
+            raise stuck(solution)
+        return part, self._landing(mode, entry, part)
+
+    def _values(
+        self, mode: ModeMachine, entry: Entry, part: Part, watched: list[Guard]
+    ) -> Callable[[Array], Array]:
+        """Values of the guards, and how far sliding is from jamming."""
+        expressions = [self._looked_at(guard) for guard in watched]
+        size = len(mode.mode.equations.speeds)
+        masses = [e for row in mode.mode.equations.mass.rows for e in row] if mode.can_jam else []
+        arguments = (*part.solution.symbols, *mode.dynamics.parameters, CLOCK)
+        wanted = [*expressions, *masses]
+        function = mode.dynamics.function(wanted, arguments, part.solution.turned)
+        since = entry.place.time
+        leaving = [
+            k
+            for k, guard in enumerate(watched)
+            if guard.kind == "touches down" and index_of(guard, self._machine) in entry.gaps
+        ]
+
+        def values(times: Array) -> Array:
+            with np.errstate(all="ignore"):
+                found = function(*part.solution.at(times), *part.constants, times)
+            rows = np.array([np.broadcast_to(v, times.shape) for v in found], dtype=float)
+            rows[leaving] /= np.maximum(times - since, 1e-300)
+            own = rows[: len(expressions)]
+            if not mode.can_jam:
+                return own
+            matrices = rows[len(expressions) :].T.reshape(-1, size, size)
+            return np.vstack([own, np.linalg.det(matrices)])
+
+        return values
+
+    def _looked_at(self, guard: Guard) -> Expr:
+        if guard.kind == "touches down" and guard.contact is not None:
+            return Expr.generator(gap_symbol(guard.contact))
+        if guard.kind == "near-flat":
+            return guard.positive - self._near_flat
+        return guard.positive
+
+    def _landing(self, mode: ModeMachine, entry: Entry, part: Part) -> Guard | None:
+        """The contact whose slip velocity vanishes at the end of a part."""
+        if part.solution.vanished is None:
+            return None
+        i = sorted(entry.slips)[part.solution.vanished]
+        name = self._machine.automaton.contacts[i].name
+        return next(
+            g
+            for g in mode.mode.guards
+            if g.kind == "sticks" and g.contact and g.contact.name == name
+        )
+
+
+@dataclass(frozen=True)
+class _Outcome:
+    segment: Segment
+    guard: Guard | None
+    place: Place
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether who listens had enough."""
+        return self.segment.parts[-1].solution.stop is Stop.INTERRUPTED
+
+
+def _undecided(time: float, modes: set[str]) -> NumericError:
+    # Where N vanishes while unlimited friction still pulls, the contact cannot open, for without
+    # friction it would close again; nor can it hold, for it would have to pull (Painlevé).
+    return NumericError(
+        f"at t = {time:.9g} s no mode can follow: {' and '.join(sorted(modes))} exclude each other",
+        expected="friction that gives way before the contact has to open",
+        advice="give the contact a friction coefficient mu, or end the motion before that time",
+    )
+
+
+def _chattering(time: float) -> NumericError:
+    return NumericError(
+        f"more than {_MOST_EVENTS} changes of contact mode up to t = {time:.9g} s",
+        expected="a motion that settles",
+        advice="it chatters: end the motion before that time, or change the friction",
+    )

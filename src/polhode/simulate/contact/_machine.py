@@ -1,0 +1,320 @@
+"""A contact mode in numbers: what moves it, what it feels, and how others are handed over to it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
+
+import numpy as np
+
+from polhode.algebra import ZERO, Compiled, Expr, Kind, Symbol, compile_program, linear_parts, sqrt
+from polhode.base import NumericError
+from polhode.derive import Automaton, Mode
+from polhode.model import Contact, Coulomb, Phase, Sliding
+from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
+from polhode.simulate.contact._place import Function, Place
+from polhode.simulate.contact._touching import Touching
+from polhode.simulate.forcing._drive import Drive
+from polhode.simulate.integrate._flow import Flow, flow_of
+from polhode.simulate.integrate._integrators import Array, Integrator, Stepper
+
+Constants = Mapping[Symbol, float]
+
+
+class Machine:
+    """The modes of one system with one set of numbers.
+
+    Args:
+        automaton: the modes.
+        drive: motions that are given.
+        constants: value of every parameter.
+        integrator: what integrates them.
+        tolerance: of its steps.
+    """
+
+    def __init__(
+        self,
+        automaton: Automaton,
+        drive: Drive,
+        constants: Constants,
+        integrator: Integrator,
+        tolerance: float | None,
+    ) -> None:
+        self.automaton = automaton
+        self.drive = drive
+        self.constants = dict(constants) | drive.constants(0.0)
+        self.integrator = integrator
+        self.tolerance = tolerance
+        self._modes: dict[tuple[Phase, ...], ModeMachine] = {}
+
+    def take(self, constants: Constants) -> None:
+        """Take other values of the same parameters, for another motion from the beginning."""
+        self.constants = dict(constants) | self.drive.constants(0.0)
+
+    def move_on(self, now: float) -> None:
+        """Take the coefficients of the prescribed motions that hold from an instant on."""
+        self.constants |= self.drive.constants(now)
+
+    def mode(self, phases: tuple[Phase, ...]) -> ModeMachine:
+        """The machinery of a mode, made when it is first needed."""
+        if phases not in self._modes:
+            self._modes[phases] = ModeMachine(self, self.automaton.mode(phases))
+        return self._modes[phases]
+
+    def value(self, expression: Expr) -> float:
+        """The value of an expression of constants."""
+        known = tuple(self.constants)
+        function = compile_program([expression], known).function()
+        return float(function(*self.constants.values())[0])
+
+    @cached_property
+    def apart(self) -> ModeMachine:
+        """The mode in which nothing touches."""
+        return self.mode(self.automaton.apart.phases)
+
+    @cached_property
+    def touching(self) -> Touching:
+        """What every contact sees, from the shared state."""
+        return Touching(self.automaton, self.apart.function)
+
+
+class ModeMachine:
+    """One contact mode with numbers."""
+
+    def __init__(self, machine: Machine, mode: Mode) -> None:
+        self.mode = mode
+        self._machine = machine
+        carried, meanings = _carried(mode)
+        idle = tuple(machine.constants)
+        known = {**mode.lifted, **_silent(machine.automaton, mode), **_slips(mode, carried)}
+        self.dynamics = Dynamics(
+            mode.equations, machine.drive.expressions, idle, carried, meanings, known
+        )
+
+    @property
+    def parameters(self) -> Array:
+        """The constants, in the order of the programs; those of prescribed motions change."""
+        return np.array([self._machine.constants[s] for s in self.dynamics.parameters])
+
+    @cached_property
+    def flow(self) -> Flow:
+        """What is integrated."""
+        return flow_of(self.dynamics, reduced=self._machine.integrator.dense)
+
+    @cached_property
+    def stepper(self) -> Stepper:
+        """The compiled flow."""
+        return self._machine.integrator.prepare(self.flow, self._machine.tolerance)
+
+    @cached_property
+    def sides(self) -> Compiled:
+        """What stays positive where the equations hold: of the core, the parameters, the time."""
+        sides = [guard.positive for guard in self.mode.guards if guard.kind == "near-flat"]
+        given = (*self.flow.core.symbols, *self.dynamics.parameters, CLOCK)
+        return self.dynamics.program(sides, given).function()
+
+    def function(self, expressions: Iterable[Expr], extra: Sequence[Symbol] = ()) -> Function:
+        """Expressions as a function of the state, the time and values of extra symbols."""
+        states = tuple(s for s in self.dynamics.states if s not in self.dynamics.carried)
+        known = (*states, *extra, *self.dynamics.parameters, CLOCK)
+        compiled = self.dynamics.program(expressions, known).function()
+
+        def values(state: Array, time: float, more: Sequence[float] = ()) -> Array:
+            constants = self.parameters.tolist()
+            try:
+                found = compiled(*state[: len(states)].tolist(), *more, *constants, time)
+            except (ArithmeticError, ValueError) as error:
+                raise singular(time) from error
+            return np.array(found, dtype=float)
+
+        return values
+
+    # -- to and from the shared state -----------------------------------------------------------
+
+    @cached_property
+    def _lift(self) -> Function:
+        apart = self._machine.automaton.apart.equations
+        wanted = (*apart.coordinates, *apart.speeds)
+        lifted = self.mode.lifted
+        return self.function([lifted.get(s, Expr.generator(s)) for s in wanted])
+
+    def lifted(self, time: float, state: Mapping[Symbol, float], work: float) -> Place:
+        """The shared state of a state of this mode."""
+        own = [s for s in self.dynamics.states if s not in self.dynamics.carried]
+        values = self._lift(np.array([state[s] for s in own]), time, ())
+        size = len(self._machine.automaton.apart.equations.coordinates)
+        return Place(time, values[:size], values[size:], work)
+
+    @cached_property
+    def _projection(self) -> Function:
+        """Shared speeds as this mode has them: what they are at rest, and per speed of its own."""
+        motion = self.mode.equations.kinetics
+        apart = self._machine.automaton.apart.equations
+        parts = [
+            linear_parts(
+                motion.on_speeds(self.mode.lifted.get(s, Expr.generator(s))), motion.speeds
+            )
+            for s in apart.speeds
+        ]
+        return self.function([rest for _, rest in parts] + [c for row, _ in parts for c in row])
+
+    def entered(self, place: Place) -> tuple[Array, Array]:
+        """Coordinates and speeds of this mode, and the impulse-free projection on its motions.
+
+        What the constraints take away is taken by impulses along their reactions: momentum along
+        every motion that remains is kept, M P u = M (u_shared − rest) along P.
+        """
+        apart = self._machine.apart
+        names = apart.mode.equations.coordinates
+        values = dict(zip(names, place.coordinates, strict=True))
+        coordinates = np.array([values[s] for s in self.mode.equations.coordinates])
+        size = len(self.mode.equations.speeds)
+        state = np.concatenate([coordinates, np.zeros(size)])
+        found = self._projection(state, place.time, ())
+        rest, columns = found[: len(place.speeds)], found[len(place.speeds) :]
+        allowed = columns.reshape(len(place.speeds), size)
+        momentum = apart.mass(place) @ (place.speeds - rest)
+        reduced = allowed.T @ apart.mass(place) @ allowed
+        return coordinates, np.asarray(np.linalg.solve(reduced, allowed.T @ momentum), dtype=float)
+
+    @cached_property
+    def _mass(self) -> Function:
+        return self.function([e for row in self.mode.equations.mass.rows for e in row])
+
+    def mass(self, place: Place) -> Array:
+        """The mass matrix, of the mode in which nothing touches."""
+        size = len(place.speeds)
+        state = np.concatenate([place.coordinates, place.speeds])
+        return self._mass(state, place.time, ()).reshape(size, size)
+
+    # -- forces and slips -----------------------------------------------------------------------
+
+    @property
+    def directions(self) -> tuple[Symbol, ...]:
+        """Symbols for the direction and speed of slip, contact after contact."""
+        return tuple(s for e in self.sliding for s in (*e.direction, e.slip_speed))
+
+    @property
+    def sliding(self) -> tuple[Sliding, ...]:
+        """The contacts that slide with friction."""
+        return tuple(e for e in self.mode.equations.system.elements if isinstance(e, Sliding))
+
+    @cached_property
+    def _contact_forces(self) -> Function:
+        components = self.mode.equations.components
+        wanted = []
+        for touch, phase in zip(self.mode.touches, self.mode.phases, strict=True):
+            contact = touch.contact
+            labels = (*contact.on.tangents, contact.on.normal)
+            if not phase.flies:
+                wanted += [components.get(contact.component(label), Expr.of(0)) for label in labels]
+            else:
+                wanted += [Expr.of(0)] * 3
+        return self.function(wanted, self.directions)
+
+    def contact_forces(self, state: Array, time: float, directions: Sequence[float]) -> Array:
+        """Force along the two tangents and the normal of every contact, shape (contacts, 3)."""
+        return self._contact_forces(state, time, directions).reshape(-1, 3)
+
+    @cached_property
+    def _closing_rates(self) -> Function:
+        motion = self.mode.equations.kinetics
+        rates = [touch.closing.chain(motion.rate) for touch in self.mode.touches]
+        return self.function(rates, self.directions)
+
+    def closing_rates(self, state: Array, time: float) -> Array:
+        """How fast every contact that is open is opening faster, m/s², shape (contacts,)."""
+        return self._closing_rates(state, time, [0.0] * len(self.directions))
+
+    @cached_property
+    def _masses(self) -> Function:
+        entries = [e for row in self.mode.equations.mass.rows for e in row]
+        return self.function(entries, self.directions)
+
+    @cached_property
+    def can_jam(self) -> bool:
+        """Whether the friction reaches into the mass matrix."""
+        entries = [e for row in self.mode.equations.mass.rows for e in row]
+        return any(set(self.directions) & entry.symbols() for entry in entries)
+
+    def jamming(self, state: Array, time: float, directions: Sequence[float]) -> float:
+        """Determinant of the mass matrix over that without friction; sliding needs it positive."""
+        if not self.can_jam:
+            return 1.0
+        size = len(self.mode.equations.speeds)
+        with_friction, without = (
+            np.linalg.det(self._masses(state, time, d).reshape(size, size))
+            for d in (directions, [0.0] * len(directions))
+        )
+        return float(with_friction / without)
+
+    @cached_property
+    def _slip_rates(self) -> Function:
+        motion = self.mode.equations.kinetics
+        rates = [slip.chain(motion.rate) for touch in self.mode.touches for slip in touch.slip]
+        return self.function(rates, self.directions)
+
+    def slip_rates(self, state: Array, time: float, directions: Sequence[float]) -> Array:
+        """Rate of the slip velocity of every contact, m/s², shape (contacts, 2)."""
+        return self._slip_rates(state, time, directions).reshape(-1, 2)
+
+
+def slip_symbols(contact: Contact) -> tuple[Symbol, Symbol]:
+    """The slip velocity of a sliding contact, carried along."""
+    first, second = (
+        Symbol(f"slip_{label}_{contact.name}", Kind.SPEED) for label in contact.on.tangents
+    )
+    return first, second
+
+
+def gap_symbol(contact: Contact) -> Symbol:
+    """The height of a body above its support, carried along."""
+    return Symbol(f"gap_{contact.name}", Kind.COORDINATE)
+
+
+def singular(time: float) -> NumericError:
+    """An expression without a finite value."""
+    return NumericError(
+        f"the equations have no finite value at t = {time:.9g} s",
+        expected="a motion away from singular positions",
+        advice="start elsewhere, or end before that time",
+    )
+
+
+def _silent(modes: Automaton, mode: Mode) -> dict[Symbol, Expr]:
+    """Reactions of contacts that are open, by name: nothing."""
+    own = mode.equations.components
+    return {Symbol(n): ZERO for n in modes.together.equations.components if n not in own}
+
+
+def _slips(mode: Mode, carried: Mapping[Symbol, Expr]) -> dict[Symbol, Expr]:
+    """Slip velocities of the contacts that are closed, where they follow from the state."""
+    closed = (t for t, phase in zip(mode.touches, mode.phases, strict=True) if not phase.flies)
+    slips = (zip(slip_symbols(t.contact), t.slip, strict=True) for t in closed)
+    return {symbol: slip for pair in slips for symbol, slip in pair if symbol not in carried}
+
+
+def _carried(mode: Mode) -> tuple[dict[Symbol, Expr], dict[Symbol, Expr]]:
+    """Work done, slips and gaps; and what they make of the symbols of a sliding contact."""
+    carried: dict[Symbol, Expr] = {WORK: mode.equations.power}
+    meanings: dict[Symbol, Expr] = {}
+    motion = mode.equations.kinetics
+    for touch, phase in zip(mode.touches, mode.phases, strict=True):
+        contact = touch.contact
+        if phase.flies:
+            carried[gap_symbol(contact)] = touch.closing
+        if phase.slides and isinstance(contact, Coulomb):
+            element = mode.element(contact)
+            if not isinstance(element, Sliding):
+                continue
+            slips = slip_symbols(contact)
+            carried |= {
+                s: slip.chain(motion.rate) for s, slip in zip(slips, touch.slip, strict=True)
+            }
+            along, across = (Expr.generator(s) for s in slips)
+            speed = Expr.generator(element.slip_speed)
+            meanings[element.slip_speed] = sqrt(along * along + across * across)
+            meanings[element.direction[0]] = along / speed
+            meanings[element.direction[1]] = across / speed
+            meanings[element.slowness] = contact.slowness(speed)
+    return carried, meanings

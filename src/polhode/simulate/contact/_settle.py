@@ -1,0 +1,268 @@
+"""Which contact mode a motion goes on in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from polhode.base import NumericError
+from polhode.model import FLIGHT, FRICTIONLESS, ROLLING, SLIDING, Contact, Coulomb, Phase, Rolling
+from polhode.simulate.contact._machine import Machine, ModeMachine
+from polhode.simulate.contact._place import Place
+from polhode.simulate.contact._touching import Meeting
+from polhode.simulate.integrate._integrators import Array
+
+STILL = 1e-12  # slip, relative to the velocities it is the difference of, that is none
+_TOLERANCE = 1e-11  # relative, of forces at a limit
+_ANGLES = 72
+
+
+@dataclass(frozen=True)
+class Known:
+    """What an event has told about the contacts, by their places in the declaration.
+
+    Attributes:
+        apart: do not touch.
+        stuck: have no slip.
+        slipping: have reached the limit of static friction.
+        beyond: are beyond the edge of their support; None where that is to be looked up.
+    """
+
+    apart: frozenset[int] = frozenset()
+    stuck: frozenset[int] = frozenset()
+    slipping: frozenset[int] = frozenset()
+    beyond: frozenset[int] | None = None
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A mode, and where it is entered.
+
+    Attributes:
+        phases: of every contact.
+        place: the shared state, after what the entry did to the speeds.
+        coordinates: of the mode.
+        speeds: of the mode.
+        onset: for contacts that begin to slip, the angle of the slip to come.
+        slips: slip velocities, by contact.
+        gaps: heights above the support of contacts that have just left it.
+    """
+
+    phases: tuple[Phase, ...]
+    place: Place
+    coordinates: Array
+    speeds: Array
+    onset: dict[int, float] = field(default_factory=dict)
+    slips: dict[int, Array] = field(default_factory=dict)
+    gaps: dict[int, float] = field(default_factory=dict)
+
+
+def settle(machine: Machine, place: Place, known: Known) -> Entry:
+    """The mode whose forces are those its contacts can exert.
+
+    Raises:
+        NumericError: where none or several are possible.
+    """
+    beyond = machine.touching.beyond(place) if known.beyond is None else known.beyond
+    meetings = machine.touching.at(place, beyond)
+    failures = list[str]()
+    for phases in _candidates(machine, meetings, replace(known, beyond=beyond)):
+        entry = _entry(machine, place, phases, meetings, known)
+        failure = _objection(machine, entry, known)
+        if failure is None:
+            return entry
+        failures.append(failure)
+    raise NumericError(
+        f"no contact mode is possible at t = {place.time:.9g} s: {'; '.join(failures)}",
+        expected="friction and normal forces that some mode can supply",
+        advice="lower the friction coefficient, or end the motion before that time",
+    )
+
+
+def _candidates(
+    machine: Machine, meetings: Sequence[Meeting], known: Known
+) -> Iterator[tuple[Phase, ...]]:
+    """Phases of all contacts, those that stick first."""
+    options = [
+        list(_options(contact, i, meeting, known))
+        for i, (contact, meeting) in enumerate(
+            zip(machine.automaton.contacts, meetings, strict=True)
+        )
+    ]
+    yield from product(*options)
+
+
+def _options(contact: Contact, i: int, meeting: Meeting, known: Known) -> Iterator[Phase]:
+    if i not in known.apart:
+        for phase in _touching(contact, i, meeting, known):
+            yield phase.beyond() if i in (known.beyond or ()) else phase
+    yield FLIGHT
+
+
+def _touching(contact: Contact, i: int, meeting: Meeting, known: Known) -> Iterator[Phase]:
+    if isinstance(contact, Coulomb):
+        if _is_still(i, meeting, known) and i not in known.slipping:
+            yield ROLLING
+        yield SLIDING
+    elif isinstance(contact, Rolling):
+        yield ROLLING
+    else:
+        yield FRICTIONLESS
+
+
+def _is_still(i: int, meeting: Meeting, known: Known) -> bool:
+    slip = float(np.hypot(*meeting.velocity[:2]))
+    return i in known.stuck or i in known.slipping or slip <= STILL * meeting.scale
+
+
+def _entry(
+    machine: Machine,
+    place: Place,
+    phases: tuple[Phase, ...],
+    meetings: Sequence[Meeting],
+    known: Known,
+) -> Entry:
+    mode = machine.mode(phases)
+    coordinates, speeds = mode.entered(place)
+    after = _after(machine, place, mode, coordinates, speeds, meetings, phases)
+    sliding = [i for i, phase in enumerate(phases) if phase.slides]
+    starting = [i for i in sliding if _is_still(i, meetings[i], known)]
+    slips = {i: meetings[i].velocity[:2] for i in sliding if i not in starting}
+    entry = Entry(phases, after, coordinates, speeds, {}, slips)
+    if len(starting) > 1:
+        names = ", ".join(machine.automaton.contacts[i].name for i in starting)
+        raise NumericError(
+            f"slipping begins at several contacts at once at t = {place.time:.9g} s: {names}",
+            expected="one contact at a time: otherwise the directions of slip are not determined",
+        )
+    for i in starting:
+        slips[i] = np.zeros(2)
+        entry.onset[i] = onset_angle(machine, entry, i)
+    return entry
+
+
+def _after(
+    machine: Machine,
+    place: Place,
+    mode: ModeMachine,
+    coordinates: Array,
+    speeds: Array,
+    meetings: Sequence[Meeting],
+    phases: tuple[Phase, ...],
+) -> Place:
+    """The shared state in the mode; what its constraints did to the speeds did work."""
+    own = (*mode.mode.equations.coordinates, *mode.mode.equations.speeds)
+    values: dict[Any, float] = dict(zip(own, (*coordinates, *speeds), strict=True))
+    entered = mode.lifted(place.time, values, place.work)
+    change = entered.speeds - place.speeds
+    touching = [m for m, p in zip(meetings, phases, strict=True) if not p.flies]
+    if not touching or not np.any(change):
+        return entered
+    arms = np.vstack([m.arms for m in touching])
+    impulse = np.linalg.lstsq(arms.T, machine.apart.mass(place) @ change, rcond=None)[0]
+    middle = [m.velocity + m.support + m.arms @ change / 2 for m in touching]
+    return entered.kicked(np.zeros_like(change), float(impulse @ np.concatenate(middle)))
+
+
+def directions_of(entry: Entry) -> list[float]:
+    """Components of the slip directions, and slip speeds, of all sliding contacts."""
+    found = list[float]()
+    for i, slip in sorted(entry.slips.items()):
+        size = float(np.hypot(*slip))
+        if i in entry.onset:
+            found += [np.cos(entry.onset[i]), np.sin(entry.onset[i]), 0.0]
+        else:
+            found += [slip[0] / size, slip[1] / size, size]
+    return found
+
+
+def _objection(machine: Machine, entry: Entry, known: Known) -> str | None:
+    """Why the forces in a mode are impossible; None if they are not."""
+    mode = machine.mode(entry.phases)
+    state = np.concatenate([entry.coordinates, entry.speeds])
+    directions = directions_of(entry)
+    if entry.slips:
+        refuse_jamming(machine, mode, state, entry.place.time, directions)
+    forces = mode.contact_forces(state, entry.place.time, directions)
+    scale = float(np.max(np.abs(forces), initial=0.0))
+    for contact, phase, force in zip(machine.automaton.contacts, entry.phases, forces, strict=True):
+        if phase.flies:
+            continue
+        if force[2] < -_TOLERANCE * scale:
+            return f"{mode.mode.name} would need {contact.name} to pull"
+        if phase.rolls and isinstance(contact, Coulomb):
+            static = machine.value(contact.mu_static)
+            if np.hypot(*force[:2]) > static * force[2] * (1 + _TOLERANCE):
+                return f"{mode.mode.name} would need more friction than {contact.name} has"
+    return None
+
+
+def refuse_jamming(
+    machine: Machine, mode: ModeMachine, state: Array, time: float, directions: Sequence[float]
+) -> None:
+    """Refuse Painlevé's configurations: a rising normal force that pushes the bodies together.
+
+    Raises:
+        NumericError: where normal forces and accelerations of sliding are not determined.
+    """
+    if mode.jamming(state, time, directions) <= 0:
+        names = ", ".join(element.name for element in mode.sliding)
+        raise painleve(names, time)
+
+
+def painleve(names: str, time: float) -> NumericError:
+    """Friction so strong that sliding has no unique forces."""
+    return NumericError(
+        f"sliding at {names} jams at t = {time:.9g} s (Painlevé's paradox)",
+        expected="friction low enough for the normal force to be determined",
+        advice="lower the friction coefficient: rigid bodies have no unique motion here",
+    )
+
+
+def onset_angle(machine: Machine, entry: Entry, i: int) -> float:
+    """The direction (angle, rad) in which a contact that begins to slip slips.
+
+    The slip velocity must grow along itself while friction opposes it.
+
+    Raises:
+        NumericError: where no direction, or several, will do.
+    """
+    mode = machine.mode(entry.phases)
+    state = np.concatenate([entry.coordinates, entry.speeds])
+
+    def rate(angle: float) -> Array:
+        trial = replace(entry, onset={**entry.onset, i: angle})
+        return np.asarray(mode.slip_rates(state, entry.place.time, directions_of(trial))[i])
+
+    def across(angle: float) -> float:
+        x, y = rate(angle)
+        return float(y * np.cos(angle) - x * np.sin(angle))
+
+    def along(angle: float) -> float:
+        x, y = rate(angle)
+        return float(x * np.cos(angle) + y * np.sin(angle))
+
+    from scipy.optimize import brentq  # slow to import, and needed only where slip begins
+
+    grid = np.linspace(-np.pi, np.pi, _ANGLES + 1) + 0.0123
+    values = [across(angle) for angle in grid]
+    found = [
+        float(brentq(across, a, b, xtol=1e-15, rtol=1e-15))
+        for a, b, u, v in zip(grid[:-1], grid[1:], values[:-1], values[1:], strict=True)
+        if u * v < 0 or u == 0
+    ]
+    size = max(float(np.hypot(*rate(angle))) for angle in grid[::8])
+    growing = [angle for angle in found if along(angle) > -1e-9 * size]
+    if len(growing) == 1:
+        return growing[0]
+    name = machine.automaton.contacts[i].name
+    which = "several directions" if growing else "no direction"
+    raise NumericError(
+        f"at t = {entry.place.time:.9g} s slip can begin at {name} in {which}",
+        expected="one direction in which slip grows against the friction it brings",
+        advice="the rigid body with this friction has no unique motion from here",
+    )

@@ -1,0 +1,1 @@
+"""Computed motions as plain data, in files and in tables."""

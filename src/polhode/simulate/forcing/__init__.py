@@ -1,0 +1,1 @@
+"""Prescribed functions of time: expressions, Python functions and samples."""

@@ -1,0 +1,1 @@
+"""Taylor series, Dormand-Prince and the driver that puts their steps together."""

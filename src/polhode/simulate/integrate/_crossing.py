@@ -1,0 +1,165 @@
+"""Where functions of time first fall below zero, found to rounding.
+
+Guards are looked at after the motion has been computed, not while: they cannot disturb its steps.
+Each is resolved into Legendre series piece by piece, so that a dip between two samples is seen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.polynomial import legendre
+
+from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._quadrature import resolved
+
+#: Of the largest value a guard has: a dip below zero that is no deeper is rounding.
+NOISE = 1e-13
+_POLISHED = 6  # secant steps after the series has said where
+_DENSE = 65
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """A guard that falls through zero.
+
+    Attributes:
+        time: s.
+        guard: its place among the guards.
+    """
+
+    time: float
+    guard: int
+
+
+def first_fall(guards: Callable[[Array], Array], knots: Array) -> Crossing | None:
+    """The first instant at which one of several functions falls below zero.
+
+    Args:
+        guards: values at some times, shape (functions, times); smooth between knots.
+        knots: s.
+    """
+    if len(knots) < 2:
+        return None
+    left, right, series = resolved(guards, knots)
+    scale = np.maximum(np.max(np.abs(series), axis=(1, 2), initial=0.0), 1e-300)
+    least = series[:, :, 0] - np.sum(np.abs(series[:, :, 1:]), axis=2)
+    suspects = least < -NOISE * scale[:, None]
+    found: list[Crossing] = []
+    for k in range(len(series)):
+        noise = NOISE * float(scale[k])
+        time = _fall(guards, k, left, right, series[k], suspects[k], noise)
+        if time is not None:
+            found.append(Crossing(time, k))
+    return min(found, key=lambda crossing: crossing.time, default=None)
+
+
+def roots(function: Callable[[Array], Array], knots: Array) -> list[float]:
+    """All instants at which one function of time, shape (1, times), crosses zero."""
+    if len(knots) < 2:
+        return []
+    left, right, series = resolved(function, knots)
+    found = list[float]()
+    for i in range(len(left)):
+        for place in _real_roots(series[0, i]):
+            time = _time(left[i], right[i], place)
+            before, after = _either_side(series[0, i], place)
+            if before * after < 0:
+                found.append(_polished(function, 0, time, 1e-7 * (right[i] - left[i])))
+    return sorted(found)
+
+
+def bisected(function: Callable[[float], float], before: float, after: float) -> float:
+    """Where a function that is positive before and not after changes its sign, to the last bit."""
+    while True:
+        middle = (before + after) / 2
+        if middle in (before, after):
+            return after
+        if function(middle) > 0:
+            before = middle
+        else:
+            after = middle
+
+
+def _fall(
+    guards: Callable[[Array], Array],
+    k: int,
+    left: Array,
+    right: Array,
+    series: Array,
+    suspects: Array,
+    noise: float,
+) -> float | None:
+    for i in np.flatnonzero(suspects):
+        dense = legendre.legval(np.linspace(-1, 1, _DENSE), series[i])
+        if np.min(dense) >= -noise and np.min(_extremes(series[i]), initial=0.0) >= -noise:
+            continue
+        if dense[0] <= 0 and not np.any(dense > noise):
+            return float(left[i])
+        place = _first_fall_place(series[i], noise)
+        if place is not None:
+            time = _time(left[i], right[i], place)
+            near = min(1e-7 * (right[i] - left[i]), 1e-3 * (time - left[0]))
+            polished = _polished(guards, k, time, near)
+            return min(max(polished, float(left[i])), float(right[i]))
+    return None
+
+
+def _first_fall_place(series: Array, noise: float) -> float | None:
+    """Where in [-1, 1] a series first goes below zero by more than noise."""
+    places = np.array([-1.0, *_real_roots(series), 1.0])
+    slopes = _real_roots(_slope(series))
+    for a, b in pairwise(places):
+        inside = [p for p in slopes if a < p < b]
+        values = legendre.legval(np.array([(a + b) / 2, b, *inside]), series)
+        if np.min(values) < -noise:
+            return float(a)
+    return None
+
+
+def _extremes(series: Array) -> Array:
+    return np.asarray(legendre.legval(np.array(_real_roots(_slope(series)), dtype=float), series))
+
+
+def _slope(series: Array) -> Array:
+    return np.asarray(legendre.legder(series), dtype=float)
+
+
+def _real_roots(series: Array) -> list[float]:
+    size = np.max(np.abs(series))
+    kept = np.flatnonzero(np.abs(series) > 1e-16 * size)
+    if not kept.size or kept[-1] == 0:
+        return []
+    found = legendre.legroots(series[: kept[-1] + 1])
+    real = found[np.abs(found.imag) < 1e-7].real
+    return sorted(float(r) for r in real if -1 <= r <= 1)
+
+
+def _either_side(series: Array, place: float) -> tuple[float, float]:
+    sides = np.clip(np.array([place - 1e-6, place + 1e-6]), -1, 1)
+    before, after = legendre.legval(sides, series)
+    return float(before), float(after)
+
+
+def _time(left: float, right: float, place: float) -> float:
+    return float((left + right + (right - left) * place) / 2)
+
+
+def _polished(guards: Callable[[Array], Array], k: int, time: float, near: float) -> float:
+    """Secant steps on the function itself; they stay near where the series says."""
+    older, newer = time - near, time
+    values = guards(np.array([older, newer]))[k]
+    before, now = float(values[0]), float(values[1])
+    for _ in range(_POLISHED):
+        if now == 0.0 or now == before:
+            break
+        step = -now * (newer - older) / (now - before)
+        if not abs(step) <= 10 * near:
+            break
+        older, before = newer, now
+        newer = newer + step
+        now = float(guards(np.array([newer]))[k, 0])
+    return float(newer if abs(newer - time) <= 10 * near else time)

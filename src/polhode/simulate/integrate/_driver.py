@@ -1,0 +1,309 @@
+"""Drives an integrator over a stretch of time, and puts its legs together."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from enum import Enum
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from polhode.algebra import Program, Symbol, arrays
+from polhode.base import Enough, NumericError, Progress
+from polhode.simulate.integrate._crossing import bisected
+from polhode.simulate.integrate._flow import Flow
+from polhode.simulate.integrate._integrators import LOOKS, Array, Leg, Stepper, broken
+from polhode.simulate.integrate._numbers import DOUBLES, Numbers
+from polhode.simulate.integrate._quadrature import Integral, integral
+
+_TURNS = 16  # periods after which an angle is counted from zero again
+_MOST_STEPS = 4_000_000
+_SMALLEST = 1e-14  # length of a step, relative to the whole, that means a singular position
+
+States: TypeAlias = Callable[[Array], Array]
+
+
+class Stop(Enum):
+    """Why an integration came to its end."""
+
+    TIME = "the end was reached"
+    INTERRUPTED = "who listens has enough"
+    PAUSE = "enough steps to look at"
+    VANISHED = "a vector that was watched vanished or turned round"
+    STUCK = "the motion cannot be continued"
+
+
+@dataclass(frozen=True)
+class Watched:
+    """What to look at while integrating.
+
+    Attributes:
+        pause: steps after which to stop for a look.
+        vectors: places in the core of vectors that stop the integration where they vanish.
+        least: length, m/s, at which such a vector has vanished.
+        passing: the same at an instant at which it turns round, or where steps become too short.
+        over: whether the motion is certainly over at a state, so that there is reason for a look.
+    """
+
+    pause: int = _MOST_STEPS
+    vectors: tuple[tuple[int, ...], ...] = ()
+    least: float = 0.0
+    passing: float = 0.0
+    over: Callable[[float, Array], bool] = lambda time, state: False
+
+
+@dataclass(frozen=True)
+class Solution:
+    """All states at every instant of a stretch of time.
+
+    Attributes:
+        symbols: the states, in the order of the rows of `at`.
+        turned: of large angles: the symbol of the angle less whole turns.
+        steps: where the steps of the integrator begin and end, s.
+        stop: why it ends where it does.
+        vanished: which of the vectors watched vanishes at its end.
+        numbers: what the states are.
+    """
+
+    symbols: tuple[Symbol, ...]
+    turned: Mapping[Symbol, Symbol]
+    steps: Array
+    stop: Stop
+    vanished: int | None
+    _at: States = field(repr=False)
+    numbers: Numbers = DOUBLES
+    _rounded_at: States | None = field(default=None, repr=False)
+
+    def at(self, times: Array) -> Array:
+        """States, shape (states, times)."""
+        return self._at(times)
+
+    def rounded(self) -> Solution:
+        """The same in doubles."""
+        if self._rounded_at is None:
+            return self
+        steps = DOUBLES.array(self.steps)
+        return replace(self, steps=steps, _at=self._rounded_at, numbers=DOUBLES, _rounded_at=None)
+
+
+def integrate(
+    flow: Flow,
+    stepper: Stepper,
+    parameters: Array,
+    start: Array,
+    span: tuple[float, float],
+    progress: Progress,
+    watched: Watched | None = None,
+) -> Solution:
+    """Integrate a flow over a span of time, or as far as it goes.
+
+    Args:
+        start: of all states, in the order of the flow.
+        watched: what may stop it early.
+
+    Raises:
+        NumericError: where the motion cannot even begin.
+    """
+    size = len(flow.core.symbols)
+    watched = watched or Watched()
+    path = _legs(flow, stepper, parameters, start[:size], span, progress, watched)
+    steps = np.unique(np.concatenate([leg.times for leg in path.legs]))
+    vanished = None
+    if path.stop is Stop.VANISHED:
+        end, vanished = _vanishing(path, watched, (float(steps[-2]), float(steps[-1])))
+        steps = np.append(steps[:-1], end)
+    if flow.is_driven:
+        steps = np.union1d(steps, np.linspace(steps[0], steps[-1], LOOKS + 1))
+    at: States = path.at
+    known = size
+    for stage in flow.stages:
+        own = start[known : known + len(stage.symbols)]
+        at = _with_stage(at, _values(flow, stage.program, parameters), own, steps)
+        if stage.known is not None:
+            at = _with_known(at, _of_time(flow, stage.known, parameters), span[0])
+        known += len(stage.symbols)
+    return Solution(flow.symbols, flow.turned, steps, path.stop, vanished, at)
+
+
+def _vanishing(
+    path: _Path, watched: Watched, step: tuple[float, float]
+) -> tuple[float, int | None]:
+    """When a vector vanishes within the last step, and which; its end if it only turned round."""
+    for k, places in enumerate(watched.vectors):
+        rows = list(places)
+        start = path.at(np.array(step[:1]))[rows, 0]
+
+        def vector(time: float, rows: list[int] = rows) -> Array:
+            return path.at(np.array([time]))[rows, 0]
+
+        def along(time: float, start: Array = start) -> float:
+            return float(start @ vector(time))
+
+        if along(step[1]) <= 0:
+            time = bisected(along, *step)
+            if np.hypot(*vector(time)) <= watched.passing:
+                return time, k
+        elif np.hypot(*vector(step[1])) <= watched.passing:
+            return step[1], k
+    return step[1], None
+
+
+@dataclass(frozen=True)
+class _Path:
+    """Legs one after the other, each with what was taken off its angles before it began.
+
+    Its rows are the states of the core, then the periodic ones once more, less whole turns.
+    """
+
+    legs: list[Leg]
+    begins: Array
+    turned: Array
+    periodic: NDArray[np.bool_]
+    stop: Stop
+
+    def at(self, times: Array) -> Array:
+        which = np.clip(np.searchsorted(self.begins, times, "right") - 1, 0, None)
+        states = np.empty((len(self.periodic), len(times)))
+        for i in np.unique(which):
+            here = which == i
+            states[:, here] = self.legs[i].at(times[here])
+        return np.vstack([states + self.turned[which].T, states[self.periodic]])
+
+
+def _legs(
+    flow: Flow,
+    stepper: Stepper,
+    parameters: Array,
+    state: Array,
+    span: tuple[float, float],
+    progress: Progress,
+    watched: Watched,
+) -> _Path:
+    """Angles that have grown far are counted from zero again: their rounding would spread."""
+    now, end = span
+    periods = np.array([period or np.inf for period in flow.periods])
+    watch = _Watch(state, _TURNS * periods, span, progress, watched)
+    legs, begins, turned = list[Leg](), list[float](), list[Array]()
+    offset = np.zeros(len(state))
+    while now < end and watch.stop is None:
+        leg = stepper.leg(parameters, now, state, end, watch)
+        legs.append(leg)
+        begins.append(now)
+        turned.append(offset)
+        now = float(leg.times[-1])
+        state = leg.at(leg.times[-1:])[:, 0]
+        whole = np.round(state / periods) * np.where(np.isfinite(periods), periods, 0.0)
+        state, offset = state - whole, offset + whole
+        if leg.broken:
+            watch.stop = Stop.STUCK
+    stop = watch.stop or Stop.TIME
+    return _Path(legs, np.array(begins), np.array(turned), np.isfinite(periods), stop)
+
+
+class _Watch:
+    """Stops a leg when an angle has grown far, and all of them when there is reason to look."""
+
+    def __init__(
+        self,
+        state: Array,
+        limits: Array,
+        span: tuple[float, float],
+        progress: Progress,
+        watched: Watched,
+    ) -> None:
+        self.stop: Stop | None = None
+        self._limits = limits
+        self._least = _SMALLEST * (span[1] - span[0])
+        self._end = span[1]
+        self._progress = progress
+        self._watched = watched
+        self._steps = 0
+        self._time = -np.inf
+        self._vectors = [state[list(places)] for places in watched.vectors]
+
+    def __call__(self, time: float, state: Array) -> bool:
+        self._steps += 1
+        try:
+            self._progress.advance()
+        except Enough:
+            self.stop = Stop.INTERRUPTED
+            return False
+        if self._steps > _MOST_STEPS:
+            raise endless(time)
+        vanished = [self._vanishes(k, state) for k in range(len(self._vectors))]
+        if any(vanished):
+            self.stop = Stop.VANISHED
+        elif time - self._time < self._least and time < self._end:
+            self.stop = Stop.VANISHED if self._is_small(state) else Stop.STUCK
+        elif self._steps % self._watched.pause == 0 or self._watched.over(time, state):
+            self.stop = Stop.PAUSE
+        self._time = time
+        return self.stop is None and bool(np.all(np.abs(state) < self._limits))
+
+    def _is_small(self, state: Array) -> bool:
+        vectors = (state[list(places)] for places in self._watched.vectors)
+        return any(float(np.hypot(*vector)) <= self._watched.passing for vector in vectors)
+
+    def _vanishes(self, k: int, state: Array) -> bool:
+        before, now = self._vectors[k], state[list(self._watched.vectors[k])]
+        self._vectors[k] = now
+        turned = float(before @ now) <= 0.0
+        return turned or float(np.hypot(*now)) <= self._watched.least
+
+
+def endless(time: float) -> NumericError:
+    """The motion takes more steps than can be kept."""
+    return NumericError(
+        f"{_MOST_STEPS} steps are not enough to go beyond t = {time:.9g} s",
+        expected="a motion without singular positions, over a duration that can be kept in memory",
+        advice="end before that time, or start elsewhere",
+    )
+
+
+def stuck(solution: Solution) -> NumericError:
+    """The motion cannot be continued beyond the end of a solution."""
+    return broken(float(solution.steps[-1]))
+
+
+def _with_stage(
+    inner: States, rates: Callable[[Array, Array], Array], start: Array, steps: Array
+) -> States:
+    """The states known so far, and below them those of one more stage."""
+    found: Integral = integral(lambda times: rates(inner(times), times), steps)
+
+    def at(times: Array) -> Array:
+        return np.vstack([inner(times), start[:, None] + found.at(times)])
+
+    return at
+
+
+def _with_known(inner: States, known: States, begin: float) -> States:
+    """The same states, the last of them with what they have by themselves since the beginning."""
+    first = known(np.array([begin]))
+
+    def at(times: Array) -> Array:
+        states = inner(times)
+        states[-len(first) :] += known(times) - first
+        return states
+
+    return at
+
+
+def _values(flow: Flow, program: Program, parameters: Array) -> Callable[[Array, Array], Array]:
+    """Of a program of a stage, from the states before it and the times."""
+    function = program.function(arrays())
+
+    def values(states: Array, times: Array) -> Array:
+        later = np.zeros(len(flow.symbols) - len(states))
+        found = function(*states, *later, *parameters, times)
+        return np.array([np.broadcast_to(value, times.shape) for value in found])
+
+    return values
+
+
+def _of_time(flow: Flow, program: Program, parameters: Array) -> States:
+    """Of a program of a stage that reads no states."""
+    values = _values(flow, program, parameters)
+    return lambda times: values(np.empty((0, len(times))), times)

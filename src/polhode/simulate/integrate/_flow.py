@@ -1,0 +1,160 @@
+"""The motion as a flow: a core that drives itself, and quadratures that follow from it.
+
+Angles of spin, positions and work done grow without influencing the accelerations. Left out of
+the core they cannot spoil its accuracy, however far they grow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from math import lcm, pi
+
+from polhode.algebra import Expr, Kind, Op, Program, Symbol
+from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
+from polhode.simulate.integrate._primitives import primitive
+
+
+@dataclass(frozen=True)
+class Stage:
+    """States whose rates follow from the states of earlier stages (and, in the core, their own).
+
+    Arguments of the programs are all symbols of the flow, of which later ones are not used, then
+    parameters and time.
+
+    Attributes:
+        symbols: the states.
+        program: their rates; of a quadrature, less those of what is known of it.
+        known: of each quadrature the part that is a function of time.
+    """
+
+    symbols: tuple[Symbol, ...]
+    program: Program
+    known: Program | None = None
+
+
+@dataclass(frozen=True)
+class Flow:
+    """A core and the quadratures over it, stage by stage.
+
+    Attributes:
+        core: the states that are integrated as differential equations.
+        periods: of each core state: the period, rad, of an angle that occurs only within sines
+            and cosines; None for others.
+        turned: of those angles: the symbol of the angle less whole turns.
+        stages: the quadratures.
+        parameters: constants, in the order of the programs' arguments.
+    """
+
+    core: Stage
+    periods: tuple[float | None, ...]
+    turned: Mapping[Symbol, Symbol]
+    stages: tuple[Stage, ...]
+    parameters: tuple[Symbol, ...]
+
+    @cached_property
+    def is_driven(self) -> bool:
+        """Whether the time itself occurs: what it brings cannot be seen coming."""
+        return any(_reads_clock(stage.program) for stage in (self.core, *self.stages))
+
+    @property
+    def states(self) -> tuple[Symbol, ...]:
+        """All states, in the order in which the flow has them."""
+        return (*self.core.symbols, *self._later)
+
+    @property
+    def symbols(self) -> tuple[Symbol, ...]:
+        """The states, with the angles less whole turns after the core."""
+        return (*self.core.symbols, *self.turned.values(), *self._later)
+
+    @property
+    def _later(self) -> tuple[Symbol, ...]:
+        return tuple(symbol for stage in self.stages for symbol in stage.symbols)
+
+
+def flow_of(dynamics: Dynamics, *, reduced: bool) -> Flow:
+    """The flow of all states and of the work done; `reduced` to the smallest core or whole."""
+    rates = dict(zip(dynamics.states, dynamics.rates, strict=True))
+    if dynamics.equations.power or not rates:
+        rates[WORK] = dynamics.equations.power
+    peeled = list(_peeled(_influences(dynamics, rates))) if reduced else []
+    layers = tuple(reversed(peeled))
+    outer = tuple(symbol for layer in layers for symbol in layer)
+    core = tuple(symbol for symbol in rates if symbol not in outer)
+    given = (*outer, *dynamics.parameters, CLOCK)
+    program = dynamics.program([rates[s] for s in core], (*core, *given))
+    periods = tuple(period_in(program, i) for i in range(len(core)))
+    turned = {s: _less_turns(s) for s, period in zip(core, periods, strict=True) if period}
+    arguments = (*core, *turned.values(), *given)
+    stages = []
+    for layer in layers:
+        parts = [primitive(dynamics, s, rates[s]) for s in layer]
+        rests = dynamics.program([part.rest for part in parts], arguments, turned)
+        known = dynamics.program([part.known for part in parts], arguments, turned)
+        stages.append(Stage(layer, rests, known if any(p.known for p in parts) else None))
+    return Flow(Stage(core, program), periods, turned, tuple(stages), dynamics.parameters)
+
+
+def _reads_clock(program: Program) -> bool:
+    clock = program.arguments.index(CLOCK)
+    return any((step.op, step.value) == (Op.ARG, clock) for step in program.instructions)
+
+
+def _less_turns(angle: Symbol) -> Symbol:
+    return Symbol(f"{angle.name} less whole turns", Kind.COORDINATE)
+
+
+def _influences(dynamics: Dynamics, rates: dict[Symbol, Expr]) -> dict[Symbol, set[Symbol]]:
+    """The states that the rate of each state depends on."""
+    states = tuple(rates)
+    program = dynamics.program(rates.values(), (*states, *dynamics.parameters, CLOCK))
+    reached: list[set[Symbol]] = []
+    for step in program.instructions:
+        found = set[Symbol]().union(*(reached[i] for i in step.operands))
+        if step.op is Op.ARG and isinstance(step.value, int) and step.value < len(states):
+            found.add(states[step.value])
+        reached.append(found)
+    return {s: reached[i] for s, i in zip(states, program.outputs, strict=True)}
+
+
+def _peeled(influences: dict[Symbol, set[Symbol]]) -> Iterator[tuple[Symbol, ...]]:
+    """Layers of states that influence none of those within; at least one remains as the core."""
+    remaining = dict(influences)
+    while len(remaining) > 1:
+        felt = set[Symbol]().union(*remaining.values())
+        layer = tuple(symbol for symbol in remaining if symbol not in felt)
+        if not layer:
+            return
+        if len(layer) == len(remaining):
+            layer = layer[:-1]
+        yield layer
+        remaining = {s: needs for s, needs in remaining.items() if s not in layer}
+
+
+def period_in(program: Program, argument: int) -> float | None:
+    """The period of a program in an argument seen only by sines and cosines, else None."""
+    steps = program.instructions
+    place = next((i for i, s in enumerate(steps) if (s.op, s.value) == (Op.ARG, argument)), None)
+    if place is None or place in program.outputs:
+        return None
+    unit = 1
+    for i, step in enumerate(steps):
+        if place in step.operands and step.op not in (Op.SIN, Op.COS):
+            factor = _factor_of_angle(program, i, place)
+            if factor is None:
+                return None
+            unit = lcm(unit, factor.denominator)
+    return 2 * pi * unit
+
+
+def _factor_of_angle(program: Program, i: int, place: int) -> Fraction | None:
+    """k where step i is k times the argument and goes into sines and cosines only."""
+    steps = program.instructions
+    others = [steps[operand] for operand in steps[i].operands if operand != place]
+    users = [step.op for step in steps if i in step.operands]
+    scaled = steps[i].op is Op.MUL and len(others) == 1 and others[0].op is Op.CONST
+    if not scaled or i in program.outputs or not set(users) <= {Op.SIN, Op.COS}:
+        return None
+    return Fraction(others[0].value or 0)

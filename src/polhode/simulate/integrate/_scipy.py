@@ -1,0 +1,80 @@
+"""Dormand and Prince's method of order eight, from SciPy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.integrate import DOP853, OdeSolution
+
+from polhode.algebra import Compiled
+from polhode.simulate.integrate._flow import Flow
+from polhode.simulate.integrate._integrators import LOOKS, Array, Leg, Stepper, Watch, broken
+
+_TIGHTEST = 1e-13  # relative; below it rounding rules the choice of steps
+_ABSOLUTE = 1e-15
+
+
+class DormandPrince:
+    """Explicit Runge–Kutta steps of order eight; between them a polynomial of order seven."""
+
+    name = "scipy"
+    dense = False
+
+    def prepare(self, flow: Flow, tolerance: float | None) -> Stepper:
+        """The core as a function of floats."""
+        steps = LOOKS if flow.is_driven else 1
+        rates = flow.core.program.function()
+        return _RungeKuttaStepper(rates, max(tolerance or 0.0, _TIGHTEST), steps)
+
+
+@dataclass(frozen=True)
+class _RungeKuttaStepper:
+    rates: Compiled
+    tolerance: float
+    least_steps: int
+
+    def leg(self, parameters: Array, begin: float, state: Array, end: float, watch: Watch) -> Leg:
+        constants = parameters.tolist()
+
+        def rate(time: float, state: Array) -> Array:
+            try:
+                return np.array(self.rates(*state.tolist(), *constants, time), dtype=float)
+            except (ArithmeticError, ValueError):
+                return np.full(len(state), np.nan)
+
+        method = DOP853(
+            rate,
+            begin,
+            state,
+            end,
+            max_step=(end - begin) / self.least_steps,
+            rtol=self.tolerance,
+            atol=_ABSOLUTE,
+        )
+        times, pieces = [begin], list[Any]()
+        going = True
+        while method.status == "running" and going:
+            method.step()
+            if method.status == "failed" or not np.all(np.isfinite(method.y)):
+                break
+            times.append(method.t)
+            pieces.append(method.dense_output())
+            going = watch(method.t, method.y)
+        if not pieces:
+            raise broken(begin)
+        return _RungeKuttaLeg(OdeSolution(times, pieces), going and times[-1] < end)
+
+
+@dataclass(frozen=True)
+class _RungeKuttaLeg:
+    solution: Any
+    broken: bool
+
+    @property
+    def times(self) -> Array:
+        return np.asarray(self.solution.ts)
+
+    def at(self, times: Array) -> Array:
+        return np.asarray(self.solution(times))

@@ -1,0 +1,120 @@
+"""A motion as power series in time, one after the other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, Protocol
+
+import numpy as np
+
+from polhode.algebra import Program
+from polhode.simulate.integrate._numbers import DOUBLES, Numbers
+
+
+@dataclass(frozen=True, eq=False)
+class Series:
+    """All states over the steps of an integration, in numbers of any precision.
+
+    Attributes:
+        numbers: what they are computed in.
+        times: where the steps begin, and where the last one ends, s.
+        limbs: coefficients of the powers of the share of a step that has passed, each as a sum of
+            doubles, shape (limbs, steps, order + 1, states).
+    """
+
+    numbers: Numbers
+    times: Any
+    limbs: Any = field(repr=False)
+
+    def at(self, times: Any) -> Any:
+        """The states at some times, shape (states, times)."""
+        return self._evaluated(self.numbers, self.times, times, self._piece)
+
+    def rounded_at(self, times: Any) -> Any:
+        """The same in doubles, to their rounding."""
+        return self._evaluated(DOUBLES, self._rounded_times, times, lambda i: self.limbs[0, i])
+
+    @cached_property
+    def _rounded_times(self) -> Any:
+        return np.array([float(time) for time in self.times])
+
+    @cached_property
+    def _known(self) -> dict[int, Any]:
+        return {}
+
+    def _piece(self, i: int) -> Any:
+        """Coefficients of a step, shape (order + 1, states)."""
+        if i not in self._known:
+            self._known[i] = self.numbers.joined(list(self.limbs[:, i]))
+        return self._known[i]
+
+    def _evaluated(
+        self, numbers: Numbers, starts: Any, times: Any, piece: Callable[[int], Any]
+    ) -> Any:
+        which = np.clip(np.searchsorted(starts, times, "right") - 1, 0, len(starts) - 2)
+        found = np.empty((self.limbs.shape[3], len(times)), dtype=numbers.dtype)
+        for i in np.unique(which):
+            here = which == i
+            share = (times[here] - starts[i]) / (starts[i + 1] - starts[i])
+            found[:, here] = _horner(piece(int(i)), share)
+        return found
+
+
+def _horner(coefficients: Any, places: Any) -> Any:
+    """Polynomials at some places, shape (states, places), from coefficients by rising power."""
+    total = coefficients[-1][:, None] + 0 * places
+    for row in coefficients[-2::-1]:
+        total = row[:, None] + total * places
+    return total
+
+
+def limbs_of(values: Any, count: int) -> Any:
+    """Numbers of a NumPy type of their own as sums of doubles, shape (count, *shape)."""
+    limbs = []
+    for _ in range(count):
+        limbs.append(values.astype(float))
+        values = values - limbs[-1].astype(values.dtype)
+    return np.array(limbs)
+
+
+class Watch(Protocol):
+    """Looks on after every step."""
+
+    def __call__(self, time: float) -> bool:
+        """Whether to go on."""
+        ...
+
+
+@dataclass(frozen=True)
+class Launch:
+    """What is integrated, from where and to where.
+
+    Attributes:
+        program: of the rates of its first arguments, the states.
+        numbers: what it is to be computed in.
+        constants: of the parameters, as mpmath numbers with bits to spare.
+        start: of the states, the same.
+        end: s, the same; the start is at zero.
+    """
+
+    program: Program
+    numbers: Numbers
+    constants: list[Any]
+    start: list[Any]
+    end: Any
+
+
+class SeriesIntegrator(Protocol):
+    """Taylor's method in numbers of any precision."""
+
+    name: str
+
+    def integrate(self, launch: Launch, watch: Watch) -> Series:
+        """The motion up to its end, until `watch` says no, or as far as it goes.
+
+        Raises:
+            NumericError: where the motion cannot even begin.
+        """
+        ...

@@ -1,0 +1,1 @@
+"""Motions side by side: in the lanes of vector instructions, and with their derivatives."""

@@ -1,0 +1,1 @@
+"""Motions in numbers of higher precision than doubles."""
