@@ -1,6 +1,7 @@
-"""Runs the examples of every page of the documents, and shows the figures that they make.
+"""Runs the examples of every page of the documents, shows the figures that they make, and lists
+all public names.
 
-MkDocs calls `on_files`; the tests call `run_page`.
+MkDocs calls `on_files` and `on_page_markdown`; the tests call `run_page` and `all_names`.
 """
 
 from __future__ import annotations
@@ -14,7 +15,10 @@ from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+import polhode
+
 _BLOCK = re.compile(r"^```(python|text)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_ALL_NAMES = "{{ all names }}"
 
 
 class ExampleError(Exception):
@@ -55,6 +59,29 @@ def on_files(files: Any, config: Any) -> Any:
             for name, content in _made_by(text, file.src_uri):
                 files.append(File.generated(config, str(folder / name), content=content))
     return files
+
+
+def on_page_markdown(markdown: str, **_: Any) -> str:
+    """Put the table of all names where a page asks for it."""
+    if _ALL_NAMES not in markdown:
+        return markdown
+    table = [f"| [`{name}`][{path}] | {summary} |" for name, path, summary in all_names()]
+    return markdown.replace(
+        _ALL_NAMES, "\n".join(["| name | what it is |", "| --- | --- |", *table])
+    )
+
+
+def all_names() -> Iterator[tuple[str, str, str]]:
+    """Every public name, where it lives, and the first sentence or two that are said of it."""
+    import griffe
+
+    package = griffe.load("polhode", search_paths=[Path(__file__).parent / "src"])
+    for name in sorted(polhode.__all__, key=str.casefold):
+        home = polhode._HOME.get(name)
+        if home:
+            said = package[f"{home}.{name}".removeprefix("polhode.")].docstring
+            summary = said.value.partition("\n\n")[0] if said else ""
+            yield name, f"{home}.{name}", " ".join(summary.split()).replace("|", r"\|")
 
 
 def _made_by(text: str, name: str) -> Iterator[tuple[str, bytes]]:

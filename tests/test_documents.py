@@ -1,10 +1,13 @@
 """The Python in README and docs runs, prints what the page says, and makes the figures shown."""
 
 import importlib.util
+import inspect
 import re
 from pathlib import Path
 
 import pytest
+
+import polhode
 
 ROOT = Path(__file__).parents[1]
 PAGES = [
@@ -50,3 +53,23 @@ def test_every_page_is_in_the_table_of_contents():
     listed = re.findall(r"[\w/-]+\.md", (ROOT / "mkdocs.yml").read_text("utf-8"))
     pages = [page.relative_to(ROOT / "docs").as_posix() for page in (ROOT / "docs").rglob("*.md")]
     assert sorted(listed) == sorted(pages)
+
+
+def test_every_public_name_is_told_and_stands_in_the_reference(hooks):
+    """Under the place it lives at, so that the table of all names leads to it."""
+    reference = "".join(p.read_text("utf-8") for p in (ROOT / "docs" / "reference").glob("*.md"))
+    described = re.findall(r"^::: (\S+)$", reference, re.MULTILINE)
+    names = list(hooks.all_names())
+    assert {name for name, _, _ in names} == {*polhode.__all__} - {"__version__"}
+    assert [name for name, _, summary in names if not summary] == []
+    assert [path for _, path, _ in names if path not in described] == []
+    assert len(described) == len(set(described))
+
+
+def test_everything_in_the_reference_exists_and_is_told():
+    reference = "".join(p.read_text("utf-8") for p in (ROOT / "docs" / "reference").glob("*.md"))
+    for path, options in re.findall(r"^::: (\S+)\n(?: +options: (.+)\n)?", reference, re.MULTILINE):
+        room, _, name = path.rpartition(".")
+        thing = getattr(importlib.import_module(room), name)
+        for member in re.findall(r"\w+", options.partition("members:")[2]):
+            assert inspect.getdoc(getattr(thing, member)), f"{path}.{member}"

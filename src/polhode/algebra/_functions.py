@@ -18,8 +18,8 @@ from polhode.algebra._generators import Generator, Rate, Symbol
 from polhode.algebra._ring import Polynomial, Ring
 from polhode.algebra._special import PI, cosine_of_turn
 
-#: The ratio of a circle's circumference to its diameter.
 pi = PI
+"""The ratio of a circle's circumference to its diameter, exactly."""
 
 #: Multiples up to this one are expanded (sin 4θ); beyond it the multiple is a unit of its own.
 _LARGEST_RATIO = 64  # of multiples of one angle that are written in a common unit

@@ -71,5 +71,5 @@ def _named(name: str, kind: Kind, positive: bool = False) -> Expr:
     return Expr.generator(Symbol(name, kind, 0, positive))
 
 
-#: Time.
 time = Expr.generator(Symbol("t", Kind.TIME))
+"""Time t, s."""
