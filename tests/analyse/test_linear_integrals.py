@@ -47,3 +47,16 @@ def test_the_gyroscope_agrees_with_its_elementary_integral():
 
 def test_a_marble_has_none():
     assert linear_integrals(equations("marble-on-turntable")) is None
+
+
+def test_they_are_told_with_the_other_integrals_where_no_ansatz_has_them():
+    found = ph.invariants(equations("rolling-disk"))
+    assert found.linear is not None
+    assert "dω₃/dθ = 2 φ̇ sinθ/3" in str(found)
+
+
+@pytest.mark.parametrize(
+    "system", ["gyroscope", "spinning-coin", "tennis-racquet", "ball-on-paper"]
+)
+def test_they_are_not_told_twice(system: str):
+    assert ph.invariants(equations(system)).linear is None

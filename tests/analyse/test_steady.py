@@ -123,3 +123,10 @@ def test_no_steady_motion_is_said_in_words():
 def test_driven_systems_are_refused_by_name():
     with pytest.raises(ph.NumericError, match=r"depend on time through .*X"):
         steady(equations("ball-on-paper"))
+
+
+def test_where_angles_are_singular_gravity_still_pulls():
+    """At cos β = 0 an equation of the upright gyroscope is empty; that is no steady motion."""
+    derived = equations("gyroscope/upright")
+    beta = symbols(derived)["beta"].symbol
+    assert {str(family.fixed[beta]) for family in steady(derived)} == {"0", "pi"}

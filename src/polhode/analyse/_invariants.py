@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from polhode.algebra import Expr, Symbol, Vector, dot, pi, time
 from polhode.analyse._ansatz import Ansatz, search
 from polhode.analyse._independence import Independent
+from polhode.analyse._linear_integrals import LinearIntegrals, linear_integrals
+from polhode.base import NumericError
 from polhode.derive import Equations
 
 
@@ -33,15 +35,28 @@ class Invariants:
     Attributes:
         found: independent of one another.
         ansatz: what was searched, in words; nothing outside it is excluded.
+        linear: a linear equation whose constants of integration are integrals too, where
+            not all of them were found: they are no elementary functions, or outside the ansatz.
     """
 
     found: tuple[Invariant, ...]
     ansatz: str
+    linear: LinearIntegrals | None = None
 
     def __str__(self) -> str:
         found = [f"{i.name} = {i.expression.pretty()}    ({i.meaning})" for i in self.found]
         limits = f"Searched: {self.ansatz}. Nothing outside it is excluded."
-        return "\n".join([*found, limits])
+        return "\n".join([*found, *self._beyond(), limits])
+
+    def _beyond(self) -> list[str]:
+        if self.linear is None:
+            return []
+        count = len(self.linear.speeds)
+        return [
+            f"and the {count} constants of integration of",
+            *(f"  {line}" for line in str(self.linear).splitlines()),
+            "which the ansatz does not contain (linear_integrals gives them in numbers)",
+        ]
 
     def __iter__(self) -> Iterator[Invariant]:
         return iter(self.found)
@@ -68,7 +83,19 @@ def invariants(equations: Equations, ansatz: Ansatz | None = None) -> Invariants
         if constant and independent.takes(candidate.expression):
             found.append(candidate)
     numbered = _numbered(found)
-    return Invariants(numbered, f"energy, momenta and speeds; {chosen.describe()}")
+    searched = f"energy, momenta and speeds; {chosen.describe()}"
+    return Invariants(numbered, searched, _linear(equations, numbered))
+
+
+def _linear(equations: Equations, found: Iterable[Invariant]) -> LinearIntegrals | None:
+    """The linear equation of some speeds, unless its integrals have been found already."""
+    try:
+        linear = linear_integrals(equations)
+    except NumericError:  # driven: no angle tells where the motion is
+        return None
+    if linear is None or linear.known(i.expression for i in found) == len(linear.speeds):
+        return None
+    return linear
 
 
 def _symbols(equations: Equations) -> tuple[list[Symbol], list[Symbol]]:

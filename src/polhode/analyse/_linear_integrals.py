@@ -8,12 +8,21 @@ integration are first integrals.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from polhode.algebra import Compiled, Expr, Matrix, Symbol, compile_program, linear_parts, variables
+from polhode.algebra import (
+    ZERO,
+    Compiled,
+    Expr,
+    Matrix,
+    Symbol,
+    compile_program,
+    linear_parts,
+    variables,
+)
 from polhode.analyse._reduced import reduced
 from polhode.base import NumericError
 from polhode.derive import Equations
@@ -32,6 +41,26 @@ class LinearIntegrals:
     angle: Symbol
     speeds: tuple[Symbol, ...]
     matrix: Matrix
+
+    def __str__(self) -> str:
+        angle = Expr.generator(self.angle).pretty()
+        speeds = (Expr.generator(u).pretty() for u in self.speeds)
+        slopes = (slope.pretty() for slope in self.slopes)
+        return "\n".join(f"d{u}/d{angle} = {s}" for u, s in zip(speeds, slopes, strict=True))
+
+    @cached_property
+    def slopes(self) -> tuple[Expr, ...]:
+        """A u: what each speed gains with the angle."""
+        speeds = [Expr.generator(s) for s in self.speeds]
+        return tuple(
+            sum((entry * u for entry, u in zip(row, speeds, strict=True)), ZERO)
+            for row in self.matrix.rows
+        )
+
+    def known(self, integrals: Iterable[Expr]) -> int:
+        """How many of the integrals given solve this equation: linear in u, else of θ alone."""
+        rows = (_row(integral, self.speeds, self.angle) for integral in integrals)
+        return sum(row is not None and any(row) for row in rows)
 
     @cached_property
     def _parameters(self) -> tuple[Symbol, ...]:

@@ -102,10 +102,10 @@ class Stability:
         return ()
 
     @property
-    def loss(self) -> str:
-        """How stability is lost."""
-        if len(self.oscillating) == 1:
-            return "none: every departure is neutral"
+    def loss(self) -> str | None:
+        """How stability is lost; None where no value of the parameters makes a difference."""
+        if self.truth is not Truth.OPEN:
+            return None
         if not self.is_even:
             return "growth, with or without oscillation"
         if len(self.oscillating) == 3:

@@ -16,6 +16,7 @@ from polhode.algebra import (
     Symbol,
     as_symbol,
     cos,
+    eliminate,
     factors,
     is_positive,
     pi,
@@ -29,6 +30,8 @@ from polhode.base import NumericError, Shown
 from polhode.derive import Equations
 
 Values = Mapping[Symbol, Expr]
+
+_ASIDE = Symbol("aside")
 
 
 @dataclass(frozen=True)
@@ -121,6 +124,7 @@ def steady(
     found = [
         SteadyMotion(system, {**given, **fixed}, relations)
         for fixed, relations in _families(rows, system)
+        if not _breaks_away(system, {**given, **fixed})
     ]
     families = tuple(_without_special_cases(found))
     if not families:
@@ -172,6 +176,29 @@ def _families(
             for fixed, relations in _families(others, system):
                 kept = factor.subs(fixed)
                 yield fixed, ((kept, *relations) if kept else relations)
+
+
+def _breaks_away(system: Reduced, fixed: Values) -> bool:
+    """Whether the conditions hold only because the coordinates are singular there.
+
+    Beside a true steady motion the accelerations are small; beside these they are without bound.
+    """
+    mass = [[entry.subs(fixed) for entry in row] for row in system.equations.mass.rows]
+    if not eliminate(mass, [ZERO] * len(mass)).free:
+        return False
+    rates = {s: value for s, value in fixed.items() if s not in system.essential}
+    places = [q for q in system.essential if q in fixed]
+    near = rates | {q: fixed[q] + (i + 1) * Expr.generator(_ASIDE) for i, q in enumerate(places)}
+    nearby = [a.subs(near) for a in system.equations.accelerations.values()]
+    return any(a and _order(a.numerator) < _order(a.denominator) for a in nearby)
+
+
+def _order(expression: Expr) -> int:
+    """How often it vanishes on the family, as one goes aside from it."""
+    order = 0
+    while not expression.subs({_ASIDE: ZERO}):
+        expression, order = expression.diff(_ASIDE), order + 1
+    return order
 
 
 def _vanishing(row: Expr, system: Reduced) -> list[Expr]:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from typing import Any
 
-from polhode.analyse import Invariant, invariants
+from polhode.analyse import Invariant, LinearIntegrals, invariants
 from polhode.cli._document import print_document, printed
 from polhode.cli._parser import Parser
 from polhode.cli._systems import NAME_HELP, entry_of
@@ -23,7 +24,15 @@ def run(options: Namespace) -> int:
     found = invariants(derive(entry.build()))
     if options.json:
         described = [_document(invariant) for invariant in found]
-        print_document({"system": entry.name, "invariants": described, "ansatz": found.ansatz})
+        linear = found.linear and _linear_document(found.linear)
+        print_document(
+            {
+                "system": entry.name,
+                "invariants": described,
+                "ansatz": found.ansatz,
+                "linear": linear,
+            }
+        )
         return 0
     print(f"Integrals of {entry.name}")
     print(found)
@@ -35,4 +44,13 @@ def _document(invariant: Invariant) -> dict[str, str]:
         "name": invariant.name,
         **printed(invariant.expression),
         "meaning": invariant.meaning,
+    }
+
+
+def _linear_document(linear: LinearIntegrals) -> dict[str, Any]:
+    """d(speeds)/d(angle), one slope for each speed."""
+    return {
+        "angle": linear.angle.published,
+        "speeds": [speed.published for speed in linear.speeds],
+        "slopes": [printed(slope) for slope in linear.slopes],
     }

@@ -6,6 +6,7 @@ from argparse import Namespace
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from polhode.algebra import Expr
 from polhode.analyse import (
     ALWAYS,
     PROVES,
@@ -112,6 +113,12 @@ def _told(family: SteadyMotion, judged: Stability | NumericError) -> Iterator[st
         return
     yield f"    {judged}"
     if judged.frequencies:
-        frequencies = ", ".join(value.pretty() for value in judged.frequencies)
-        yield f"    frequencies {frequencies}"
-    yield f"    loss: {judged.loss}"
+        yield f"    frequencies {_listed(judged.frequencies)}"
+    if judged.truth is Truth.NEVER and judged.growth:
+        yield f"    grows at {_listed(judged.growth)}"
+    if judged.loss:
+        yield f"    loss: {judged.loss}"
+
+
+def _listed(values: Sequence[Expr]) -> str:
+    return ", ".join(value.pretty() for value in values)
