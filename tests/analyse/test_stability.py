@@ -113,6 +113,38 @@ def test_sleeping_top_in_another_chart():
     assert threshold in [c.expression for c in found.conditions]
 
 
+@pytest.mark.parametrize("factor", [0.999, 1.001])
+def test_sleeping_top_by_simulation(factor):
+    """0.1 % below the threshold a nudge grows past its swing above it."""
+    numbers = {"I_1": 6.25e-4, "I_2": 3.5e-4, "M": 0.5, "a": 0.06, "g": 9.81}
+    about_pivot = numbers["I_2"] + numbers["M"] * numbers["a"] ** 2
+    weight = numbers["M"] * numbers["g"] * numbers["a"]
+    spin = factor * 2 * np.sqrt(weight * about_pivot) / numbers["I_1"]
+    start = {"alpha_dot": 1e-6, "omega_1": spin}
+    run = ph.simulate(equations("gyroscope/upright"), numbers, start, 15.0)
+    departure = np.hypot(run["alpha"], run["beta"]).max()
+    assert (departure < 1e-5) == (factor > 1)
+
+
+def test_rolling_hoops_and_rims():
+    """Upright above ω₃² = I₁ m g a/(I₃ (I₃ + m a²)): g/3a for a disk, g/4a for a hoop (Routh)."""
+    mass, radius, g, across, along = ph.symbols("m a g I_1 I_3", positive=True)
+    theta, phi = ph.coordinates("theta phi")
+    axes = ph.Frame("lab").rotated(phi, "z").rotated(theta, "x", labels="1 2 3")
+    wheel = ph.disk("wheel", mass=mass, radius=radius, inertia=(across, across, along), axes=axes)
+    ground = ph.Rolling(wheel, on=ph.Plane(axes.root))
+    derived = ph.derive(ph.System(ground, ph.Gravity(g)))
+    s = symbols(derived)
+    straight = next(
+        f for f in steady(derived, {theta: pi / 2}) if f.fixed.get(s["phi_dot"].symbol) == 0
+    )
+    (condition,) = stability(straight).conditions
+    inertia = along * (along + mass * radius**2)
+    square = across * mass * g * radius / inertia
+    assert condition.expression.subs({s["omega_3"]: sqrt(square)}) == 0
+    assert square.subs({across: mass * radius**2 / 2, along: mass * radius**2}) == g / (4 * radius)
+
+
 def test_middle_axis_is_unstable():
     derived = equations("tennis-racquet")
     s = symbols(derived)
@@ -127,6 +159,24 @@ def test_middle_axis_is_unstable():
         "omega_2": Truth.NEVER,
         "omega_3": Truth.ALWAYS,
     }
+
+
+@pytest.mark.parametrize(("axis", "crossing"), [("omega_1", "omega_2"), ("omega_3", "omega_2")])
+def test_frequency_of_a_wobbling_racquet_by_simulation(axis, crossing):
+    derived = equations("tennis-racquet")
+    s = symbols(derived)
+    numbers = {"I_1": 1.2e-3, "I_2": 1.64e-2, "I_3": 1.76e-2}
+    family = next(f for f in steady(derived) if s[axis].symbol in f.free)
+    (frequency,) = stability(family).frequencies
+    predicted = _number(frequency, numbers | {axis: 10.0})
+    start = {"theta": 1.0, axis: 10.0, crossing: 1e-5}
+    run = ph.simulate(derived, numbers, start, 6.0 / predicted)
+
+    def wobble(t: float) -> float:
+        return float(run.evaluate(crossing, np.array([t]))[0])
+
+    quarter = brentq(wobble, 0.5 / predicted, 3.0 / predicted, xtol=1e-14)
+    assert quarter == pytest.approx(np.pi / 2 / predicted, rel=1e-7)
 
 
 def test_gyrocompass_settles_about_the_north_with_its_frequency():

@@ -1,4 +1,4 @@
-"""Bodies whose inertia follows from their shape."""
+"""Bodies whose inertia follows from their shape, unless another is given as `inertia=`."""
 
 from __future__ import annotations
 
@@ -37,8 +37,9 @@ def _rimmed(
 ) -> Body:
     across = Expr.of(mass) * Expr.of(radius) ** 2 * share
     moments = [2 * across if i == axes.position(axis) else across for i in range(3)]
-    more = {"spin": About(axis), "surface": Rim(Expr.of(radius), axis), **more}
-    return Body(name, mass=mass, inertia=moments, axes=axes, **more)
+    surface = Rim(Expr.of(radius), axis)
+    more = {"spin": About(axis), "surface": surface, "inertia": moments, **more}
+    return Body(name, mass=mass, axes=axes, **more)
 
 
 def sphere(
@@ -73,7 +74,8 @@ def ellipsoid(
     surface = Ellipsoidal((first, second, third))
     a, b, c = (half**2 for half in surface.half_axes)
     moments = [Expr.of(mass) * s / 5 for s in (b + c, c + a, a + b)]
-    return Body(name, mass=mass, inertia=moments, axes=axes, surface=surface, **more)
+    more = {"surface": surface, "inertia": moments, **more}
+    return Body(name, mass=mass, axes=axes, **more)
 
 
 def rod(
@@ -82,7 +84,7 @@ def rod(
     """A thin uniform rod along `axis`: m l²/12 across it, nothing about it."""
     across = Expr.of(mass) * Expr.of(length) ** 2 / 12
     moments = [Expr.of(0) if i == axes.position(axis) else across for i in range(3)]
-    return Body(name, mass=mass, inertia=moments, axes=axes, **more)
+    return Body(name, mass=mass, axes=axes, **{"inertia": moments, **more})
 
 
 def cylinder(
@@ -99,8 +101,9 @@ def cylinder(
     mass, radius, height = Expr.of(mass), Expr.of(radius), Expr.of(height)
     across = mass * (3 * radius**2 + height**2) / 12
     moments = [mass * radius**2 / 2 if i == axes.position(axis) else across for i in range(3)]
-    more = {"spin": About(axis), "surface": Rim(radius, axis, -height / 2), **more}
-    return Body(name, mass=mass, inertia=moments, axes=axes, **more)
+    surface = Rim(radius, axis, -height / 2)
+    more = {"spin": About(axis), "surface": surface, "inertia": moments, **more}
+    return Body(name, mass=mass, axes=axes, **more)
 
 
 def point_mass(name: str, *, mass: ExprLike, axes: Frame, **more: Any) -> Body:
