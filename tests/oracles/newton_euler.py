@@ -77,6 +77,9 @@ def solve(
 
 def _least_norm(matrix: Array, right: Array) -> Array:
     unknowns = np.linalg.lstsq(matrix, right, rcond=RANK_TOLERANCE)[0]
+    # Refined once: rates much smaller than the forces would else be known to the forces' rounding.
+    left = np.longdouble(right) - np.longdouble(matrix) @ np.longdouble(unknowns)
+    unknowns += np.linalg.lstsq(matrix, np.float64(left), rcond=RANK_TOLERANCE)[0]
     if not np.allclose(matrix @ unknowns, right, rtol=CONSISTENCY, atol=CONSISTENCY):
         raise ArithmeticError("no accelerations and reactions meet these constraints together")
     return unknowns
