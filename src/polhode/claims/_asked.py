@@ -10,6 +10,7 @@ from typing import TypeVar, cast
 from polhode.algebra import ZERO, Expr, Symbol
 from polhode.claims._circumstances import Circumstances
 from polhode.claims._components import Component, Relation, components
+from polhode.claims.latex._tree import Node
 from polhode.derive import Equations
 
 States = TypeVar("States", bound=Circumstances)
@@ -73,6 +74,7 @@ class Asked:
         start: for claims on a motion, values at its start.
         when: for statements on a motion, how often they hold: always, never, sometimes,
             initially, finally.
+        defined: letters that the claim defines itself; what defines them is no member.
     """
 
     branches: tuple[tuple[Relation, ...], ...]
@@ -84,6 +86,7 @@ class Asked:
     digits: Mapping[int, Expr] = field(default_factory=dict)
     start: Mapping[Symbol, Expr] = field(default_factory=dict)
     when: str = ""
+    defined: tuple[Node, ...] = ()
 
     @property
     def members(self) -> tuple[Relation, ...]:

@@ -86,7 +86,8 @@ def reported(
     document: Document, asked: Sequence[Claim], verdicts: Mapping[str, Verdict], seconds: float
 ) -> Report:
     """A report of verdicts by id of their claim; those asked for that have none are left."""
-    failed = [id for id, verdict in verdicts.items() if verdict.answer is Answer.FAILS]
+    found = ((claim.id, verdicts.get(claim.id)) for claim in asked)
+    failed = [id for id, verdict in found if verdict and verdict.answer is Answer.FAILS]
     reached = {id: document.consequences(id) for id in failed}
     judged = tuple(
         Judged(

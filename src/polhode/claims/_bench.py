@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import islice
 from math import isfinite
 
@@ -12,7 +13,7 @@ import numpy as np
 from polhode.algebra import Expr, Symbol, variables
 from polhode.base import PolhodeError
 from polhode.claims._circumstances import Circumstances
-from polhode.claims._numeric import Array, number, numbers
+from polhode.claims._numeric import Array, Rational, number, numbers, rationals
 from polhode.claims._points import Point, points
 
 _STATES = 6
@@ -48,25 +49,30 @@ class Bench:
 
     def values(self, expressions: Sequence[Expr]) -> Array:
         """Values of expressions: (expressions, states); not a number where there is none."""
-        return self.function(expressions)(np.ones(self.size))
+        columns = self._columns(variables(expressions) - {_PI})
+        return numbers(expressions, columns, (self.size,))
 
     @property
     def size(self) -> int:
         """How many states there are."""
         return len(self.states)
 
-    def function(
-        self, expressions: Sequence[Expr], unknown: Symbol | None = None
-    ) -> Callable[[Array], Array]:
+    def function(self, expressions: Sequence[Expr], unknown: Symbol) -> Callable[[Array], Array]:
         """Values of expressions as a function of one symbol that no state fixes, state by state."""
-        fixed = variables(expressions) - {_PI, unknown}
-        columns = {s: np.array([state[s] for state in self.states]) for s in fixed}
+        columns = self._columns(variables(expressions) - {_PI, unknown})
+        shape = (self.size,)
+        found = rationals(expressions, unknown, columns, shape)
+        if found is None:
+            return lambda at: numbers(expressions, {**columns, unknown: at}, at.shape)
+        return partial(_evaluated, found)
 
-        def values(at: Array) -> Array:
-            table = columns if unknown is None else {**columns, unknown: at}
-            return numbers(list(expressions), table, (self.size,))
+    def _columns(self, symbols: Iterable[Symbol]) -> dict[Symbol, Array]:
+        return {s: np.array([state[s] for state in self.states]) for s in symbols}
 
-        return values
+
+def _evaluated(found: Sequence[Rational], at: Array) -> Array:
+    with np.errstate(all="ignore"):
+        return np.array([function(at) for function in found]).reshape(len(found), *at.shape)
 
 
 def bench(states: Circumstances, expressions: Iterable[Expr]) -> Bench:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Protocol
 
-from polhode.algebra import ZERO, Expr, Vector, zero_vector
+from polhode.algebra import ZERO, Expr, Triad, Vector, zero_vector
 from polhode.base import ParseError
 from polhode.model import Frame
 
@@ -71,6 +71,12 @@ def components(member: int, left: Side, right: Side) -> tuple[Component, ...]:
         expected="two scalars or two vectors",
         advice="look for a lost hat, arrow or dot product",
     )
+
+
+def triad_of(left: Side, right: Side) -> Triad | None:
+    """The directions along which a relation between vectors is taken apart; none for scalars."""
+    vectors = [side for side in (left, right) if isinstance(side, Vector)]
+    return next((v.triad for v in vectors if not v.is_zero), vectors[-1].triad if vectors else None)
 
 
 def _along(member: int, left: Vector, right: Vector) -> Iterator[Component]:

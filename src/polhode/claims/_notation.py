@@ -179,6 +179,7 @@ class Notation:
             self.vocabulary.positive,
             bound.digits,
             {as_symbol(s): value for s, value in restrictions(self.start)[0].items()},
+            defined=tuple(bound.defined),
         )
 
     def value(self, node: Node) -> Side:

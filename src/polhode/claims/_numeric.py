@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -23,7 +25,9 @@ def number(expression: Expr, values: Mapping[Symbol, Any]) -> Any:
         return _of(expression, values, known)
 
 
-def numbers(expressions: list[Expr], values: Mapping[Symbol, Any], shape: tuple[int, ...]) -> Array:
+def numbers(
+    expressions: Iterable[Expr], values: Mapping[Symbol, Any], shape: tuple[int, ...]
+) -> Array:
     """Values of several expressions: (expressions, *shape)."""
     known: dict[Generator, Any] = {}
     with np.errstate(all="ignore"):
@@ -31,24 +35,92 @@ def numbers(expressions: list[Expr], values: Mapping[Symbol, Any], shape: tuple[
     return np.array(found, dtype=float).reshape(len(found), *shape)
 
 
+@dataclass(frozen=True, eq=False)
+class Rational:
+    """The value of an expression as a rational function of one unknown.
+
+    Attributes:
+        above: coefficients of the numerator, from that of the highest power down: (powers, *shape).
+        below: those of the denominator.
+    """
+
+    above: Array
+    below: Array
+
+    def __call__(self, at: Array) -> Array:
+        """Values, one unknown for each entry of the shape."""
+        return np.asarray(np.polyval(self.above, at) / np.polyval(self.below, at))
+
+    @property
+    def is_linear(self) -> bool:
+        """Whether it changes evenly with the unknown."""
+        return len(self.above) <= 2 and len(self.below) == 1
+
+
+def rationals(
+    expressions: Iterable[Expr],
+    unknown: Symbol,
+    values: Mapping[Symbol, Any],
+    shape: tuple[int, ...],
+) -> list[Rational] | None:
+    """Expressions as functions of an unknown; None where it stands inside a root or the like."""
+    known: dict[Generator, Any] = {}
+    found = []
+    with np.errstate(all="ignore"):
+        for expression in expressions:
+            others = [g for g in expression.generators if g != unknown]
+            if any(unknown in g.symbols() for g in others):
+                return None
+            _learn(others, values, known)
+            parts = (expression.numerator, expression.denominator)
+            above, below = (_coefficients(part, unknown, known, shape) for part in parts)
+            found.append(Rational(above, below))
+    return found
+
+
+def _coefficients(
+    polynomial: Expr, unknown: Symbol, known: Mapping[Generator, Any], shape: tuple[int, ...]
+) -> Array:
+    """By power of the unknown, the highest first."""
+    found: dict[int, Any] = {}
+    for powers, coefficient in polynomial.terms():
+        power = powers.pop(unknown, 0)
+        found[power] = found.get(power, 0.0) + _term(powers, coefficient, known)
+    count = max(found, default=0) + 1
+    return np.array([np.broadcast_to(found.get(p, 0.0), shape) for p in reversed(range(count))])
+
+
 def _of(expression: Expr, values: Mapping[Symbol, Any], known: dict[Generator, Any]) -> Any:
-    for generator in expression.generators:
-        if generator not in known:
-            known[generator] = _generator(generator, values, known)
+    _learn(expression.generators, values, known)
     above = _sum(expression.numerator, known)
     if expression.is_polynomial:
         return above / _sum(expression.denominator, known)
     return np.true_divide(above, _sum(expression.denominator, known))
 
 
+def _learn(
+    generators: Iterable[Generator], values: Mapping[Symbol, Any], known: dict[Generator, Any]
+) -> None:
+    for generator in generators:
+        if generator not in known:
+            known[generator] = _generator(generator, values, known)
+
+
 def _sum(polynomial: Expr, known: Mapping[Generator, Any]) -> Any:
     total: Any = 0.0
     for powers, coefficient in polynomial.terms():
-        term: Any = float(coefficient)
-        for generator, power in powers.items():
-            term = term * known[generator] ** power
-        total = total + term
+        total = total + _term(powers, coefficient, known)
     return total
+
+
+def _term(
+    powers: Mapping[Generator, int], coefficient: Fraction, known: Mapping[Generator, Any]
+) -> Any:
+    term: Any = float(coefficient)
+    for generator, power in powers.items():
+        value = known[generator]
+        term = term * (value if power == 1 else value**power)
+    return term
 
 
 def _generator(

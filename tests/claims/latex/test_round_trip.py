@@ -14,7 +14,6 @@ from polhode.claims.latex._tree import (
     Relation,
     Statement,
     mapped,
-    parts,
     walk,
 )
 
@@ -40,7 +39,7 @@ def test_a_statement_comes_back(chains: list[Relation]) -> None:
 @given(relations(1))
 def test_a_tree_is_rebuilt_from_its_parts(relation: Relation) -> None:
     assert mapped(relation, lambda part: part) == relation
-    assert list(parts(relation)) == list(relation.sides)
+    assert list(relation.parts) == list(relation.sides)
     assert sum(piece == relation for piece in walk(relation)) == 1
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, fields, replace
+from functools import cached_property
 from typing import Any, TypeVar
 
 Span = tuple[int, int]
@@ -17,7 +18,7 @@ PieceT = TypeVar("PieceT", bound="Piece")
 NOWHERE: Span = (0, 0)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Piece:
     """Any part of what was read, with the place it was read from.
 
@@ -26,22 +27,48 @@ class Piece:
             where they stand are equal.
     """
 
-    span: Span = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+    span: Span = field(default=NOWHERE, repr=False, kw_only=True)
+
+    @cached_property
+    def parts(self) -> tuple[Piece, ...]:
+        """The pieces directly inside, in order of printing."""
+        return tuple(piece for value in self._said for piece in _pieces(value))
+
+    @cached_property
+    def _said(self) -> tuple[object, ...]:
+        named: tuple[str, ...] = self.__match_args__
+        return tuple(getattr(self, name) for name in named)
+
+    @cached_property
+    def _key(self) -> int:
+        return hash((type(self), self._said))
+
+    def __hash__(self) -> int:
+        return self._key
+
+    def __eq__(self, other: object) -> bool:
+        if self is other or not isinstance(other, Piece):
+            return self is other
+        return type(self) is type(other) and self._key == other._key and self._said == other._said
+
+    def __getstate__(self) -> dict[str, object]:
+        """What is printed, and where: hashes differ from process to process."""
+        return {entry.name: getattr(self, entry.name) for entry in fields(self)}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Node(Piece):
     """A piece that stands for a quantity."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Number(Node):
     """A number without a sign, exactly as spelled: ``2``, ``0.35``."""
 
     text: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Name(Node):
     r"""A letter and all it carries except dots.
 
@@ -70,14 +97,14 @@ class Name(Node):
         return self.decoration.endswith(("hat", "vector"))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Words(Node):
     """Words where a quantity should stand: the right side of "θ = angle between the axes"."""
 
     text: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Dots(Node):
     """Time derivatives printed as dots over the quantity."""
 
@@ -85,7 +112,7 @@ class Dots(Node):
     count: int
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Derivative(Node):
     """d/dt or ∂/∂θ acting on a quantity; mixed ones are nested, the last printed innermost."""
 
@@ -95,7 +122,7 @@ class Derivative(Node):
     partial: bool = False
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Differential(Node):
     """d, Δ, δ or ∂ before a quantity. Where ``d`` is a length, the bindings may read a product."""
 
@@ -103,7 +130,7 @@ class Differential(Node):
     sign: str = "d"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Integral(Node):
     """An integral, with both limits or neither."""
 
@@ -113,21 +140,21 @@ class Integral(Node):
     upper: Node | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Sum(Node):
     """Two or more terms; one that is subtracted is a `Negative`."""
 
     terms: tuple[Node, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Negative(Node):
     """The quantity with a minus sign."""
 
     of: Node
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PlusMinus(Node):
     """The quantity with the sign ``"±"`` or ``"∓"``."""
 
@@ -135,14 +162,14 @@ class PlusMinus(Node):
     sign: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Product(Node):
     """Two or more factors side by side."""
 
     factors: tuple[Node, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Cross(Node):
     r"""Two quantities with ``\times`` between; of numbers, their product."""
 
@@ -150,7 +177,7 @@ class Cross(Node):
     right: Node
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Dot(Node):
     r"""Two quantities with ``\cdot`` between; of scalars, their product."""
 
@@ -158,7 +185,7 @@ class Dot(Node):
     right: Node
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Quotient(Node):
     """One quantity over another, by a fraction or a slash."""
 
@@ -166,7 +193,7 @@ class Quotient(Node):
     below: Node
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Power(Node):
     """A quantity raised to a power; the square of a vector is its square magnitude."""
 
@@ -174,7 +201,7 @@ class Power(Node):
     exponent: Node
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Root(Node):
     """The root of a quantity: the square root unless an index says otherwise."""
 
@@ -182,7 +209,7 @@ class Root(Node):
     index: Node | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Call(Node):
     """A known function: sin, cos, tan, sec, csc, cot, their arc-, -h and ar-h kin, exp, ln, log."""
 
@@ -190,7 +217,7 @@ class Call(Node):
     argument: Node
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class At(Node):
     """A quantity with one in round brackets behind it: ``θ(0)``, ``v(t)``, ``V(θ)``."""
 
@@ -198,14 +225,14 @@ class At(Node):
     argument: Node
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Magnitude(Node):
     """A quantity between bars."""
 
     of: Node
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Component(Node):
     """A bracket with a subscript: ``(dv/dt)_z``. The subscript is spelled as in `Name`."""
 
@@ -213,7 +240,7 @@ class Component(Node):
     subscript: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Evaluated(Node):
     """A quantity with a bar and a subscript behind it: dL/dt|_P. Spelled as in `Name`."""
 
@@ -221,14 +248,14 @@ class Evaluated(Node):
     subscript: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Components(Node):
     """Quantities in a bracket with commas between, or stacked in a column."""
 
     entries: tuple[Node, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Relation(Piece):
     """A chain ``a = b ≈ c``; a quantity standing alone is a chain of one side.
 
@@ -246,7 +273,7 @@ class Relation(Piece):
         return bool(self.signs)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Case(Piece):
     """One of several values: "A (slow)" of "A (slow) or B (fast)".
 
@@ -261,14 +288,14 @@ class Case(Piece):
     words: str = ""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Cases(Node):
     """A quantity given case by case."""
 
     cases: tuple[Case, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Statement(Piece):
     r"""All that one display says.
 
@@ -285,17 +312,13 @@ class Statement(Piece):
     tags: tuple[str, ...] = ()
 
 
-def parts(piece: Piece) -> Iterator[Piece]:
-    """The pieces directly inside one, in order of printing."""
-    for value in vars(piece).values():
-        yield from _pieces(value)
-
-
 def walk(piece: Piece) -> Iterator[Piece]:
     """The piece and all inside it, outermost first."""
-    yield piece
-    for part in parts(piece):
-        yield from walk(part)
+    waiting = [piece]
+    while waiting:
+        found = waiting.pop()
+        yield found
+        waiting.extend(reversed(found.parts))
 
 
 def mapped(piece: PieceT, change: Callable[[Any], Piece]) -> PieceT:

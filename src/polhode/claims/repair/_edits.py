@@ -59,7 +59,8 @@ def _by_number(place: Place, number: Fraction) -> Iterator[Edit]:
     if isinstance(node, Number) and "." not in node.text and number > 0:
         value = Fraction(node.text) * number
         extra = 0.0 if value.denominator == 1 else 0.5
-        yield Edit("wrong factor", place.path, number_node(value), 1.0 + extra)
+        what = "wrong power" if place.is_exponent else "wrong factor"
+        yield Edit(what, place.path, number_node(value), 1.0 + extra)
     elif place.is_term and number not in (0, 1) and not _has_number(node):
         changed = _scaled(node, abs(number))
         size = 1.2 if abs(number).denominator == 1 or abs(number).numerator == 1 else 1.6
@@ -160,7 +161,8 @@ def replaced_by(place: Place, known: Mapping[Node, bool]) -> Iterator[Edit]:
 
 def _exchange(old: Node, new: Node) -> str:
     if isinstance(old, Call) and isinstance(new, Call):
-        return f"{old.function} where {new.function} is right"
+        same = old.function == new.function
+        return "wrong angle" if same else f"{old.function} where {new.function} is right"
     if _bare(old) == _bare(new):
         return "dot lost" if _dots(new) > _dots(old) else "one dot too many"
     first, second = _bare(old), _bare(new)

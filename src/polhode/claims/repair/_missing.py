@@ -2,68 +2,48 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
-
-import numpy as np
 
 from polhode.algebra import ONE, Expr, Symbol, Vector, factors
 from polhode.base import PolhodeError
-from polhode.claims.latex._tree import Components, Derivative, Name, Node, Root, Statement, Sum
+from polhode.claims.latex._tree import Components, Derivative, Name, Node, Root, Sum
 from polhode.claims.repair._edits import Edit, letters, number_node, relabelled, turned
 from polhode.claims.repair._places import Place, added, negated, over, places, put, raised, times
-from polhode.claims.repair._reading import Reading
 from polhode.claims.repair._trials import Trials
+from polhode.claims.repair._workpiece import Workpiece
 
 _UNKNOWN = Symbol("missing")
 _LETTER = "missing"
 _LARGEST_SIZE = 12
-_CLOSE = 1e-8
 _LONGEST_SUM = 4
 _UPRIGHT = Name("z", decoration="hat")
 
 
 def missing_terms(
-    statement: Statement,
-    sides: Collection[tuple[int, int]],
-    reading: Reading,
-    tried: Trials,
-    members: Collection[int],
-    inner: Collection[Place],
+    work: Workpiece, place: Place, members: Sequence[int], inner: Collection[Place]
 ) -> Iterator[Edit]:
-    """Terms to be added to one of the sides, or to whatever can be a sum inside it."""
-    quantities = _quantities(statement, reading)
-    for place in places(statement):
-        if place.path[:2] in sides and _takes_terms(place, inner):
-            yield from _whole_vectors(statement, place, reading, tried, members)
-            for direction in _directions(statement, place, reading):
-                lost = _lost(statement, place, direction, reading, tried, members)
-                if lost is not None:
-                    yield from _written(place, direction, lost, quantities, tried)
+    """Terms to be added to a side, or to whatever can be a sum inside it."""
+    if not _takes_terms(place, inner):
+        return
+    yield from _whole_vectors(work, place, members)
+    directions = _directions(work, place)
+    for direction in work.might_lack(place, directions, members):
+        lost = _lost(work, place, direction, members)
+        if lost is not None:
+            yield from _written(place, direction, lost, _quantities(work), work.tried)
 
 
-def _whole_vectors(
-    statement: Statement,
-    place: Place,
-    reading: Reading,
-    tried: Trials,
-    members: Collection[int],
-) -> Iterator[Edit]:
+def _whole_vectors(work: Workpiece, place: Place, members: Sequence[int]) -> Iterator[Edit]:
     """Vectors of the text that make it right when added or taken away."""
-    own = dict.fromkeys(n for p in places(statement) for n in letters(p.node))
+    if not isinstance(work.value(place.node), Vector):
+        return
+    own = dict.fromkeys(n for p in places(work.statement) for n in letters(p.node))
     bold = [n for n in own if isinstance(n, Name) and n.decoration != "hat"]
-    for node in bold:
-        for term in (node, negated(node)):
-            changed = put(statement, place.path, added(place.node, term))
-            try:
-                if not isinstance(reading.value(node), Vector):
-                    break
-                residuals = tried.residuals(reading.asked(changed, {}))
-                values = tried.bench.values([e for m, e in residuals if m in members])
-            except (PolhodeError, ArithmeticError, KeyError):
-                break
-            if np.abs(values).max(initial=0.0) < _CLOSE:
-                yield Edit("missing term", place.path, added(place.node, term), 2.0)
+    whole = [n for n in bold if isinstance(work.value(n), Vector)]
+    sums = [added(place.node, term) for node in whole for term in (node, negated(node))]
+    for node in work.fitting(place, sums, members):
+        yield Edit("missing term", place.path, node, 2.0)
 
 
 def _takes_terms(place: Place, inner: Collection[Place]) -> bool:
@@ -73,37 +53,28 @@ def _takes_terms(place: Place, inner: Collection[Place]) -> bool:
     return whole or inside or isinstance(place.node, Sum) or place in inner
 
 
-def _directions(statement: Statement, place: Place, reading: Reading) -> list[Node | None]:
+def _directions(work: Workpiece, place: Place) -> list[Node | None]:
     """The unit vectors a missing term may go along; none for a scalar."""
-    try:
-        if not isinstance(reading.value(place.node), Vector):
-            return [None]
-    except (PolhodeError, ArithmeticError):
-        return []
-    own = [n for p in places(statement) for n in letters(p.node)]
-    wide = [*own, *reading.names, _UPRIGHT, *(other for n in own for other in relabelled(n))]
+    value = work.value(place.node)
+    if not isinstance(value, Vector):
+        return [] if value is None else [None]
+    own = [n for p in places(work.statement) for n in letters(p.node)]
+    wide = [*own, *work.reading.names, _UPRIGHT, *(other for n in own for other in relabelled(n))]
     named = (n for n in wide if isinstance(n, Name) and n.decoration == "hat")
-    return list(dict.fromkeys(named))
+    return [n for n in dict.fromkeys(named) if isinstance(work.value(n), Vector)]
 
 
 def _lost(
-    statement: Statement,
-    place: Place,
-    direction: Node | None,
-    reading: Reading,
-    tried: Trials,
-    members: Collection[int],
+    work: Workpiece, place: Place, direction: Node | None, members: Sequence[int]
 ) -> Expr | None:
     """What is to be added, exactly, on the states of the claim."""
     letter = Name(_LETTER)
     term = letter if direction is None else times(letter, direction)
+    changed = put(work.statement, place.path, added(place.node, term))
+    found = None
     try:
-        changed = put(statement, place.path, added(place.node, term))
-        asked = reading.asked(changed, {_LETTER: Expr.generator(_UNKNOWN)})
-        residuals = [e for member, e in tried.residuals(asked) if member in members]
-        found = None
-        for residual in residuals:
-            settled = tried.states.on(residual).numerator
+        for residual in work.left(changed, members, {_LETTER: Expr.generator(_UNKNOWN)}):
+            settled = work.tried.states.on(residual).numerator
             slope = settled.diff(_UNKNOWN)
             if _UNKNOWN in slope.symbols():
                 return None
@@ -120,18 +91,12 @@ def _lost(
 Quantities = Mapping[Node, Expr]
 
 
-def _quantities(statement: Statement, reading: Reading) -> Quantities:
-    own = [n for place in places(statement) for n in letters(place.node)]
+def _quantities(work: Workpiece) -> Quantities:
+    own = [n for place in places(work.statement) for n in letters(place.node)]
     other = [t for n in own if (t := turned(n)) is not None]
-    known: dict[Node, Expr] = {}
-    for node in dict.fromkeys([*own, *other, *reading.names]):
-        try:
-            value = reading.value(node)
-        except (PolhodeError, ArithmeticError):
-            continue
-        if isinstance(value, Expr) and value:
-            known[node] = value
-    return known
+    wide = dict.fromkeys([*own, *other, *work.reading.names])
+    found = ((node, work.value(node)) for node in wide)
+    return {node: value for node, value in found if isinstance(value, Expr) and value}
 
 
 def _written(

@@ -2,53 +2,76 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol
-from polhode.base import PolhodeError
 from polhode.claims._numeric import Array
-from polhode.claims.latex._tree import Name, Node, Statement
-from polhode.claims.repair._places import Place, put, times
-from polhode.claims.repair._reading import Reading
-from polhode.claims.repair._trials import Trials
+from polhode.claims.latex._tree import Node
 
-UNKNOWN = Symbol("multiplier")
-_LETTER = "multiplier"
 _CLOSE = 1e-8
 _STEPS = 25
 _LARGEST = 60
 _TRIED = (Fraction(-1), *(Fraction(n, d) for n in range(1, 5) for d in range(1, 5) if n != d))
 
 
-def response(
-    statement: Statement,
-    place: Place,
-    reading: Reading,
-    tried: Trials,
-    members: Collection[int],
-) -> Callable[[Array], Array] | None:
-    """What must vanish for these members to hold, as a function of a factor put at a place."""
-    changed = put(statement, place.path, times(Name(_LETTER), place.node))
-    try:
-        asked = reading.asked(changed, {_LETTER: Expr.generator(UNKNOWN)})
-        residuals = [e for member, e in tried.residuals(asked) if member in members]
-        return tried.bench.function(residuals, UNKNOWN) if residuals else None
-    except (PolhodeError, ArithmeticError, KeyError):
-        return None
+@dataclass(frozen=True, eq=False)
+class Response:
+    """How what must vanish changes with a factor put at a place.
+
+    Attributes:
+        changing: those rows that may change, (rows, trials, states), by the factor in every trial
+            at every state.
+        rows: which of all they are.
+        before: all rows as they are: (rows, states).
+    """
+
+    changing: Callable[[Array], Array]
+    rows: tuple[int, ...]
+    before: Array
+
+    def __call__(self, factors: Array) -> Array:
+        """The changing rows, with arithmetic that may fail at a state."""
+        with np.errstate(all="ignore"):
+            return self.changing(factors)
+
+    def at(self, numbers: Sequence[float]) -> Array:
+        """The changing rows for factors that are the same at all states."""
+        return self(np.outer(numbers, np.ones(self.states)))
+
+    @property
+    def states(self) -> int:
+        """At how many states it is known."""
+        return int(self.before.shape[1])
+
+    @property
+    def is_faithful(self) -> bool:
+        """Whether a factor one changes nothing."""
+        now, known = self.at([1.0])[:, 0], self.before[list(self.rows)]
+        return now.shape == known.shape and np.allclose(now, known, rtol=_CLOSE, atol=_CLOSE)
+
+    def slope(self) -> Array | None:
+        """Change of all rows per unit of the factor, where that is the same for any factor."""
+        one, two, three = np.moveaxis(self.at([1.0, 2.0, 3.0]), 1, 0)
+        change = two - one
+        straight = np.abs(three - two - change) <= _CLOSE * (np.abs(one) + np.abs(three))
+        if not np.isfinite(change).all() or not straight.all() or not change.any():
+            return None
+        whole = np.zeros_like(self.before)
+        whole[list(self.rows)] = change
+        return whole
 
 
-def multiplier(function: Callable[[Array], Array], states: int) -> Array | None:
+def multiplier(response: Response) -> Array | None:
     """The factor at every state at which all vanishes, by secants from one; None if there is none.
 
     A residual that no factor changes must vanish already.
     """
-    at, before = np.full(states, 1.0), np.full(states, 1.25)
-    here, there = function(at), function(before)
+    here, there = np.moveaxis(response.at([1.0, 1.25]), 1, 0)
+    at, before = np.full(response.states, 1.0), np.full(response.states, 1.25)
     size = np.abs(here) + np.abs(there)
     row = int(np.argmax(np.abs(here - there).min(axis=1)))
     if not np.isfinite(here).all() or not np.abs(here - there)[row].all():
@@ -61,7 +84,7 @@ def multiplier(function: Callable[[Array], Array], states: int) -> Array | None:
             break
         before, there = at, here
         at = at - step
-        here = function(at)
+        here = response(at[None])[:, 0]
         if (np.abs(step) < 1e-14 * (1 + np.abs(at))).all():
             break
     scale = size.max(axis=1, keepdims=True) + np.abs(at)
@@ -69,12 +92,12 @@ def multiplier(function: Callable[[Array], Array], states: int) -> Array | None:
     return at if vanishes else None
 
 
-def simple_numbers(function: Callable[[Array], Array], states: int) -> Iterator[Fraction]:
+def simple_numbers(response: Response) -> Iterator[Fraction]:
     """The simple factors at which all vanishes; what is not linear may have several."""
-    size = np.abs(function(np.full(states, 1.0))).max(axis=1, keepdims=True)
-    for number in _TRIED:
-        left = function(np.full(states, float(number)))
-        if np.isfinite(left).all() and (np.abs(left) <= _CLOSE * (size + 1)).all():
+    one, *left = np.moveaxis(response.at([1.0, *map(float, _TRIED)]), 1, 0)
+    size = np.abs(one).max(axis=1, keepdims=True)
+    for number, rows in zip(_TRIED, left, strict=True):
+        if np.isfinite(rows).all() and (np.abs(rows) <= _CLOSE * (size + 1)).all():
             yield number
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 
 import numpy as np
@@ -10,28 +10,25 @@ import numpy as np
 from polhode.claims._numeric import Array
 from polhode.claims.latex._tree import Number
 from polhode.claims.repair._edits import Edit, edits
-from polhode.claims.repair._multiplier import Match, simple_number
+from polhode.claims.repair._multiplier import Match, Response, simple_number
 from polhode.claims.repair._places import Place
-
-Response = Callable[[Array], Array]
 
 _CLOSE = 1e-8
 _MOST_TOGETHER = 3
 _MOST_PLACES = 24
 
 
-def fitted(responses: Mapping[Place, Response], states: int) -> Iterator[tuple[Edit, ...]]:
+def fitted(responses: Mapping[Place, Response]) -> Iterator[tuple[Edit, ...]]:
     """Sets of two or three changes of numbers or signs that together let a claim hold.
 
     Args:
-        responses: what must vanish, as a function of a factor put at each place.
-        states: how many states there are.
+        responses: how what must vanish changes with a factor put at each place.
     """
     places = [p for p in responses if p.is_term or isinstance(p.node, Number)]
-    slopes = {p: s for p in places if (s := _slope(responses[p], states)) is not None}
+    slopes = {p: s.ravel() for p in places if (s := responses[p].slope()) is not None}
     if not slopes:
         return
-    rest = next(iter(responses.values()))(np.ones(states)).ravel()
+    rest = next(iter(responses.values())).before.ravel()
     for together in range(2, _MOST_TOGETHER + 1):
         found = False
         for chosen in combinations(list(slopes)[:_MOST_PLACES], together):
@@ -41,14 +38,6 @@ def fitted(responses: Mapping[Place, Response], states: int) -> Iterator[tuple[E
                 yield from _written(chosen, factors)
         if found:
             return
-
-
-def _slope(function: Response, states: int) -> Array | None:
-    """By how much all changes per unit of the factor, where that is the same for any factor."""
-    one, two, three = (function(np.full(states, x)) for x in (1.0, 2.0, 3.0))
-    slope = two - one
-    straight = np.abs(three - two - slope) <= _CLOSE * (np.abs(one) + np.abs(three))
-    return slope.ravel() if np.isfinite(slope).all() and straight.all() and slope.any() else None
 
 
 def _factors(rest: Array, slopes: Sequence[Array]) -> list[Match] | None:

@@ -18,7 +18,6 @@ from polhode.claims.latex._tree import (
     Statement,
     Sum,
     mapped,
-    parts,
 )
 
 
@@ -46,6 +45,11 @@ class Place:
         """Whether it is one term of a sum or a whole side, with its sign."""
         return not isinstance(self.parent, Node) or isinstance(self.parent, Sum)
 
+    @property
+    def is_exponent(self) -> bool:
+        """Whether it says to which power something is raised."""
+        return isinstance(self.parent, Power) and self.path[-1] == 1
+
 
 def places(statement: Statement) -> Iterator[Place]:
     """Every node of the relations of a statement, outermost first."""
@@ -54,7 +58,7 @@ def places(statement: Statement) -> Iterator[Place]:
 
 
 def _below(piece: Piece, path: tuple[int, ...]) -> Iterator[Place]:
-    for i, part in enumerate(parts(piece)):
+    for i, part in enumerate(piece.parts):
         here = (*path, i)
         if isinstance(part, Node):
             yield Place(here, part, piece)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 
-from polhode.algebra import ZERO, Expr, Vector
+from polhode.algebra import ZERO, Expr, Symbol, Vector
 from polhode.base import PolhodeError
 from polhode.claims._asked import Asked
 from polhode.claims._numeric import Array
@@ -26,20 +26,28 @@ from polhode.claims.latex._tree import (
     walk,
 )
 from polhode.claims.repair._edits import Edit, edits, letters, relabelled, replaced_by, turned
+from polhode.claims.repair._figures import scalar
+from polhode.claims.repair._links import Links
 from polhode.claims.repair._missing import missing_terms
 from polhode.claims.repair._multiplier import (
     Match,
+    Response,
     matches,
     multiplier,
-    response,
     simple_numbers,
 )
-from polhode.claims.repair._own_terms import Response, fitted
-from polhode.claims.repair._places import Place, places, put, tidied
+from polhode.claims.repair._own_terms import fitted
+from polhode.claims.repair._places import Place, places, put, tidied, times
 from polhode.claims.repair._reading import Reading
+from polhode.claims.repair._tally import UNKNOWN, Tally
 from polhode.claims.repair._trials import Trials, trials
+from polhode.claims.repair._workpiece import Workpiece
 
 Holds = Callable[[Asked], bool]
+Changing = Callable[[Array], Array]
+
+_FACTOR = Symbol("multiplier")
+_LETTER = "multiplier"
 
 _CLOSE = 1e-8
 _EQUALLY_SMALL = 0.15
@@ -129,28 +137,46 @@ class _Workshop:
         self._reading = reading
         self._asked = reading.asked(self._statement, {})
         self._tried: Trials = trials(self._asked, context)
+        self._links = Links(self._statement, self._asked)
+        bench = self._tried.bench
+        self._tally = Tally(self._statement, self._asked, self._links, reading, bench)
+        self._work = Workpiece(self._statement, reading, self._tried, self._tally)
+
+    @cached_property
+    def _members(self) -> list[int]:
+        """The member that each residual belongs to."""
+        return [member for member, _ in self._residuals]
+
+    @cached_property
+    def _residuals(self) -> list[tuple[int, Expr]]:
+        return self._tried.residuals(self._asked)
+
+    @cached_property
+    def _values(self) -> Array:
+        return self._tried.bench.values([e for _, e in self._residuals])
 
     @cached_property
     def failing(self) -> tuple[int, ...]:
         """Members that do not hold at the states of the bench."""
-        residuals = self._tried.residuals(self._asked)
-        values = self._tried.bench.values([e for _, e in residuals])
-        size = 1 + np.abs(values).max(initial=0.0)
-        bad = np.abs(values).max(axis=1, initial=0.0) > _CLOSE * size
-        return tuple(dict.fromkeys(m for (m, _), off in zip(residuals, bad, strict=True) if off))
+        size = 1 + np.abs(self._values).max(initial=0.0)
+        bad = np.abs(self._values).max(axis=1, initial=0.0) > _CLOSE * size
+        return tuple(dict.fromkeys(m for m, off in zip(self._members, bad, strict=True) if off))
 
     def corrected(self, targets: Sequence[int]) -> list[Repaired]:
         """Statements in which these members hold, and those that held before still do."""
-        every = {member for member, _ in self._tried.residuals(self._asked)}
-        kept = (every - set(self.failing)) | set(targets)
-        open_ = {p: s for p in places(self._statement) if (s := self._side(p, targets)) is not None}
-        responses = self._responses(open_, kept)
+        kept = (frozenset(self._members) - set(self.failing)) | set(targets)
+        open_ = [p for p in places(self._statement) if self._links.cost(p, targets) is not None]
         found: list[tuple[Edit, ...]] = []
-        found += [(edit,) for edit in self._single(open_, responses, kept)]
+        responses = {p: r for p in open_ if (r := self._response(p, kept)) is not None}
+        able = [p for p in open_ if self._links.members(p).issuperset(targets)]
+        for place in able:
+            cost = self._links.cost(place, targets) or 0.0
+            fitting = self._at(place, responses.get(place), kept)
+            found += [(replace(edit, size=edit.size + cost),) for edit in fitting]
         if not found:
-            found += fitted(responses, self._tried.bench.size)
-            inner = [p for p, f in responses.items() if self._can_take_terms(p, f)][:_MOST_INNER]
-            found += [(edit,) for target in targets for edit in self._missing(target, kept, inner)]
+            found += fitted(responses)
+            inner = [p for p in able if p in responses and self._can_take_terms(p, responses[p])]
+            found += [(edit,) for edit in self._missing(able, kept, inner[:_MOST_INNER])]
         smallest = sorted(map(self._applied, found), key=lambda repair: repair.size)
         return smallest[:_TRIED]
 
@@ -160,41 +186,57 @@ class _Workshop:
             changed = put(changed, edit.path, edit.node)
         return Repaired(changed, (*self._repair.changes, *changes))
 
-    def _responses(self, open_: Iterable[Place], kept: set[int]) -> dict[Place, Response]:
-        """How the residuals change with a factor at every place."""
-        found = {p: response(self._statement, p, self._reading, self._tried, kept) for p in open_}
-        return {place: function for place, function in found.items() if function is not None}
+    def _response(self, place: Place, kept: Collection[int]) -> Response | None:
+        """How the residuals of these members change with a factor at a place."""
+        members = sorted(self._links.members(place) & set(kept))
+        of_kept = [i for i, m in enumerate(self._members) if m in kept]
+        rows = tuple(k for k, i in enumerate(of_kept) if self._members[i] in members)
+        if not rows:
+            return None
+        for changing in (self._by_numbers, self._exactly):
+            try:
+                found = Response(changing(place, members), rows, self._values[of_kept])
+                if found.is_faithful:
+                    return found
+            except UNKNOWN:
+                continue
+        return None
 
-    def _single(
-        self, open_: Mapping[Place, float], responses: Mapping[Place, Response], kept: set[int]
-    ) -> Iterator[Edit]:
-        for place, extra in open_.items():
-            for edit in self._at(place, responses.get(place), kept):
-                yield replace(edit, size=edit.size + extra)
+    def _by_numbers(self, place: Place, members: Sequence[int]) -> Changing:
+        known = self._tally.of(place.node)
+        return lambda factors: self._tally.rows(place, scalar(factors) * known, members)
 
-    def _at(self, place: Place, function: Response | None, kept: set[int]) -> Iterator[Edit]:
+    def _exactly(self, place: Place, members: Collection[int]) -> Changing:
+        changed = put(self._statement, place.path, times(Name(_LETTER), place.node))
+        asked = self._reading.asked(changed, {_LETTER: Expr.generator(_FACTOR)})
+        return self._tried.bench.function(self._tried.left(asked, members), _FACTOR)
+
+    def _at(self, place: Place, response: Response | None, kept: Collection[int]) -> Iterator[Edit]:
         node = place.node
         if isinstance(node, Name | Dots) and self._vocabulary.get(node, ZERO) is None:
             yield from self._vectors(place, kept)
-        if function is None:
+        if response is None:
             return
-        for number in simple_numbers(function, self._tried.bench.size):
+        for number in simple_numbers(response):
             yield from edits(place, Match(number))
-        factor = multiplier(function, self._tried.bench.size)
+        factor = multiplier(response)
         if factor is not None:
             for match in matches(factor, self._known):
                 yield from edits(place, match)
             yield from self._exchanged(place, factor)
 
-    def _missing(self, target: int, kept: set[int], inner: Collection[Place]) -> Iterator[Edit]:
-        sides = self._sides(target)
-        yield from missing_terms(self._statement, sides, self._reading, self._tried, kept, inner)
+    def _missing(
+        self, able: Sequence[Place], kept: Collection[int], inner: Collection[Place]
+    ) -> Iterator[Edit]:
+        for place in able:
+            members = sorted(self._links.members(place) & set(kept))
+            yield from missing_terms(self._work, place, members, inner)
 
-    def _can_take_terms(self, place: Place, function: Response) -> bool:
+    def _can_take_terms(self, place: Place, response: Response) -> bool:
         """Whether it is a factor or the like, and could be made right by another value."""
         if not isinstance(place.parent, Product | Quotient | Power | Call):
             return False
-        return multiplier(function, self._tried.bench.size) is not None
+        return multiplier(response) is not None
 
     def _exchanged(self, place: Place, factor: Array) -> Iterator[Edit]:
         """Other letters whose value is what the place would have to be."""
@@ -204,17 +246,12 @@ class _Workshop:
             fitting = {n: True for n, v in self._known if np.allclose(v, wanted, rtol=_CLOSE)}
             yield from replaced_by(place, fitting)
 
-    def _vectors(self, place: Place, kept: set[int]) -> Iterator[Edit]:
-        """Other vectors put in the place of one, tried one by one."""
-        for edit in replaced_by(place, dict.fromkeys(self._other_vectors, True)):
-            changed = put(self._statement, edit.path, edit.node)
-            try:
-                residuals = self._tried.residuals(self._reading.asked(changed, {}))
-                values = self._tried.bench.values([e for m, e in residuals if m in kept])
-            except (PolhodeError, ArithmeticError, KeyError):
-                continue
-            if len(values) and np.abs(values).max() < _CLOSE * 1e2:
-                yield edit
+    def _vectors(self, place: Place, kept: Collection[int]) -> Iterator[Edit]:
+        """Other vectors put in the place of one."""
+        others = [n for n in self._other_vectors if n != place.node]
+        members = sorted(self._links.members(place) & set(kept))
+        fitting = self._work.fitting(place, others, members)
+        yield from replaced_by(place, dict.fromkeys(fitting, True))
 
     @cached_property
     def _vocabulary(self) -> dict[Node, Expr | None]:
@@ -226,10 +263,7 @@ class _Workshop:
         return {node: self._scalar(node) for node in dict.fromkeys(wide)}
 
     def _scalar(self, node: Node) -> Expr | None:
-        try:
-            value = self._reading.value(node)
-        except (PolhodeError, ArithmeticError):
-            return None
+        value = self._work.value(node)
         return value if isinstance(value, Expr) and value else None
 
     @cached_property
@@ -248,35 +282,5 @@ class _Workshop:
     @cached_property
     def _other_vectors(self) -> list[Node]:
         named = (n for n, e in self._vocabulary.items() if e is None and isinstance(n, Name | Dots))
-        return [n for n in named if not self._vanishes(n)]
-
-    def _vanishes(self, node: Node) -> bool:
-        """Whether a vector is zero in these circumstances, so that it can stand for anything."""
-        try:
-            value = self._reading.value(node)
-        except (PolhodeError, ArithmeticError):
-            return True
-        return isinstance(value, Vector) and not any(map(self._tried.states.on, value.components))
-
-    # -- which sides a member relates -----------------------------------------------------------
-
-    @cached_property
-    def _pairs(self) -> list[tuple[int, int]]:
-        """Relation and left side of every member."""
-        relations = enumerate(self._statement.relations)
-        return [(i, k) for i, r in relations if r.is_claim for k in range(len(r.signs))]
-
-    def _sides(self, member: int) -> tuple[tuple[int, int], ...]:
-        """Paths of both sides of a member."""
-        if member >= len(self._pairs):
-            return ()
-        relation, left = self._pairs[member]
-        return (relation, left), (relation, left + 1)
-
-    def _side(self, place: Place, targets: Sequence[int]) -> float | None:
-        """What it costs to change this side for these members: the later one is the cheaper."""
-        for member in targets:
-            sides = self._sides(member)
-            if place.path[:2] in sides:
-                return 0.02 if place.path[:2] == sides[0] else 0.0
-        return None
+        bold = (n for n in named if isinstance(self._work.value(n), Vector))
+        return [n for n in bold if not self._work.vanishes(n)]

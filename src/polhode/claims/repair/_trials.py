@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 
 from polhode.algebra import Expr
@@ -11,6 +11,8 @@ from polhode.claims._bench import Bench, bench
 from polhode.claims._circumstances import AnyState, Circumstances, TrueMotion
 from polhode.claims._steady import solved_members
 from polhode.claims._steady_states import steady_states
+
+_CLOSE = 1e-7
 
 #: What must vanish, with the member of the claim it belongs to.
 Residuals = Callable[[Asked], list[tuple[int, Expr]]]
@@ -29,6 +31,10 @@ class Trials:
     states: Circumstances
     bench: Bench
     residuals: Residuals
+
+    def left(self, asked: Asked, members: Collection[int]) -> list[Expr]:
+        """What must vanish for some of the members of a claim."""
+        return [e for m, e in self.residuals(asked.only(members)) if m in members]
 
 
 def trials(asked: Asked, context: str) -> Trials:
