@@ -12,7 +12,7 @@ from PIL import Image
 
 import polhode as ph
 from browser.chromium import ARGUMENTS, find_chromium
-from browser.runs import double_pendulum, run_of
+from browser.runs import JUDGED, double_pendulum, run_of
 from polhode.catalogue import CATALOGUE
 
 WIDE = {"width": 1000, "height": 640}
@@ -91,7 +91,7 @@ def _bad(message) -> bool:
 
 @pytest.fixture(scope="session")
 def written(tmp_path_factory):
-    """The page of a system of the catalogue, or of a pendulum of two rods; written once."""
+    """The page of a system of the catalogue, or of a double pendulum; written once."""
     folder = tmp_path_factory.mktemp("pages")
     known = {}
 
@@ -99,7 +99,7 @@ def written(tmp_path_factory):
         if name not in known:
             known[name] = folder / f"{name.replace('/', '-')}.html"
             if name == "double pendulum":
-                ph.page(double_pendulum(), known[name])
+                ph.page(double_pendulum(), known[name], judgements=JUDGED)
             else:
                 entry = CATALOGUE[name]
                 ph.page(run_of(name), known[name], title=entry.title, plots=entry.plots)

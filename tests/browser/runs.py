@@ -23,9 +23,14 @@ def run_of(name: str) -> Trajectory:
     )
 
 
+def _equal(number: str) -> str:
+    script = "<script>alert(3)</script>"
+    return f"<math><mi>x</mi><mo>=</mo><mn>{number}</mn><mi>{script}</mi></math>"
+
+
 def double_pendulum(duration: str = "5 s") -> Trajectory:
-    """Two rods, as a user would declare them, with names that would like to be markup."""
-    m, l, g = ph.symbols("m l g", positive=True)
+    """Two rods with a spring and a damper, with names that would like to be markup."""
+    m, l, g, k, c = ph.symbols("m l g k c", positive=True)
     alpha, beta = ph.coordinates("alpha beta")
     lab = ph.Frame("lab")
     one, two = lab.rotated(alpha, "y", name="one"), lab.rotated(beta, "y", name="two")
@@ -37,8 +42,18 @@ def double_pendulum(duration: str = "5 s") -> Trajectory:
         ph.Pivot(lower, at=two["z"] * (l / 2), to=upper.point(end), name="elbow"),
         ph.Hinge(upper, axis="y"),
         ph.Hinge(lower, axis="y"),
+        ph.Spring(lower.point(two["z"] * (-l / 2)), lab.vector(l, 0, 0), stiffness=k),
+        ph.Damper(upper.point(end), lab.vector(-l, 0, -l), damping=c),
         ph.Gravity(g),
         name=HOSTILE,
     )
     start = {"alpha": "120 deg", "beta": "90 deg"}
-    return ph.simulate(ph.derive(system), {m: 0.1, l: 0.3, g: 9.81}, start, duration)
+    numbers = {m: 0.1, l: 0.3, g: 9.81, k: 1, c: 0.02}
+    return ph.simulate(ph.derive(system), numbers, start, duration)
+
+
+#: Of a claim in words, and of one that fails and is put right.
+JUDGED = (
+    ph.Judgement(f"energy is lost {HOSTILE}", "holds", "to the damper"),
+    ph.Judgement("1 = x", "fails", HOSTILE, _equal("1"), _equal("2")),
+)

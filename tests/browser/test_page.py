@@ -217,6 +217,15 @@ def test_names_are_text(opened, written):
         assert shown.complaints == []
 
 
+def test_verdicts_stand_on_the_page(opened, written):
+    with opened(written("double pendulum")) as shown:
+        rows = shown.page.locator(".judged")
+        assert rows.locator(".verdict").all_text_contents() == ["holds", "fails"]
+        assert "to the damper" in rows.first.inner_text()
+        assert rows.last.locator("math").count() == 2
+        assert rows.last.locator("math script").count() == 0
+
+
 @pytest.mark.parametrize(
     ("name", "scheme"), [("rolling-disk", "light"), ("double pendulum", "dark")]
 )

@@ -9,6 +9,7 @@ import pytest
 import polhode as ph
 from polhode.base import DeclarationError
 from polhode.catalogue import CATALOGUE
+from polhode.view import _scene_bodies as bodies
 
 KINDS = {"force", "load", "torque", "omega", "momentum"}
 SHAPES = {
@@ -182,20 +183,89 @@ def test_claims_find_a_place(run_of):
     judged = ph.Judgement("energy is constant", "holds", "no friction")
     scene = ph.scene(run_of("gyroscope/held"), judgements=[judged])
     assert scene.as_json()["judgements"] == [
-        {"claim": "energy is constant", "verdict": "holds", "reason": "no friction"}
+        {
+            "claim": "energy is constant",
+            "verdict": "holds",
+            "reason": "no friction",
+            "formula": "",
+            "correction": "",
+        }
     ]
 
 
-def test_particles_and_springs_are_seen():
-    m, k, g = ph.symbols("m k g", positive=True)
-    height, lab = ph.symbol("h"), ph.Frame("lab")
-    bob = ph.point_mass("bob", mass=m, axes=lab)
-    hung = ph.Spring(bob.point(lab.zero), lab.vector(0, 0, height), stiffness=k)
-    system = ph.System(bob, hung, ph.Gravity(g), name="bob")
-    run = ph.simulate(ph.derive(system), {m: 1, k: 40, g: 9.81, height: 1}, {"x": 0.1}, "2 s")
+def test_a_checked_equation_becomes_a_judgement():
+    equations = ph.derive(CATALOGUE["rolling-disk"].build())
+    latex = r"3\dot\omega_3 = 3\dot\theta\dot\phi\sin\theta"
+    judged = ph.Judgement.of(latex, ph.check(latex, equations))
+    assert (judged.claim, judged.verdict) == (latex, "fails")
+    assert "<math" in judged.formula
+    assert "<math" in judged.correction
+
+
+def test_particles_springs_and_dampers_are_seen():
+    """Links run from body to body, or to a place; nothing lies under the floor."""
+    m, k, c, g, h = ph.symbols("m k c g h", positive=True)
+    lab = ph.Frame("lab")
+    bob, low = (ph.point_mass(n, mass=m, axes=lab, tag=n) for n in ("bob", "low"))
+    hung = ph.Spring(bob.point(lab.zero), lab.vector(0, 0, h), stiffness=k)
+    below = ph.Damper(low.point(lab.zero), bob.point(lab.zero), damping=c)
+    system = ph.System(bob, low, hung, below, ph.Gravity(g), name="bobs")
+    numbers = {m: 1, k: 40, g: 9.81, h: 1, c: 2}
+    run = ph.simulate(ph.derive(system), numbers, {"x_bob": 0.1, "z_low": -0.4}, "2 s")
     scene = ph.scene(run)
     assert scene.bodies[0].shape.size[0] > 0
     assert {arrow.name for arrow in scene.arrows} >= {"spring on bob", "gravity on bob"}
+    spring, damper = scene.links
+    assert (spring.kind, damper.kind) == ("spring", "damper")
+    assert np.array_equal(spring.start, scene.bodies[0].pose.place)
+    assert np.allclose(spring.end, [[0, 0, 1]])
+    assert np.array_equal(damper.end, spring.start)
+    assert np.allclose(damper.start[:, 2], run.evaluate("z_low", instants(run, scene)))
+    assert scene.floor <= min(damper.start[:, 2])
+    assert scene.as_json()["links"][0]["thick"] == spring.thick > 0
+
+
+def test_what_bodies_turn_on_is_told():
+    """A shaft on a cross at the ceiling, a bar welded to it, and a flap on a hinge."""
+    m, l, g = ph.symbols("m l g", positive=True)
+    alpha, beta, gamma = ph.coordinates("alpha beta gamma")
+    lab = ph.Frame("lab")
+    axes = lab.rotated(alpha, "x").rotated(beta, "y")
+    turned = axes.rotated(gamma, "x")
+    shaft = ph.rod("shaft", mass=m, length=l, axes=axes, axis="z")
+    bar = ph.rod("bar", mass=m, length=l, axes=axes, axis="x", tag="bar")
+    flap = ph.rod("flap", mass=m, length=l, axes=turned, axis="z", tag="flap")
+    foot = shaft.point(axes["z"] * (-l / 2))
+    system = ph.System(
+        ph.Pivot(shaft, at=axes["z"] * (l / 2), to=lab.vector(0, 0, l)),
+        ph.Universal(shaft, arm=axes["y"], other_arm=lab["x"]),
+        ph.Weld(bar, to=foot),
+        ph.Pivot(flap, at=turned["z"] * (l / 2), to=foot),
+        ph.Hinge(flap, axis="x", to=shaft),
+        ph.Gravity(g),
+    )
+    start = {"alpha": 0.5, "beta": 0.2, "gamma": 0.3}
+    scene = ph.scene(ph.simulate(ph.derive(system), {m: 0.1, l: 0.3, g: 9.81}, start, 1))
+    names = [body.name for body in scene.bodies]
+    found = {(joint.kind, names[joint.body]): joint for joint in scene.joints}
+    assert set(found) == {("universal", "shaft"), ("weld", "bar"), ("hinge", "flap")}
+    assert found["universal", "shaft"].axis == (0, 1, 0)
+    assert found["universal", "shaft"].place == (0, 0, 0.15)
+    assert found["hinge", "flap"].axis == (1, 0, 0)
+
+
+def test_a_force_without_bound_is_no_arrow():
+    """Where a formula divides by zero nothing is drawn, and the rest is to scale."""
+    endless = np.full((5, 3), np.inf)
+    shown = bodies._arrow("force", "force", 0, "N", np.vstack([endless, np.ones((95, 3))]))
+    assert np.all(shown.along[:5] == 0)
+    assert shown.largest == pytest.approx(np.sqrt(3))
+
+
+def test_a_body_held_at_a_point_has_a_pivot(scene_of):
+    (pivot,) = scene_of("gyroscope").joints
+    assert (pivot.kind, pivot.body) == ("pivot", 0)
+    assert np.linalg.norm(pivot.place) == pytest.approx(0.06)
 
 
 def test_every_contact_mode_is_followed():

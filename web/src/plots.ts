@@ -7,6 +7,10 @@ import { type PanelData, Rows } from "./scene";
 
 const DASHES = [[], [9, 4], [2, 4], [10, 4, 2, 4]];
 const HEIGHT = 150;
+const ROUNDING = 1e-9; // of the largest value: what is less is told as zero
+
+/** Dashes of a series; those that share a colour differ in them. */
+const dashes = (number: number): number[] => DASHES[(number + Math.floor(number / 4)) % DASHES.length];
 
 export class Plots {
   private readonly plots: Plot[];
@@ -41,6 +45,7 @@ class Plot {
   private readonly now = make("div", { class: "now" });
   private readonly values: HTMLElement[];
   private readonly rows: Rows[];
+  private readonly least: number[];
   private readonly data: uPlot.AlignedData;
   private plot: uPlot;
   private time = 0;
@@ -51,6 +56,7 @@ class Plot {
     holder: HTMLElement,
   ) {
     this.rows = panel.series.map(({ values }) => new Rows(values));
+    this.least = this.rows.map(({ data }) => ROUNDING * data.reduce((a, b) => Math.max(a, Math.abs(b)), 0));
     const times = Array.from({ length: this.rows[0].count }, (_, i) => (i / (this.rows[0].count - 1)) * clock.duration);
     this.data = [times, ...this.rows.map(({ data }) => Array.from(data))];
     this.values = panel.series.map(() => make("span", { class: "value" }));
@@ -68,7 +74,8 @@ class Plot {
     this.time = time;
     const frame = (time / this.clock.duration) * (this.rows[0].count - 1);
     this.rows.forEach((rows, i) => {
-      this.values[i].textContent = digits(rows.at(frame, [])[0]);
+      const [value] = rows.at(frame, []);
+      this.values[i].textContent = digits(Math.abs(value) < this.least[i] ? 0 : value);
     });
     this.mark();
   }
@@ -117,7 +124,7 @@ class Plot {
       label: name,
       stroke: colour(`--series-${i % 4}`),
       width: 1.8,
-      dash: DASHES[i % DASHES.length],
+      dash: dashes(i),
       points: { show: false },
     }));
     return new uPlot(
@@ -171,7 +178,7 @@ function swatch(number: number): SVGElement {
   svg.setAttribute("aria-hidden", "true");
   const line = document.createElementNS("http://www.w3.org/2000/svg", "path");
   line.setAttribute("d", "M0 3H26");
-  line.setAttribute("stroke-dasharray", DASHES[number % DASHES.length].join(" "));
+  line.setAttribute("stroke-dasharray", dashes(number).join(" "));
   svg.append(line);
   return svg;
 }

@@ -54,6 +54,22 @@ export interface BodyData {
   arms: Triple[];
 }
 
+export interface JointData {
+  kind: string;
+  name: string;
+  body: number;
+  place: Triple;
+  axis: Triple;
+}
+
+export interface LinkData {
+  kind: string;
+  name: string;
+  start: Packed;
+  end: Packed;
+  thick: number;
+}
+
 export interface SupportData {
   name: string;
   kind: string;
@@ -101,6 +117,14 @@ export interface NumberData {
   meaning: string;
 }
 
+export interface JudgementData {
+  claim: string;
+  verdict: string;
+  reason: string;
+  formula: string;
+  correction: string;
+}
+
 export interface SceneData {
   title: string;
   about: string;
@@ -110,6 +134,8 @@ export interface SceneData {
   floor: number | null;
   directions: string[];
   bodies: BodyData[];
+  joints: JointData[];
+  links: LinkData[];
   supports: SupportData[];
   arrows: ArrowData[];
   traces: TraceData[];
@@ -120,6 +146,6 @@ export interface SceneData {
   start: NumberData[];
   evidence: NumberData[];
   happenings: { time: number; what: string }[];
-  judgements: { claim: string; verdict: string; reason: string }[];
+  judgements: JudgementData[];
   origin: { versions?: Record<string, string | null>; integrator?: string };
 }

@@ -15,7 +15,7 @@ import {
   Vector3,
 } from "three";
 import { edge, marked, PALETTE, panels, sectors, surface } from "./marks";
-import type { BodyData, ShapeData, Triple } from "./scene";
+import type { BodyData, JointData, ShapeData, Triple } from "./scene";
 
 type Builder = (size: number[]) => Object3D;
 
@@ -30,8 +30,8 @@ const BUILDERS: Record<string, Builder> = {
   racquet,
 };
 
-/** A body with the thin axles to the points at which it is held. */
-export function bodyObject(body: BodyData): Object3D {
+/** A body with the thin axles to the points at which it is held, and what it turns on there. */
+export function bodyObject(body: BodyData, joints: JointData[]): Object3D {
   const group = new Group();
   const build = BUILDERS[body.shape.kind] ?? BUILDERS.ball;
   const shape = build(body.shape.size);
@@ -40,6 +40,11 @@ export function bodyObject(body: BodyData): Object3D {
   const thick = 0.055 * reach(body);
   for (const arm of body.arms) {
     if (Math.hypot(...arm) > 0) group.add(axle(arm, thick));
+  }
+  const clear = body.shape.kind === "rod" ? 1.9 * body.shape.size[1] : 2 * thick;
+  for (const joint of joints) {
+    const drawn = JOINTS[joint.kind];
+    if (drawn && Math.hypot(...joint.place) > 0) group.add(placed(drawn(clear), joint));
   }
   group.traverse((object) => {
     object.castShadow = true;
@@ -152,6 +157,27 @@ function axle(arm: Triple, thick: number): Object3D {
   rodMesh.geometry.translate(0, length / 2, 0);
   rodMesh.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), new Vector3(...arm).normalize());
   return rodMesh;
+}
+
+/** What a body turns on, by how large it must be to be seen; a pin lies along z. */
+const JOINTS: Record<string, (clear: number) => Object3D> = {
+  pivot: (clear) => mesh(new SphereGeometry(clear, 32, 24), surface(PALETTE.metal)),
+  hinge: (clear) => pin(1.6 * clear, clear),
+  universal: (clear) => pin(0.9 * clear, 1.5 * clear),
+  weld: (clear) => mesh(new BoxGeometry(2 * clear, 2 * clear, 2 * clear), surface(PALETTE.dark)),
+};
+
+/** A short cylinder with an eye at either end. */
+function pin(radius: number, half: number): Object3D {
+  const group = new Group();
+  group.add(upright(0.6 * radius, 2.8 * half, surface(PALETTE.metal)), upright(radius, 1.9 * half, surface(PALETTE.dark)));
+  return group;
+}
+
+function placed(object: Object3D, joint: JointData): Object3D {
+  object.position.set(...joint.place);
+  object.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(...joint.axis));
+  return object;
 }
 
 /** What stands under a point that is held, or hangs it from above. */

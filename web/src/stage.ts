@@ -21,6 +21,7 @@ import {
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Arrow } from "./arrows";
+import { Link } from "./links";
 import { Pose } from "./pose";
 import { type ArrowKind, Rows, type SceneData, type Triple } from "./scene";
 import { bodyObject, bracket, post, reach } from "./shapes";
@@ -44,6 +45,7 @@ export class Stage {
   private readonly controls: OrbitControls;
   private readonly light = new DirectionalLight("#fff6e8", 1.9);
   private readonly grounds = new Grounds();
+  private readonly links: Link[];
   private readonly triad: Triad;
   private readonly moving: { pose: Pose; object: Object3D }[] = [];
   private readonly poses: Pose[];
@@ -75,14 +77,15 @@ export class Stage {
     this.triad = new Triad(scene.directions);
     this.poses = scene.bodies.map((body) => new Pose(body.pose));
     this.reach = Math.max(...scene.bodies.map(reach));
+    this.links = scene.links.map((data) => new Link(data));
     [this.middle, this.radius] = this.extent();
-    this.follow = this.radius > 1.4 * FAR * this.reach;
+    this.follow = this.radius > 1.4 * FAR * this.reach && !this.isTied();
     this.addBodies();
     this.addGrounds();
     this.traces = scene.traces.map((data) => new Trace(data));
     for (const trace of this.traces) this.carrier(trace).add(trace.line);
     this.arrows = this.makeArrows();
-    this.world.add(...this.arrows.map((arrow) => arrow.group));
+    this.world.add(...this.arrows.map((arrow) => arrow.group), ...this.links.map((link) => link.object));
     this.camera = new PerspectiveCamera(32, 1, this.reach / 8, 300 * Math.max(this.radius, this.reach));
     this.camera.up.copy(this.up);
     this.addLights();
@@ -214,6 +217,7 @@ export class Stage {
   private seekFrame(): void {
     for (const { pose, object } of this.moving) pose.apply(this.frame, object);
     for (const arrow of this.arrows) arrow.update(this.frame);
+    for (const link of this.links) link.update(this.frame);
     for (const trace of this.traces) trace.update(this.frame);
   }
 
@@ -267,10 +271,10 @@ export class Stage {
         high.max(this.place);
       }
     }
-    for (const arrow of this.scene.arrows) {
-      const foot = new Rows(arrow.foot);
-      if (foot.count === 1) {
-        this.place.fromArray(foot.at(0, []));
+    const feet = this.scene.arrows.map((arrow) => new Rows(arrow.foot));
+    for (const fixed of [...feet, ...this.links.flatMap((link) => link.ends)]) {
+      if (fixed.count === 1) {
+        this.place.fromArray(fixed.at(0, []));
         low.min(this.place);
         high.max(this.place);
       }
@@ -288,10 +292,15 @@ export class Stage {
 
   private addBodies(): void {
     this.scene.bodies.forEach((body, i) => {
-      const object = bodyObject(body);
+      const object = bodyObject(body, this.scene.joints.filter((joint) => joint.body === i));
       this.world.add(object);
       this.moving.push({ pose: this.poses[i], object });
     });
+  }
+
+  /** Whether a spring or damper ties a body to a place in space. */
+  private isTied(): boolean {
+    return this.links.some(({ ends }) => ends.some(({ count }) => count === 1));
   }
 
   private carrier(trace: Trace): Object3D {

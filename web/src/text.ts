@@ -1,7 +1,7 @@
 // What the page says in formulas, numbers and words.
 
 import { digits, formula, make } from "./dom";
-import type { FormulaData, NumberData, SceneData } from "./scene";
+import type { FormulaData, JudgementData, NumberData, SceneData } from "./scene";
 
 export function heading(scene: SceneData): HTMLElement {
   const about = scene.about ? [make("p", { class: "about" }, scene.about)] : [];
@@ -78,14 +78,17 @@ function events(scene: SceneData): HTMLElement[] {
 }
 
 function judgements(scene: SceneData): HTMLElement[] {
-  const lines = scene.judgements.map(({ claim, verdict, reason }) =>
-    make(
-      "tr",
-      {},
-      make("td", {}, make("strong", { class: `verdict ${verdict.replace(/\W/g, "")}` }, verdict)),
-      make("th", { scope: "row" }, claim),
-      make("td", {}, reason),
-    ),
-  );
-  return section("Claims", lines.length ? [make("table", {}, make("tbody", {}, ...lines))] : []);
+  return section("Claims", scene.judgements.map(judged));
+}
+
+function judged({ claim, verdict, reason, formula: stated, correction }: JudgementData): HTMLElement {
+  const badge = make("strong", { class: `verdict ${verdict.replace(/\W/g, "")}` }, verdict);
+  const row = make("article", { class: "judged" }, stated ? set(stated, claim) : make("p", {}, claim));
+  row.append(make("p", {}, badge, ` ${reason}`));
+  if (correction) row.append(make("p", { class: "long" }, "It holds as"), set(correction, ""));
+  return row;
+}
+
+function set(mathml: string, spoken: string): HTMLElement {
+  return make("div", { class: "equation", role: "math", ...(spoken && { "aria-label": spoken }) }, formula(mathml));
 }

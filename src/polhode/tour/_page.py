@@ -67,10 +67,15 @@ def front_page(all_problems: Sequence[Problem]) -> str:
 
 def problem_page(problem: Problem, all_problems: Sequence[Problem]) -> str:
     """The page of one problem."""
+    first, *variants = problem.systems
     body = (
         tag("nav", *_links(problem, all_problems), aria_label="problems"),
-        tag("header", tag("h1", problem.title)),
-        tag("main", *map(_section, problem.systems), verdicts(problem.claims)),
+        tag(
+            "main",
+            _section(first, "h1"),
+            *(_section(variant, "h2") for variant in variants),
+            verdicts(problem.claims),
+        ),
         tag("footer", *_closing(problem.systems)),
     )
     return _document(f"{problem.title} · polhode", body)
@@ -147,9 +152,9 @@ def _links(problem: Problem, all_problems: Sequence[Problem]) -> Iterable[Markup
             yield tag("a", other.title, href=f"{other.name}.html")
 
 
-def _section(worked: Worked) -> Markup:
+def _section(worked: Worked, heading: str) -> Markup:
     shown = (picture(worked, drawing, FIGURES) for drawing in worked.drawings)
-    return section(worked, tag("div", *shown, class_="figures"))
+    return section(worked, tag("div", *shown, class_="figures"), heading)
 
 
 def _closing(everything: Sequence[Worked]) -> tuple[Markup, ...]:

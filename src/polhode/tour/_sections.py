@@ -26,12 +26,12 @@ _IDEALS = {
 ZERO = Expr.constant(0)
 
 
-def section(worked: Worked, figures: Markup) -> Markup:
-    """All of one system."""
+def section(worked: Worked, figures: Markup, heading: str) -> Markup:
+    """All of one system, under a heading of its level."""
     entry = worked.entry
     return tag(
         "section",
-        tag("h2", entry.title),
+        tag(heading, entry.title),
         tag("p", tag("code", f"polhode run {entry.name}", class_="command")),
         tag("p", with_formulas(entry.about)),
         tag("h3", "In motion"),

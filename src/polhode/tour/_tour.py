@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from polhode.base import Progress, StoreError, write_whole
 from polhode.catalogue import CATALOGUE
-from polhode.tour._claims import judging
+from polhode.tour._claims import Told, judging
 from polhode.tour._page import CARD, FIGURES, Problem, front_page, problem_page, problems
 from polhode.tour._report import TourReport, row_of, text_of
 from polhode.tour._sections import stem
-from polhode.tour._work import Worked, work_through
-from polhode.view import page, still
+from polhode.tour._verdicts import judgement
+from polhode.tour._work import Drawing, Worked, work_through
+from polhode.view import page_of, still, telling_time
 from polhode.view.figures import for_dark_pages
-
-_POSED = 0.37  # of a run: when the picture of the front page is taken
 
 
 def write_tour(
@@ -39,13 +39,13 @@ def write_tour(
         StoreError: where a page cannot be written.
     """
     all_worked = []
+    _make(directory / FIGURES)
     progress.begin("tour", len(CATALOGUE) + 1)
     try:
         with judging(only) as claims:
-            _make(directory / FIGURES)
             for entry in CATALOGUE.values():
                 all_worked.append(work_through(entry))
-                _write_motion(directory, all_worked[-1])
+                _write_figures(directory, all_worked[-1])
                 tell(text_of(all_worked[-1]))
                 progress.advance()
             told = claims.result()
@@ -56,26 +56,23 @@ def write_tour(
     return TourReport(_written(directory, found), tuple(map(row_of, all_worked)), told)
 
 
-def _write_motion(directory: Path, worked: Worked) -> None:
-    """Figures of a system and its page in three dimensions."""
-    entry = worked.entry
-    for name, svg in _pictures(worked):
-        write_whole(directory / FIGURES / f"{name}.svg", svg.encode())
-        write_whole(directory / FIGURES / f"{name}-dark.svg", for_dark_pages(svg).encode())
-    page(
-        worked.run,
-        directory / f"{stem(entry.name)}-3d.html",
-        title=entry.title,
-        plots=entry.plots,
-        meanings={parameter.name: parameter.meaning for parameter in entry.parameters},
-    )
+def _write_figures(directory: Path, worked: Worked) -> None:
+    for drawing in worked.drawings:
+        for name, svg in ((drawing.name, drawing.svg), _dark(drawing)):
+            write_whole(directory / FIGURES / f"{name}.svg", svg.encode())
+
+
+def _dark(drawing: Drawing) -> tuple[str, str]:
+    return f"{drawing.name}-dark", for_dark_pages(drawing.svg)
 
 
 def _written(directory: Path, found: Sequence[Problem]) -> Path:
     for problem in found:
-        run = problem.systems[0].run
+        shown = problem.systems[0].scene
         card = directory / FIGURES / f"{problem.name}-card.png"
-        still(run, card, time=_POSED * run.duration, size=CARD)
+        still(shown, card, time=telling_time(shown), size=CARD)
+        for worked in problem.systems:
+            _write_motion(directory, worked, problem.claims)
         text = problem_page(problem, found)
         write_whole(directory / f"{problem.name}.html", text.encode())
     target = directory / "index.html"
@@ -83,8 +80,12 @@ def _written(directory: Path, found: Sequence[Problem]) -> Path:
     return target
 
 
-def _pictures(worked: Worked) -> Iterator[tuple[str, str]]:
-    return ((d.name, d.svg) for d in worked.drawings)
+def _write_motion(directory: Path, worked: Worked, claims: Iterable[Told]) -> None:
+    """The page of a system in three dimensions, with the verdicts on what is claimed of it."""
+    name = worked.entry.name
+    own = tuple(judgement(claim) for claim in claims if claim.system == name)
+    text = page_of(replace(worked.scene, judgements=own))
+    write_whole(directory / f"{stem(name)}-3d.html", text.encode())
 
 
 def _make(folder: Path) -> None:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
-from latex2mathml.converter import convert
-
 from polhode.tour._claims import Told
-from polhode.tour._html import Markup, joined, table, tag
+from polhode.tour._html import Markup, joined, tag
+from polhode.view import Judgement, typeset
 
 _KINDS = {"holds": "good", "fails": "bad"}
 _WORDS = {
@@ -21,17 +21,24 @@ _WORDS = {
 
 
 def verdicts(claims: Sequence[Told]) -> Markup:
-    """A table of all claims about a problem; nothing where there are none."""
+    """All claims about a problem with what came of them; nothing where there are none."""
     if not claims:
         return Markup()
-    rows = [(_number(claim), _stated(claim), _verdict(claim)) for claim in claims]
     return tag(
         "section",
         tag("h2", "What the text claims"),
         tag("p", counted(claims), ". Each was judged against the equations derived here."),
-        table(("equation", "as printed", "verdict"), rows, class_="claims"),
+        *map(_claim, claims),
         id="claims",
     )
+
+
+def judgement(claim: Told) -> Judgement:
+    """A claim and its verdict as a page in three dimensions shows them."""
+    stated = typeset(claim.stated) if claim.is_formula else ""
+    reason = "" if claim.answer == "holds" else claim.reason
+    text = f"({claim.id}) {claim.stated}"
+    return Judgement(text, claim.answer, reason, stated, typeset(claim.correction))
 
 
 def counted(claims: Iterable[Told]) -> str:
@@ -51,27 +58,38 @@ _COUNTED = {
 }
 
 
+def _claim(claim: Told) -> Markup:
+    said: list[Markup] = []
+    if claim.correction:
+        said.append(tag("div", "should read ", formula(claim.correction), class_="should"))
+    if claim.answer != "holds" and claim.reason:
+        said.append(tag("p", claim.reason, class_="reason"))
+    return tag(
+        "article",
+        tag("span", _number(claim), class_="id"),
+        tag("span", _WORDS[claim.answer], class_=_KINDS.get(claim.answer, "so-so")),
+        tag("div", _stated(claim), *said, class_="said"),
+        class_="claim",
+    )
+
+
 def _number(claim: Told) -> str:
     return f"({claim.id})" if claim.id.isdigit() else claim.id
 
 
 def _stated(claim: Told) -> Markup:
-    return formula(claim.stated) if claim.is_formula else tag("span", claim.stated)
+    if claim.is_formula:
+        return tag("div", formula(claim.stated), class_="stated", tabindex="0")
+    return tag("div", _words(claim.stated))
 
 
-def _verdict(claim: Told) -> Markup:
-    word = tag("span", _WORDS[claim.answer], class_=_KINDS.get(claim.answer, "so-so"))
-    said: list[Markup] = [word]
-    if claim.correction:
-        said.append(tag("div", "should read ", formula(claim.correction)))
-    if claim.answer != "holds" and claim.reason:
-        said.append(tag("div", claim.reason, class_="reason"))
-    return joined(said)
+def _words(text: str) -> Markup:
+    """Words with what stands behind an underscore lowered, as in ω_3 and ω_(1,2,3)."""
+    pieces = re.split(r"_(\w+|\([^()]*\))", text)
+    return joined(tag("sub", piece) if i % 2 else piece for i, piece in enumerate(pieces))
 
 
 def formula(latex: str) -> Markup:
-    """LaTeX as MathML; as it is where the converter cannot read it."""
-    try:
-        return Markup(convert(latex))
-    except Exception:  # the converter documents no error of its own
-        return tag("code", latex)
+    """LaTeX as MathML; as it is where it cannot be read."""
+    found = typeset(latex)
+    return Markup(found) if found else tag("code", latex)

@@ -15,6 +15,7 @@ from polhode.tour import _balance as balance
 from polhode.tour._checks import Check, decided, measured
 from polhode.tour._formulations import appell, is_conservative, is_holonomic, lagrange
 from polhode.tour._pictures import pictures_of
+from polhode.view import Scene, scene
 from polhode.view.figures import origin_of, svg_of
 
 
@@ -46,6 +47,7 @@ class Worked:
         constraint_drift: largest distance between a centre of mass and where the velocities that
             the constraints allow would have taken it, or gap of a closed loop, m.
         drawings: of the run.
+        scene: of the run, for its page in three dimensions.
         seconds: all this took.
     """
 
@@ -56,6 +58,7 @@ class Worked:
     checks: tuple[Check, ...]
     constraint_drift: float
     drawings: tuple[Drawing, ...]
+    scene: Scene
     seconds: float
 
     @property
@@ -73,9 +76,15 @@ def work_through(entry: Entry) -> Worked:
     travel = balance.travel(run, equations)
     checks = (*exact_checks(equations), *numeric_checks(run, equations, travel))
     drawings = tuple(_drawings(entry, run))
+    shown = scene(
+        run,
+        title=entry.title,
+        plots=entry.plots,
+        meanings={parameter.name: parameter.meaning for parameter in entry.parameters},
+    )
     drift = max(travel.defect, run.drift.constraint)
     seconds = time.perf_counter() - began
-    return Worked(entry, equations, conserved, run, checks, drift, drawings, seconds)
+    return Worked(entry, equations, conserved, run, checks, drift, drawings, shown, seconds)
 
 
 def default_run(

@@ -19,3 +19,4 @@ from polhode.view.figures._save import svg_of as svg_of
 from polhode.view.stills import movie as movie
 from polhode.view.stills import picture as picture
 from polhode.view.stills import still as still
+from polhode.view.stills import telling_time as telling_time

@@ -16,7 +16,9 @@ from typing import Any
 
 import numpy as np
 
+from polhode.claims import Verdict
 from polhode.view._quantities import Array
+from polhode.view._typeset import typeset
 
 Triple = tuple[float, float, float]
 
@@ -75,6 +77,44 @@ class SceneBody:
     shape: Shape
     pose: Pose
     arms: tuple[Triple, ...]
+
+
+@dataclass(frozen=True)
+class Joint:
+    """What a body turns on where it is held.
+
+    Attributes:
+        kind: pivot (turns freely), hinge (about its axis), universal (a cross; this is one of its
+            arms) or weld (not at all).
+        name: as declared.
+        body: position of the body it is drawn with, among the bodies.
+        place: from the centre of mass of that body, along its axes, m.
+        axis: unit vector along the body's axes; means nothing for a pivot.
+    """
+
+    kind: str
+    name: str
+    body: int
+    place: Triple
+    axis: Triple
+
+
+@dataclass(frozen=True)
+class Link:
+    """What pulls or pushes between two points.
+
+    Attributes:
+        kind: spring or damper.
+        name: as declared.
+        start, end: the points, m, shape (frames or 1, 3).
+        thick: radius that it is drawn with, m.
+    """
+
+    kind: str
+    name: str
+    start: Array
+    end: Array
+    thick: float
 
 
 @dataclass(frozen=True)
@@ -211,11 +251,21 @@ class Judgement:
         claim: in words, or as its source prints it.
         verdict: holds, approximate, definition, fails or unread.
         reason: in words.
+        formula: the claim in MathML; empty where it is in words.
+        correction: what holds in its place, in MathML; empty for none.
     """
 
     claim: str
     verdict: str
     reason: str = ""
+    formula: str = ""
+    correction: str = ""
+
+    @classmethod
+    def of(cls, latex: str, verdict: Verdict) -> Judgement:
+        """What `polhode.check` said of an equation."""
+        put_right = typeset(verdict.correction.latex) if verdict.correction else ""
+        return cls(latex, verdict.answer.value, verdict.reason, typeset(latex), put_right)
 
 
 @dataclass(frozen=True)
@@ -230,7 +280,7 @@ class Scene:
         up: unit vector that is upright on the screen.
         floor: height of a faint floor beneath everything, m; None where a support is one.
         directions: names of the directions of the root frame.
-        bodies, supports, arrows, traces, panels: what is drawn.
+        bodies, joints, links, supports, arrows, traces, panels: what is drawn.
         motion, reactions: the equations.
         parameters, start: numbers it was made with.
         evidence: how far what must stay constant has drifted, relative.
@@ -247,6 +297,8 @@ class Scene:
     floor: float | None
     directions: tuple[str, ...]
     bodies: tuple[SceneBody, ...]
+    joints: tuple[Joint, ...]
+    links: tuple[Link, ...]
     supports: tuple[Support, ...]
     arrows: tuple[Arrow, ...]
     traces: tuple[Trace, ...]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -12,19 +12,22 @@ from polhode.derive import Equations
 from polhode.model import Action, Body, BodyPoint
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array, equations_of
-from polhode.view._scene import NOWHERE, Arrow, Pose, SceneBody, Triple
+from polhode.view._scene import NOWHERE, Arrow, Link, Pose, SceneBody, Triple
 from polhode.view._scene_along import along, attitudes, collapsed, constants, rolled, vectors
 from polhode.view._shapes import reach_of, shape_of
 
-_POINT = 0.06  # radius of a particle against the reach of the whole
+_POINT = 0.07  # radius of a particle against the reach of the whole
 _NONE = 1e-9  # of the largest of its kind: an arrow that is not drawn
 _USUAL = 0.9
 
 
-def bodies_of(run: Trajectory, t: Array) -> tuple[SceneBody, ...]:
-    """Every body with its pose at the given instants."""
+def bodies_of(run: Trajectory, links: Sequence[Link], t: Array) -> tuple[SceneBody, ...]:
+    """Every body with its pose at the given instants; `links` tell the size of the whole."""
     bodies = [_body(run, body.name, t) for body in run.equations.system.bodies]
-    return tuple(_visible(body, bodies) for body in bodies)
+    lengths = [reach_of(b.shape) for b in bodies]
+    lengths += [float(np.linalg.norm(arm)) for b in bodies for arm in b.arms]
+    lengths += [float(np.max(np.linalg.norm(x.start - x.end, axis=1))) for x in links]
+    return tuple(_visible(body, max(lengths) or 1.0) for body in bodies)
 
 
 def _body(run: Trajectory, name: str, t: Array) -> SceneBody:
@@ -32,14 +35,11 @@ def _body(run: Trajectory, name: str, t: Array) -> SceneBody:
     return SceneBody(name, shape_of(body, run), _pose(run, body, t), tuple(_arms(run, body)))
 
 
-def _visible(body: SceneBody, bodies: list[SceneBody]) -> SceneBody:
+def _visible(body: SceneBody, size: float) -> SceneBody:
     """A particle gets a radius that can be seen."""
     if any(body.shape.size):
         return body
-    lengths = [reach_of(b.shape) for b in bodies]
-    lengths += [float(np.linalg.norm(arm)) for b in bodies for arm in b.arms]
-    radius = _POINT * (max(lengths) or 1.0)
-    return replace(body, shape=replace(body.shape, size=(radius,)))
+    return replace(body, shape=replace(body.shape, size=(_POINT * size,)))
 
 
 def _pose(run: Trajectory, body: Body, t: Array) -> Pose:
@@ -90,7 +90,7 @@ def _kinds(arrows: list[Arrow]) -> dict[str, None]:
 def _arrow(
     kind: str, name: str, body: int, unit: str, values: Array, foot: Array = NOWHERE
 ) -> Arrow:
-    shown = np.nan_to_num(values)
+    shown = np.nan_to_num(values, posinf=0.0, neginf=0.0)
     sizes = np.linalg.norm(shown, axis=1)
     usual, largest = float(np.quantile(sizes, _USUAL)), float(np.max(sizes))
     return Arrow(kind, name, body, unit, foot, collapsed(shown), usual, largest)

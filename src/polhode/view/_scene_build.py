@@ -12,9 +12,10 @@ from polhode.derive import Equations
 from polhode.model import Body
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array, equations_of
-from polhode.view._scene import Judgement, Scene, SceneBody, Support, Triple
+from polhode.view._scene import Judgement, Link, Scene, SceneBody, Support, Triple
 from polhode.view._scene_along import constants, vectors
 from polhode.view._scene_bodies import arrows_of, bodies_of
+from polhode.view._scene_joints import joints_of, links_of
 from polhode.view._scene_supports import other_traces, supports_of
 from polhode.view._scene_text import (
     everything,
@@ -60,7 +61,8 @@ def scene(
     """
     equations = equations_of(run)
     t = np.linspace(0.0, run.duration, _frames(run))
-    bodies = bodies_of(run, t)
+    links = links_of(run, t)
+    bodies = bodies_of(run, links, t)
     reach = max(_reach(body) for body in bodies)
     supports, traces = supports_of(run, t, reach)
     up = _up(run)
@@ -70,9 +72,11 @@ def scene(
         duration=run.duration,
         frames=len(t),
         up=up,
-        floor=_floor(bodies, supports, up),
+        floor=_floor(bodies, links, supports, up),
         directions=equations.system.root.labels,
         bodies=bodies,
+        joints=joints_of(run),
+        links=links,
         supports=supports,
         arrows=arrows_of(run, t),
         traces=(*traces, *other_traces(bodies)),
@@ -132,12 +136,15 @@ def _upright(run: Trajectory) -> list[Vector]:
     return [*lifted, *supports, *guides]
 
 
-def _floor(bodies: Sequence[SceneBody], supports: Sequence[Support], up: Triple) -> float | None:
+def _floor(
+    bodies: Sequence[SceneBody], links: Sequence[Link], supports: Sequence[Support], up: Triple
+) -> float | None:
     """A height below everything, where nothing is stood on."""
     if supports:
         return None
-    depths = [_depth(body, np.array(up)) for body in bodies]
-    return min(depths)
+    feet = [end for link in links for end in (link.start, link.end)]
+    lowest = [float(np.min(foot @ np.array(up))) for foot in feet]
+    return min([*lowest, *(_depth(body, np.array(up)) for body in bodies)])
 
 
 def _depth(body: SceneBody, up: Array) -> float:

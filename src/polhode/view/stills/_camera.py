@@ -53,7 +53,7 @@ def camera_of(scene: Scene, frame: float) -> Camera:
     """The view that the page opens with."""
     middle, radius = _extent(scene)
     reach = max(_reach(body) for body in scene.bodies)
-    follows = radius > _FAR * reach
+    follows = radius > _FAR * reach and not len(_tied(scene))
     target = place_at(scene.bodies[0].pose, frame) if follows else middle
     seen = _FOLLOWED * reach if follows else max(radius, 1.9 * reach)
     up = np.array(scene.up)
@@ -109,10 +109,16 @@ def _extent(scene: Scene) -> tuple[Array, float]:
     frames = np.linspace(0, scene.frames - 1, _SAMPLES)
     points = np.array([place_at(b.pose, f) for b in scene.bodies for f in frames])
     fixed = [arrow.foot[0] for arrow in scene.arrows if len(arrow.foot) == 1]
-    points = np.concatenate([points, np.reshape(fixed, (-1, 3))])
+    points = np.concatenate([points, np.reshape(fixed, (-1, 3)), _tied(scene)])
     low, high = np.nanmin(points, axis=0), np.nanmax(points, axis=0)
     reach = max(_reach(body) for body in scene.bodies)
     return (low + high) / 2, float(np.linalg.norm(high - low)) / 2 + reach
+
+
+def _tied(scene: Scene) -> Array:
+    """Places in space that springs and dampers are tied to, shape (places, 3)."""
+    ends = [end for link in scene.links for end in (link.start, link.end)]
+    return np.reshape([end[0] for end in ends if len(end) == 1], (-1, 3))
 
 
 def _reach(body: SceneBody) -> float:

@@ -12,6 +12,10 @@ from polhode.view._quantities import Array
 #: Colour of the face at a place of a grid, by its row and column.
 Paint = Callable[[int, int], str]
 
+_TURNS, _PARTS = 11, 16  # of a coil, and of a turn of it
+_WIRE = 0.16  # thickness of its wire against its radius
+_WOUND = 0.86  # share of its length that is wound
+
 
 @dataclass(frozen=True)
 class Mesh:
@@ -97,6 +101,27 @@ def rod_between(foot: Array, tip: Array, radius: float, colour: str) -> Mesh:
     length = float(np.linalg.norm(along))
     mesh = tube(radius, 0.0, length, lambda i, j: colour, 10)
     return mesh.placed(turned_to(along / length), np.asarray(foot))
+
+
+def coil(foot: Array, tip: Array, radius: float, colour: str) -> Mesh:
+    """A wire wound about the line from one point to another; its first and last half turn run in
+    to the line.
+    """
+    along = np.asarray(tip) - np.asarray(foot)
+    length = float(np.linalg.norm(along))
+    count = _TURNS * _PARTS
+    i, round_ = _grid(np.arange(count + 1.0), np.linspace(0, 2 * np.pi, 7))
+    angle, pitch = 2 * np.pi * i / _PARTS, _WOUND * length / (2 * np.pi * _TURNS)
+    out = radius * np.minimum(1, np.minimum(i, count - i) / (_PARTS / 2))
+    height = np.clip((1 - _WOUND) / 2 * length + pitch * angle, 0, length)
+    height = np.where(i == 0, 0.0, np.where(i == count, length, height))
+    slope = float(np.hypot(radius, pitch)) or 1.0
+    n, b = _WIRE * radius * np.cos(round_), _WIRE * radius * np.sin(round_)
+    cosine, sine = np.cos(angle), np.sin(angle)
+    x = out * cosine + n * cosine + b * sine * pitch / slope
+    y = out * sine + n * sine - b * cosine * pitch / slope
+    mesh = _of_grid([x, y, height + b * radius / slope], lambda i, j: colour)
+    return mesh.placed(turned_to(along / length) if length else np.eye(3), np.asarray(foot))
 
 
 def turned_to(direction: Array) -> Array:

@@ -13,6 +13,7 @@ from polhode.view.figures import house_style
 from polhode.view.stills._bodies import body_mesh
 from polhode.view.stills._camera import Camera, between, camera_of, place_at, turn_at
 from polhode.view.stills._ground import LINES, STRONG, Ground, grounds_of
+from polhode.view.stills._links import joints, links
 from polhode.view.stills._mesh import Mesh, rod_between, together
 
 if TYPE_CHECKING:
@@ -31,6 +32,7 @@ _ARROWS = {
     "momentum": "#0072b2",
 }
 _LONG = 2.0  # usual length of the longest arrow of a kind, in reaches of the picture
+_LEVEL = 1e-3  # of its rise and fall: how far below a point a body must be to hang
 _BOUNDLESS = 2.6  # radius of a plane against that of the picture
 
 
@@ -47,7 +49,8 @@ def picture(scene: Scene, frame: float, ax: Axes, arrows: Collection[str] = ()) 
     camera = camera_of(scene, frame)
     width = float(np.linalg.norm(camera.eye - camera.target)) * 0.3
     grounds = grounds_of(scene, frame, _BOUNDLESS * width, camera.target)
-    mesh = together([*_bodies(scene, frame), *_posts(scene, frame)])
+    parts = (_bodies(scene, frame), joints(scene, frame), links(scene, frame), _posts(scene, frame))
+    mesh = together([part for kind in parts for part in kind])
     light = _light(camera, np.array(scene.up))
     for i, ground in enumerate(grounds):
         _draw_ground(ax, camera, ground, 0.1 * i)
@@ -70,19 +73,24 @@ def _bodies(scene: Scene, frame: float) -> list[Mesh]:
 
 
 def _posts(scene: Scene, frame: float) -> list[Mesh]:
-    """Under points that are held in space."""
+    """Under points that are held in space, but not where a body hangs."""
     if scene.floor is None:
         return []
     up = np.array(scene.up)
-    feet = [
-        arrow.foot[0] for arrow in scene.arrows if arrow.kind == "force" and len(arrow.foot) == 1
-    ]
+    held = [arrow for arrow in scene.arrows if arrow.kind == "force" and len(arrow.foot) == 1]
+    feet = [arrow.foot[0] for arrow in held if not _hangs(scene, arrow)]
     heights = [float(foot @ up) - scene.floor for foot in feet]
     return [
         rod_between(foot - up * height, foot, 0.03 * height, "#5b636d")
         for foot, height in zip(feet, heights, strict=True)
         if height > 0
     ]
+
+
+def _hangs(scene: Scene, arrow: Arrow) -> bool:
+    """Whether a body is mostly below the point at which it is held."""
+    up, place = np.array(scene.up), scene.bodies[arrow.body].pose.place
+    return bool(np.mean((place - arrow.foot[0]) @ up) < -_LEVEL * np.ptp(place @ up))
 
 
 def _light(camera: Camera, up: Array) -> Array:
