@@ -17,7 +17,7 @@ from polhode.simulate import NEAR_FLAT, Abreast, Experiment, Plan, abreast
 from polhode.study._columns import Array, Members
 from polhode.study._happenings import OF_EVENTS
 from polhode.study._motions import Motions
-from polhode.study._output import AS_DECLARED, Legend, Quick, legend_of
+from polhode.study._output import Legend, Quick, legend_of
 from polhode.study._outputs import Outputs
 from polhode.study._reasons import Reason, reason_of, told
 
@@ -166,8 +166,8 @@ class Together:
         if self._mode is None:
             return everybody
         times = self._times()
-        flights = self._mode.follow(members.count, columns, times[1:], _nobody)
-        motions = Motions(flights, self._mode, times)
+        flights = self._mode.follow(members.count, columns, times, members.start_of)
+        motions = Motions(flights.seen)
         for name, output in self._outputs.items():
             values = output.of_many(motions, self._order.legend)
             block.values[name][flights.kept] = values[flights.kept]
@@ -187,15 +187,14 @@ class Together:
             tolerance=options.get("tolerance"),
             near_flat=options.get("near_flat", NEAR_FLAT),
             until=options.get("until") or (),
+            quantities=[q for output in self._outputs.values() for q in output.reads],
         )
-        quantities = [q for output in self._outputs.values() for q in output.reads]
         try:
-            mode = abreast(order.derived, plan, quantities)
+            mode = abreast(order.derived, plan)
         except PolhodeError:
             return None  # it is told member by member
         events = any(isinstance(output, OF_EVENTS) for output in self._outputs.values())
-        pulls = mode is not None and mode.mode == AS_DECLARED and events
-        return None if pulls else mode
+        return None if mode is not None and mode.keeps_to_one_mode and events else mode
 
     def _times(self) -> Array:
         """Start, times of series, and end, s."""

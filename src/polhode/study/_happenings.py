@@ -23,7 +23,7 @@ class Duration(FromEnds, Single):
 
     def of_many(self, motions: Motions, legend: Legend) -> Array:
         """Its values, shape (motions,)."""
-        return motions.flights.end
+        return motions.end
 
 
 @dataclass(frozen=True)
@@ -45,8 +45,10 @@ class EventTime(FromEnds, Single):
 
     def of_many(self, motions: Motions, legend: Legend) -> Array:
         """Its values, shape (motions,)."""
-        happened = motions.by_ending({self.kind: 1.0}, 0.0)
-        return np.where((happened > 0) & (self.occurrence == 0), motions.flights.end, np.nan)
+        here = motions.event_codes((self.kind,)) == 0
+        wanted = here & (np.cumsum(here, axis=1) == self.occurrence + 1)
+        found = np.where(wanted, motions.events[0], -np.inf)
+        return np.where(np.any(wanted, axis=1), np.max(found, axis=1, initial=-np.inf), np.nan)
 
 
 @dataclass(frozen=True)
@@ -65,7 +67,7 @@ class EventCount(FromEnds, Single):
 
     def of_many(self, motions: Motions, legend: Legend) -> Array:
         """Its values, shape (motions,)."""
-        return motions.by_ending({self.kind: 1.0}, 0.0)
+        return np.asarray(np.sum(motions.event_codes((self.kind,)) == 0, axis=1), dtype=float)
 
 
 @dataclass(frozen=True)
@@ -88,8 +90,7 @@ class EventTimes(FromEnds, Plain):
 
     def of_many(self, motions: Motions, legend: Legend) -> Array:
         """Their values, shape (motions, most)."""
-        ended = motions.flights.ending >= 0
-        return _first(np.where(ended, motions.flights.end, np.nan), self.most, np.nan)
+        return _first(motions.events[0], self.most, np.nan)
 
 
 @dataclass(frozen=True)
@@ -117,8 +118,7 @@ class EventKinds(FromEnds):
 
     def of_many(self, motions: Motions, legend: Legend) -> Array:
         """Their codes, shape (motions, most)."""
-        codes = {kind: float(i) for i, kind in enumerate(legend.kinds)}
-        return _first(motions.by_ending(codes, -1.0), self.most, -1.0)
+        return _first(motions.event_codes(legend.kinds), self.most, -1.0)
 
 
 @dataclass(frozen=True)
@@ -139,7 +139,7 @@ class EndMode(FromEnds):
 
     def of_many(self, motions: Motions, legend: Legend) -> Array:
         """Its codes, shape (motions,)."""
-        return motions.by_mode({mode: float(i) for i, mode in enumerate(legend.modes)}, -1.0)
+        return motions.coded(motions.seen.last, legend.modes)
 
 
 @dataclass(frozen=True)
@@ -173,7 +173,12 @@ class Fate(FromEnds):
 
     def of_many(self, motions: Motions, legend: Legend) -> Array:
         """Its codes, shape (motions,)."""
-        return motions.by_ending({kind: 1.0 + i for i, kind in enumerate(self.kinds)}, 0.0)
+        codes = np.hstack([motions.event_codes(self.kinds), np.full((len(motions.end), 1), -1.0)])
+        found = 1.0 + np.take_along_axis(codes, np.argmax(codes >= 0, axis=1)[:, None], 1)[:, 0]
+        if "slips" not in self.kinds:
+            return found
+        at_once = np.array(["sliding" in mode for mode in motions.seen.first])
+        return np.where(at_once, 1.0 + self.kinds.index("slips"), found)
 
 
 #: Outputs that tell of contacts that pull, which nobody looks for while many motions go on at once.
@@ -186,9 +191,9 @@ def _padded(values: Sequence[float], size: int, filling: float) -> Array:
 
 
 def _first(values: Array, size: int, filling: float) -> Array:
-    """One value per motion, followed by nothing; shape (motions, size)."""
-    rest = np.full((len(values), max(size - 1, 0)), filling)
-    return np.hstack([values[:, None], rest])[:, :size]
+    """The first values of every motion, filled up; shape (motions, size)."""
+    rest = np.full((len(values), size), filling)
+    return np.hstack([values, rest])[:, :size]
 
 
 def _code(name: str, names: tuple[str, ...]) -> float:

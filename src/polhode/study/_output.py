@@ -21,6 +21,7 @@ KINDS = (
     "crosses the edge",
     "goes flat",
     "jerk",
+    "turns round",
 )
 AS_DECLARED, NEAR_FLAT = "as declared", "near-flat"
 

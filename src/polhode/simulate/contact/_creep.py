@@ -9,10 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache as once
 
 import numpy as np
 from numpy.polynomial import legendre
-from threadpoolctl import threadpool_limits
+from threadpoolctl import ThreadpoolController
 
 from polhode.base import NumericError
 from polhode.simulate.integrate._crossing import bisected
@@ -103,8 +104,14 @@ def creep(
     Raises:
         NumericError: where the slip has no beginning that could be found.
     """
-    with threadpool_limits(1):  # on matrices this small, threads only wait for one another
+    with _pools().limit(limits=1):  # on matrices this small, threads only wait for one another
         return _followed(rates, start, begin, end, pull, enough)
+
+
+@once
+def _pools() -> ThreadpoolController:
+    """The threads of linear algebra; looking for them takes a while."""
+    return ThreadpoolController()
 
 
 def _followed(

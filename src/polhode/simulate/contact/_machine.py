@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -46,6 +47,7 @@ class Machine:
         self.integrator = integrator
         self.tolerance = tolerance
         self._modes: dict[tuple[Phase, ...], ModeMachine] = {}
+        self._functions: dict[tuple[Expr, tuple[Symbol, ...]], Compiled] = {}
 
     def take(self, constants: Constants) -> None:
         """Take other values of the same parameters, for another motion from the beginning."""
@@ -64,8 +66,10 @@ class Machine:
     def value(self, expression: Expr) -> float:
         """The value of an expression of constants."""
         known = tuple(self.constants)
-        function = compile_program([expression], known).function()
-        return float(function(*self.constants.values())[0])
+        if (expression, known) not in self._functions:
+            function = compile_program([expression], known).function()
+            self._functions[expression, known] = function
+        return float(self._functions[expression, known](*self.constants.values())[0])
 
     @cached_property
     def apart(self) -> ModeMachine:
@@ -249,10 +253,24 @@ class ModeMachine:
         return float(with_friction / without)
 
     @cached_property
-    def _slip_rates(self) -> Function:
+    def slip_changes(self) -> tuple[Expr, ...]:
+        """Rates of the slip velocities of all contacts, m/s²."""
         motion = self.mode.equations.kinetics
-        rates = [slip.chain(motion.rate) for touch in self.mode.touches for slip in touch.slip]
-        return self.function(rates, self.directions)
+        touches = self.mode.touches
+        return tuple(slip.chain(motion.rate) for touch in touches for slip in touch.slip)
+
+    @cached_property
+    def _slip_rates(self) -> Function:
+        return self.function(self.slip_changes, self.directions)
+
+    def slip_rates_along(self, state: Array, time: float, directions: Sequence[Any]) -> Array:
+        """The same for arrays of directions, shape (contacts, 2, directions)."""
+        states = tuple(s for s in self.dynamics.states if s not in self.dynamics.carried)
+        known = (*states, *self.directions, *self.dynamics.parameters, CLOCK)
+        function = self.dynamics.function(self.slip_changes, known)
+        with np.errstate(all="ignore"):
+            found = function(*state[: len(states)], *directions, *self.parameters, time)
+        return np.array(np.broadcast_arrays(*found), dtype=float).reshape(-1, 2, len(found[0]))
 
     def slip_rates(self, state: Array, time: float, directions: Sequence[float]) -> Array:
         """Rate of the slip velocity of every contact, m/s², shape (contacts, 2)."""

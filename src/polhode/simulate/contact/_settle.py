@@ -249,13 +249,14 @@ def onset_angle(machine: Machine, entry: Entry, i: int) -> float:
     from scipy.optimize import brentq  # slow to import, and needed only where slip begins
 
     grid = np.linspace(-np.pi, np.pi, _ANGLES + 1) + 0.0123
-    values = [across(angle) for angle in grid]
+    rates = _rates_along(mode, entry, i, grid)
+    values = rates[1] * np.cos(grid) - rates[0] * np.sin(grid)
     found = [
         float(brentq(across, a, b, xtol=1e-15, rtol=1e-15))
         for a, b, u, v in zip(grid[:-1], grid[1:], values[:-1], values[1:], strict=True)
         if u * v < 0 or u == 0
     ]
-    size = max(float(np.hypot(*rate(angle))) for angle in grid[::8])
+    size = float(np.max(np.hypot(*rates)))
     growing = [angle for angle in found if along(angle) > -1e-9 * size]
     if len(growing) == 1:
         return growing[0]
@@ -266,3 +267,12 @@ def onset_angle(machine: Machine, entry: Entry, i: int) -> float:
         expected="one direction in which slip grows against the friction it brings",
         advice="the rigid body with this friction has no unique motion from here",
     )
+
+
+def _rates_along(mode: ModeMachine, entry: Entry, i: int, angles: Array) -> Array:
+    """Rates of the slip velocity that begins in some directions, m/s², shape (2, angles)."""
+    given: list[Any] = list(directions_of(replace(entry, onset={**entry.onset, i: 0.0})))
+    place = 3 * sorted(entry.slips).index(i)
+    given[place : place + 3] = [np.cos(angles), np.sin(angles), np.zeros_like(angles)]
+    state = np.concatenate([entry.coordinates, entry.speeds])
+    return np.asarray(mode.slip_rates_along(state, entry.place.time, given)[i])

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.algebra import Arithmetic, Expr, Symbol
+from polhode.algebra import Arithmetic, Expr, Matrix, Symbol
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate.integrate._heyoka import library
 from polhode.simulate.integrate._integrators import LOOKS, Array
@@ -23,6 +22,38 @@ NONE = -1
 """The guard of a motion that none has ended."""
 
 _VECTORS = 2  # that are worked on at once: while one waits for its memory the other goes on
+_MOST_STEPS = 1_000_000  # between two looks: a motion that needs more is at a singular position
+
+
+@dataclass(frozen=True)
+class Launch:
+    """Where motions are taken up, and what ends them.
+
+    Attributes:
+        begin: s, shape (motions,).
+        states: shape (states, motions).
+        parameters: shape (parameters, motions).
+        least: value at which a guard has fallen, shape (guards, motions).
+    """
+
+    begin: Array
+    states: Array
+    parameters: Array
+    least: Array
+
+    @property
+    def count(self) -> int:
+        """How many motions there are."""
+        return len(self.begin)
+
+    def some(self, which: NDArray[np.intp]) -> Launch:
+        """Some of the motions."""
+        return Launch(
+            self.begin[which],
+            self.states[:, which],
+            self.parameters[:, which],
+            self.least[:, which],
+        )
 
 
 @dataclass(frozen=True)
@@ -30,7 +61,8 @@ class Arrivals:
     """Where motions are at some times, or at the guard that ended them.
 
     Attributes:
-        states: shape (times, states, motions); from its end on, a motion rests.
+        states: shape (times, states, motions); before it is taken up and after its end a motion
+            rests.
         end: how far each went, s.
         guard: which guard ended it, or NONE.
         good: whether the result can be relied on.
@@ -48,9 +80,9 @@ class Lanes:
     Args:
         dynamics: the equations.
         states: what is integrated.
-        idle: other states, which nothing that is integrated depends on.
-        rates: of the states.
-        guards: positive while the motion lasts.
+        rates: of all states; those that are not integrated, nothing that is depends on.
+        guards: fall through a least value where a motion ends.
+        square: a matrix whose determinant is one more guard, the last.
         tolerance: relative, of one step.
         driven: whether the time itself occurs.
     """
@@ -59,19 +91,21 @@ class Lanes:
         self,
         dynamics: Dynamics,
         states: Sequence[Symbol],
-        idle: Sequence[Symbol],
-        rates: Sequence[Expr],
+        rates: dict[Symbol, Expr],
         guards: Sequence[Expr],
+        square: Matrix | None,
         tolerance: float | None,
         *,
         driven: bool,
     ) -> None:
         self.states = tuple(states)
+        idle = tuple(symbol for symbol in rates if symbol not in states)
         self._rest = [0.0] * len(idle)
         self.arguments = (*states, *idle, *dynamics.parameters, CLOCK)
         self._dynamics = dynamics
-        self._rates = tuple(rates)
-        self._guards = tuple(guards)
+        self._rates = [rates[s] for s in states]
+        self._sides = tuple(guards)
+        self._square = square
         self._tolerance = np.finfo(float).eps if tolerance is None else tolerance
         self._looks = LOOKS if driven else 1
 
@@ -80,18 +114,38 @@ class Lanes:
         """How many motions one integrator holds."""
         return _VECTORS * int(library().recommended_simd_size())
 
-    def follow(
-        self, start: Array, parameters: Array, times: Array, tick: Callable[[int], None]
-    ) -> Arrivals:
-        """Integrate from time 0 to every one of some times.
+    @property
+    def guards(self) -> int:
+        """How many guards there are."""
+        return len(self._sides) + (self._square is not None)
+
+    def values(self, expressions: Sequence[Expr], launch: Launch) -> Array:
+        """Of many motions where they are taken up, shape (expressions, motions)."""
+        function = self._dynamics.function(expressions, self.arguments)
+        with np.errstate(all="ignore"):
+            found = function(*launch.states, *self._rest, *launch.parameters, launch.begin)
+        return table([np.broadcast_to(v, launch.begin.shape) for v in found], launch.count)
+
+    def guarded(self, launch: Launch) -> Array:
+        """How far the guards are above their least values, shape (guards, motions)."""
+        found = self.values(self._sides, launch)
+        if self._square is not None:
+            found = np.vstack([found, determinant(self._matrix(launch))])
+        return np.asarray(found - launch.least)
+
+    def _matrix(self, launch: Launch) -> list[list[Any]]:
+        size = len(self._square.rows) if self._square else 0
+        entries = [e for row in self._square.rows for e in row] if self._square else []
+        found = self.values(entries, launch)
+        return [list(found[i * size : (i + 1) * size]) for i in range(size)]
+
+    def follow(self, launch: Launch, times: Array) -> Arrivals:
+        """Integrate to every one of some times.
 
         Args:
-            start: shape (states, motions).
-            parameters: shape (parameters, motions).
-            times: s, increasing, above 0.
-            tick: told the number of motions that are done.
+            times: s, increasing, the last of them after every beginning.
         """
-        count = start.shape[1]
+        count = launch.count
         found = Arrivals(
             np.full((len(times), len(self.states), count), np.nan),
             np.full(count, float(times[-1])),
@@ -100,48 +154,50 @@ class Lanes:
         )
         if not count:
             return found
-        scale = self._scales(start, parameters)
+        order = np.argsort(launch.begin, kind="stable")
+        sizes = np.abs(self.guarded(launch))
+        scale = 1 / np.where(sizes > 0, sizes, 1.0)
         threads = min(os.cpu_count() or 1, max(1, count // self.width))
-        crews = [_Crew(copy(self._compiled), len(self._guards)) for _ in range(threads)]
+        crews = [_Crew(copy(self._compiled), self.guards, self._looks) for _ in range(threads)]
 
         def work(k: int) -> None:
             for rows in _rows(count, self.width, k, threads):
-                crews[k].follow(start, parameters, scale, times, self._looks, rows, found)
-                tick(len(np.unique(rows)))
+                crews[k].follow(launch, scale, times, order[rows], found)
 
         with ThreadPoolExecutor(threads) as pool:
             list(pool.map(work, range(threads)))
         return found
 
-    def _scales(self, start: Array, parameters: Array) -> Array:
-        """What brings the guards to order one, shape (guards, motions)."""
-        function = self._dynamics.function(self._guards, self.arguments)
-        values = function(*start, *self._rest, *parameters, 0.0)
-        sizes = [np.broadcast_to(np.abs(v), start.shape[1:]) for v in values]
-        rows = np.array(sizes, dtype=float).reshape(len(sizes), start.shape[1])
-        return np.asarray(1 / np.where(rows > 0, rows, 1.0))
-
     @cached_property
     def _compiled(self) -> Any:
         """Rates and guards, both of which a last parameter switches off."""
         heyoka = library()
-        size, own = len(self.states), self._dynamics.parameters
+        size, own = len(self.states), len(self._dynamics.parameters)
         states = [heyoka.make_vars(f"x{i}") for i in range(size)]
-        constants = [heyoka.par[i] for i in range(len(own))]
+        constants = [heyoka.par[i] for i in range(own)]
         arithmetic = Arithmetic.of(heyoka, lambda value: heyoka.expression(float(value)))
-        program = self._dynamics.program((*self._rates, *self._guards), self.arguments)
+        entries = [e for row in self._square.rows for e in row] if self._square else []
+        wanted = (*self._rates, *self._sides, *entries)
+        program = self._dynamics.program(wanted, self.arguments)
         values = program.function(arithmetic)(*states, *self._rest, *constants, heyoka.time)
         rates = [heyoka.expression(value) for value in values[:size]]
-        if not self._guards:
+        guards = list(values[size : size + len(self._sides)])
+        if self._square:
+            side = len(self._square.rows)
+            flat = values[size + len(guards) :]
+            guards.append(determinant([list(flat[i * side :][:side]) for i in range(side)]))
+        if not guards:
             return self._batch([(x, rate) for x, rate in zip(states, rates, strict=True)], [])
-        going = heyoka.par[len(own) + len(self._guards)]
+        places = _Places(own, len(guards))
+        going = heyoka.par[places.going]
         events = [
             heyoka.t_event_batch(
-                going * heyoka.par[len(own) + i] * guard + (1.0 - going),
+                going * (heyoka.par[places.scale(i)] * guard - heyoka.par[places.least(i)])
+                + (1.0 - going),
                 direction=heyoka.event_direction.negative,
-                callback=_Ended(len(own) + i, len(own) + len(self._guards)),
+                callback=_Ended(places.scale(i), places.going),
             )
-            for i, guard in enumerate(values[size:])
+            for i, guard in enumerate(guards)
         ]
         return self._batch([(x, going * r) for x, r in zip(states, rates, strict=True)], events)
 
@@ -149,6 +205,41 @@ class Lanes:
         start = np.zeros((len(self.states), self.width))
         settings = {"t_events": events} if events else {}
         return library().taylor_adaptive_batch(system, start, tol=self._tolerance, **settings)
+
+
+def table(rows: Sequence[Any], count: int) -> Array:
+    """Rows of so many values, however few of them there are; shape (rows, count)."""
+    return np.array(rows, dtype=float).reshape(len(rows), count)
+
+
+def determinant(rows: Sequence[Sequence[Any]]) -> Any:
+    """Of a square matrix of anything that can be multiplied and added, along its first row."""
+    if len(rows) == 1:
+        return rows[0][0]
+    total: Any = 0.0
+    for k, entry in enumerate(rows[0]):
+        minor = [[*row[:k], *row[k + 1 :]] for row in rows[1:]]
+        term = entry * determinant(minor)
+        total = total + term if k % 2 == 0 else total - term
+    return total
+
+
+@dataclass(frozen=True)
+class _Places:
+    """Where among the parameters the switch is, and what brings the guards to order one."""
+
+    own: int
+    guards: int
+
+    def scale(self, guard: int) -> int:
+        return self.own + guard
+
+    def least(self, guard: int) -> int:
+        return self.own + self.guards + guard
+
+    @property
+    def going(self) -> int:
+        return self.own + 2 * self.guards
 
 
 @dataclass
@@ -163,7 +254,7 @@ class _Ended:
 
     def __call__(self, taylor: Any, _: int, lane: int) -> bool:
         taylor.pars[self.going, lane] = 0.0
-        taylor.pars[self.scale, lane] = -taylor.time[lane]
+        taylor.pars[self.scale, lane] = -1.0 - taylor.time[lane]
         return True
 
 
@@ -173,37 +264,44 @@ class _Crew:
 
     integrator: Any
     guards: int
+    looks: int
 
     def follow(
         self,
-        start: Array,
-        parameters: Array,
+        launch: Launch,
         scale: Array,
         times: Array,
-        looks: int,
         rows: NDArray[np.intp],
         found: Arrivals,
     ) -> None:
         """Follow as many motions as there are lanes."""
         taylor = self.integrator
-        taylor.set_time(0.0)
-        taylor.state[:] = start[:, rows]
-        if self.guards:
-            going = np.ones((1, len(rows)))
-            taylor.pars[:] = np.vstack([parameters[:, rows], scale[:, rows], going])
-        else:
-            taylor.pars[:] = parameters[: len(taylor.pars), rows]
-        for k, (begin, end) in enumerate(pairwise([0.0, *times])):
-            longest = (end - begin) / looks if looks > 1 else np.inf
-            taylor.propagate_until(float(end), max_delta_t=longest)
+        now = launch.begin[rows]
+        taylor.set_time(now)
+        taylor.state[:] = launch.states[:, rows]
+        taylor.pars[:] = self._constants(launch, scale, rows)[: len(taylor.pars)]
+        for k, time in enumerate(times):
+            target = np.maximum(now, time)
+            spans = target - now
+            longest = np.where((spans > 0) & (self.looks > 1), spans / self.looks, np.inf)
+            taylor.propagate_until(target, max_delta_t=longest, max_steps=_MOST_STEPS)
             found.states[k][:, rows] = taylor.state
-        good = np.all(np.isfinite(taylor.state), axis=0) & (taylor.time == times[-1])
+            now = target
+        finite = np.all(np.isfinite(taylor.state), axis=0)
+        found.good[rows] = finite & (taylor.time == now)
         if self.guards:
+            own = len(launch.parameters)
             ended = taylor.pars[-1] == 0.0
-            kept = taylor.pars[-1 - self.guards : -1]
+            kept = taylor.pars[own : own + self.guards]
             found.guard[rows] = np.where(ended, np.argmin(kept, axis=0), NONE)
-            found.end[rows] = np.where(ended, -np.min(kept, axis=0), times[-1])
-        found.good[rows] = good
+            found.end[rows] = np.where(ended, -1.0 - np.min(kept, axis=0), times[-1])
+
+    def _constants(self, launch: Launch, scale: Array, rows: NDArray[np.intp]) -> Array:
+        own = launch.parameters[:, rows]
+        if not self.guards:
+            return own
+        unit = scale[:, rows]
+        return np.vstack([own, unit, unit * launch.least[:, rows], np.ones((1, len(rows)))])
 
 
 def _rows(count: int, width: int, first: int, step: int) -> Iterator[NDArray[np.intp]]:

@@ -1,0 +1,106 @@
+"""Takes one motion out of a contact mode, and into the next as far as that cannot go abreast."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from polhode.algebra import Symbol
+from polhode.base import SilentProgress
+from polhode.derive import Guard
+from polhode.model import Phase
+from polhode.simulate._dynamics import WORK
+from polhode.simulate._follow import Task, first_entry
+from polhode.simulate._names import Name
+from polhode.simulate._segment import Part, state_at
+from polhode.simulate.contact._checks import check_numbers
+from polhode.simulate.contact._course import Course, Walk
+from polhode.simulate.contact._machine import Machine
+from polhode.simulate.contact._onset import onset
+from polhode.simulate.contact._settle import Entry
+from polhode.simulate.contact._transition import Leaving as Left
+from polhode.simulate.many._company import Leaving
+
+_LARGE = 6  # a matrix whose determinant has too many terms to be watched
+
+
+@dataclass(frozen=True)
+class Entered:
+    """A motion at the point from which it may go abreast with others.
+
+    Attributes:
+        entry: of its mode.
+        time: s.
+        state: by symbol.
+        part: what it did in this mode so far.
+        guard: that has ended the mode already.
+    """
+
+    entry: Entry
+    time: float
+    state: Mapping[Symbol, float]
+    part: Part | None = None
+    guard: Guard | None = None
+
+
+class Pilot(Walk):
+    """Follows single motions over what cannot be done for many at once.
+
+    Args:
+        machine: the modes.
+        task: what is asked for of every motion.
+    """
+
+    def __init__(self, machine: Machine, task: Task) -> None:
+        super().__init__(machine, task.near_flat, SilentProgress(), task.until)
+        self._task = task
+
+    def first(self, start: Mapping[Name, Any]) -> Entry:
+        """How a motion enters its first mode."""
+        check_numbers(self._machine)
+        return first_entry(self._machine, replace(self._task, start=start))[0]
+
+    def goes_abreast(self, entry: Entry) -> bool:
+        """Whether its mode is one for lanes: what flies lands with a shock, one by one."""
+        mode = self._machine.mode(entry.phases)
+        large = mode.can_jam and len(mode.mode.equations.mass.rows) > _LARGE
+        return not large and not any(phase.flies for phase in entry.phases)
+
+    def take(self, constants: Mapping[Symbol, float]) -> None:
+        """Take the numbers of a motion."""
+        self._machine.take(constants)
+
+    def phases(self, mode: str) -> tuple[Phase, ...]:
+        """Of the contacts in a mode."""
+        return self._machine.automaton.named(mode)
+
+    def leave(self, leaving: Leaving) -> tuple[str, Entry]:
+        """What happens where a guard ends a mode, and how the motion enters the next."""
+        mode = self._machine.mode(leaving.phases)
+        state = leaving.state
+        own = {s: state[s] for s in mode.dynamics.states if s not in mode.dynamics.carried}
+        place = mode.lifted(leaving.time, own, state.get(WORK, 0.0))
+        before = Entry(leaving.phases, place, np.empty(0), np.empty(0))
+        return self._transitions.next(before, Left(leaving.ending.guard, place, {}))
+
+    def enter(self, entry: Entry, end: float) -> Entered:
+        """The beginning of a mode: a slip that sets in, for which vectors are no use."""
+        mode = self._machine.mode(entry.phases)
+        begin, state = entry.place.time, self._start(mode, entry)
+        if not entry.onset:
+            return Entered(entry, begin, state)
+        contacts = self._machine.automaton.contacts
+        part, guard = self._cut(mode, entry, onset(mode, entry, state, (begin, end), contacts))
+        return Entered(entry, part.end, state_at(part, part.end), part, guard)
+
+    def speed_scale(self, entry: Entry) -> float:
+        """Size of the velocities that a slip is the difference of, m/s."""
+        return self._speed_scale(entry)
+
+    def to_the_end(self, entry: Entry, end: float) -> Course:
+        """All the rest, step by step."""
+        walk = Walk(self._machine, self._near_flat, self._progress, self._until)
+        return walk.along(entry, end)

@@ -1,0 +1,201 @@
+"""What is followed many times over: a system with its contact modes, or equations of one mode."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, Protocol
+
+from polhode.algebra import Symbol
+from polhode.derive import Automaton
+from polhode.model import Contact, Coulomb
+from polhode.simulate._dynamics import Dynamics, EquationsOfMotion
+from polhode.simulate._follow import AS_DECLARED, Task
+from polhode.simulate._names import Name
+from polhode.simulate._readable import readable
+from polhode.simulate._values import idle_parameters, read_parameters
+from polhode.simulate.contact._checks import check_numbers
+from polhode.simulate.contact._machine import Machine
+from polhode.simulate.forcing._drive import Drive, drive_of
+from polhode.simulate.integrate._integrators import Integrator
+from polhode.simulate.many._company import Company, Phases, Starts
+from polhode.simulate.many._endings import endings_of, sides_of
+from polhode.simulate.many._pilot import Pilot
+from polhode.simulate.many._sightings import Sightings
+from polhode.simulate.many._stay import Quantity, Stay
+from polhode.simulate.many._wave import Wave
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is common to all motions.
+
+    Attributes:
+        parameters: of one of them: names and values as `simulate` takes them.
+        start: likewise.
+        duration: s.
+        forcing: prescribed motions.
+        tolerance: relative, of one step.
+        near_flat: as in `simulate`.
+        until: events that end a motion.
+        quantities: that are to be read.
+    """
+
+    parameters: Mapping[Name, Any]
+    start: Mapping[Name, Any]
+    duration: float
+    forcing: Mapping[Name, Any]
+    tolerance: float | None
+    near_flat: float
+    until: Collection[str]
+    quantities: Collection[Quantity]
+
+    def task(self, integrator: Integrator) -> Task:
+        """The same for one motion."""
+        return Task(
+            given=self.parameters,
+            start=self.start,
+            forcing=self.forcing,
+            end=self.duration,
+            integrator=integrator,
+            tolerance=self.tolerance,
+            near_flat=self.near_flat,
+            seconds={},
+            until=frozenset(self.until),
+        )
+
+
+class Subject(Protocol):
+    """What is followed many times over."""
+
+    @property
+    def phases(self) -> Phases:
+        """Of the contacts in the mode that motions are expected to start in."""
+        ...
+
+    @property
+    def dynamics(self) -> Dynamics:
+        """The equations of that mode."""
+        ...
+
+    @property
+    def contacts(self) -> tuple[Contact, ...]:
+        """Whose coefficients count."""
+        ...
+
+    @property
+    def numbers(self) -> Mapping[Symbol, float]:
+        """All parameters of one motion."""
+        ...
+
+    def stay(self, phases: Phases) -> Stay:
+        """What motions do in a mode."""
+        ...
+
+    def company(self, sightings: Sightings, starts: Starts) -> Company:
+        """What follows them."""
+        ...
+
+
+@dataclass(frozen=True)
+class OneMode:
+    """Equations that are kept to."""
+
+    dynamics: Dynamics
+    numbers: Mapping[Symbol, float]
+    plan: Plan
+    phases: Phases = ()
+    contacts: tuple[Contact, ...] = ()
+
+    def stay(self, phases: Phases) -> Stay:
+        return self._stay
+
+    @cached_property
+    def _stay(self) -> Stay:
+        plan, sides = self.plan, self.dynamics.equations.assumed_positive
+        return Stay(
+            self.dynamics, AS_DECLARED, sides_of(sides), plan.quantities, (), plan.tolerance
+        )
+
+    def company(self, sightings: Sightings, starts: Starts) -> Company:
+        return Company(self.stay, sightings)
+
+
+@dataclass(frozen=True)
+class AllModes:
+    """A system that goes from contact mode to contact mode."""
+
+    machine: Machine
+    plan: Plan
+    numbers: Mapping[Symbol, float]
+    _known: dict[Phases, Stay] = field(default_factory=dict)
+
+    @property
+    def phases(self) -> Phases:
+        return self.machine.automaton.together.phases
+
+    @property
+    def dynamics(self) -> Dynamics:
+        return self.machine.mode(self.phases).dynamics
+
+    @property
+    def contacts(self) -> tuple[Contact, ...]:
+        return self.machine.automaton.contacts
+
+    @cached_property
+    def goes_on(self) -> bool:
+        """Whether motions are followed beyond their first mode.
+
+        Where nothing rubs they hardly ever leave it, and need not be known in full.
+        """
+        rubs = any(isinstance(contact, Coulomb) for contact in self.contacts)
+        endings = endings_of(self.machine.mode(self.phases), 0.0, self.plan.until)
+        return rubs and not all(ending.kind for ending in endings)
+
+    def stay(self, phases: Phases) -> Stay:
+        if phases not in self._known:
+            self._known[phases] = self._made(phases)
+        return self._known[phases]
+
+    def _made(self, phases: Phases) -> Stay:
+        mode, plan = self.machine.mode(phases), self.plan
+        return Stay(
+            mode.dynamics,
+            mode.mode.name,
+            endings_of(mode, plan.near_flat, plan.until),
+            plan.quantities,
+            readable(self.dynamics, {}),
+            plan.tolerance,
+            whole=self.goes_on,
+            square=mode.mode.equations.mass if mode.can_jam else None,
+        )
+
+    def company(self, sightings: Sightings, starts: Starts) -> Company:
+        if not self.goes_on:
+            return Company(self.stay, sightings)
+        pilot = Pilot(self.machine, self.plan.task(self.machine.integrator))
+        return Wave(self.stay, sightings, pilot, starts)
+
+
+def one_mode(equations: EquationsOfMotion, plan: Plan) -> OneMode | None:
+    """Equations that are kept to; None where they change on the way, or close loops."""
+    drive: Drive = drive_of(equations.functions, plan.forcing, plan.duration)
+    if drive.pieces or equations.closures:
+        return None
+    dynamics = Dynamics(equations, drive.expressions, idle_parameters(equations, plan.parameters))
+    return OneMode(dynamics, read_parameters(dynamics, plan.parameters), plan)
+
+
+def all_modes(modes: Automaton, plan: Plan, integrator: Integrator) -> AllModes | None:
+    """A system with its modes; None where its supports move by pieces."""
+    drive = drive_of(modes.functions, plan.forcing, plan.duration)
+    if drive.pieces:
+        return None
+    equations = modes.together.equations
+    idle = idle_parameters(equations, plan.parameters)
+    common = Dynamics(equations, drive.expressions, (*modes.parameters, *idle))
+    numbers = read_parameters(common, plan.parameters)
+    machine = Machine(modes, drive, numbers, integrator, plan.tolerance)
+    check_numbers(machine)
+    return AllModes(machine, plan, numbers)
