@@ -40,6 +40,7 @@ from polhode.algebra._quotient import shortest_quotient
 from polhode.algebra._radicals import Radicals, gathered
 from polhode.algebra._ring import Monomial, Polynomial, Ring
 from polhode.algebra._squares import in_shortest_squares
+from polhode.algebra._sums_of_angles import in_sums_of_angles
 
 #: Terms are collected by constants, as in I₁(θ̇² + φ̇² sin²θ), only if so much is saved by it.
 _MUCH = 0.85
@@ -56,9 +57,19 @@ def layout(expression: Expr) -> Node:
     expression = expression.trimmed()
     ring = expression.ring
     num, den = shortest_quotient(expression)
+    plain = _quotients(ring, num, den)
+    middle, above = in_sums_of_angles(ring, num)
+    wider, below = in_sums_of_angles(middle, middle.lift(ring, den))
+    if wider is ring:
+        return _shortest(plain)
+    return _shortest([*_quotients(wider, wider.lift(middle, above), below), *plain])
+
+
+def _quotients(ring: Ring, num: Polynomial, den: Polynomial) -> list[Node]:
+    """As one fraction, and term by term."""
     below = factorised(ring, den).inverse()
     whole = [_term(ring, form * below) for form in products(ring, num)]
-    return _shortest([*_split(ring, num, below), *whole])
+    return [*_split(ring, num, below), *whole]
 
 
 def _split(ring: Ring, num: Polynomial, below: Factored) -> Iterator[Node]:

@@ -1,0 +1,84 @@
+"""Functions of sums and differences of angles: cos(α - β) for cos α cos β + sin α sin β."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import combinations
+from operator import le, sub
+
+from polhode.algebra._arrange import factor_rank
+from polhode.algebra._functions import CIRCULAR, Even
+from polhode.algebra._ring import Monomial, Polynomial, Ring, ring_of
+
+#: Longer polynomials are printed as they are.
+_LONGEST = 150
+
+
+@dataclass(frozen=True)
+class _Exchange:
+    """What may be written for what: `short`, a single term, equals `long`, which has `sign`."""
+
+    short: Polynomial
+    long: Polynomial
+    sign: Monomial
+
+    def applied(self, ring: Ring, polynomial: Polynomial) -> Polynomial:
+        """The polynomial with as many exchanges as make it shorter."""
+        for monomial, coefficient in polynomial.to_dict().items():
+            if not all(map(le, self.sign, monomial)):
+                continue
+            rest = tuple(map(sub, monomial, self.sign))
+            factor = ring.context.from_dict({rest: coefficient / self.long[self.sign]})
+            other = polynomial - ring.reduce(factor * self.long)
+            if len(other) + 1 < len(polynomial):
+                return self.applied(ring, other + factor * self.short)
+        return polynomial
+
+
+def in_sums_of_angles(ring: Ring, polynomial: Polynomial) -> tuple[Ring, Polynomial]:
+    """The shortest form found, in a ring that has the functions needed; in general not reduced."""
+    if len(polynomial) > _LONGEST:
+        return ring, polynomial
+    for first, second in combinations(_angles(ring, polynomial), 2):
+        wider = ring_of(frozenset(ring.generators) | set(_functions(first, second)))
+        before = wider.lift(ring, polynomial)
+        after = before
+        for exchange in _exchanges(wider, first, second):
+            after = exchange.applied(wider, after)
+        if len(after) < len(before):
+            ring, polynomial = wider, after
+    return ring, polynomial
+
+
+def _angles(ring: Ring, polynomial: Polynomial) -> list[Even]:
+    """Cosines of single angles that occur, themselves or their sines, in the order of print."""
+    degrees = polynomial.degrees()
+    found = [
+        g
+        for g in ring.generators
+        if isinstance(g, Even)
+        and g.family is CIRCULAR
+        and g.base.symbol is not None
+        and (degrees[ring.index[g]] or degrees[ring.index[g.partner()[0]]])
+    ]
+    return sorted(found, key=factor_rank)
+
+
+def _functions(first: Even, second: Even) -> Iterator[Even]:
+    x, y = first.argument, second.argument
+    for argument in (x - y, x + y):
+        yield Even(CIRCULAR, argument, first.unit / first.unit)
+
+
+def _exchanges(ring: Ring, first: Even, second: Even) -> Iterator[_Exchange]:
+    """Squares before single functions: what is left of a square is never shorter for a single."""
+    c1, s1, c2, s2 = (ring.variable(g) for e in (first, second) for g in (e, e.partner()[0]))
+    for even, sign in zip(_functions(first, second), (1, -1), strict=True):
+        cosine, sine = ring.variable(even), ring.variable(even.partner()[0])
+        pairs = [(cosine, c1 * c2 + sign * s1 * s2), (sine, s1 * c2 - sign * c1 * s2)]
+        (c, long_c), (s, long_s) = pairs
+        squares = [(c**2, long_c**2), (s**2, long_s**2), (s * c, long_s * long_c)]
+        for short, long in (*squares, *pairs):
+            reduced = ring.reduce(long)
+            yield _Exchange(short, reduced, max(reduced.monoms(), key=sum))
