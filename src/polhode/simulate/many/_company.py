@@ -157,7 +157,7 @@ class Company:
 def _landed(stay: Stay, launch: Launch, found: Arrivals) -> Arrivals:
     """The arrivals, moved on to where slips vanish that nearly have.
 
-    What is left of the way is so short that it is straight.
+    What is left of the way is so short that it takes no time to speak of.
     """
     states, end, good = found.states.copy(), found.end.copy(), found.good.copy()
     good &= found.guard != stay.doubtful

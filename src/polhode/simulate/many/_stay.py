@@ -17,8 +17,9 @@ from polhode.simulate.many._endings import Ending
 from polhode.simulate.many._lanes import Arrivals, Lanes, Launch, table
 
 _CLEAR = 1e-9  # of a guard, relative to the largest: further above its least value is no doubt
-#: Slip speed, relative to the velocities around, from which a slip vanishes on a straight way.
-STILL = 1e-7
+#: Slip speed, relative to the velocities around, that is as good as none. Not sooner: where the
+#: friction hardly exceeds what it opposes, the slip turns all the way down to nothing.
+STILL = 1e-12
 _NEARLY = 1e-6  # of the determinant of a matrix: less of it is as good as none
 
 Quantity = str | Symbol | Expr
