@@ -164,12 +164,13 @@ def test_without_webgl_the_plots_stay(opened, written):
         assert drawn
 
 
-def test_dark_pages_are_dark(opened, written):
+def test_dark_pages_are_dark(disk):
+    """As soon as the machine turns dark, without a new start."""
     means = {}
-    for scheme in ("light", "dark"):
-        with opened(written("rolling-disk"), color_scheme=scheme) as shown:
-            colour = shown.page.evaluate("getComputedStyle(document.body).backgroundColor")
-            means[scheme] = np.mean([int(part) for part in colour[4:-1].split(",")])
+    for scheme in ("dark", "light"):
+        disk.page.emulate_media(color_scheme=scheme)
+        colour = disk.page.evaluate("getComputedStyle(document.body).backgroundColor")
+        means[scheme] = np.mean([int(part) for part in colour[4:-1].split(",")])
     assert means["light"] > 200
     assert means["dark"] < 50
 
@@ -210,28 +211,32 @@ def test_the_directions_turn_with_the_view(disk):
     assert after[2][0] == pytest.approx(0, abs=0.1)
 
 
-def test_names_are_text(opened, written):
-    with opened(written("double pendulum")) as shown:
-        assert shown.page.locator("h1").inner_text().split() == HOSTILE.split()
-        assert shown.page.locator("main script, main img").count() == 0
-        assert shown.complaints == []
+@pytest.fixture(scope="module")
+def pendulum(opened, written):
+    """A page of names that would like to be markup, in the dark."""
+    with opened(written("double pendulum"), color_scheme="dark") as shown:
+        yield shown
 
 
-def test_verdicts_stand_on_the_page(opened, written):
-    with opened(written("double pendulum")) as shown:
-        rows = shown.page.locator(".judged")
-        assert rows.locator(".verdict").all_text_contents() == ["holds", "fails"]
-        assert "to the damper" in rows.first.inner_text()
-        assert rows.last.locator("math").count() == 2
-        assert rows.last.locator("math script").count() == 0
+def test_names_are_text(pendulum):
+    assert pendulum.page.locator("h1").inner_text().split() == HOSTILE.split()
+    assert pendulum.page.locator("main script, main img").count() == 0
+    assert pendulum.complaints == []
 
 
-@pytest.mark.parametrize(
-    ("name", "scheme"), [("rolling-disk", "light"), ("double pendulum", "dark")]
-)
-def test_axe_finds_no_serious_fault(opened, written, name, scheme):
-    with opened(written(name), color_scheme=scheme, bypass_csp=True) as shown:
-        shown.page.evaluate(AXE.read_text("utf-8"))
-        faults = shown.page.evaluate("axe.run()")["violations"]
-        serious = [fault for fault in faults if fault["impact"] in ("serious", "critical")]
-        assert not serious, json.dumps(serious, indent=1)[:3000]
+def test_verdicts_stand_on_the_page(pendulum):
+    rows = pendulum.page.locator(".judged")
+    assert rows.locator(".verdict").all_text_contents() == ["holds", "fails"]
+    assert "to the damper" in rows.first.inner_text()
+    assert rows.last.locator("math").count() == 2
+    assert rows.last.locator("math script").count() == 0
+
+
+@pytest.mark.parametrize("name", ["disk", "pendulum"])
+def test_axe_finds_no_serious_fault(request, name):
+    """On a light page and on a dark one."""
+    page = request.getfixturevalue(name).page
+    page.evaluate(AXE.read_text("utf-8"))
+    faults = page.evaluate("axe.run()")["violations"]
+    serious = [fault for fault in faults if fault["impact"] in ("serious", "critical")]
+    assert not serious, json.dumps(serious, indent=1)[:3000]
