@@ -19,6 +19,8 @@ _KEPT = 64
 
 #: Signs that claim the equality of both sides.
 EQUALITY = ("=", "≡")
+#: Sign of left less right that each sign claims.
+SENSE = {">": 1, "≥": 1, "≫": 1, "<": -1, "≤": -1, "≪": -1}
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,6 @@ from polhode.claims._verdict import Answer, Correction, Verdict
 from polhode.claims._vocabulary import spelled
 from polhode.claims.latex import read_latex, write_latex
 from polhode.claims.latex._tree import Node, Statement
-from polhode.claims.repair import REPAIRED, Repaired, repaired, tidied
 from polhode.derive import Equations
 
 
@@ -73,7 +72,7 @@ def judged_claim(
     except (PolhodeError, ZeroDivisionError) as error:
         return Verdict(Answer.UNREAD, context, reason=str(error))
     verdict = _judged(asked, context)
-    if verdict.answer is not Answer.FAILS or context not in REPAIRED:
+    if verdict.answer is not Answer.FAILS:
         return verdict
     tell(verdict)
     return _corrected(verdict, statement, notation, context)
@@ -95,19 +94,22 @@ def _defined(letters: Iterable[Node]) -> str:
 
 
 def _corrected(verdict: Verdict, statement: Statement, notation: Notation, context: str) -> Verdict:
+    from polhode.claims.repair import REPAIRED, Repaired, repaired, tidied
+
     def holds(asked: Asked) -> bool:
         return judge(asked, context).holds
 
+    def correction(repair: Repaired) -> Correction:
+        what = "; ".join(dict.fromkeys(change.what for change in repair.changes))
+        return Correction(what, write_latex(tidied(repair.statement)))
+
+    if context not in REPAIRED:
+        return verdict
     try:
         found = repaired(statement, notation, context, holds)
     except (PolhodeError, ArithmeticError):
         return verdict
     if not found:
         return verdict
-    first, *others = map(_correction, found)
+    first, *others = map(correction, found)
     return replace(verdict, correction=first, alternatives=tuple(others))
-
-
-def _correction(repair: Repaired) -> Correction:
-    what = "; ".join(dict.fromkeys(change.what for change in repair.changes))
-    return Correction(what, write_latex(tidied(repair.statement)))

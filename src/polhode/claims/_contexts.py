@@ -2,41 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import replace
+from importlib import import_module
 
 from polhode.base import ParseError
-from polhode.claims._asked import EQUALITY, Asked
+from polhode.claims._asked import EQUALITY, SENSE, Asked
 from polhode.claims._circumstances import AnyState, Circumstances, TrueMotion
-from polhode.claims._inequality import SENSE, judged_inequality, judged_unequal
 from polhode.claims._judge import judged_identity, judged_motion
-from polhode.claims._limit import judged_limit
-from polhode.claims._number import judged_number
-from polhode.claims._steady import judged_steady
-from polhode.claims._steady_states import steady_states
-from polhode.claims._threshold import judged_threshold
 from polhode.claims._verdict import Answer, Verdict
 
 Judge = Callable[[Asked], Verdict]
 
 
-def _judged_launch(asked: Asked) -> Verdict:
-    """Along the motion from a start; what simulates is loaded for this context alone."""
-    from polhode.claims._launch import judged_launch
+def _of(module: str, name: str) -> Judge:
+    """A judge whose file, and all that it needs, is loaded for its context alone."""
 
-    return judged_launch(asked)
+    def judged(asked: Asked) -> Verdict:
+        judge: Judge = getattr(import_module(f"polhode.claims.{module}"), name)
+        return judge(asked)
+
+    return judged
 
 
+_judged_limit = _of("_limit", "judged_limit")
 _EQUATIONS: dict[str, Judge] = {
     "identity": judged_identity,
     "motion": judged_motion,
-    "steady": judged_steady,
+    "steady": _of("_steady", "judged_steady"),
 }
 _WHOLE: dict[str, Judge] = {
-    "threshold": judged_threshold,
-    "limit": judged_limit,
-    "launch": _judged_launch,
-    "number": judged_number,
+    "threshold": _of("_threshold", "judged_threshold"),
+    "limit": _judged_limit,
+    "launch": _of("_launch", "judged_launch"),
+    "number": _of("_number", "judged_number"),
 }
 #: Where a claim may be asked to hold.
 CONTEXTS = (*_EQUATIONS, *_WHOLE)
@@ -73,20 +72,33 @@ def _by_signs(asked: Asked, context: str) -> Iterator[Verdict]:
         yield _EQUATIONS[context](asked.only(equal))
     if close:
         yield _close(asked.only(close), context)
+    unequal = [i for i, sign in signs.items() if sign == "≠"]
+    if bounds or unequal:
+        yield from _compared(asked, context, bounds, unequal)
+
+
+def _compared(
+    asked: Asked, context: str, bounds: Collection[int], unequal: Collection[int]
+) -> Iterator[Verdict]:
+    from polhode.claims._inequality import judged_inequality, judged_unequal
+
+    states = _states(asked, context)
     for component in asked.components():
         if component.member in bounds:
-            yield judged_inequality(asked, component, _states(asked, context))
-        if signs[component.member] == "≠":
-            yield judged_unequal(asked, component, _states(asked, context))
+            yield judged_inequality(asked, component, states)
+        if component.member in unequal:
+            yield judged_unequal(asked, component, states)
 
 
 def _close(asked: Asked, context: str) -> Verdict:
     """≈ may be exact; otherwise it takes a small quantity to say how close it is."""
     exact = _EQUATIONS[context](asked)
-    return exact if exact.holds or not asked.small else judged_limit(asked)
+    return exact if exact.holds or not asked.small else _judged_limit(asked)
 
 
 def _states(asked: Asked, context: str) -> Circumstances:
     if context == "steady":
+        from polhode.claims._steady_states import steady_states
+
         return steady_states(asked)[0]
     return asked.states(AnyState if context == "identity" else TrueMotion)

@@ -49,7 +49,7 @@ def refutation(
 
 
 def _drawn(sides: tuple[Expr, Expr], states: Circumstances) -> Iterator[Point]:
-    used = [*sides, *states.settled_relations, *states.signs]
+    used = [*sides, *states.settled_relations, *map(states.on, states.signs)]
     used += states.equations.accelerations.values()
     symbols = {s for e in used for s in e.symbols()} | _state(states)
     return (points(used, symbols, seed) for seed in range(_TRIES))

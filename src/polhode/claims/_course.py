@@ -8,15 +8,13 @@ from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
-from scipy.optimize import brentq
 
 from polhode.algebra import ZERO, Expr, Symbol, as_symbol, time
 from polhode.base import PolhodeError
-from polhode.claims._asked import Asked
+from polhode.claims._asked import SENSE, Asked
 from polhode.claims._bench import bench
 from polhode.claims._circumstances import TrueMotion
 from polhode.claims._components import Component
-from polhode.claims._inequality import SENSE
 from polhode.claims._numeric import Array, number
 from polhode.simulate import Trajectory, simulate
 
@@ -51,6 +49,8 @@ class Course:
 
         None where that does not come to pass.
         """
+        from scipy.optimize import brentq  # it takes longer to load than most motions to follow
+
         for symbol, value in event.items():
             level = float(number(value, self.start))
             away = self.run.evaluate(symbol, self.times) - level

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from polhode.algebra import Expr
-from polhode.claims._asked import Asked
+from polhode.claims._asked import SENSE, Asked
 from polhode.claims._circumstances import Circumstances
 from polhode.claims._components import Component
 from polhode.claims._counterexample import refutation
 from polhode.claims._numeric import number
 from polhode.claims._signs import definite_sign
 from polhode.claims._verdict import Answer, Residual, Verdict
-
-#: Sign of left less right that each sign claims.
-SENSE = {">": 1, "≥": 1, "≫": 1, "<": -1, "≤": -1, "≪": -1}
 
 
 def judged_inequality(asked: Asked, component: Component, states: Circumstances) -> Verdict:

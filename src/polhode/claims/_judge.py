@@ -10,7 +10,6 @@ from polhode.algebra import ONE
 from polhode.claims._asked import Asked
 from polhode.claims._circumstances import AnyState, Circumstances, TrueMotion
 from polhode.claims._components import Component
-from polhode.claims._counterexample import refutation
 from polhode.claims._verdict import Answer, Residual, Verdict
 
 
@@ -64,6 +63,8 @@ def _failure(alike: Sequence[Component], states: Circumstances) -> Failure | Non
 
 def failed(found: Sequence[Failure], context: str) -> Verdict:
     """The verdict on a claim with these failures, refuted at a state."""
+    from polhode.claims._counterexample import refutation  # numbers are for failures alone
+
     worst = found[0]
     example, second = refutation(worst.component, worst.residual, worst.states)
     return Verdict(

@@ -14,7 +14,6 @@ from polhode.claims._circumstances import TrueMotion
 from polhode.claims._course import Followed, courses
 from polhode.claims._initially import judged_initially
 from polhode.claims._judge import failures
-from polhode.claims._own_motion import followed_anew
 from polhode.claims._verdict import Answer, Counterexample, Residual, Verdict
 
 _MOTIONS = 3
@@ -98,6 +97,8 @@ def _along_motions(asked: Asked, event: Mapping[Symbol, Expr]) -> Iterator[Follo
 
 
 def _refuted(followed: Followed, sample: int, asked: Asked) -> Verdict:
+    from polhode.claims._own_motion import followed_anew  # only failures are followed anew
+
     component, course = followed.component, followed.course
     left, right = (float(side[sample]) for side in followed.sides)
     since = float(course.times[sample])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from polhode.algebra import ZERO, Expr, Symbol, Vector, as_symbol, linear_parts, solve, sqrt
-from polhode.analyse import steady
 from polhode.base import DeclarationError
 from polhode.derive import Equations
 
@@ -36,6 +35,8 @@ def uniform_velocity(equations: Equations, velocity: Vector) -> Vector:
 
 def precession(equations: Equations, rate: Expr, slower: bool) -> Expr:
     """The smaller or larger of two rates of steady motion, for quick spin, rad/s."""
+    from polhode.analyse import steady  # few texts speak of it
+
     symbol = as_symbol(rate)
     for family in steady(equations):
         for relation in family.relations:

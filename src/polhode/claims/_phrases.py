@@ -8,7 +8,6 @@ from difflib import get_close_matches
 from functools import lru_cache
 
 from polhode.algebra import Expr, Vector, read_expression, time
-from polhode.analyse import fictitious_torque
 from polhode.base import DeclarationError, ParseError
 from polhode.claims._meaning import BindingError, Meaning
 from polhode.claims._mechanics import Mechanics
@@ -78,6 +77,8 @@ def _uniform_velocity(mechanics: Mechanics) -> Vector:
 
 
 def _fictitious(mechanics: Mechanics, kind: str, frame: str) -> Vector:
+    from polhode.analyse import fictitious_torque  # few texts speak of them
+
     equations, turning = mechanics.equations, mechanics.frame(frame)
     torques = fictitious_torque(equations, mechanics.body, turning)
     found: Vector = getattr(torques, kind.lower())

@@ -8,11 +8,10 @@ from dataclasses import dataclass, replace
 from polhode.algebra import Expr
 from polhode.analyse import Truth, stability
 from polhode.base import ParseError, PolhodeError
-from polhode.claims._asked import EQUALITY, Asked
+from polhode.claims._asked import EQUALITY, SENSE, Asked
 from polhode.claims._circumstances import AnyState
 from polhode.claims._components import Component
 from polhode.claims._counterexample import refutation
-from polhode.claims._inequality import SENSE
 from polhode.claims._judge import failed, failures
 from polhode.claims._numeric import number
 from polhode.claims._signs import definite_sign

@@ -57,7 +57,8 @@ def _parser(arguments: Sequence[str]) -> Parser:
         description="Rigid-body mechanics: declare once, derive exactly, check, simulate, look.",
         epilog="See 'polhode COMMAND --help' for one command, and 'polhode list' for the systems.",
     )
-    parser.add_argument("--version", action="version", version=f"polhode {_version()}")
+    version = f"polhode {_version()}" if "--version" in arguments[:1] else ""
+    parser.add_argument("--version", action="version", version=version)
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for name, summary in COMMANDS.items():
         command = commands.add_parser(name, help=summary)
