@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any, Protocol
 
@@ -21,11 +21,12 @@ from polhode.simulate._names import Name, published
 from polhode.simulate._segment import Part, Segment, state_at
 from polhode.simulate._start import Start, read_start
 from polhode.simulate._values import idle_parameters, read_parameters
-from polhode.simulate.contact._checks import can_be_followed, check_numbers, refuse_below
+from polhode.simulate.contact._begin import begun_at
+from polhode.simulate.contact._checks import can_be_followed, check_numbers
 from polhode.simulate.contact._course import Change, Walk
 from polhode.simulate.contact._machine import Machine
 from polhode.simulate.contact._place import Place
-from polhode.simulate.contact._settle import Known, settle
+from polhode.simulate.contact._settle import Entry
 from polhode.simulate.forcing._drive import Drive, drive_of
 from polhode.simulate.integrate._driver import Stop, integrate, stuck
 from polhode.simulate.integrate._flow import Flow, flow_of
@@ -132,7 +133,7 @@ class _AsDeclared:
     def follow(self, task: Task, progress: Progress) -> Motion:
         dynamics, drive = self._dynamics, self._drive
         numbers = read_parameters(dynamics, task.given, drive.constants(0.0))
-        _refuse_jerks(drive)
+        _refuse_jerks(drive, task.end)
         at_start = {s: (numbers | drive.constants(0.0))[s] for s in dynamics.parameters}
         begin = read_start(dynamics, task.start, at_start)
         with _timed(task, "compile"):
@@ -164,10 +165,11 @@ class _AsDeclared:
         )
 
 
-def _refuse_jerks(drive: Drive) -> None:
-    if drive.jerks:
+def _refuse_jerks(drive: Drive, end: float) -> None:
+    felt = [time for time in drive.jerks if 0 < time < end]
+    if felt:
         raise DeclarationError(
-            f"a support that jerks at t = {min(drive.jerks):g} s, under one contact mode",
+            f"a support that jerks at t = {min(felt):g} s, under one contact mode",
             expected="the declaration itself, whose contacts can slip and stick",
             advice="simulate the System, not the equations derived from it",
         )
@@ -194,9 +196,8 @@ class _ThroughModes:
         machine = self._with(numbers, task)
         check_numbers(machine)
         with _timed(task, "compile"):
-            place, begun, apart = _begin(machine, task)
             walk = Walk(machine, task.near_flat, progress, task.until)
-            first = settle(machine, place, Known(apart=apart))
+            first, begun = first_entry(machine, task)
             machine.mode(first.phases).stepper  # noqa: B018
         with _timed(task, "integrate"):
             course = walk.along(first, task.end)
@@ -221,6 +222,12 @@ class _ThroughModes:
         return self._machine
 
 
+def first_entry(machine: Machine, task: Task) -> tuple[Entry, Begun]:
+    """The first mode of a motion, and the start as it was read."""
+    place, begun, apart = _begin(machine, task)
+    return begun_at(machine, place, apart), begun
+
+
 def _begin(machine: Machine, task: Task) -> tuple[Place, Begun, frozenset[int]]:
     """Where it starts, and which contacts are apart there.
 
@@ -237,7 +244,6 @@ def _begin(machine: Machine, task: Task) -> tuple[Place, Begun, frozenset[int]]:
     )
     if apart:
         place, begun = _read(machine, _phases(modes, apart, slips=True), task)
-        refuse_below(machine, place, apart)
         return place, begun, apart
     try:
         return (*_read(machine, _phases(modes, apart, slips=False), task), apart)
@@ -258,7 +264,7 @@ def _phases(modes: Automaton, apart: frozenset[int], *, slips: bool) -> tuple[Ph
 
 def _read(machine: Machine, phases: tuple[Phase, ...], task: Task) -> tuple[Place, Begun]:
     mode = machine.mode(phases)
-    plain = replace(mode.dynamics, carried={}, meanings={})
+    plain = mode.dynamics.without_carried
     numbers = dict(zip(plain.parameters, mode.parameters.tolist(), strict=True))
     start = read_start(plain, task.start, numbers)
     state = dict(zip(plain.states, (float(x) for x in start.state), strict=True))

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from polhode.base import ConstraintError, DeclarationError, NumericError
+from polhode.base import DeclarationError, NumericError
 from polhode.derive import Automaton
 from polhode.model import Contact, Coulomb
 from polhode.simulate.contact._machine import Machine
-from polhode.simulate.contact._place import Place
-
-_ROUNDING = 1e-12  # depth below a support, over the size of the place, that is none
 
 
 def can_be_followed(modes: Automaton) -> bool:
@@ -59,22 +56,3 @@ def _check_friction(machine: Machine, contact: Coulomb) -> None:
 
 def _impossible(what: str, value: float, contact: Contact, expected: str) -> DeclarationError:
     return DeclarationError(f"{what} = {value:g} of contact {contact.name!r}", expected=expected)
-
-
-def refuse_below(machine: Machine, place: Place, apart: frozenset[int]) -> None:
-    """Refuse a start in which a body is within its support.
-
-    Raises:
-        ConstraintError: with the depth.
-    """
-    meetings = machine.touching.at(place, machine.touching.beyond(place))
-    size = max((abs(float(q)) for q in place.coordinates), default=0.0)
-    for i in apart:
-        if meetings[i].gap < -_ROUNDING * size:
-            contact = machine.automaton.contacts[i]
-            height = contact.on.normal + contact.body.tag
-            raise ConstraintError(
-                f"{contact.body.name} starts {-meetings[i].gap:g} m below its support",
-                expected=f"a height {height} at which it touches or is above",
-                advice=f"leave out {height} to start in contact",
-            )

@@ -14,10 +14,11 @@ from polhode.simulate._dynamics import CLOCK, WORK
 from polhode.simulate._segment import Part, Segment, state_at
 from polhode.simulate.contact._machine import Machine, ModeMachine, gap_symbol, slip_symbols
 from polhode.simulate.contact._onset import onset
-from polhode.simulate.contact._place import Place
+from polhode.simulate.contact._rise import Rise, fall_of
 from polhode.simulate.contact._settle import Entry, painleve
 from polhode.simulate.contact._touching import Meeting
-from polhode.simulate.contact._transition import Transitions, beyond, index_of
+from polhode.simulate.contact._transition import Leaving, Transitions, beyond, index_of
+from polhode.simulate.forcing._drive import Drive
 from polhode.simulate.integrate._crossing import first_fall
 from polhode.simulate.integrate._driver import Stop, Watched, integrate, stuck
 from polhode.simulate.integrate._integrators import Array
@@ -25,6 +26,7 @@ from polhode.simulate.integrate._integrators import Array
 _LOOK = 400  # steps after which the guards are looked at
 _VANISHED = 1e-14  # slip speed, relative to the velocities around, that is none
 _LANDED = 1e-10  # the same at an instant at which the slip velocity turns round
+_JAMMED = 1e-6  # of what sliding has in reserve before it jams: as good as none
 _MOST_EVENTS = 50_000
 _MOST_AT_ONCE = 32  # changes of mode while no time passes: far more than contacts can have
 
@@ -90,13 +92,15 @@ class Walk:
         while entry.place.time < end:
             outcome = self._stay(entry, end)
             self._segments.append(outcome.segment)
-            if outcome.guard is None and (outcome.segment.end >= end or outcome.interrupted):
+            if outcome.leaving.guard is None and (
+                outcome.segment.end >= end or outcome.interrupted
+            ):
                 break
             time, before = outcome.segment.end, outcome.segment.mode
             last = self._last(outcome)
             if last is not None:
                 return Course(tuple(self._segments), (*self._changes, last), last.after)
-            kind, entry = self._transitions.next(entry, outcome.guard, outcome.place)
+            kind, entry = self._transitions.next(entry, outcome.leaving)
             after = self._machine.mode(entry.phases).mode.name
             self._changes.append(Change(time, kind, before, after))
             if len(self._changes) > _MOST_EVENTS:
@@ -113,7 +117,8 @@ class Walk:
 
     def _last(self, outcome: _Outcome) -> Change | None:
         """The change that ends the motion, if this is one."""
-        kind = outcome.guard.kind if outcome.guard is not None else ""
+        guard = outcome.leaving.guard
+        kind = guard.kind if guard is not None else ""
         time, mode = outcome.segment.end, outcome.segment.mode
         if kind == "near-flat":
             return Change(time, "goes flat", mode, "near-flat")
@@ -142,17 +147,22 @@ class Walk:
             part, guard = self._cut(mode, entry, part)
             parts.append(part)
             now, state = part.end, state_at(part, part.end)
-            if part.solution.stop is Stop.INTERRUPTED:
-                break
-            if now in drive.jerks:
+            if guard is not None and now in drive.breaks and not _settled(guard, now, drive):
+                guard = None
+            if part.solution.stop is Stop.INTERRUPTED or now in drive.jerks:
                 break
         own = {s: state[s] for s in mode.dynamics.states if s not in mode.dynamics.carried}
         place = mode.lifted(now, own, state.get(WORK, entry.place.work))
+        gaps = {
+            i: state[gap_symbol(touch.contact)]
+            for i, touch in enumerate(mode.mode.touches)
+            if gap_symbol(touch.contact) in state
+        }
         segment = Segment(mode.mode.name, begin, now, mode.dynamics, tuple(parts))
-        return _Outcome(segment, guard, place)
+        return _Outcome(segment, Leaving(guard, place, gaps))
 
     def _hop(self, mode: ModeMachine, entry: Entry) -> float:
-        """How far ahead a contact that has just opened may be expected to be closed again, s.
+        """How far ahead a contact that opened on the way may be expected to be closed again, s.
 
         A short hop within a long step would be lost in the rounding of the long one.
         """
@@ -161,8 +171,8 @@ class Walk:
         state = np.concatenate([entry.coordinates, entry.speeds])
         falls = mode.closing_rates(state, entry.place.time)
         rises = [meeting.velocity[2] for meeting in self._meetings(entry)]
-        hops = [3 * rises[i] / -falls[i] for i in entry.gaps if falls[i] < 0 < rises[i]]
-        return float(min(hops, default=np.inf))
+        hops = [fall_of(gap, rises[i], falls[i]) for i, gap in entry.gaps.items() if falls[i] < 0]
+        return 1.5 * min((hop for hop in hops if hop > 0), default=np.inf)
 
     def _start(self, mode: ModeMachine, entry: Entry) -> dict[Symbol, float]:
         equations = mode.mode.equations
@@ -237,8 +247,17 @@ class Walk:
                 raise painleve(", ".join(e.name for e in mode.sliding), fall.time)
             return replace(part, end=fall.time), watched[fall.guard]
         if solution.stop is Stop.STUCK:
-            raise stuck(solution)
+            raise self._jammed(mode, entry, part) or stuck(solution)
         return part, self._landing(mode, entry, part)
+
+    def _jammed(self, mode: ModeMachine, entry: Entry, part: Part) -> NumericError | None:
+        """Where a part ends because forces grow beyond all bounds: Painlevé's paradox, if it is."""
+        if not mode.can_jam:
+            return None
+        reserves = self._values(mode, entry, part, [])(part.solution.steps)[-1]
+        if reserves[-1] > _JAMMED * np.max(reserves):
+            return None
+        return painleve(", ".join(e.name for e in mode.sliding), part.end)
 
     def _values(
         self, mode: ModeMachine, entry: Entry, part: Part, watched: list[Guard]
@@ -250,18 +269,14 @@ class Walk:
         arguments = (*part.solution.symbols, *mode.dynamics.parameters, CLOCK)
         wanted = [*expressions, *masses]
         function = mode.dynamics.function(wanted, arguments, part.solution.turned)
-        since = entry.place.time
-        leaving = [
-            k
-            for k, guard in enumerate(watched)
-            if guard.kind == "touches down" and index_of(guard, self._machine) in entry.gaps
-        ]
+        leaving = self._leaving(entry, watched)
 
         def values(times: Array) -> Array:
             with np.errstate(all="ignore"):
                 found = function(*part.solution.at(times), *part.constants, times)
             rows = np.array([np.broadcast_to(v, times.shape) for v in found], dtype=float)
-            rows[leaving] /= np.maximum(times - since, 1e-300)
+            for k, rise in leaving.items():
+                rows[k] = rise.mean(rows[k], times)
             own = rows[: len(expressions)]
             if not mode.can_jam:
                 return own
@@ -269,6 +284,16 @@ class Walk:
             return np.vstack([own, np.linalg.det(matrices)])
 
         return values
+
+    def _leaving(self, entry: Entry, watched: list[Guard]) -> dict[int, Rise]:
+        """The guards of contacts that have just opened, and how these rise."""
+        found = {}
+        for k, guard in enumerate(watched):
+            i = index_of(guard, self._machine)
+            if guard.kind == "touches down" and entry.gaps.get(i) == 0.0:
+                meeting = self._meetings(entry)[i]
+                found[k] = Rise(entry.place.time, float(meeting.velocity[2]), meeting.scale)
+        return found
 
     def _looked_at(self, guard: Guard) -> Expr:
         if guard.kind == "touches down" and guard.contact is not None:
@@ -293,13 +318,20 @@ class Walk:
 @dataclass(frozen=True)
 class _Outcome:
     segment: Segment
-    guard: Guard | None
-    place: Place
+    leaving: Leaving
 
     @property
     def interrupted(self) -> bool:
         """Whether who listens had enough."""
         return self.segment.parts[-1].solution.stop is Stop.INTERRUPTED
+
+
+def _settled(guard: Guard, time: float, drive: Drive) -> bool:
+    """Whether a guard that falls where the forces change needs not be looked at beyond.
+
+    Whether a body slips or lifts off there is up to the forces that hold from there on.
+    """
+    return guard.kind == "near-flat" or (guard.kind == "sticks" and time not in drive.jerks)
 
 
 def _undecided(time: float, modes: set[str]) -> NumericError:

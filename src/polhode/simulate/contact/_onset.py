@@ -41,8 +41,7 @@ def onset(
     polars = slip_symbols(contact)
     own = tuple(s for s in mode.dynamics.states if s not in polars and s != WORK)
     symbols = (*own, WORK)
-    motion = mode.mode.equations.kinetics
-    slips = [s.chain(motion.rate) for s in mode.mode.touches[i].slip]
+    slips = mode.slip_changes[2 * i : 2 * i + 2]
     rates = dict(zip(mode.dynamics.states, mode.dynamics.rates, strict=True))
     wanted = [*(rates[s] for s in own), mode.mode.equations.power, *slips]
     turning = (*element.direction, element.slip_speed)  # type: ignore[attr-defined]
@@ -62,10 +61,10 @@ def onset(
 
     start = np.array([*(state[s] for s in symbols), 0.0, angle])
 
-    pull = _grip(mode, start[: len(own)], entry.place.time, i)
+    grip, pull = _pulls(mode, start[: len(own)], entry.place.time, i)
 
     def enough(elapsed: float, reached: Array) -> bool:
-        return pull * elapsed < _STIFF * float(reached[-2])
+        return grip * elapsed < _STIFF * float(reached[-2])
 
     found = creep(polar, start, *span, pull, enough)
 
@@ -82,8 +81,9 @@ def onset(
     return Part(entry.place.time, found.end, solution, constants)
 
 
-def _grip(mode: ModeMachine, state: Array, time: float, i: int) -> float:
-    """How strongly friction pulls at the slip velocity, m/s²."""
+def _pulls(mode: ModeMachine, state: Array, time: float, i: int) -> tuple[float, float]:
+    """How strongly friction pulls at the slip velocity, and that or what else does so, m/s²."""
     along = mode.slip_rates(state, time, [1.0, 0.0, 0.0])[i]
     against = mode.slip_rates(state, time, [-1.0, 0.0, 0.0])[i]
-    return float(np.hypot(*(along - against))) / 2
+    grip, rest = (float(np.hypot(*change)) / 2 for change in (along - against, along + against))
+    return grip, max(grip, rest)

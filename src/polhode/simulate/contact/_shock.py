@@ -4,7 +4,8 @@ The normal impulse p grows; the velocity of the point of contact changes at the 
 the inverse inertia felt there and f the force per normal force: (−μ ŝ, 1) while it slips, what
 keeps it from slipping while it sticks. Compression ends where the normal velocity vanishes,
 restitution where the normal force has given back e² of the work of compression (Stronge), which
-never adds energy.
+never adds energy. W is positive definite: where a shock drives the bodies together (Painlevé's
+paradox) f · W f > 0 makes the slip shrink, so that every shock ends.
 """
 
 from __future__ import annotations
@@ -63,13 +64,20 @@ def rough_shock(felt: Array, velocity: Array, restitution: float) -> Shock:
     return Shock(inertia @ (after - velocity), after, sticks=True)
 
 
-def coulomb_shock(felt: Array, velocity: Array, roughness: Roughness) -> Shock:
+def coulomb_shock(
+    felt: Array, velocity: Array, roughness: Roughness, where: str = "a contact"
+) -> Shock:
     """A shock with Coulomb's friction and Stronge's restitution.
 
+    Args:
+        felt: inverse inertia felt at the point of contact, 1/kg.
+        velocity: of that point before, m/s.
+        where: what an error calls the contact and the instant.
+
     Raises:
-        NumericError: where friction jams and the shock never ends.
+        NumericError: where friction jams and the shock never ends, or slip has no one direction.
     """
-    course = _Course(felt, velocity, roughness)
+    course = _Course(felt, velocity, roughness, where)
     while not course.done:
         course.advance()
     return Shock(course.impulse, course.velocity, course.sticks)
@@ -78,7 +86,8 @@ def coulomb_shock(felt: Array, velocity: Array, roughness: Roughness) -> Shock:
 class _Course:
     """The course of a shock over the normal impulse, phase by phase."""
 
-    def __init__(self, felt: Array, velocity: Array, roughness: Roughness) -> None:
+    def __init__(self, felt: Array, velocity: Array, roughness: Roughness, where: str) -> None:
+        self.where = where
         self.felt = felt
         self.roughness = roughness
         self.velocity = velocity.copy()
@@ -101,8 +110,8 @@ class _Course:
             self._slide()
         if self._phases > _PHASES:
             raise NumericError(
-                "a shock whose friction jams",
-                expected="friction low enough for compression to end",
+                f"a shock at {self.where} that does not end",
+                expected="compression that ends with restitution",
                 advice="lower the friction coefficient",
             )
 
@@ -115,7 +124,7 @@ class _Course:
             self.sticks = True
             self._straight(needed)
             return
-        direction = _onset(self.felt, self.roughness.kinetic)
+        direction = _onset(self.felt, self.roughness.kinetic, self.where)
         self._straight(np.array([*(-self.roughness.kinetic * direction), 1.0]))
 
     def _straight(self, force: Array) -> None:
@@ -149,23 +158,22 @@ class _Course:
             self._slide_straight()
             return
         slip = self.velocity[:2]
+        unit = self._scale
         start = np.array(
             [
-                np.log(np.hypot(*slip) / self._scale),
+                np.log(np.hypot(*slip) / unit),
                 np.arctan2(slip[1], slip[0]),
-                self.velocity[2],
-                *self.impulse,
+                self.velocity[2] / unit,
+                *(self.impulse / unit),
                 0.0,
             ]
         )
         last, turned = self._turning(start)
-        size, angle = self._scale * np.exp(last[0]), last[1]
-        self.velocity = np.array([size * np.cos(angle), size * np.sin(angle), last[2]])
-        self.impulse = last[3:6].copy()
-        if self._compressing:
-            self._stored -= last[6]
-        else:
-            self._stored -= last[6] / self.roughness.restitution**2
+        size, angle = np.exp(last[0]), last[1]
+        self.velocity = unit * np.array([size * np.cos(angle), size * np.sin(angle), last[2]])
+        self.impulse = unit * last[3:6]
+        work = unit**2 * last[6]
+        self._stored -= work if self._compressing else work / self.roughness.restitution**2
         if turned:
             self._turn()
         else:
@@ -175,16 +183,16 @@ class _Course:
         """Slip up to its end, or else to that of compression or restitution (then True).
 
         With the slip ρ (cos ψ, sin ψ) and dp = ρ dτ, log ρ and ψ change at rates that depend on ψ
-        alone: nothing is singular where the slip vanishes, which is at infinite τ. States: log ρ
-        over the velocity before, ψ, normal velocity, impulse, work of the normal impulse.
+        alone: nothing is singular where the slip vanishes, which is at infinite τ. States, in units
+        of the velocity before: log ρ, ψ, normal velocity, impulse, work of the normal impulse.
         """
         from scipy.integrate import solve_ivp  # slow to import, and rarely needed
 
         kinetic = self.roughness.kinetic
-        budget = self.roughness.restitution**2 * self._stored
+        budget = self.roughness.restitution**2 * self._stored / self._scale**2
 
         def rates(_: float, y: Array) -> Array:
-            size, c, s = self._scale * np.exp(y[0]), np.cos(y[1]), np.sin(y[1])
+            size, c, s = np.exp(y[0]), np.cos(y[1]), np.sin(y[1])
             force = np.array([-kinetic * c, -kinetic * s, 1.0])
             x, across, up = self.felt @ force
             along, turning = x * c + across * s, across * c - x * s
@@ -204,7 +212,7 @@ class _Course:
             start,
             method="DOP853",
             rtol=1e-13,
-            atol=1e-15 * self._scale,
+            atol=1e-15,
             events=(stuck, turned),
         )
         return found.y[:, -1], bool(found.t_events[1].size)
@@ -247,7 +255,7 @@ def _is_isotropic(felt: Array) -> bool:
     return bool(even and np.max(np.abs(felt[:2, 2])) <= 1e-14 * size)
 
 
-def _onset(felt: Array, friction: float) -> Array:
+def _onset(felt: Array, friction: float, where: str) -> Array:
     """Direction in which slip grows from nothing during the shock.
 
     Raises:
@@ -273,7 +281,7 @@ def _onset(felt: Array, friction: float) -> Array:
     growing = [angle for angle in found if rate(angle)[0] > 0]
     if len(growing) != 1:
         raise NumericError(
-            f"a shock in which slip can begin in {len(growing)} directions",
+            f"a shock at {where} in which slip can begin in {len(growing)} directions",
             expected="one direction in which slip grows against the friction it brings",
             advice="the rigid body with this friction has no unique motion from here",
         )

@@ -2,24 +2,49 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from polhode.base import NumericError
 from polhode.derive import Guard
-from polhode.model import Coulomb, Phase, Rolling
+from polhode.model import Contact, Coulomb, Phase, Rolling
 from polhode.simulate.contact._machine import Machine
 from polhode.simulate.contact._place import Place
+from polhode.simulate.contact._rise import STILL, fall_of
 from polhode.simulate.contact._settle import Entry, Known, settle
-from polhode.simulate.contact._shock import Roughness, coulomb_shock, rough_shock, smooth_shock
+from polhode.simulate.contact._shock import (
+    Roughness,
+    Shock,
+    coulomb_shock,
+    rough_shock,
+    smooth_shock,
+)
+from polhode.simulate.contact._touching import Meeting
+from polhode.simulate.integrate._integrators import Array
 
 _REBOUND = 1e-13  # of the hardest landing: a rebound that is none
-_STILL = 1e-14  # approach, relative to the velocities it is the difference of, that is none
+_INSTANT = 32  # steps of rounding of the time: a hop that is over sooner is none
+_UNFELT = 1e-12  # of what an impulse does where it acts: what it does elsewhere that is nothing
+
+
+@dataclass(frozen=True)
+class Leaving:
+    """Where a mode ends.
+
+    Attributes:
+        guard: what ended it; None for a jerk of a support.
+        place: the shared state.
+        gaps: heights of the contacts that are open, as they were followed, m.
+    """
+
+    guard: Guard | None
+    place: Place
+    gaps: dict[int, float]
 
 
 class Transitions:
-    """The changes of mode along one motion; remembers the hardest landing.
+    """The changes of mode along one motion; remembers the hardest landing of every contact.
 
     Args:
         machine: the modes.
@@ -27,62 +52,111 @@ class Transitions:
 
     def __init__(self, machine: Machine) -> None:
         self._machine = machine
-        self._hardest = 0.0
+        self._hardest: dict[int, float] = {}
 
-    def next(self, entry: Entry, guard: Guard | None, place: Place) -> tuple[str, Entry]:
+    def next(self, before: Entry, leaving: Leaving) -> tuple[str, Entry]:
         """What happens where a mode ends, and how the motion enters the mode that follows."""
-        apart = frozenset(k for k, phase in enumerate(entry.phases) if phase.flies)
-        if guard is None:
-            self._machine.move_on(place.time)
-            return "jerk", settle(self._machine, place, Known(apart))
-        i = index_of(guard, self._machine)
-        still = frozenset(k for k, phase in enumerate(entry.phases) if phase.rolls)
-        if guard.kind == "touches down":
-            return self._land(entry, place, i, apart)
-        if guard.kind == "lifts off":
-            known = Known(apart | {i}, still - {i}, beyond=beyond(entry.phases))
-            found = settle(self._machine, place, known)
-            return "lifts off", replace(found, gaps={i: 0.0})
-        far = beyond(entry.phases)
-        if guard.kind == "crosses the edge":
-            known = Known(apart, still - {i}, beyond=far ^ {i})
-        elif guard.kind == "slips":
-            known = Known(apart, still - {i}, frozenset({i}), far)
-        else:
-            known = Known(apart, still | {i}, beyond=far)
-        return guard.kind, settle(self._machine, place, known)
+        self._machine.move_on(leaving.place.time)
+        kind, entry, opened = self._next(before, leaving)
+        return kind, replace(entry, gaps=_gaps(before, leaving, entry, opened))
 
-    def _land(self, entry: Entry, place: Place, i: int, apart: frozenset[int]) -> tuple[str, Entry]:
+    def _next(self, before: Entry, leaving: Leaving) -> tuple[str, Entry, int | None]:
+        """Also the contact that opens again at once, if one does."""
+        guard, place = leaving.guard, leaving.place
+        apart = frozenset(k for k, phase in enumerate(before.phases) if phase.flies)
+        if guard is None:
+            return "jerk", settle(self._machine, place, Known(apart)), None
+        i = index_of(guard, self._machine)
+        still = frozenset(k for k, phase in enumerate(before.phases) if phase.rolls)
+        if guard.kind == "touches down":
+            return *self._land(before, place, i), i
+        far = beyond(before.phases)
+        known = {
+            "lifts off": Known(apart | {i}, still - {i}, beyond=far),
+            "crosses the edge": Known(apart, still - {i}, beyond=far ^ {i}),
+            "slips": Known(apart, still - {i}, _starting(before, place) | {i}, far),
+            "sticks": Known(apart, still | {i}, beyond=far),
+        }
+        entry = settle(self._machine, place, known[guard.kind])
+        turned = guard.kind == "sticks" and entry.phases[i].slides
+        return "turns round" if turned else guard.kind, entry, None
+
+    def _land(self, before: Entry, place: Place, i: int) -> tuple[str, Entry]:
         """A shock, then contact or another flight."""
-        contact = self._machine.automaton.contacts[i]
-        if len(apart) < len(entry.phases):
-            raise NumericError(
-                f"{contact.name} lands at t = {place.time:.9g} s while another contact touches",
-                expected="one contact at a time: several shocks at once are not determined",
-                advice="end the motion before that time",
-            )
-        meeting = self._machine.touching.at(place, self._machine.touching.beyond(place))[i]
-        if meeting.velocity[2] >= -_STILL * meeting.scale:
-            return "touches down", settle(self._machine, place, Known(apart - {i}))
-        mass = self._machine.apart.mass(place)
+        machine = self._machine
+        contact = machine.automaton.contacts[i]
+        apart = frozenset(k for k, phase in enumerate(before.phases) if phase.flies)
+        still = frozenset(k for k, phase in enumerate(before.phases) if phase.rolls)
+        meetings = machine.touching.at(place, machine.touching.beyond(place))
+        mass = machine.apart.mass(place)
+        for k, phase in enumerate(before.phases):
+            if not phase.flies and _feel(meetings[k], meetings[i], mass):
+                raise _shared(contact.name, machine.automaton.contacts[k].name, place.time)
+        meeting = meetings[i]
+        slow = STILL * meeting.scale
+        if meeting.velocity[2] > slow:
+            return "touches down", settle(machine, place, Known(apart, still))
+        if meeting.velocity[2] >= -slow:
+            return "touches down", settle(machine, place, Known(apart - {i}, still))
         felt = meeting.arms @ np.linalg.solve(mass, meeting.arms.T)
-        restitution = self._machine.value(contact.restitution)
-        if isinstance(contact, Coulomb):
-            kinetic, static = (self._machine.value(m) for m in (contact.mu, contact.mu_static))
-            shock = coulomb_shock(felt, meeting.velocity, Roughness(kinetic, static, restitution))
-        elif isinstance(contact, Rolling):
-            shock = rough_shock(felt, meeting.velocity, restitution)
-        else:
-            shock = smooth_shock(felt, meeting.velocity, restitution)
+        shock = self._shock(contact, felt, meeting.velocity, place.time)
         work = shock.impulse @ (meeting.support + (meeting.velocity + shock.velocity) / 2)
         change = np.asarray(np.linalg.solve(mass, meeting.arms.T @ shock.impulse), dtype=float)
         after = place.kicked(change, float(work))
-        self._hardest = max(self._hardest, -float(meeting.velocity[2]))
-        if shock.velocity[2] > _REBOUND * self._hardest:
-            bounced = settle(self._machine, after, Known(apart))
-            return "bounces", replace(bounced, gaps={i: 0.0})
-        stuck_ = frozenset({i}) if shock.sticks else frozenset()
-        return "touches down", settle(self._machine, after, Known(apart - {i}, stuck_))
+        hardest = max(self._hardest.get(i, 0.0), -float(meeting.velocity[2]))
+        self._hardest[i] = hardest
+        if shock.velocity[2] > _REBOUND * hardest:
+            bounced = settle(machine, after, Known(apart, still))
+            if self._rises(bounced, i, float(shock.velocity[2])):
+                return "bounces", bounced
+        stuck = still | {i} if shock.sticks else still
+        return "touches down", settle(machine, after, Known(apart - {i}, stuck))
+
+    def _rises(self, bounced: Entry, i: int, speed: float) -> bool:
+        """Whether a contact that bounces is open for longer than the rounding of the time."""
+        state = np.concatenate([bounced.coordinates, bounced.speeds])
+        time = bounced.place.time
+        fall = self._machine.mode(bounced.phases).closing_rates(state, time)[i]
+        return bool(fall >= 0 or fall_of(0.0, speed, fall) > _INSTANT * np.spacing(time))
+
+    def _shock(self, contact: Contact, felt: Array, velocity: Array, time: float) -> Shock:
+        restitution = self._machine.value(contact.restitution)
+        if isinstance(contact, Coulomb):
+            kinetic, static = (self._machine.value(m) for m in (contact.mu, contact.mu_static))
+            roughness = Roughness(kinetic, static, restitution)
+            return coulomb_shock(felt, velocity, roughness, f"{contact.name} at t = {time:.9g} s")
+        if isinstance(contact, Rolling):
+            return rough_shock(felt, velocity, restitution)
+        return smooth_shock(felt, velocity, restitution)
+
+
+def _starting(before: Entry, place: Place) -> frozenset[int]:
+    """The contacts that have begun to slip at this very instant."""
+    return frozenset(before.onset) if before.place.time == place.time else frozenset()
+
+
+def _gaps(before: Entry, leaving: Leaving, entry: Entry, landed: int | None) -> dict[int, float]:
+    """Heights of open contacts: as they were followed, and none where they have just opened."""
+    return {
+        k: leaving.gaps[k] if before.phases[k].flies and k != landed else 0.0
+        for k, phase in enumerate(entry.phases)
+        if phase.flies
+    }
+
+
+def _feel(one: Meeting, other: Meeting, mass: Array) -> bool:
+    """Whether an impulse at one contact is felt at another."""
+    shared = one.arms @ np.linalg.solve(mass, other.arms.T)
+    own = one.arms @ np.linalg.solve(mass, one.arms.T)
+    return bool(np.max(np.abs(shared)) > _UNFELT * np.max(np.abs(own)))
+
+
+def _shared(lands: str, touches: str, time: float) -> NumericError:
+    return NumericError(
+        f"{lands} lands at t = {time:.9g} s while {touches}, which feels it, touches",
+        expected="one contact of connected bodies at a time: shared shocks are not determined",
+        advice="end the motion before that time",
+    )
 
 
 def beyond(phases: tuple[Phase, ...]) -> frozenset[int]:

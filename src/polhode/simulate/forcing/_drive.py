@@ -46,16 +46,21 @@ class Drive:
 
     def until(self, now: float, end: float) -> float:
         """How far the coefficients hold, at most to the end."""
-        place = bisect_right(self._breaks, now)
-        return min(end, self._breaks[place]) if place < len(self._breaks) else end
+        place = bisect_right(self._times, now)
+        return min(end, self._times[place]) if place < len(self._times) else end
 
     @cached_property
-    def _breaks(self) -> list[float]:
-        return sorted({t for p in self.pieces.values() for t in p.breaks})
+    def breaks(self) -> frozenset[float]:
+        """Instants at which coefficients change, s."""
+        return frozenset(t for p in self.pieces.values() for t in p.breaks)
+
+    @cached_property
+    def _times(self) -> list[float]:
+        return sorted(self.breaks)
 
     def stretches(self, end: float) -> Iterator[tuple[float, float]]:
         """Between 0 and the end, from each change of coefficients to the next."""
-        breaks = [t for t in self._breaks if 0 < t < end]
+        breaks = [t for t in self._times if 0 < t < end]
         yield from zip([0.0, *breaks], [*breaks, end], strict=True)
 
 

@@ -1,0 +1,84 @@
+"""Bodies that do not feel each other, in one system: each moves as it would alone."""
+
+import numpy as np
+import pytest
+
+import polhode as ph
+from polhode.derive import Automaton, automaton
+from simulate.contact.balls import on_table
+
+M, A, K, G = ph.symbols("m a k g", positive=True)
+MU, E = ph.symbols("mu e")
+NUMBERS = {"m": 0.05, "a": 0.02, "k": 0.4, "g": 9.81, "mu": 0.1}
+
+
+@pytest.fixture(scope="module")
+def pair() -> Automaton:
+    lab = ph.Frame("lab")
+    touches = []
+    for tag in ("1", "2"):
+        ball = ph.sphere(tag, mass=M, radius=A, inertia=K * M * A**2, axes=lab, tag=tag)
+        touches.append(ph.Coulomb(ball, on=ph.Plane(lab), mu=MU, restitution=E))
+    return automaton(ph.System(*touches, ph.Gravity(G)))
+
+
+def alone(restitution: float, **start: float) -> ph.Trajectory:
+    numbers = NUMBERS | {"mu_s": 0.1, "e": restitution}
+    return ph.simulate(on_table(), numbers, start, 0.6, samples=2)
+
+
+def both(pair: Automaton, restitution: float, **start: float) -> ph.Trajectory:
+    return ph.simulate(pair, NUMBERS | {"e": restitution}, start, 0.6, samples=2)
+
+
+def landings(run: ph.Trajectory) -> np.ndarray:
+    changes = [e for e in run.events if e.kind in ("bounces", "touches down")]
+    return np.array(sorted(float(event.time) for event in changes))
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.3])
+@pytest.mark.parametrize("other", [0.1, 0.2])
+def test_two_balls_that_are_dropped(pair: Automaton, restitution: float, other: float) -> None:
+    """From one height they land at once; from two, one lands while the other rests or rises."""
+    run = both(pair, restitution, z_1=0.1, z_2=other, v_x_1=0.3)
+    single = [alone(restitution, z=0.1, v_x=0.3), alone(restitution, z=other)]
+    expected = np.sort(np.concatenate([landings(one) for one in single]))
+    found = landings(run)
+    early = min(len(found), len(expected), 20)
+    assert np.abs(found[:early] - expected[:early]).max() < 1e-13
+    assert abs(found[-1] - expected[-1]) < 1e-12
+    for name in ("x", "v_x", "omega_y"):
+        for tag, one in zip(("_1", "_2"), single, strict=True):
+            assert abs(run.final[name + tag] - one.final[name]) < 1e-12
+    assert run.drift.energy < 1e-13
+
+
+def test_two_balls_that_slide_alike_stick_at_once(pair: Automaton) -> None:
+    slide = {f"{name}_{tag}": x for tag in "12" for name, x in (("v_x", 1.0), ("omega_y", 0.0))}
+    run = both(pair, 0.0, **slide)
+    assert run.mode == "rolling"
+    assert abs(run.final["v_x_1"] - 5 / 7) < 1e-15
+    assert run.final["v_x_1"] == run.final["v_x_2"]
+
+
+def test_a_shock_that_another_contact_feels_is_refused_by_name() -> None:
+    """Two balls joined by a bar are dropped askew: one rests on the table when the other lands."""
+    length = ph.symbol("L", positive=True)
+    lab = ph.Frame("lab")
+    axes = lab.rotated(ph.coordinate("theta"), "y", labels="1 2 3", name="bar")
+    bar = ph.Body("bar", mass=M, inertia=(0, M * length**2, M * length**2), axes=axes, tag="b")
+    one, two = (ph.sphere(tag, mass=M, radius=A, axes=lab, tag=tag) for tag in "12")
+    half = axes["1"] * (length / 2)
+    nowhere = lab["x"] * 0
+    system = ph.System(
+        ph.Coulomb(one, on=ph.Plane(lab), mu=MU, name="first"),
+        ph.Coulomb(two, on=ph.Plane(lab), mu=MU, name="second"),
+        ph.Pivot(bar, at=-half, to=one.point(nowhere)),
+        ph.Pivot(two, at=nowhere, to=bar.point(half), name="other end", force="R"),
+        ph.Hinge(bar, axis="2"),
+        ph.Gravity(G),
+    )
+    numbers = {"m": 1, "a": 0.1, "g": 9.81, "L": 0.5, "mu": 0.1}
+    start = {"theta": -0.3, "z_1": 0.2, "z_2": 0.2 + 0.5 * np.sin(0.3)}
+    with pytest.raises(ph.NumericError, match=r"second lands .* while first, which feels it"):
+        ph.simulate(system, numbers, start, 1.0)
