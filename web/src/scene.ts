@@ -45,6 +45,7 @@ export interface ShapeData {
   size: number[];
   axis: Triple;
   across: Triple;
+  centre: Triple;
 }
 
 export interface BodyData {

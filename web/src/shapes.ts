@@ -36,6 +36,7 @@ export function bodyObject(body: BodyData, joints: JointData[]): Object3D {
   const build = BUILDERS[body.shape.kind] ?? BUILDERS.ball;
   const shape = build(body.shape.size);
   if (body.shape.kind !== "ellipsoid") shape.quaternion.setFromRotationMatrix(basis(body.shape));
+  shape.position.set(...body.shape.centre);
   group.add(shape);
   const thick = 0.055 * reach(body);
   for (const arm of body.arms) {
@@ -56,7 +57,8 @@ export function bodyObject(body: BodyData, joints: JointData[]): Object3D {
 /** Distance from the centre of mass to the farthest point that is drawn. */
 export function reach(body: BodyData): number {
   const half = ["box", "rod", "racquet"].includes(body.shape.kind) ? 0.5 : 1;
-  return Math.max(half * Math.max(...body.shape.size), ...body.arms.map((arm) => Math.hypot(...arm)));
+  const far = half * Math.max(...body.shape.size) + Math.hypot(...body.shape.centre);
+  return Math.max(far, ...body.arms.map((arm) => Math.hypot(...arm)));
 }
 
 function basis(shape: ShapeData): Matrix4 {

@@ -11,6 +11,7 @@ from polhode.analyse._independence import Independent
 from polhode.analyse._linear_integrals import LinearIntegrals, linear_integrals
 from polhode.base import NumericError
 from polhode.derive import Equations
+from polhode.model import Body, Contact
 
 
 @dataclass(frozen=True)
@@ -115,8 +116,7 @@ def _named(equations: Equations) -> Iterator[Invariant]:
         expression = Expr.generator(speed)
         yield Invariant(speed.published, expression, f"the speed {speed.published}")
     for body in equations.system.bodies:
-        spin = equations.kinetics.velocities[body][1]
-        momentum = Vector(body.inertia.times(spin.components), spin.triad)
+        momentum = _spin(equations, body)
         for label in body.axes.labels:
             meaning = f"angular momentum of {body.name} about its axis {label}"
             yield Invariant(f"L_{label}{body.tag}", momentum.dot(body.axes[label]), meaning)
@@ -126,8 +126,7 @@ def _named(equations: Equations) -> Iterator[Invariant]:
 def _momenta(equations: Equations) -> Iterator[Invariant]:
     root = equations.system.root
     for body in equations.system.bodies:
-        spin = equations.kinetics.velocities[body][1]
-        momentum = Vector(body.inertia.times(spin.components), spin.triad)
+        momentum = _spin(equations, body)
         for label in reversed(root.labels):
             meaning = f"angular momentum of {body.name} about its centre along {label}"
             yield Invariant(f"S_{label}{body.tag}", momentum.dot(root[label]), meaning)
@@ -137,6 +136,17 @@ def _momenta(equations: Equations) -> Iterator[Invariant]:
     yield Invariant("L2", dot(angular.components, angular.components), "angular momentum squared")
     for label in root.labels:
         yield Invariant(f"P_{label}", linear.dot(root[label]), f"linear momentum along {label}")
+    for contact in equations.system.elements:
+        if isinstance(contact, Contact):
+            body = contact.body
+            meaning = f"Jellett's: spin of {body.name} along its line to where it touches"
+            yield Invariant(f"J{body.tag}", -_spin(equations, body).dot(contact.arm), meaning)
+
+
+def _spin(equations: Equations, body: Body) -> Vector:
+    """Angular momentum about the centre of mass."""
+    angular_velocity = equations.kinetics.velocities[body][1]
+    return Vector(body.inertia.times(angular_velocity.components), angular_velocity.triad)
 
 
 def _searched(equations: Equations, ansatz: Ansatz) -> Iterator[Invariant]:

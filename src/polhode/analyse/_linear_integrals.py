@@ -58,9 +58,10 @@ class LinearIntegrals:
         )
 
     def known(self, integrals: Iterable[Expr]) -> int:
-        """How many of the integrals given solve this equation: linear in u, else of θ alone."""
-        rows = (_row(integral, self.speeds, self.angle) for integral in integrals)
-        return sum(row is not None and any(row) for row in rows)
+        """How many of the integrals given are of u and θ alone."""
+        own = {self.angle, *self.speeds}
+        varying = ({s for s in i.symbols() if s.kind.varies} for i in integrals)
+        return sum(bool(symbols) and symbols <= own for symbols in varying)
 
     @cached_property
     def _parameters(self) -> tuple[Symbol, ...]:

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, Vector, principal_root
-from polhode.model._checks import not_negative, positive
+from polhode.model._checks import not_negative, positive, quantity
 from polhode.model._frame import Frame
 
 
@@ -33,18 +33,26 @@ class Surface(ABC):
 
 @dataclass(frozen=True)
 class Round(Surface):
-    """A sphere about the centre of mass."""
+    """A sphere about the centre of mass, or about a point of one of the axes: a tippe top.
+
+    `offset` is the height of its centre along the axis, from the centre of mass.
+    """
 
     radius: Expr
+    axis: str = "3"
+    offset: Expr = ZERO
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "radius", positive(self.radius, "radius"))
+        object.__setattr__(self, "offset", quantity(self.offset, "offset of a sphere"))
 
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
-        return normal * -self.radius
+        if not self.offset:
+            return normal * -self.radius
+        return axes[self.axis] * self.offset - normal.express(axes) * self.radius
 
     def is_symmetric(self, axes: Frame, axis: int) -> bool:
-        return True
+        return not self.offset or axes.position(self.axis) == axis
 
 
 @dataclass(frozen=True)

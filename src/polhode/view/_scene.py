@@ -54,12 +54,14 @@ class Shape:
         size: the lengths named, m.
         axis: unit vector along the body's axes: of symmetry, or the long one.
         across: unit vector along the body's axes, perpendicular to it.
+        centre: from the centre of mass to its middle, along the body's axes, m.
     """
 
     kind: str
     size: tuple[float, ...]
     axis: Triple = (0.0, 0.0, 1.0)
     across: Triple = (1.0, 0.0, 0.0)
+    centre: Triple = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -317,18 +319,19 @@ class Scene:
 
         An array becomes {"shape": [...], "float32": base64 of its numbers, little-endian}.
         """
-        document: dict[str, Any] = _plain(self)
+        document: dict[str, Any] = plain(self)
         return document
 
 
-def _plain(value: Any) -> Any:
+def plain(value: Any) -> Any:
+    """A part of a scene as plain data."""
     if is_dataclass(value):
-        return {f.name: _plain(getattr(value, f.name)) for f in fields(value)}
+        return {f.name: plain(getattr(value, f.name)) for f in fields(value)}
     if isinstance(value, np.ndarray):
         packed = base64.b64encode(value.astype("<f4").tobytes()).decode("ascii")
         return {"shape": list(value.shape), "float32": packed}
     if isinstance(value, tuple | list):
-        return [_plain(item) for item in value]
+        return [plain(item) for item in value]
     if isinstance(value, Mapping):
-        return {str(key): _plain(item) for key, item in value.items()}
+        return {str(key): plain(item) for key, item in value.items()}
     return value

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import singledispatch
+from math import hypot
 
 import numpy as np
 
@@ -28,7 +29,7 @@ def shape_of(body: Body, run: Trajectory) -> Shape:
 def reach_of(shape: Shape) -> float:
     """Distance from the centre of mass to the farthest point, m."""
     halves = {"box": 0.87, "rod": 0.5, "racquet": 0.6}
-    return max(shape.size) * halves.get(shape.kind, 1.0)
+    return max(shape.size) * halves.get(shape.kind, 1.0) + hypot(*shape.centre)
 
 
 @singledispatch
@@ -38,7 +39,12 @@ def _touching(surface: Surface | None, body: Body, run: Trajectory) -> Shape:
 
 @_touching.register
 def _(surface: Round, body: Body, run: Trajectory) -> Shape:
-    return Shape("ball", constants(run, [surface.radius]))
+    radius, offset = constants(run, [surface.radius, surface.offset])
+    if not offset:
+        return Shape("ball", (radius,))
+    axis, across = _directions(body.axes.position(surface.axis))
+    x, y, z = (offset * part for part in axis)
+    return Shape("ball", (radius,), axis, across, (x, y, z))
 
 
 @_touching.register

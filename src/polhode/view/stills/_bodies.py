@@ -35,7 +35,7 @@ def body_mesh(body: SceneBody) -> Mesh:
 def _mesh(shape: Shape, held: tuple[Triple, ...]) -> Mesh:
     mesh = _BUILDERS.get(shape.kind, _ball)(*shape.size)
     if shape.kind != "ellipsoid":
-        mesh = mesh.placed(_basis(shape), np.zeros(3))
+        mesh = mesh.placed(_basis(shape), np.array(shape.centre))
     thick = _AXLE * max([reach_of(shape), *(float(np.linalg.norm(arm)) for arm in held)])
     arms = [np.array(arm) for arm in held if any(arm)]
     rods = [rod_between(np.zeros(3), arm, thick / 2, METAL) for arm in arms]
