@@ -70,6 +70,8 @@ SCIPY_DISKS = ("peers/scipy_disks.py",)
 DIFFRAX_DISKS = ("peers/diffrax_disks.py",)
 KANE_DISK = ("peers/kane_disk.py",)
 KANE_GYROSCOPE = ("peers/kane_gyroscope.py",)
+OUR_CONTACT = ("ours/contact.py", "--task")
+SCIPY_CONTACT = ("peers/contact_scipy.py", "--task")
 PYDY = ("peers/pydy_disk.py",)
 PYDY_CYTHON = ("peers/pydy_disk.py", "--generator", "cython")
 PYDY_ODEINT = ("peers/pydy_disk.py", "--integrator", "odeint")
@@ -81,6 +83,12 @@ def derivation(name: str, ours: Command, peer: Command, aim: Aim, effort: str = 
 
 def process(name: str, ours: Command, peer: Command, aim: Aim) -> Comparison:
     return Comparison(name, Figure(ours, "wall"), Figure(peer, "wall"), aim)
+
+
+def contact(name: str, task: str) -> Comparison:
+    """Both at rounding; errors at other costs: contact.py."""
+    ours, peer = (Figure((*side, task), "seconds") for side in (OUR_CONTACT, SCIPY_CONTACT))
+    return Comparison(f"{name} / SciPy events", ours, peer, times_less(100))
 
 
 COMPARISONS = (
@@ -99,6 +107,9 @@ COMPARISONS = (
     derivation("each of 2048 disks / bare heyoka", OUR_DISKS, BARE_DISKS, times_less(0.9)),
     derivation("each of 2048 disks / SciPy", OUR_DISKS, SCIPY_DISKS, times_less(100)),
     derivation("each of 2048 disks / diffrax", OUR_DISKS, DIFFRAX_DISKS, times_less(20)),
+    contact("ball on a sheet", "sheet"),
+    contact("ball that slides", "slide"),
+    contact("disk that slips", "disk"),
     process("10 s of disk, cold / PyDy", OUR_COLD_RUN, PYDY, times_less(4)),
     process("10 s of disk, warm / PyDy", OUR_WARM_RUN, PYDY, times_less(8)),
     process("10 s of disk, cold / PyDy cython", OUR_COLD_RUN, PYDY_CYTHON, times_less(4)),
