@@ -226,19 +226,25 @@ def test_axe_finds_no_serious_fault(visit):
             assert not serious, json.dumps(serious, indent=1)[:3000]
 
 
+def is_followed(response):
+    return response.ok and response.url.endswith("/follow")
+
+
 def test_the_sheet_is_dragged_shared_and_restored_on_a_phone(visit, tmp_path):
     """The velocity returns; the address of it opens the same on a telephone."""
     with visit("#system=ball-on-paper") as shown:
         page = shown.page
-        page.get_by_role("button", name="Drag the sheet").click()
+        with page.expect_response(is_followed):
+            page.get_by_role("button", name="Drag the sheet").click()
         box = page.locator(".picture").bounding_box()
         x, y = box["x"] + 0.5 * box["width"], box["y"] + 0.6 * box["height"]
         page.mouse.move(x, y)
         page.mouse.down()
         before = shown.picture(tmp_path)
-        for step in range(6):
-            page.mouse.move(x + 20 * step, y + 5 * step)
-            page.wait_for_timeout(30)
+        with page.expect_response(is_followed):  # the ball goes with the sheet as it is pulled
+            for step in range(6):
+                page.mouse.move(x + 20 * step, y + 5 * step)
+                page.wait_for_timeout(30)
         assert differing(shown.picture(tmp_path), before) > 200
         with answered(shown):
             page.mouse.up()

@@ -50,3 +50,8 @@ export function digits(value: number, count = 4): string {
   const raised = [...String(Number(exponent))].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)] ?? "⁻").join("");
   return `${Number(mantissa)}·10${raised}`.replace(/^-/, "−");
 }
+
+/** Powers raised, as in m/s². */
+export function raised(text: string): string {
+  return text.replace(/\^(\d)/g, (_, digit: string) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)]);
+}

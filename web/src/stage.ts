@@ -23,7 +23,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Arrow } from "./arrows";
 import { Link } from "./links";
 import { Pose } from "./pose";
-import { type ArrowKind, Rows, type SceneData, type Triple } from "./scene";
+import { type ArrowKind, Rows, type SceneData, type SupportData, type Triple } from "./scene";
 import { bodyObject, bracket, post, reach } from "./shapes";
 import { Grounds } from "./supports";
 import { Trace } from "./traces";
@@ -33,6 +33,7 @@ const FAR = 5.5; // reaches of the body that are in view when it is followed
 // Usual lengths of the longest arrows, in reaches: unlike, so that parallel ones are told apart.
 const ARROW: Record<ArrowKind, number> = { force: 2.4, load: 2.4, torque: 1.9, omega: 1.5, momentum: 1.9 };
 const SPIKE = 12; // largest over usual length, beyond which the usual one no longer decides
+const WIDE = 60; // reaches by which a sheet is wider while a hand pulls it
 const LIFT = 0.05; // of a floor below what stands on it, in reaches
 
 export class Stage {
@@ -56,7 +57,8 @@ export class Stage {
   private readonly up: Vector3;
   private readonly place = new Vector3();
   private readonly fitting = new ResizeObserver(() => this.fit());
-  private readonly sheets: Object3D[] = [];
+  private readonly sheets: { pose: Pose; object: Object3D; support: SupportData }[] = [];
+  private dark = false;
   private frame = 0;
   private waiting = false;
   private released = false;
@@ -143,10 +145,37 @@ export class Stage {
     return hit && hit.toArray();
   }
 
-  /** Draw sheets away from where they are at this time, m. */
+  /** Leave out what belongs to the motion as it was, on wide sheets: a hand makes another of it. */
+  bare(): void {
+    for (const arrow of this.arrows) arrow.group.visible = false;
+    for (const trace of this.traces) trace.line.removeFromParent();
+    for (const sheet of this.sheets) {
+      const { reach } = sheet.support;
+      const wide: [number, number] = [reach[0] + WIDE * this.reach, reach[1] + WIDE * this.reach];
+      sheet.object.visible = false;
+      sheet.object = this.grounds.surface({ ...sheet.support, reach: wide }, this.grid());
+      this.world.add(sheet.object);
+    }
+    this.grounds.theme(this.dark);
+  }
+
+  /** Draw bodies as other poses have them. */
+  put(poses: Pose[], frame: number): void {
+    poses.forEach((pose, i) => {
+      this.poses[i] = pose;
+      pose.apply(frame, this.moving[i].object);
+    });
+    this.frame = frame;
+    if (this.follow) this.chase();
+    this.draw();
+  }
+
+  /** Draw sheets away from where they are at the start, m. */
   shift(by: Triple): void {
-    this.seekFrame();
-    for (const sheet of this.sheets) sheet.position.add(new Vector3(...by));
+    for (const { pose, object } of this.sheets) {
+      pose.apply(0, object);
+      object.position.add(new Vector3(...by));
+    }
     this.draw();
   }
 
@@ -202,6 +231,7 @@ export class Stage {
   }
 
   theme(dark: boolean): void {
+    this.dark = dark;
     this.grounds.theme(dark);
     for (const trace of this.traces) trace.theme(dark);
     this.draw();
@@ -308,17 +338,22 @@ export class Stage {
   }
 
   private addGrounds(): void {
-    const grid = 1.2 * Math.max(this.reach, this.follow ? 0 : 0.35 * this.radius);
+    const grid = this.grid();
     for (const support of this.scene.supports) {
       const object = this.grounds.surface(support, grid);
       this.carriers.push(object);
       this.world.add(object);
       const pose = new Pose(support.pose);
       this.moving.push({ pose, object });
-      if (support.kind === "sheet") this.sheets.push(object);
+      if (support.kind === "sheet") this.sheets.push({ pose, object, support });
       if (support.kind === "sheet") this.addTable(pose, Math.max(...support.reach) + this.radius, grid);
     }
     if (this.scene.floor !== null) this.addFloor(this.scene.floor, grid);
+  }
+
+  /** About how far the lines on the ground are apart, m. */
+  private grid(): number {
+    return 1.2 * Math.max(this.reach, this.follow ? 0 : 0.35 * this.radius);
   }
 
   private addTable(pose: Pose, width: number, grid: number): void {

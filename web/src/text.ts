@@ -1,6 +1,6 @@
 // What the page says in formulas, numbers and words.
 
-import { digits, formula, make } from "./dom";
+import { digits, formula, make, raised } from "./dom";
 import type { FormulaData, JudgementData, NumberData, SceneData } from "./scene";
 
 export function heading(scene: SceneData): HTMLElement {
@@ -51,17 +51,11 @@ function numbers(rows: NumberData[], count = 4): HTMLElement[] {
       "tr",
       {},
       make("th", { scope: "row" }, symbol ? formula(symbol) : name),
-      make("td", { class: "number" }, digits(value, count), " ", raised(unit)),
-      make("td", {}, meaning),
+      make("td", { class: "number" }, digits(value, count), " ", raised(unit.replace(/^1$/, ""))),
+      make("td", {}, raised(meaning)),
     ),
   );
   return [make("table", {}, make("tbody", {}, ...lines))];
-}
-
-function raised(unit: string): string {
-  return unit
-    .replace(/^1$/, "")
-    .replace(/\^(\d)/g, (_, digit: string) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)]);
 }
 
 function evidence(scene: SceneData): HTMLElement[] {

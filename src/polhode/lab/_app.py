@@ -27,6 +27,7 @@ from polhode.lab._work import DONE
 _PURPOSES = {  # of the worker that a task is for
     "describe": "motion",
     "run": "motion",
+    "follow": "motion",
     "standing": "study",
     "claims": "claims",
     "judge": "claims",
@@ -101,7 +102,9 @@ async def _answer(request: Request, task: str, crew: Crew, limits: Limits) -> Re
     except PolhodeError as error:
         return _problem(400, error.given, error.expected, error.advice)
     purpose = _PURPOSES[task]
-    seconds = {"run": limits.motion, "export": limits.file}.get(task, limits.thought)
+    seconds = {"run": limits.motion, "follow": limits.motion, "export": limits.file}.get(
+        task, limits.thought
+    )
     gone = asyncio.Event()
     watch = asyncio.create_task(_watch(request, gone))
     try:
@@ -117,6 +120,12 @@ async def _answer(request: Request, task: str, crew: Crew, limits: Limits) -> Re
     finally:
         watch.cancel()
     return _whole(task, body, reply)
+
+
+def _seconds(task: str, limits: Limits) -> float:
+    """How long a task may take."""
+    own = {"run": limits.motion, "follow": limits.motion, "export": limits.file}
+    return own.get(task, limits.thought)
 
 
 async def _watch(request: Request, gone: asyncio.Event) -> None:

@@ -10,7 +10,7 @@ from typing import Any
 from polhode.base import Progress
 from polhode.lab._claims import answered, claims_about, judged
 from polhode.lab._controls import with_usual_numbers
-from polhode.lab._describe import described, outcome, shown
+from polhode.lab._describe import described, followed, outcome, shown
 from polhode.lab._desk import Desk
 from polhode.lab._exports import exported
 from polhode.lab._files import KINDS
@@ -51,6 +51,7 @@ class Bench:
         return {
             "describe": self._describe,
             "run": self._run,
+            "follow": self._follow,
             "standing": self._standing,
             "claims": self._claims,
             "judge": self._judge,
@@ -76,6 +77,10 @@ class Bench:
         played = self._desk(wish.system).play(wish, self._progress)
         scene = shown(played.variant, played.run)
         return _json({"scene": scene.as_json(), "outcome": outcome(played.run)})
+
+    def _follow(self, fields: Fields) -> bytes:
+        wish = wish_of(fields.only(*_WISH))
+        return _json(followed(self._desk(wish.system).play(wish, self._progress).run))
 
     def _standing(self, fields: Fields) -> bytes:
         wish = wish_of(fields.only(*_WISH))

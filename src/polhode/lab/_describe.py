@@ -10,8 +10,9 @@ from polhode.algebra import Expr, Symbol
 from polhode.lab._controls import parameters_of, start_of
 from polhode.lab._variants import Variant, declared_contact
 from polhode.simulate import Trajectory
-from polhode.view import Scene, scene
+from polhode.view import Scene, poses, scene
 
+_RATE = 30  # poses in a second of what follows a hand
 _CONTACTS = ("rolling", "smooth", "friction")
 
 
@@ -52,6 +53,12 @@ def shown(chosen: Variant, run: Trajectory) -> Scene:
         plots=plots_of(chosen, run),
         meanings={parameter.name: parameter.meaning for parameter in entry.parameters},
     )
+
+
+def followed(run: Trajectory) -> dict[str, Any]:
+    """Where the bodies are, and no more, for a picture that follows a hand."""
+    frames = 1 + max(1, round(_RATE * run.duration))
+    return {"duration": run.duration, "frames": frames, "poses": poses(run, frames)}
 
 
 def plots_of(chosen: Variant, run: Trajectory) -> Sequence[Sequence[str]]:

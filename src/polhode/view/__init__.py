@@ -9,6 +9,7 @@ from polhode.view._page import page as page
 from polhode.view._page import page_of as page_of
 from polhode.view._scene import Judgement as Judgement
 from polhode.view._scene import Scene as Scene
+from polhode.view._scene_build import poses as poses
 from polhode.view._scene_build import scene as scene
 from polhode.view._typeset import typeset as typeset
 from polhode.view.figures._run import figure_of_run as figure_of_run

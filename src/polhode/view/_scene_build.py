@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from math import ceil
+from typing import Any
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from polhode.derive import Equations
 from polhode.model import Body
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array, equations_of
-from polhode.view._scene import Judgement, Link, Scene, SceneBody, Support, Triple
+from polhode.view._scene import Judgement, Link, Scene, SceneBody, Support, Triple, plain
 from polhode.view._scene_along import constants, vectors
 from polhode.view._scene_bodies import arrows_of, bodies_of
 from polhode.view._scene_joints import joints_of, links_of
@@ -90,6 +91,14 @@ def scene(
         judgements=tuple(judgements),
         origin=origin_of_scene(run),
     )
+
+
+def poses(run: Trajectory, frames: int) -> list[dict[str, Any]]:
+    """Where the bodies are at equally spaced instants, as `Scene.as_json` puts it: a scene of
+    little else is made while one waits.
+    """
+    t = np.linspace(0.0, run.duration, frames)
+    return [plain(body.pose) for body in bodies_of(run, (), t)]
 
 
 def _frames(run: Trajectory) -> int:

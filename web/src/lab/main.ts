@@ -28,7 +28,7 @@ class Lab {
   private sliders: Slider[] = [];
   private readonly player = new Player();
   private readonly claims = new Claims();
-  private readonly drag = new SheetDrag(this.player, (rows) => this.dragged(rows));
+  private readonly drag = new SheetDrag(this.player, (rows, seconds) => ({ ...this.wish(), sheet: rounded(rows), duration: `${seconds.toFixed(2)} s` }), (rows) => this.dragged(rows));
   private readonly title = make("h1", {}, "polhode lab");
   private readonly about = make("p", { class: "about" });
   private readonly choice = make("select", { "aria-label": "System" });
@@ -173,8 +173,10 @@ class Lab {
   }
 
   private dragged(rows: Row[]): void {
-    this.state.sheet = rows.map(([t, x, y]) => [Math.round(t * 100) / 100, Math.round(x * 1e4) / 1e4, Math.round(y * 1e4) / 1e4]);
-    this.state.duration = `${(rows[rows.length - 1][0] + AFTER).toFixed(2)} s`;
+    if (rows.length > 4) {
+      this.state.sheet = rounded(rows);
+      this.state.duration = `${(rows[rows.length - 1][0] + AFTER).toFixed(2)} s`;
+    }
     this.drag.arm(false);
     if (this.described) this.describe(this.described);
     this.eager = true;
@@ -229,6 +231,11 @@ class Lab {
     this.player.theatre.classList.toggle("busy", busy);
     this.player.theatre.setAttribute("aria-busy", String(busy));
   }
+}
+
+/** A path to a hundredth of a second and a tenth of a millimetre. */
+function rounded(rows: Row[]): Row[] {
+  return rows.map(([t, x, y]) => [Math.round(t * 100) / 100, Math.round(x * 1e4) / 1e4, Math.round(y * 1e4) / 1e4]);
 }
 
 /** Velocity at the start and at the end, and whether they are the same. */

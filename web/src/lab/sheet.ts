@@ -1,22 +1,49 @@
-// Dragging the sheet: the path of the pointer over the ground, while it is held down.
+// Dragging the sheet: the path of the pointer over the ground, while it is held down. Meanwhile the
+// ball is shown as the path so far, the sheet coming to rest after it, has it roll.
 
 import { make } from "../dom";
+import { Pose } from "../pose";
+import type { PoseData, Triple } from "../scene";
+import { ask } from "./ask";
 import type { Player } from "./player";
 import type { Row } from "./types";
 
 const LONGEST = 12; // s
 const STEP = 1 / 60; // s between rows
+const AHEAD = 2; // s that the ball is followed beyond the path so far
+const STILL: Row[] = [[0, 0, 0], [0.1, 0, 0]];
+
+interface Followed {
+  duration: number;
+  frames: number;
+  poses: PoseData[];
+}
+
+/** What the ball does on the sheet, as far as it is known by now. */
+interface Course {
+  duration: number;
+  frames: number;
+  poses: Pose[];
+}
 
 /** A button that lets the pointer pull the sheet instead of turning the view. */
 export class SheetDrag {
   readonly button = make("button", { type: "button", class: "switch drag", "aria-pressed": "false" }, "Drag the sheet");
   private rows: Row[] = [];
-  private origin: number[] = [0, 0];
+  private hand = { x: 0, y: 0 };
+  private gripped = { x: 0, y: 0 };
   private began = 0;
   private pulling = false;
+  private course: Course | null = null;
+  private following = new AbortController();
 
+  /**
+   * @param wish what is to be asked for, with a path of the sheet and a duration.
+   * @param done takes the path of the sheet once it is let go; it may be too short to mean anything.
+   */
   constructor(
     private readonly player: Player,
+    private readonly wish: (rows: Row[], duration: number) => object,
     private readonly done: (rows: Row[]) => void,
   ) {
     this.button.addEventListener("click", () => this.arm(this.button.getAttribute("aria-pressed") !== "true"));
@@ -35,34 +62,82 @@ export class SheetDrag {
     this.button.setAttribute("aria-pressed", String(on));
     this.player.picture.classList.toggle("dragging", on);
     if (this.player.stage) this.player.stage.turns = !on;
+    if (on && !this.pulling) void this.follow(STILL);
   }
 
   private grip(event: PointerEvent): void {
-    const place = this.armed && this.player.stage?.groundAt(event.clientX, event.clientY);
-    if (!place) return;
+    if (!this.armed || !this.player.stage?.groundAt(event.clientX, event.clientY)) return;
     event.stopPropagation();
     this.player.clock?.pause();
     this.player.clock?.seek(0);
     this.player.picture.setPointerCapture(event.pointerId);
+    this.player.stage.bare();
     this.pulling = true;
-    this.origin = place;
+    this.hand = this.gripped = { x: event.clientX, y: event.clientY };
     this.began = performance.now();
     this.rows = [[0, 0, 0]];
+    requestAnimationFrame(this.step);
   }
 
   private pull(event: PointerEvent): void {
-    const place = this.pulling && this.player.stage?.groundAt(event.clientX, event.clientY);
-    if (!place) return;
+    if (this.pulling) this.hand = { x: event.clientX, y: event.clientY };
+  }
+
+  /** How far the sheet is from where it was gripped; a camera that follows the ball is of no account. */
+  private moved(): Triple | null {
+    const { stage } = this.player;
+    const from = stage?.groundAt(this.gripped.x, this.gripped.y);
+    const to = stage?.groundAt(this.hand.x, this.hand.y);
+    return from && to ? [to[0] - from[0], to[1] - from[1], 0] : null;
+  }
+
+  private readonly step = (): void => {
+    if (!this.pulling) return;
     const time = (performance.now() - this.began) / 1000;
-    const [x, y] = [place[0] - this.origin[0], place[1] - this.origin[1]];
+    const by = this.moved();
+    if (by && time - this.rows[this.rows.length - 1][0] >= STEP) this.rows.push([time, by[0], by[1]]);
+    if (by) this.show(time, by);
     if (time > LONGEST) this.release();
-    else if (time - this.rows[this.rows.length - 1][0] >= STEP) this.rows.push([time, x, y]);
-    this.player.stage?.shift([x, y, 0]);
+    else requestAnimationFrame(this.step);
+  };
+
+  private show(time: number, by: Triple): void {
+    const { stage } = this.player;
+    if (this.course) {
+      const { poses, frames, duration } = this.course;
+      stage?.put(poses, Math.min(time / duration, 1) * (frames - 1));
+    }
+    stage?.shift(by);
+  }
+
+  /** Ask what the ball does, again and again while the sheet is pulled; one question at a time. */
+  private async follow(rows: Row[]): Promise<void> {
+    this.following.abort();
+    const { signal } = (this.following = new AbortController());
+    let path = rows;
+    while (this.armed && !signal.aborted) {
+      try {
+        const duration = path[path.length - 1][0] + AHEAD;
+        const found = await ask<Followed>("follow", this.wish(path, duration), signal);
+        this.course = { ...found, poses: found.poses.map((pose) => new Pose(pose)) };
+      } catch {
+        if (signal.aborted) return; // what the ball does is then told once the sheet is let go
+      }
+      while (this.armed && !signal.aborted && !(this.pulling && this.rows.length > 2)) await pause();
+      path = [...this.rows];
+      await pause();
+    }
   }
 
   private release(): void {
     if (!this.pulling) return;
     this.pulling = false;
-    if (this.rows.length > 4) this.done(this.rows);
+    this.following.abort();
+    this.course = null;
+    this.done(this.rows);
   }
+}
+
+function pause(): Promise<void> {
+  return new Promise((done) => setTimeout(done, 30));
 }

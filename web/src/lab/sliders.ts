@@ -1,6 +1,6 @@
 // Sliders with a field each: a number with its unit, or a formula of other parameters.
 
-import { digits, formula, make } from "../dom";
+import { digits, formula, make, raised } from "../dom";
 import type { Control } from "./types";
 
 const FINENESS = 1000; // positions of a slider
@@ -22,11 +22,11 @@ export class Slider {
   ) {
     this.low = control.low;
     this.high = control.high;
-    const called = control.meaning || control.name;
+    const called = raised(control.meaning) || control.name;
     this.range = make("input", { type: "range", min: 0, max: FINENESS, step: 1, "aria-label": `${control.name}, ${called}` });
     this.field = make("input", { type: "text", spellcheck: "false", autocomplete: "off", "aria-label": `${control.name}: value with unit` });
     const label = make("span", { class: "what", title: called }, formula(control.symbol));
-    const meaning = control.meaning ? [make("small", {}, control.meaning)] : [];
+    const meaning = control.meaning ? [make("small", {}, raised(control.meaning))] : [];
     this.row = make("div", { class: "slider", "data-name": control.name }, label, this.range, this.field, ...meaning);
     this.range.addEventListener("input", () => this.slid());
     this.field.addEventListener("change", () => this.typed());

@@ -1,0 +1,74 @@
+"""How long the lab takes from a slider's change to the new picture, for every system, in Chromium.
+
+Prints, for each system of the catalogue with its default numbers, the time from opening it to its
+first picture, and the median, least and largest time from moving a slider to the frame in which the
+new motion is drawn; of this, what the server took. In milliseconds.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+ROOT = Path(__file__).parents[1]
+sys.path.insert(0, str(ROOT / "tests"))
+
+from playwright.sync_api import sync_playwright  # noqa: E402
+
+from browser.chromium import ARGUMENTS, find_chromium  # noqa: E402
+from polhode.catalogue import CATALOGUE  # noqa: E402
+
+CHANGES = 8
+PATIENCE = 120_000  # ms
+HEADINGS = ("opens", "median", "least", "largest", "server")
+
+# Moves the first slider a little, and waits until the answer's frame has been painted.
+CHANGE = """async (step) => {
+  const slider = document.querySelector(".slider input[type=range]");
+  const before = document.body.dataset.answers;
+  const began = performance.now();
+  slider.value = String(Number(slider.value) + (step % 2 ? 7 : -6));
+  slider.dispatchEvent(new Event("input", { bubbles: true }));
+  while (document.body.dataset.answers === before) await new Promise(requestAnimationFrame);
+  await new Promise(requestAnimationFrame);
+  const ended = performance.now();
+  const asked = performance.getEntriesByType("resource").findLast((r) => /run$/.test(r.name));
+  return [ended - began, asked.responseEnd - asked.requestStart];
+}"""
+
+
+def main() -> None:
+    command = [sys.executable, "-m", "polhode", "lab", "--no-browser", "--port", "0"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as serving:
+        assert serving.stdout is not None
+        found = re.search(r"http://\S+/", serving.stdout.readline())
+        assert found
+        with sync_playwright() as playwright:
+            browser = playwright.chromium.launch(
+                executable_path=find_chromium(), args=list(ARGUMENTS)
+            )
+            print(f"{'system':28}", *(f"{heading:>7}" for heading in HEADINGS))
+            for name in CATALOGUE:
+                print(f"{name:28}", *(f"{t:7.0f}" for t in measured(browser, found[0], name)))
+            browser.close()
+        serving.terminate()
+
+
+def measured(browser: Any, address: str, name: str) -> tuple[float, ...]:
+    """Times to open, and median, least and largest to change; the server's median; all ms."""
+    page = browser.new_page(viewport={"width": 1280, "height": 800})
+    page.goto(f"{address}#system={name}")
+    page.wait_for_selector("body[data-ready]", timeout=PATIENCE)
+    opens = page.evaluate("performance.now()")
+    times = [page.evaluate(CHANGE, step) for step in range(CHANGES)]
+    page.close()
+    whole, server = zip(*times[1:], strict=True)
+    return opens, median(whole), min(whole), max(whole), median(server)
+
+
+if __name__ == "__main__":
+    main()
