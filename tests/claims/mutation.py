@@ -10,7 +10,7 @@ from random import Random
 
 from claims.mutants import Mutant, mutants
 from claims.oracle import JUDGED, Oracle
-from polhode.algebra import Expr, Vector
+from polhode.algebra import Expr, Symbol, Vector
 from polhode.base import PolhodeError
 from polhode.catalogue import CATALOGUE, problem_set
 from polhode.claims import Answer, Claim, Document, Notation, read_document
@@ -139,6 +139,8 @@ def _try(original: Original, oracle: Oracle, mutant: Mutant, counts: Counts) -> 
         counts.enter("without meaning", mutant.slip)
         return
     true = oracle.is_true(asked) if said[0] == said[1] else None
+    if true and _undetermined(asked):
+        true = None  # the oracle has picked one of the many ways that supports may share a load
     if true is None:
         counts.enter("set aside", mutant.slip)
         return
@@ -164,6 +166,13 @@ def _try(original: Original, oracle: Oracle, mutant: Mutant, counts: Counts) -> 
         what = "repaired otherwise" if first is not None else "not repaired"
         counts.enter(what, mutant.slip)
         counts.unlike.append(f"{where} -> {first and first.latex}")
+
+
+def _undetermined(asked: Asked) -> bool:
+    """Whether the claim speaks of reactions that Newton's laws leave open."""
+    open_ = {Symbol(n) for n, e in asked.equations.components.items() if e.symbol == Symbol(n)}
+    sides = (side for c in asked.components() for side in (c.left, c.right))
+    return any(open_ & side.symbols() for side in sides)
 
 
 def _verdict(original: Original, latex: str):

@@ -198,6 +198,11 @@ class Notation:
         """Letters of the text, with their dots, that a correction may use."""
         return tuple(dict.fromkeys(self.vocabulary.letters()))
 
+    @property
+    def vectors(self) -> tuple[Node, ...]:
+        """Letters that may stand for vectors, and that a correction may use."""
+        return tuple(self.vocabulary.vectors())
+
 
 def letter(latex: str) -> Node:
     """The one quantity that a piece of LaTeX prints."""

@@ -11,7 +11,7 @@ from polhode.algebra import Expr, Kind, Symbol, Vector, pi, time
 from polhode.claims._meaning import BindingError, Meaning, dot, positive_root
 from polhode.claims._mechanics import Mechanics
 from polhode.claims._phrases import quantity
-from polhode.claims.latex._tree import At, Component, Differential, Dots, Name, Node
+from polhode.claims.latex._tree import At, Call, Component, Differential, Dots, Name, Node
 from polhode.derive import Equations
 from polhode.model import Contact, Element, Gravity, Pivot
 
@@ -139,12 +139,24 @@ class Vocabulary:
         return self.mechanics.equations.system.name
 
     def letters(self) -> Iterator[Node]:
-        """Scalar letters with their dots, and vectors, that a text on this system may use."""
+        """Letters of the text, scalars with their dots, and functions of the angles."""
+        yield from (node for node in self.told if isinstance(node, Name))
         for name, value in self.mechanics.scalars.items():
             symbol = value.symbol
             if symbol is not None and symbol.order < 3:
                 yield name_of(name)
-        yield from (node for node in self.told if isinstance(node, Name))
+        frames = self.mechanics.frames.values()
+        angles = (frame.angle.symbol for frame in frames if frame.angle.symbol is not None)
+        for angle in dict.fromkeys(angles):
+            if angle.kind is Kind.COORDINATE:
+                yield from (Call(name, name_of(angle.published)) for name in ("sin", "cos"))
+
+    def vectors(self) -> Iterator[Node]:
+        """Letters of vectors that a text on this system may use, those of the text first."""
+        named = (node for node, _ in automatic(self.mechanics))
+        for node in dict.fromkeys([*self.told, *named]):
+            if isinstance(node, Name) and node.decoration != _HAT:
+                yield node
 
 
 #: How else a letter may have been printed, likeliest first.

@@ -43,6 +43,11 @@ class Edit:
     node: Node
     size: float
 
+    @property
+    def inserts(self) -> bool:
+        """Whether it brings letters in, which may just be those of the other side."""
+        return self.what in ("missing factor", "missing term", "wrong symbol")
+
 
 def edits(place: Place, match: Match) -> Iterator[Edit]:
     """Ways to write that a place is to be multiplied by a matched factor."""
@@ -159,6 +164,16 @@ def replaced_by(place: Place, known: Mapping[Node, bool]) -> Iterator[Edit]:
             )
 
 
+def replaced(place: Place, node: Node, size: float) -> Edit:
+    """Something else put at a place."""
+    return Edit(_exchange(place.node, node), place.path, node, size)
+
+
+def dotted(node: Node) -> Node:
+    """With one dot more."""
+    return Dots(node.of, node.count + 1) if isinstance(node, Dots) else Dots(node, 1)
+
+
 def _exchange(old: Node, new: Node) -> str:
     if isinstance(old, Call) and isinstance(new, Call):
         same = old.function == new.function
@@ -197,6 +212,17 @@ def _bare(node: Node) -> Node:
 
 def _dots(node: Node) -> int:
     return node.count if isinstance(node, Dots) else 0
+
+
+def times_match(match: Match, *nodes: Node) -> Node:
+    """Nodes multiplied by a matched factor."""
+    above = [raised(node, p) for node, p in match.powers if p > 0]
+    below = [raised(node, -p) for node, p in match.powers if p < 0]
+    number = abs(match.number)
+    top = times(Number(str(number.numerator)), *above)
+    factor = over(top, times(Number(str(number.denominator)), *below))
+    term = times(factor, *nodes)
+    return negated(term) if match.number < 0 else term
 
 
 def number_node(value: Fraction) -> Node:

@@ -89,7 +89,9 @@ def scalar(array: Array) -> Figure:
 
 def together(figures: Sequence[Figure]) -> Figure:
     """Several of one rank as trials of one."""
-    return Figure(figures[0].rank, np.concatenate([f.array for f in figures], axis=-2))
+    shape = np.broadcast_shapes(*(figure.array.shape for figure in figures))
+    alike = [np.broadcast_to(figure.array, shape) for figure in figures]
+    return Figure(figures[0].rank, np.concatenate(alike, axis=-2))
 
 
 _FUNCTIONS: Mapping[str, Callable[[Array], Array]] = {

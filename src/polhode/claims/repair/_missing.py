@@ -4,20 +4,40 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from itertools import islice
+
+import numpy as np
 
 from polhode.algebra import ONE, Expr, Symbol, Vector, factors
 from polhode.base import PolhodeError
-from polhode.claims.latex._tree import Components, Derivative, Name, Node, Root, Sum
-from polhode.claims.repair._edits import Edit, letters, number_node, relabelled, turned
-from polhode.claims.repair._places import Place, added, negated, over, places, put, raised, times
-from polhode.claims.repair._trials import Trials
+from polhode.claims.latex._tree import (
+    Call,
+    Components,
+    Cross,
+    Derivative,
+    Dot,
+    Dots,
+    Name,
+    Node,
+    Number,
+    Power,
+    Root,
+    Sum,
+)
+from polhode.claims.repair._edits import Edit, number_node, times_match
+from polhode.claims.repair._figures import scalar
+from polhode.claims.repair._places import ONE as ONE_NODE
+from polhode.claims.repair._places import Place, added, negated, over, put, raised, times
+from polhode.claims.repair._products import products
+from polhode.claims.repair._tally import UNKNOWN
+from polhode.claims.repair._vector_terms import vector_terms
 from polhode.claims.repair._workpiece import Workpiece
 
 _UNKNOWN = Symbol("missing")
 _LETTER = "missing"
 _LARGEST_SIZE = 12
 _LONGEST_SUM = 4
-_UPRIGHT = Name("z", decoration="hat")
+_MOST_MATCHES = 5
 
 
 def missing_terms(
@@ -26,42 +46,66 @@ def missing_terms(
     """Terms to be added to a side, or to whatever can be a sum inside it."""
     if not _takes_terms(place, inner):
         return
-    yield from _whole_vectors(work, place, members)
-    directions = _directions(work, place)
-    for direction in work.might_lack(place, directions, members):
-        lost = _lost(work, place, direction, members)
-        if lost is not None:
-            yield from _written(place, direction, lost, _quantities(work), work.tried)
+    deep = 0.05 if isinstance(place.parent, Node) else 0.0
+    for term in _terms(work, place, members):
+        size = 2.0 + deep + _length(term) / 20
+        yield Edit("missing term", place.path, added(place.node, term), size)
 
 
-def _whole_vectors(work: Workpiece, place: Place, members: Sequence[int]) -> Iterator[Edit]:
-    """Vectors of the text that make it right when added or taken away."""
-    if not isinstance(work.value(place.node), Vector):
-        return
-    own = dict.fromkeys(n for p in places(work.statement) for n in letters(p.node))
-    bold = [n for n in own if isinstance(n, Name) and n.decoration != "hat"]
-    whole = [n for n in bold if isinstance(work.value(n), Vector)]
-    sums = [added(place.node, term) for node in whole for term in (node, negated(node))]
-    for node in work.fitting(place, sums, members):
-        yield Edit("missing term", place.path, node, 2.0)
+def _terms(work: Workpiece, place: Place, members: Sequence[int]) -> Iterator[Node]:
+    value = work.value(place.node)
+    if isinstance(value, Expr):
+        yield from _along(work, place, None, members)
+    elif isinstance(value, Vector):
+        for direction in work.directions:
+            yield from _along(work, place, direction, members)
+        yield from vector_terms(work, place, members)
+
+
+def _along(
+    work: Workpiece, place: Place, direction: Node | None, members: Sequence[int]
+) -> Iterator[Node]:
+    """Terms along one direction, or scalar ones."""
+    tail = [] if direction is None else [direction]
+    try:
+        unit = (
+            scalar(np.ones(work.tried.bench.size))
+            if direction is None
+            else work.tally.of(direction)
+        )
+        amount = work.tally.amounts(place, unit, members)[0]
+    except UNKNOWN:
+        amount = None
+    if amount is not None:
+        if not np.isfinite(amount).all():
+            return
+        for match in islice(products(amount, work.known), _MOST_MATCHES):
+            yield times_match(match, *tail)
+    lost = _lost(work, place, direction, members)
+    if lost is not None:
+        yield from _written(work, lost, tail)
+
+
+def _length(node: Node) -> int:
+    """How many letters a term has, powers counted; directions and signs do not count."""
+    match node:
+        case Power(base, Number(text)) if text.isdigit():
+            return _length(base) * int(text)
+        case Name(decoration="hat"):
+            return 0
+        case Number("1"):
+            return 0
+        case Call() | Name() | Dots() | Number():
+            return 1
+    rate = isinstance(node, Derivative | Cross)
+    return rate + sum(_length(part) for part in node.parts if isinstance(part, Node))
 
 
 def _takes_terms(place: Place, inner: Collection[Place]) -> bool:
     """Whether a term may be lost there: of a side, a sum, or where a factor could make it right."""
     whole = not isinstance(place.parent, Node)
-    inside = isinstance(place.parent, Derivative | Root | Components)
+    inside = isinstance(place.parent, Derivative | Root | Components | Cross | Dot)
     return whole or inside or isinstance(place.node, Sum) or place in inner
-
-
-def _directions(work: Workpiece, place: Place) -> list[Node | None]:
-    """The unit vectors a missing term may go along; none for a scalar."""
-    value = work.value(place.node)
-    if not isinstance(value, Vector):
-        return [] if value is None else [None]
-    own = [n for p in places(work.statement) for n in letters(p.node)]
-    wide = [*own, *work.reading.names, _UPRIGHT, *(other for n in own for other in relabelled(n))]
-    named = (n for n in wide if isinstance(n, Name) and n.decoration == "hat")
-    return [n for n in dict.fromkeys(named) if isinstance(work.value(n), Vector)]
 
 
 def _lost(
@@ -88,41 +132,18 @@ def _lost(
     return found
 
 
-Quantities = Mapping[Node, Expr]
-
-
-def _quantities(work: Workpiece) -> Quantities:
-    own = [n for place in places(work.statement) for n in letters(place.node)]
-    other = [t for n in own if (t := turned(n)) is not None]
-    wide = dict.fromkeys([*own, *other, *work.reading.names])
-    found = ((node, work.value(node)) for node in wide)
-    return {node: value for node, value in found if isinstance(value, Expr) and value}
-
-
-def _written(
-    place: Place, direction: Node | None, lost: Expr, known: Quantities, tried: Trials
-) -> Iterator[Edit]:
+def _written(work: Workpiece, lost: Expr, tail: Sequence[Node]) -> Iterator[Node]:
     """A missing term in the letters of the text, with one quantity of the motion at most."""
+    known = {node: value for node, value in work.vocabulary.items() if value is not None}
     plain = {e: n for n, e in reversed(list(known.items()))}
-    moving: list[tuple[Node | None, Expr]] = [(None, ONE)]
-    for node, value in known.items():
-        settled = tried.states.on(value)
-        if settled and settled != value:
-            moving.append((node, settled))
-    for factor, value in moving:
+    settled = {node: work.tried.states.on(value) for node, value in known.items()}
+    moving = [(node, v) for node, v in settled.items() if v and v != known[node]]
+    for factor, value in [(ONE_NODE, ONE), *moving]:
         product = _product(lost / value, plain)
-        if product is None:
-            continue
-        number, above, below = product
-        extra = [factor] if factor is not None else []
-        size = len(above) + len(below) + len(extra)
-        if size > _LARGEST_SIZE:
-            continue
-        tail = [direction] if direction is not None else []
-        term = times(_fraction(abs(number), (*above, *extra), below), *tail)
-        term = negated(term) if number < 0 else term
-        yield Edit("missing term", place.path, added(place.node, term), 2.0 + size / 20)
-        return
+        if product is not None and len(product[1]) + len(product[2]) < _LARGEST_SIZE:
+            number, above, below = product
+            term = times(_fraction(abs(number), (*above, factor), below), *tail)
+            yield negated(term) if number < 0 else term
 
 
 def _product(

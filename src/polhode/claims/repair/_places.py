@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import count
 
 from polhode.claims.latex._tree import (
+    Derivative,
     Negative,
     Node,
     Number,
@@ -49,6 +50,11 @@ class Place:
     def is_exponent(self) -> bool:
         """Whether it says to which power something is raised."""
         return isinstance(self.parent, Power) and self.path[-1] == 1
+
+    @property
+    def is_variable(self) -> bool:
+        """Whether a partial derivative is taken with respect to it."""
+        return isinstance(self.parent, Derivative) and self.parent.partial and self.path[-1] == 1
 
 
 def places(statement: Statement) -> Iterator[Place]:

@@ -26,3 +26,8 @@ class Reading(Protocol):
     def names(self) -> tuple[Node, ...]:
         """Letters of the text, with their dots, that a correction may use."""
         ...
+
+    @property
+    def vectors(self) -> tuple[Node, ...]:
+        """Letters that may stand for vectors, and that a correction may use."""
+        ...

@@ -2,31 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 
-from polhode.algebra import ZERO, Expr, Symbol, Vector
+from polhode.algebra import ZERO, Expr, Symbol
 from polhode.base import PolhodeError
 from polhode.claims._asked import Asked
 from polhode.claims._numeric import Array
 from polhode.claims.latex._tree import (
     Call,
-    Cross,
     Dots,
     Name,
-    Node,
     Power,
     Product,
     Quotient,
     Statement,
-    walk,
 )
-from polhode.claims.repair._edits import Edit, edits, letters, relabelled, replaced_by, turned
+from polhode.claims.repair._edits import Edit, dotted, edits, replaced, replaced_by
 from polhode.claims.repair._figures import scalar
+from polhode.claims.repair._formal import is_empty, says_nothing
 from polhode.claims.repair._links import Links
 from polhode.claims.repair._missing import missing_terms
 from polhode.claims.repair._multiplier import (
@@ -51,6 +49,7 @@ _LETTER = "multiplier"
 
 _CLOSE = 1e-8
 _EQUALLY_SMALL = 0.15
+_ONE_EDIT = 1.9  # what is larger may be undercut by a missing term
 _TRIED = 12
 _MOST_EDITS = 4
 _MOST_INNER = 8
@@ -85,40 +84,52 @@ def repaired(
         workshop = _Workshop(repair, reading, context)
         if not workshop.failing:
             return ()
-        found = workshop.corrected(workshop.failing)
-        whole = [r for r in found if _sound(r, workshop.failing, reading, holds)]
+        whole: list[Repaired] = []
+        for found in workshop.corrected(workshop.failing):
+            whole += [r for r in found if _sound(r, workshop.failing, reading, holds)]
+            telling = [r for r in whole if _tells(r, reading)]
+            if any(r.size - repair.size < _ONE_EDIT for r in telling):
+                break
         if whole:
-            return _smallest(whole)
-        first = workshop.corrected(workshop.failing[:1])
-        if not first:
+            return _smallest(telling or whole)
+        first = _begun(workshop)
+        if first is None:
             return ()
-        repair = first[0]
+        repair = first
     return ()
 
 
+def _begun(workshop: _Workshop) -> Repaired | None:
+    """Some of the members corrected: with one place changed if that can be, else with more."""
+    pairs = [pair for pair in pairwise(workshop.failing) if pair[1] == pair[0] + 1]
+    groups = [*pairs, *((member,) for member in workshop.failing)]
+    stages = [workshop.corrected(group) for group in groups]
+    found = (repairs for _ in range(2) for stage in stages if (repairs := next(stage)))
+    return next((repairs[0] for repairs in found), None)
+
+
+def _tells(repair: Repaired, reading: Reading) -> bool:
+    """Whether it says more than that something is what it is."""
+    inserted = [change.path for change in repair.changes if change.inserts]
+    return not any(says_nothing(repair.statement, (p[0], p[1]), reading) for p in inserted)
+
+
 def _sound(repair: Repaired, failing: Sequence[int], reading: Reading, holds: Holds) -> bool:
-    if _says_nothing(repair.statement):
+    if is_empty(repair.statement):
         return False
     grown = any(change.what == "missing term" for change in repair.changes)
     try:
         asked = reading.asked(repair.statement, {})
-        cancelled = grown and any(_is_empty(asked, member) for member in failing)
+        cancelled = grown and any(_vanishes(asked, member) for member in failing)
         return not cancelled and holds(asked)
     except (PolhodeError, ArithmeticError):
         return False
 
 
-def _is_empty(asked: Asked, member: int) -> bool:
+def _vanishes(asked: Asked, member: int) -> bool:
     """Whether both sides of a member vanish by themselves."""
     sides = (c for c in asked.components() if c.member == member)
     return not any(c.left or c.right for c in sides)
-
-
-def _says_nothing(statement: Statement) -> bool:
-    """Whether some member has the same on both sides, or a vector is crossed with itself."""
-    sides = (tuple(map(tidied, relation.sides)) for relation in statement.relations)
-    same = any(one == other for chain in sides for one, other in pairwise(chain))
-    return same or any(isinstance(p, Cross) and p.left == p.right for p in walk(statement))
 
 
 def _smallest(found: Sequence[Repaired]) -> tuple[Repaired, ...]:
@@ -162,23 +173,59 @@ class _Workshop:
         bad = np.abs(self._values).max(axis=1, initial=0.0) > _CLOSE * size
         return tuple(dict.fromkeys(m for m, off in zip(self._members, bad, strict=True) if off))
 
-    def corrected(self, targets: Sequence[int]) -> list[Repaired]:
-        """Statements in which these members hold, and those that held before still do."""
+    def corrected(self, targets: Sequence[int]) -> Iterator[list[Repaired]]:
+        """Statements in which these members hold, and those that held before still do.
+
+        First those with one place changed, then those with several, or with a term more.
+        """
         kept = (frozenset(self._members) - set(self.failing)) | set(targets)
         open_ = [p for p in places(self._statement) if self._links.cost(p, targets) is not None]
-        found: list[tuple[Edit, ...]] = []
-        responses = {p: r for p in open_ if (r := self._response(p, kept)) is not None}
         able = [p for p in open_ if self._links.members(p).issuperset(targets)]
-        for place in able:
-            cost = self._links.cost(place, targets) or 0.0
-            fitting = self._at(place, responses.get(place), kept)
-            found += [(replace(edit, size=edit.size + cost),) for edit in fitting]
-        if not found:
-            found += fitted(responses)
-            inner = [p for p in able if p in responses and self._can_take_terms(p, responses[p])]
-            found += [(edit,) for edit in self._missing(able, kept, inner[:_MOST_INNER])]
-        smallest = sorted(map(self._applied, found), key=lambda repair: repair.size)
-        return smallest[:_TRIED]
+        responses = {p: r for p in able if (r := self._response(p, kept)) is not None}
+        costs = {p: self._links.cost(p, targets) or 0.0 for p in able}
+        yield self._ranked(
+            (replace(edit, size=edit.size + costs[place]),)
+            for place in able
+            for edit in self._at(place, responses.get(place), kept)
+        )
+        inner = [p for p in able if p in responses and self._can_take_terms(p, responses[p])]
+        missing = (
+            (replace(edit, size=edit.size + costs[place]),)
+            for place in able
+            for edit in self._missing(place, kept, inner[:_MOST_INNER])
+        )
+        chains = {side[0] for target in targets for side in self._links.sides(target)}
+        others = [p for p in places(self._statement) if p.relation in chains and p not in able]
+        whole = responses | {p: r for p in others if (r := self._response(p, kept)) is not None}
+        throughout = self._throughout(kept)
+        yield self._ranked([*throughout, *map(self._late, fitted(whole)), *missing])
+
+    def _late(self, changes: tuple[Edit, ...]) -> tuple[Edit, ...]:
+        """Changes of earlier sides of a chain are the dearer ones."""
+        last = [len(self._statement.relations[change.path[0]].sides) for change in changes]
+        extra = [0.02 * (n - change.path[1]) for n, change in zip(last, changes, strict=True)]
+        return tuple(replace(c, size=c.size + e) for c, e in zip(changes, extra, strict=True))
+
+    def _throughout(self, kept: Collection[int]) -> Iterator[tuple[Edit, ...]]:
+        """One slip made everywhere: what is differentiated by has lost its dot."""
+        found = [p for p in places(self._statement) if p.is_variable]
+        for letter in dict.fromkeys(p.node for p in found):
+            alike = [p for p in found if p.node == letter]
+            changes = tuple(replaced(p, dotted(p.node), 1 / len(alike)) for p in alike)
+            if self._hold(self._applied(changes).statement, kept):
+                yield changes
+
+    def _hold(self, changed: Statement, kept: Collection[int]) -> bool:
+        try:
+            left = self._tried.left(self._reading.asked(changed, {}), kept)
+            return bool(np.abs(self._tried.bench.values(left)).max(initial=0.0) < _CLOSE * 1e2)
+        except UNKNOWN:
+            return False
+
+    def _ranked(self, found: Iterable[tuple[Edit, ...]]) -> list[Repaired]:
+        ordered = sorted(map(self._applied, found), key=lambda repair: repair.size)
+        different = {tidied(r.statement): r for r in reversed(ordered)}
+        return list(reversed(different.values()))[:_TRIED]
 
     def _applied(self, changes: Sequence[Edit]) -> Repaired:
         changed = self._statement
@@ -213,7 +260,7 @@ class _Workshop:
 
     def _at(self, place: Place, response: Response | None, kept: Collection[int]) -> Iterator[Edit]:
         node = place.node
-        if isinstance(node, Name | Dots) and self._vocabulary.get(node, ZERO) is None:
+        if isinstance(node, Name | Dots) and self._work.vocabulary.get(node, ZERO) is None:
             yield from self._vectors(place, kept)
         if response is None:
             return
@@ -221,16 +268,15 @@ class _Workshop:
             yield from edits(place, Match(number))
         factor = multiplier(response)
         if factor is not None:
-            for match in matches(factor, self._known):
+            for match in matches(factor, self._work.known):
                 yield from edits(place, match)
             yield from self._exchanged(place, factor)
 
     def _missing(
-        self, able: Sequence[Place], kept: Collection[int], inner: Collection[Place]
+        self, place: Place, kept: Collection[int], inner: Collection[Place]
     ) -> Iterator[Edit]:
-        for place in able:
-            members = sorted(self._links.members(place) & set(kept))
-            yield from missing_terms(self._work, place, members, inner)
+        members = sorted(self._links.members(place) & set(kept))
+        return missing_terms(self._work, place, members, inner)
 
     def _can_take_terms(self, place: Place, response: Response) -> bool:
         """Whether it is a factor or the like, and could be made right by another value."""
@@ -240,47 +286,15 @@ class _Workshop:
 
     def _exchanged(self, place: Place, factor: Array) -> Iterator[Edit]:
         """Other letters whose value is what the place would have to be."""
-        known = dict(self._known)
+        known = dict(self._work.known)
         if place.node in known:
             wanted = factor * known[place.node]
-            fitting = {n: True for n, v in self._known if np.allclose(v, wanted, rtol=_CLOSE)}
+            fitting = {n: True for n, v in self._work.known if np.allclose(v, wanted, rtol=_CLOSE)}
             yield from replaced_by(place, fitting)
 
     def _vectors(self, place: Place, kept: Collection[int]) -> Iterator[Edit]:
         """Other vectors put in the place of one."""
-        others = [n for n in self._other_vectors if n != place.node]
+        others = [n for n in self._work.other_vectors if n != place.node]
         members = sorted(self._links.members(place) & set(kept))
         fitting = self._work.fitting(place, others, members)
         yield from replaced_by(place, dict.fromkeys(fitting, True))
-
-    @cached_property
-    def _vocabulary(self) -> dict[Node, Expr | None]:
-        """Letters of the claim and of the text, and the scalars they stand for."""
-        own = [n for place in places(self._statement) for n in letters(place.node)]
-        turns = [t for n in own if (t := turned(n)) is not None]
-        indexed = [other for n in own for other in relabelled(n)]
-        wide = [*own, *turns, *indexed, *self._reading.names]
-        return {node: self._scalar(node) for node in dict.fromkeys(wide)}
-
-    def _scalar(self, node: Node) -> Expr | None:
-        value = self._work.value(node)
-        return value if isinstance(value, Expr) and value else None
-
-    @cached_property
-    def _known(self) -> list[tuple[Node, Array]]:
-        scalars = {n: e for n, e in self._vocabulary.items() if e is not None}
-        found = []
-        for node, expression in scalars.items():
-            try:
-                (values,) = self._tried.bench.values([expression])
-            except (KeyError, PolhodeError, ArithmeticError, ValueError):
-                continue
-            if np.isfinite(values).all() and values.all():
-                found.append((node, values))
-        return found
-
-    @cached_property
-    def _other_vectors(self) -> list[Node]:
-        named = (n for n, e in self._vocabulary.items() if e is None and isinstance(n, Name | Dots))
-        bold = (n for n in named if isinstance(self._work.value(n), Vector))
-        return [n for n in bold if not self._work.vanishes(n)]

@@ -73,22 +73,24 @@ class Tally:
         holds = np.abs(rows).max(axis=(0, 2)) < _CLOSE
         return [node for i, node in enumerate(others) if holds[i]]
 
-    def amount(self, place: Place, direction: Node | None, members: Sequence[int]) -> Array | None:
-        """How much is missing at a place along a direction, state by state; None if it is not that.
+    def amounts(self, place: Place, terms: Figure, members: Sequence[int]) -> Array:
+        """How much of each of some terms is missing at a place: (terms, states), or not a number.
 
         Raises `NumericError` where what is left does not change evenly with what is added.
         """
-        there = self.of(place.node)
-        step = scalar(np.ones(self._bench.size)) if direction is None else self.of(direction)
-        tried = together([there, there + step, there + step + step])
-        rest, one, two = np.moveaxis(self.rows(place, tried, members), 1, 0)
-        slope = one - rest
-        if not np.allclose(two - one, slope, rtol=_CLOSE, atol=_CLOSE):
+        there, axes = self.of(place.node), _axes(terms.rank)
+        tried = [there, *(there + axis for axis in axes), there + axes[0] + axes[0]]
+        rest, *steps, twice = np.moveaxis(self.rows(place, together(tried), members), 1, 0)
+        slopes = np.array([step - rest for step in steps])
+        if not np.allclose(twice - rest, 2 * slopes[0], rtol=_CLOSE, atol=_CLOSE):
             raise NumericError("a change", expected="one in proportion to what is added")
+        parts = terms.array.reshape(len(axes), *terms.array.shape[-2:])
+        effects = np.einsum("irs,its->trs", slopes, parts)
         with np.errstate(all="ignore"):
-            amount = -(slope * rest).sum(axis=0) / (slope * slope).sum(axis=0)
-        left = np.abs(rest + slope * amount).max(initial=0.0)
-        return amount if left <= _CLOSE * (1 + np.abs(rest).max(initial=0.0)) else None
+            found = -(effects * rest).sum(axis=1) / (effects * effects).sum(axis=1)
+        left = np.abs(rest + effects * found[:, None]).max(axis=(1, 2))
+        fits = left <= _CLOSE * (1 + np.abs(rest).max())
+        return np.where(fits[:, None], found, np.nan)
 
     def _left(self, member: int, side: tuple[int, int], changed: Figure) -> Array:
         first, second = self._links.sides(member)
@@ -128,3 +130,10 @@ class Tally:
             entries = [matrix[i, j] for i, j in product(range(3), range(3))]
             self._turns[key] = self._bench.values(entries).reshape(3, 3, -1)
         return self._turns[key]
+
+
+def _axes(rank: int) -> list[Figure]:
+    """The unit scalar, or unit vectors."""
+    size = 3**rank
+    shape = (*(3,) * rank, 1, 1)
+    return [Figure(rank, np.eye(size)[i].reshape(shape)) for i in range(size)]

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from polhode.algebra import Expr, Vector
 from polhode.claims._components import Side
-from polhode.claims.latex._tree import Node, Statement
-from polhode.claims.repair._places import Place, put
+from polhode.claims._numeric import Array
+from polhode.claims.latex._tree import Derivative, Dots, Name, Node, Statement
+from polhode.claims.repair._edits import letters, relabelled, turned
+from polhode.claims.repair._figures import Figure
+from polhode.claims.repair._places import Place, places, put
 from polhode.claims.repair._reading import Reading
 from polhode.claims.repair._tally import UNKNOWN, Tally
 from polhode.claims.repair._trials import Trials
 
 _CLOSE = 1e-7
+_UPRIGHT = Name("z", decoration="hat")
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +46,7 @@ class Workpiece:
         except UNKNOWN:
             return None
 
-    def vanishes(self, node: Node) -> bool:
+    def _vanishes(self, node: Node) -> bool:
         """Whether a vector is zero in these circumstances, so that it can stand for anything."""
         value = self.value(node)
         return isinstance(value, Vector) and not any(map(self.tried.states.on, value.components))
@@ -68,15 +73,70 @@ class Workpiece:
         """What must vanish for some members of a changed statement, exactly."""
         return self.tried.left(self.reading.asked(changed, extra), members)
 
-    def might_lack(
-        self, place: Place, directions: Sequence[Node | None], members: Sequence[int]
-    ) -> Iterator[Node | None]:
-        """Directions along which something may be missing at a place, as far as numbers tell."""
-        for direction in directions:
+    # -- letters ---------------------------------------------------------------------------------
+
+    @cached_property
+    def own(self) -> tuple[Node, ...]:
+        """Letters and functions of the statement."""
+        found = (n for place in places(self.statement) for n in letters(place.node))
+        return tuple(dict.fromkeys(found))
+
+    @cached_property
+    def vocabulary(self) -> dict[Node, Expr | None]:
+        """Letters of the claim and of the text, and the scalars they stand for."""
+        turns = [t for n in self.own if (t := turned(n)) is not None]
+        indexed = [other for n in self.own for other in relabelled(n)]
+        wide = dict.fromkeys([*self.own, *turns, *indexed, *self.reading.names])
+        return {node: self._scalar(node) for node in wide}
+
+    def _scalar(self, node: Node) -> Expr | None:
+        value = self.value(node)
+        return value if isinstance(value, Expr) and value else None
+
+    @cached_property
+    def known(self) -> list[tuple[Node, Array]]:
+        """Values of the scalars, of those that never vanish."""
+        found = []
+        for node in (n for n, e in self.vocabulary.items() if e is not None):
             try:
-                amount = self.tally.amount(place, direction, members)
+                values = self.tally.of(node).array[0]
             except UNKNOWN:
-                yield direction
-            else:
-                if amount is not None and np.isfinite(amount).all():
-                    yield direction
+                continue
+            if np.isfinite(values).all() and values.all():
+                found.append((node, values))
+        return found
+
+    @cached_property
+    def other_vectors(self) -> list[Node]:
+        """Vectors of the claim and of the text that do not vanish."""
+        named = (n for n, e in self.vocabulary.items() if e is None and isinstance(n, Name | Dots))
+        bold = (n for n in named if isinstance(self.value(n), Vector))
+        return [n for n in bold if not self._vanishes(n)]
+
+    @cached_property
+    def directions(self) -> list[Node]:
+        """Unit vectors along which a term may stand."""
+        wide = [*self.own, *self.reading.names, _UPRIGHT]
+        wide += [other for n in self.own for other in relabelled(n)]
+        named = (n for n in wide if isinstance(n, Name) and n.decoration == "hat")
+        return [n for n in dict.fromkeys(named) if isinstance(self.value(n), Vector)]
+
+    @cached_property
+    def vectors(self) -> dict[Node, Figure]:
+        """Different vectors a missing term may be formed of, with their figures."""
+        found: dict[Node, Figure] = {}
+        for node in dict.fromkeys([*self.own, *self.reading.vectors]):
+            if isinstance(node, Name) and isinstance(self.value(node), Vector):
+                self._enter(node, found)
+        for node in tuple(found):
+            self._enter(Derivative(node, Name("t")), found)
+        return found
+
+    def _enter(self, node: Node, found: dict[Node, Figure]) -> None:
+        try:
+            figure = self.tally.of(node)
+        except UNKNOWN:
+            return
+        finite = np.isfinite(figure.array).all() and np.abs(figure.array).max() > _CLOSE
+        if finite and not any(np.allclose(figure.array, f.array) for f in found.values()):
+            found[node] = figure
