@@ -1,5 +1,7 @@
 """Stability against classical thresholds, and every threshold against the motion itself."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from scipy.optimize import brentq
@@ -143,6 +145,21 @@ def test_rolling_hoops_and_rims():
     square = across * mass * g * radius / inertia
     assert condition.expression.subs({s["omega_3"]: sqrt(square)}) == 0
     assert square.subs({across: mass * radius**2 / 2, along: mass * radius**2}) == g / (4 * radius)
+
+
+def test_a_conical_pendulum_is_stable_at_every_tilt():
+    mass, length, g = ph.symbols("m l g", positive=True)
+    theta, phi = ph.coordinates("theta phi")
+    axes = ph.Frame("lab").rotated(phi, "z").rotated(theta, "x", labels="1 2 3")
+    bob = ph.point_mass("bob", mass=mass, axes=axes)
+    derived = ph.derive(ph.System(ph.Pivot(bob, at=axes["3"] * length), ph.Gravity(g)))
+    (family,) = (f for f in steady(derived) if f.relations)
+    found = stability(family)
+    assert found.truth is Truth.ALWAYS
+    (frequency,) = found.frequencies
+    turning = g / (length * cos(theta))
+    small = frequency.subs({theta.symbol: pi / 3, phi.dt().symbol: sqrt(turning)})
+    assert small.subs({theta.symbol: pi / 3}) ** 2 == Fraction(7, 2) * g / length
 
 
 def test_middle_axis_is_unstable():

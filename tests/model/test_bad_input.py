@@ -324,6 +324,31 @@ REFUSALS: dict[str, Refusal] = {
         CONSTRAINT,
         ("nothing supplies the couple", "brick", "Hinge, Guide, Universal or Motor"),
     ),
+    "a spring that begins at a place": (
+        lambda: ph.Spring(LAB.zero, wheel().point(), stiffness=1),
+        DECLARATION,
+        ("start of 'spring'", "a BodyPoint", "body.point()"),
+    ),
+    "a damper that ends at a body": (
+        lambda: ph.Damper(wheel().point(), wheel("other"), damping=1),
+        DECLARATION,
+        ("end of 'damper'", "a BodyPoint", "a place from the origin"),
+    ),
+    "a force on a body, at no point of it": (
+        lambda: ph.Force(wheel(), LAB["x"]),
+        DECLARATION,
+        ("point of 'force'", "a BodyPoint"),
+    ),
+    "a couple without direction": (
+        lambda: ph.Torque(wheel(), m),
+        DECLARATION,
+        ("'torque'", "a Vector", "along a frame"),
+    ),
+    "a body to be derived": (
+        lambda: ph.derive(wheel()),
+        DECLARATION,
+        ("derive of", "a System"),
+    ),
     "motion that nothing resists": (
         lambda: ph.derive(ph.System(ph.Pivot(ph.point_mass("p", mass=m, axes=AXES)))).accelerations,
         NUMERIC,

@@ -15,7 +15,7 @@ from polhode.algebra._expression import ONE, Expr
 from polhode.algebra._factored import content, over_cosines, rational
 from polhode.algebra._generators import Generator
 from polhode.algebra._ring import Polynomial
-from polhode.algebra._roots import Root, is_positive
+from polhode.algebra._roots import Root, is_plainly_positive
 from polhode.algebra._squares import in_shortest_squares
 
 K = TypeVar("K")
@@ -44,7 +44,7 @@ def gathered(number: Rational, powers: Mapping[Generator, int]) -> Radicals:
     sizes = {f: roots[root] for root, f in absolute.items() if f is not None}
     sizes, others = _with_squares_of_sizes(sizes, others)
     plain = {root: p for root, p in roots.items() if absolute[root] is None}
-    safe = {root: p for root, p in plain.items() if is_positive(root.radicand)}
+    safe = {root: p for root, p in plain.items() if is_plainly_positive(root.radicand)}
     loose = {root: p for root, p in plain.items() if root not in safe}
     if list(loose.values()) == [1]:
         safe, loose = plain, {}

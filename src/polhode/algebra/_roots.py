@@ -13,6 +13,7 @@ from polhode.algebra._expression import ONE, Expr, ExprLike
 from polhode.algebra._forms import shortest
 from polhode.algebra._generators import Generator, Rate, Symbol
 from polhode.algebra._ring import Polynomial, Ring
+from polhode.algebra._squares import in_shortest_squares
 from polhode.base import NumericError
 
 
@@ -75,7 +76,7 @@ def sqrt(x: ExprLike) -> Expr:
     if x.is_zero:
         return x
     number, powers = factors(x)
-    known = {f: e for f, e in powers.items() if is_positive(f)}
+    known = {f: e for f, e in powers.items() if is_plainly_positive(f)}
     open_ = {f: e for f, e in powers.items() if f not in known and e % 2}
     squares = {f: e for f, e in powers.items() if f not in known and not e % 2}
     result = _root_of_number(abs(number))
@@ -93,9 +94,9 @@ def principal_root(x: ExprLike) -> Expr:
     """
     x = Expr.of(x)
     number, powers = factors(x)
-    if number <= 0 or any(e % 2 for f, e in powers.items() if not is_positive(f)):
+    if number <= 0 or any(e % 2 for f, e in powers.items() if not is_plainly_positive(f)):
         return sqrt(x)
-    halves = (sqrt(f) ** e if is_positive(f) else f ** (e // 2) for f, e in powers.items())
+    halves = (sqrt(f) ** e if is_plainly_positive(f) else f ** (e // 2) for f, e in powers.items())
     return prod(halves, start=_root_of_number(number))
 
 
@@ -109,14 +110,28 @@ def absolute(x: ExprLike) -> Expr:
 
 
 def _size(factor: Expr) -> Expr:
-    if is_positive(factor):
+    if is_plainly_positive(factor):
         return factor
-    return -factor if is_positive(-factor) else _root(factor * factor)
+    return -factor if is_plainly_positive(-factor) else _root(factor * factor)
 
 
 def is_positive(x: Expr) -> bool:
-    """Whether it is seen to be positive from the signs of its terms."""
+    """Whether it is seen to be positive from the signs of its terms.
+
+    With cos² for sin² where that is shorter: 5 - 4 sin²θ is 1 + 4 cos²θ.
+    """
+    return _seen_positive(x.numerator) and _seen_positive(x.denominator)
+
+
+def is_plainly_positive(x: Expr) -> bool:
+    """The same of the terms as they stand, which decides what comes out of a root."""
     return _all_positive(x.numerator) and _all_positive(x.denominator)
+
+
+def _seen_positive(polynomial: Expr) -> bool:
+    ring = polynomial.ring
+    other = Expr(ring, in_shortest_squares(ring, polynomial.num), ring.one)
+    return _all_positive(polynomial) or _all_positive(other)
 
 
 def _all_positive(polynomial: Expr) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from polhode.algebra import ZERO, Expr, Matrix, Symbol, Vector, linear_parts
+from polhode.base import DeclarationError
 from polhode.derive._balance import Wrench, demands
 from polhode.derive._equations import Equations
 from polhode.derive._motion import Motion, motion_of
@@ -23,6 +24,12 @@ def derive(system: System) -> Equations:
         ConstraintError: for constraints that contradict one another.
         DeclarationError: for bodies that share coordinates or reactions that share names.
     """
+    if not isinstance(system, System):
+        raise DeclarationError(
+            f"derive of {system!r}",
+            expected="a System",
+            advice="put bodies, contacts and loads together in a System(...) first",
+        )
     motion = motion_of(system)
     needs = demands(motion)
     refuse_shared_names(motion, needs)

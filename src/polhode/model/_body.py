@@ -126,9 +126,9 @@ class Body:
         first = self.inertia[0, 0]
         return bool(first) and self.inertia == Matrix.diagonal([first] * 3)
 
-    def point(self, offset: Vector) -> BodyPoint:
-        """A point fixed in the body's axes, by its vector from the centre of mass (m)."""
-        return BodyPoint(self, offset)
+    def point(self, offset: Vector | None = None) -> BodyPoint:
+        """A point fixed in the body's axes, by its vector from the centre of mass (m), or that."""
+        return BodyPoint(self, self.axes.zero if offset is None else offset)
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, ExprLike, Vector
 from polhode.model._body import Body, BodyPoint
-from polhode.model._checks import not_negative, quantity, unit_vector
+from polhode.model._checks import not_negative, of_type, quantity, unit_vector
 from polhode.model._element import Places
 
 #: Velocity of the centre of mass and angular velocity of every body.
@@ -106,6 +106,10 @@ class Force(Load):
     force: Vector
     name: str = "force"
 
+    def __post_init__(self) -> None:
+        of_type(self.at, BodyPoint, f"point of {self.name!r}", _POINT)
+        of_type(self.force, Vector, f"{self.name!r}", "give it along a frame: lab['x'] * F")
+
     @property
     def bodies(self) -> tuple[Body, ...]:
         return (self.at.body,)
@@ -124,6 +128,10 @@ class Torque(Load):
     torque: Vector
     reaction_on: Body | None = None
     name: str = "torque"
+
+    def __post_init__(self) -> None:
+        of_type(self.body, Body, f"body of {self.name!r}", "give the body it turns")
+        of_type(self.torque, Vector, f"{self.name!r}", "give it along a frame: lab['z'] * tau")
 
     @property
     def bodies(self) -> tuple[Body, ...]:
@@ -173,6 +181,7 @@ class Spring(Load):
         }
         for field, value in values.items():
             object.__setattr__(self, field, value)
+        _require_points(start, end, name)
         for point in (start, end):
             if isinstance(point, BodyPoint):
                 point.require_fixed(f"end of {name!r}")
@@ -225,6 +234,7 @@ class Damper(Load):
         damping: ExprLike,
         name: str = "damper",
     ) -> None:
+        _require_points(start, end, name)
         resistance = quantity(damping, f"damping of {name!r}")
         values = {"start": start, "end": end, "damping": resistance, "name": name}
         for field, value in values.items():
@@ -239,6 +249,15 @@ class Damper(Load):
     ) -> tuple[Action, ...]:
         relative = _velocity(self.start, velocities) - _velocity(self.end, velocities)
         return _pair(self.start, self.end, relative * -self.damping)
+
+
+_POINT = "body.point() is its centre of mass, body.point(offset) any other point"
+
+
+def _require_points(start: object, end: object, name: str) -> None:
+    of_type(start, BodyPoint, f"start of {name!r}", f"{_POINT}; only the end may be a place")
+    if not isinstance(end, Vector):
+        of_type(end, BodyPoint, f"end of {name!r}", f"{_POINT}; or a place from the origin")
 
 
 def _bodies(*ends: BodyPoint | Vector) -> tuple[Body, ...]:
