@@ -221,7 +221,7 @@ class _Walk:
             v = (self.kept + k * self.support(time, y[:2])) / (1 + k)
             return np.array([*v, np.hypot(*away) - alpha, y[2]])
 
-        step, start = 1e-5, np.array([*self.place, 0.0, 0.0])
+        step, start = 1e-7, np.array([*self.place, 0.0, 0.0])
         while True:
             found = solve_ivp(
                 rates, (t, t + step), start, method="DOP853", rtol=_RTOL, atol=1e-20

@@ -106,6 +106,7 @@ class _Walk:
     def __init__(self, ball: Ball, sheet: Sequence[Piece], velocity: list[Number]) -> None:
         self.ball, self.sheet, self.piece = ball, list(sheet), 0
         self.now, self.place = arb(0), [arb(0), arb(0)]
+        self.end = arb(0)
         self.slip: list[Number] | None = None
         below = self._below([arb(0)], self.place)
         k = ball.k
@@ -137,15 +138,21 @@ class _Walk:
     # -- going on -------------------------------------------------------------------------------
 
     def to(self, time: Number) -> None:
+        self.end = time
         while self.now < time:
             last = self.piece + 1 == len(self.sheet)
-            goal = time if last else min(time, arb(self.sheet[self.piece + 1].begin))
+            goal = self._goal()
             if self.now < goal:
                 (self._roll if self.slip is None else self._slide)(goal)
             elif not last:
                 self._enter()
             if self.now == goal < time and not last:
                 self._enter()
+
+    def _goal(self) -> Number:
+        """The time asked for, or the next knot."""
+        knots = [arb(piece.begin) for piece in self.sheet[self.piece + 1 : self.piece + 2]]
+        return min([self.end, *knots])
 
     def note(self) -> None:
         slip = self.slip or [arb(0), arb(0)]
@@ -193,29 +200,41 @@ class _Walk:
     # -- sliding --------------------------------------------------------------------------------
 
     def _begin(self) -> None:
-        """By its formal series in time, as far as that goes."""
-        alpha, start = self.ball.alpha, self.now
-        away = self._drag(start, self.place, [arb(0), arb(0)])
-        rows = [[arb(0)], [_angle([-a for a in away])], *([p] for p in self.place)]
-        for known in range(2, _ORDER + 1):
-            with _cap(known):
-                size, psi, *place = (arb_series(row) for row in rows)
-                slip = [size * psi.cos(), size * psi.sin()]
-                t = arb_series([start, 1])
-                v = self._velocity(t, place, slip)
-                drag = self._drag(t, place, slip)
-                gain = -drag[0] * psi.cos() - drag[1] * psi.sin() - alpha
+        """By its formal series in time, as far as that goes: σ' = −a·ŝ − α, σ ψ' = a × ŝ."""
+        start, rest = self.now, [arb(0), arb(0)]
+        away = self._drag(start, self.place, rest)
+        first = 1 - self.ball.alpha / _size(away)  # by which the angle lags, over its rate
+        size, psi, *place = [[arb(0)], [_angle([-a for a in away])], *([p] for p in self.place)]
+        for n in range(1, _ORDER):
+            with _cap(n + 1):
+                _, gain, velocity = self._pulled(start, size, psi, place)
+                size.append((gain[n - 1] / n).mid())
+                for row, rate in zip(place, velocity, strict=True):
+                    row.append((rate[n - 1] / n).mid())
+                drag, _, _ = self._pulled(start, size, psi, place)
                 most = (drag[0] * drag[0] + drag[1] * drag[1]).sqrt()
-                lag = (size * arb_series([*_row(psi.derivative(), known - 1), 0]) / most).asin()
-                psi = _direction([-a for a in drag]) - lag
-                sums = [(gain, arb(0)), *zip(v, self.place, strict=True)]
-                size, *place = (arb_series(_integrated(*both, known)) for both in sums)
-                rows = [_row(series, known) for series in (size, psi, *place)]
-        step = _reach(rows)
+                turn = arb_series([*(m * psi[m] for m in range(1, n)), arb(0)])
+                lag = (arb_series(size) * turn / most).asin()
+                wanted = _direction([-a for a in drag]) - lag
+                psi.append((wanted[n] / (1 + n * first)).mid())
+        rows = [size, psi, *place]
+        step = min(_reach(rows), (self._goal() - start) / 2)
         ends = [_at(row, step) for row in rows]
         self.course.switches.append((start, "slips"))
         self.slip = [ends[0] * ends[1].cos(), ends[0] * ends[1].sin()]
         self.place, self.now = ends[2:], (start + step).mid()
+
+    def _pulled(
+        self, start: Number, size: list[Number], psi: list[Number], place: list[list[Number]]
+    ) -> tuple[list[Series], Series, list[Series]]:
+        """dV/dt, the rate of |s| and the ball's velocity, from series in the time since."""
+        angle, along = arb_series(psi), [arb_series(row) for row in place]
+        c, s = angle.cos(), angle.sin()
+        slip = [arb_series(size) * c, arb_series(size) * s]
+        t = arb_series([start, 1])
+        drag = self._drag(t, along, slip)
+        gain = -drag[0] * c - drag[1] * s - self.ball.alpha
+        return drag, gain, self._velocity(t, along, slip)
 
     def _slide(self, goal: Number) -> None:
         """Steps in τ to the goal or to the end of the slip."""
@@ -287,10 +306,6 @@ def _solution(rates: Rates, start: Sequence[Number]) -> list[list[Number]]:
 
 def _row(series: Series, terms: int) -> list[Number]:
     return [series[n].mid() for n in range(terms)]
-
-
-def _integrated(rate: Series, begin: Number, terms: int) -> list[Number]:
-    return [begin, *((rate[n] / (n + 1)).mid() for n in range(terms - 1))]
 
 
 def _direction(vector: list[Series]) -> Series:
