@@ -179,7 +179,7 @@ def test_a_map_shows_the_exact_threshold(whole):
 
 def test_a_python_function_cannot_be_told_to_a_store(tmp_path):
     ball = CATALOGUE["ball-on-paper"].build()
-    numbers = {"m": 0.05, "a": 0.02, "k": 0.4, "g": 9.81}
+    numbers = {"m": 0.05, "r": 0.02, "k": 0.4, "g": 9.81}
     forcing = {"X": lambda t: 0.0 * t, "Y": lambda t: 0.0 * t, "chi": lambda t: 0.0 * t}
     with pytest.raises(DeclarationError, match="Python function"):
         sweep(

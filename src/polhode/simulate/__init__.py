@@ -6,8 +6,10 @@ from polhode.simulate._dynamics import EquationsOfMotion as EquationsOfMotion
 from polhode.simulate._event import Event as Event
 from polhode.simulate._experiment import NEAR_FLAT as NEAR_FLAT
 from polhode.simulate._experiment import Experiment as Experiment
+from polhode.simulate._readable import quantity_names as quantity_names
 from polhode.simulate._simulate import simulate as simulate
 from polhode.simulate._trajectory import Trajectory as Trajectory
+from polhode.simulate.contact._machine import slip_symbols as slip_symbols
 from polhode.simulate.files._saved import load as load
 from polhode.simulate.forcing._callable import approximated as approximated
 from polhode.simulate.forcing._pieces import Jump as Jump

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from polhode.algebra import Expr, Kind
-from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
+from polhode.algebra import Expr, Kind, Symbol
+from polhode.simulate._dynamics import CLOCK, WORK, Dynamics, EquationsOfMotion
 
 _MOVING = (Kind.COORDINATE, Kind.SPEED)
 
@@ -36,3 +36,8 @@ def readable(dynamics: Dynamics, invariants: Mapping[str, Expr]) -> dict[str, Ex
         **{symbol.published: value for symbol, value in dynamics.lifted.items()},
         **invariants,
     }
+
+
+def quantity_names(equations: EquationsOfMotion, lifted: Mapping[Symbol, Expr]) -> set[str]:
+    """What can be read by name in a contact mode."""
+    return set(readable(Dynamics(equations, {}, lifted=lifted), {}))

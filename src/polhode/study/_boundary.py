@@ -15,9 +15,10 @@ from polhode.derive import Automaton, Equations
 from polhode.study._block import Crew, Order, Subject
 from polhode.study._columns import Array, Column, Members, Name, published_names
 from polhode.study._found import Found, plain_numbers
+from polhode.study._grid import split_axes
 from polhode.study._happenings import Fate
 from polhode.study._output import Output
-from polhode.study._sweep import parameter_names
+from polhode.study._refused import parameter_names, refuse_mistakes
 from polhode.study._thresholds import thresholds
 
 _MOST = 16_385  # points along an axis
@@ -86,6 +87,8 @@ def refined_map(
     ends = published_names(axes)
     spans = {name: np.linspace(low, high, side) for name, (low, high) in ends.items()}
     fixed = (published_names(parameters), published_names(start))
+    own, others = split_axes(list(spans), parameter_names(order))
+    refuse_mistakes(order, [*fixed[0], *own], [*fixed[1], *others])
     shown = progress or SilentProgress()
     shown.begin("members")
     try:

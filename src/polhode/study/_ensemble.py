@@ -13,11 +13,13 @@ from polhode.algebra import Expr
 from polhode.base import DeclarationError, Progress, SilentProgress, look_up
 from polhode.study._block import Block, Order, Subject
 from polhode.study._columns import Array, Column, Members, Name, members_of
+from polhode.study._counts import whole
 from polhode.study._extremes import Quantity
 from polhode.study._grid import start_name
 from polhode.study._output import Output
 from polhode.study._outputs import outputs_of
 from polhode.study._reasons import Reason
+from polhode.study._refused import refuse_mistakes
 from polhode.study._workers import shared_out
 
 if TYPE_CHECKING:
@@ -137,7 +139,8 @@ def ensemble(
         UnitError: for a duration that cannot be read.
     """
     chosen = np.random.SeedSequence().entropy % 2**62 if seed is None else seed  # type: ignore[operator]
-    members = members_of(parameters, start, count, _seed(chosen))
+    known = None if count is None else whole(count, "members")
+    members = members_of(parameters, start, known, _seed(chosen))
     given = {
         "forcing": forcing,
         "tolerance": tolerance,
@@ -147,6 +150,8 @@ def ensemble(
     }
     options = {name: value for name, value in given.items() if value is not None}
     order = Order(subject, duration, outputs_of(outputs), options)
+    refuse_mistakes(order, members.parameters, members.start)
+    whole(workers, "workers")
     shown = progress or SilentProgress()
     shown.begin("members", members.count)
     try:

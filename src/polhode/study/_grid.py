@@ -21,6 +21,7 @@ from polhode.study._columns import (
     published_names,
     split_unit,
 )
+from polhode.study._counts import whole
 
 SAMPLE = "sample"
 """The axis of everything that is drawn."""
@@ -119,10 +120,11 @@ def grid_of(
     }
     if not columns:
         raise DeclarationError("no axes", expected="at least one quantity that differs")
-    if chunk is not None and chunk < 1:
-        raise DeclarationError(f"{chunk} members in a chunk", expected="one or more")
-    whole = Grid(columns, called, axis, (1,) * len(set(axis.values())))
-    return Grid(columns, called, axis, _chunk(whole.shape, chunk))
+    if chunk is not None:
+        whole(chunk, "members in a chunk")
+    single = Grid(columns, called, axis, (1,) * len(set(axis.values())))
+    whole(single.size, "members of a sweep")
+    return Grid(columns, called, axis, _chunk(single.shape, chunk))
 
 
 def _column(name: str, value: Any, samples: int | None, seed: int) -> Column:

@@ -9,6 +9,7 @@ import numpy as np
 
 from polhode.simulate import Trajectory
 from polhode.study._columns import Array
+from polhode.study._counts import whole
 from polhode.study._motions import Motions
 from polhode.study._output import FromEnds, Legend, Plain, Single
 
@@ -80,6 +81,9 @@ class EventTimes(FromEnds, Plain):
 
     most: int
 
+    def __post_init__(self) -> None:
+        whole(self.most, "events to be kept")
+
     @property
     def shape(self) -> tuple[int, ...]:
         return (self.most,)
@@ -102,6 +106,9 @@ class EventKinds(FromEnds):
     """
 
     most: int
+
+    def __post_init__(self) -> None:
+        whole(self.most, "events to be kept")
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -49,6 +49,7 @@ def legend_of(subject: Any, events: Sequence[str]) -> Legend:
     return Legend((*dict.fromkeys(modes), NEAR_FLAT), (*dict.fromkeys([*kinds, *events]),))
 
 
+@runtime_checkable
 class Output(Protocol):
     """Something that is kept of a motion: numbers, as many of every motion."""
 

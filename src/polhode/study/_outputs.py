@@ -12,7 +12,7 @@ from typing import TypeAlias
 import numpy as np
 
 from polhode.algebra import Expr, Symbol, as_symbol
-from polhode.base import DeclarationError
+from polhode.base import DeclarationError, NumericError
 from polhode.simulate import Trajectory
 from polhode.study._columns import Array
 from polhode.study._extremes import Quantity, largest
@@ -82,6 +82,10 @@ class Series(Plain):
     quantity: Quantity
     times: tuple[float, ...]
 
+    def __post_init__(self) -> None:
+        if not all(time >= 0 for time in self.times):
+            raise NumericError(f"the times {self.times}", expected="times from 0 on, s")
+
     @property
     def shape(self) -> tuple[int, ...]:
         return (len(self.times),)
@@ -139,4 +143,10 @@ def _name(asked: Output | Quantity) -> str:
 def _output(asked: Output | Quantity) -> Output:
     if asked == "mode":
         return EndMode()
-    return Final(asked) if isinstance(asked, str | Symbol | Expr) else asked
+    if isinstance(asked, str | Symbol | Expr):
+        return Final(asked)
+    if not isinstance(asked, Output):
+        raise DeclarationError(
+            f"the output {asked!r}", expected="a quantity, or an output such as Largest('theta')"
+        )
+    return asked

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,11 +26,13 @@ from polhode.simulate import Pieces
 from polhode.study._block import Order, Subject
 from polhode.study._cluster import Compute, on_cluster, one_after_the_other, processes, scheduler
 from polhode.study._columns import Name, published_names
+from polhode.study._counts import whole
 from polhode.study._ensemble import USUAL
 from polhode.study._extremes import Quantity
 from polhode.study._grid import SAMPLE, Grid, grid_of, split_axes
 from polhode.study._output import Output
 from polhode.study._outputs import outputs_of
+from polhode.study._refused import parameter_names, refuse_mistakes
 from polhode.study._store import Store, created, dataset, open_store
 
 if TYPE_CHECKING:
@@ -103,19 +106,21 @@ def sweep(
     grid = grid_of(axes, samples, drawn, chunk, order.outputs)
     order.experiment()  # refuses what cannot be asked of any member
     fixed = (published_names(parameters), published_names(start))
-    own, _ = split_axes(list(grid.columns), parameter_names(order))
+    own, others = split_axes(list(grid.columns), parameter_names(order))
     constants = {**fixed[0], **dict.fromkeys(own)}
+    refuse_mistakes(order, constants, {**fixed[1], **dict.fromkeys(others)})
     origin = _origin(order, grid, fixed, drawn)
-    if begun is None:
-        store = created(path, origin, grid, order.outputs, order.legend)
-    else:
-        _refuse_other(begun, origin)
-        store = begun
-    left = [place for place in grid.places() if not store.done[place]]
-    chunks = ((place, grid.members(place, constants, fixed[1])) for place in left)
-    with _shown(progress, store, grid) as tick, _computing(workers, client, address, tick) as work:
-        for place, block in work(order, chunks):
-            store.write(grid, place, block)
+    with _computing(whole(workers, "workers"), client, address) as compute:
+        if begun is None:
+            store = created(path, origin, grid, order.outputs, order.legend)
+        else:
+            _refuse_other(begun, origin)
+            store = begun
+        left = [place for place in grid.places() if not store.done[place]]
+        chunks = ((place, grid.members(place, constants, fixed[1])) for place in left)
+        with _shown(progress, store, grid) as tick:
+            for place, block in compute(tick)(order, chunks):
+                store.write(grid, place, block)
     return dataset(path)
 
 
@@ -133,32 +138,23 @@ def _seed(seed: int | None, begun: Store | None) -> int:
     return seed
 
 
-def parameter_names(order: Order) -> set[str]:
-    """Names that are parameters and not start values."""
-    derived = order.derived
-    bodies = derived.system.bodies
-    parts = [e for body in bodies for e in (body.mass, *sum(body.inertia.rows, ()))]
-    constants = {*derived.parameters}.union(*(part.symbols() for part in parts))
-    return {symbol.published for symbol in constants}
-
-
 @contextmanager
 def _computing(
-    workers: int, client: Any, address: str, tick: Callable[[int], None]
-) -> Iterator[Compute]:
+    workers: int, client: Any, address: str
+) -> Iterator[Callable[[Callable[[int], None]], Compute]]:
     """Where the work is done."""
-    if workers < 1:
-        raise DeclarationError(f"{workers} workers", expected="one or more")
     if client is not None:
-        yield on_cluster(client, tick)
+        if not hasattr(client, "submit"):
+            raise DeclarationError(f"the client {client!r}", expected="a dask.distributed.Client")
+        yield partial(on_cluster, client)
     elif address:
         with scheduler(address) as there:
-            yield on_cluster(there, tick)
+            yield partial(on_cluster, there)
     elif workers > 1:
         with processes(workers) as here:
-            yield on_cluster(here, tick)
+            yield partial(on_cluster, here)
     else:
-        yield one_after_the_other(tick)
+        yield one_after_the_other
 
 
 @contextmanager

@@ -10,7 +10,6 @@ from multiprocessing import get_context
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.base import DeclarationError
 from polhode.study._block import Block, Crew, Order, Tick
 from polhode.study._columns import Members
 
@@ -21,13 +20,7 @@ _here: list[Crew] = []
 
 
 def shared_out(order: Order, members: Members, workers: int, tick: Tick) -> Block:
-    """The same block as of one process, made by several.
-
-    Raises:
-        DeclarationError: for fewer workers than one.
-    """
-    if workers < 1:
-        raise DeclarationError(f"{workers} workers", expected="one or more")
+    """The same block as of one process, made by several."""
     if workers == 1 or members.count == 1:
         return Crew(order).follow(members, tick)
     block = Block.empty(order, members.count)

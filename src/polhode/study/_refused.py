@@ -1,0 +1,121 @@
+"""What is refused before anybody is followed: mistakes that all members share."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from itertools import chain, product
+
+from polhode.algebra import Expr, Kind
+from polhode.base import DeclarationError, NumericError, look_up
+from polhode.derive import Automaton, Equations
+from polhode.model import Contact
+from polhode.simulate import quantity_names, slip_symbols
+from polhode.study._block import Order
+from polhode.study._columns import published_names
+from polhode.study._happenings import EventCount, EventTime
+
+
+def refuse_mistakes(order: Order, parameters: Collection[str], start: Collection[str]) -> None:
+    """Refuse what cannot be asked of any member.
+
+    Raises:
+        DeclarationError: for names that are not known, and parameters without a value.
+        NumericError: for a limit of flatness that is no sine.
+    """
+    _refuse_names(order, parameters, start)
+    _refuse_quantities(order)
+    _refuse_events(order)
+    _refuse_options(order)
+
+
+def _refuse_names(order: Order, parameters: Collection[str], start: Collection[str]) -> None:
+    """Names that no member can have a value for, and parameters that none has one for."""
+    known = parameter_names(order)
+    moving = dict.fromkeys(start_names(order))
+    for name in parameters:
+        look_up(name, dict.fromkeys(sorted(known)), "parameter of this system")
+    for name in start:
+        look_up(name, moving, "coordinate or speed of this system")
+    missing = [s.published for s in order.derived.parameters if s.published not in parameters]
+    if missing:
+        raise DeclarationError(
+            f"no value for {', '.join(missing)}",
+            expected="a value for every parameter",
+            advice=f"give {missing[0]} as a number in SI units or with a unit",
+        )
+
+
+def _refuse_quantities(order: Order) -> None:
+    """Outputs of quantities that no contact mode has."""
+    asked = [getattr(output, "quantity", None) for output in order.outputs.values()]
+    wanted = {quantity for quantity in asked if isinstance(quantity, str)}
+    known = dict.fromkeys(sorted(parameter_names(order)))
+    for names in _quantities(order.derived):
+        known |= dict.fromkeys(sorted(names))
+        if wanted <= known.keys():
+            return
+    for quantity in wanted:
+        look_up(quantity, known, "quantity of this system")
+
+
+def _quantities(derived: Automaton | Equations) -> Iterator[set[str]]:
+    """Names that can be read, mode after mode: most are known in the first."""
+    if isinstance(derived, Equations):
+        yield quantity_names(derived, {})
+        return
+    yield {s.published for contact in derived.contacts for s in slip_symbols(contact)}
+    others = map(derived.mode, product(*derived.options))
+    for mode in chain((derived.together, derived.apart), others):
+        yield quantity_names(mode.equations, mode.lifted)
+
+
+def _refuse_events(order: Order) -> None:
+    """Events that cannot happen to any member."""
+    kinds = dict.fromkeys(order.legend.kinds)
+    until = order.options.get("until") or ()
+    for kind in (until,) if isinstance(until, str) else until:
+        look_up(kind, kinds, "event of this system")
+    pulls = {f"{name} pulls": None for name in _contacts(order)}
+    for output in order.outputs.values():
+        if isinstance(output, EventTime | EventCount):
+            look_up(output.kind, kinds | pulls, "event of this system")
+
+
+def _refuse_options(order: Order) -> None:
+    """Motions of supports that the system does not have; a limit of flatness that is none."""
+    known = dict.fromkeys(s.published for s in order.derived.functions)
+    for name in published_names(order.options.get("forcing") or {}):
+        look_up(name, known, "prescribed function of this system")
+    flat = order.options.get("near_flat", 0.5)
+    if not 0 < flat < 1:
+        raise NumericError(f"near_flat = {flat}", expected="the sine of a small angle")
+
+
+def parameter_names(order: Order) -> set[str]:
+    """Names that are parameters and not start values."""
+    derived = order.derived
+    bodies = derived.system.bodies
+    parts = [e for body in bodies for e in (body.mass, *sum(body.inertia.rows, ()))]
+    motions = [m for m in (order.options.get("forcing") or {}).values() if isinstance(m, Expr)]
+    used = (s for part in (*parts, *motions) for s in part.symbols() if s.kind is Kind.PARAMETER)
+    return {s.published for s in (*derived.parameters, *used) if s.name != "pi"}
+
+
+def start_names(order: Order) -> Iterator[str]:
+    """Coordinates, speeds and rates of any contact mode."""
+    derived = order.derived
+    for equations in _modes(derived):
+        own = (*equations.coordinates, *equations.speeds)
+        for symbol in (*own, *equations.kinematics, *equations.dependent):
+            yield symbol.published
+
+
+def _modes(derived: Automaton | Equations) -> Iterator[Equations]:
+    if isinstance(derived, Automaton):
+        yield from (derived.together.equations, derived.apart.equations)
+    else:
+        yield derived
+
+
+def _contacts(order: Order) -> list[str]:
+    return [e.name for e in order.derived.system.elements if isinstance(e, Contact)]

@@ -1,0 +1,101 @@
+"""A mistake that all members share is told before any of them is followed, and leaves nothing."""
+
+import numpy as np
+import pytest
+import scipy.stats as st
+
+from polhode.algebra import symbol
+from polhode.base import DeclarationError, NumericError, StoreError
+from polhode.derive import automaton, derive
+from polhode.study import (
+    EventTime,
+    EventTimes,
+    Final,
+    Largest,
+    Series,
+    ensemble,
+    refined_map,
+    sweep,
+)
+from study.examples import NUMBERS, disk, rough_balls
+
+MISTAKES = [
+    ({"start": {"thta": 1.0}}, DeclarationError, "'thta' is no coordinate.*did you mean theta"),
+    ({"parameters": {**NUMBERS, "q": 1.0}}, DeclarationError, "'q' is no parameter"),
+    ({"parameters": {"m": 0.2}}, DeclarationError, "no value for a, g"),
+    ({"outputs": ["thta"]}, DeclarationError, "'thta' is no quantity"),
+    ({"outputs": {"top": Largest("nope")}}, DeclarationError, "'nope' is no quantity"),
+    ({"outputs": {"top": 3}}, DeclarationError, "the output 3"),
+    ({"outputs": {"when": EventTime("slip")}}, DeclarationError, "'slip' is no event"),
+    ({"until": ("slip",)}, DeclarationError, "'slip' is no event.*did you mean slips"),
+    ({"near_flat": np.nan}, NumericError, "near_flat = nan"),
+    ({"near_flat": -1.0}, NumericError, "near_flat = -1"),
+    ({"forcing": {"X": 1}}, DeclarationError, "'X' is no prescribed function"),
+    ({"workers": "2"}, DeclarationError, "'2' workers"),
+    ({"workers": 0}, DeclarationError, "0 workers"),
+]
+
+
+@pytest.fixture(scope="module")
+def rolling():
+    return automaton(disk())
+
+
+@pytest.mark.parametrize(("change", "error", "words"), MISTAKES)
+def test_by_ensembles(rolling, change, error, words):
+    asked = {"parameters": NUMBERS, "start": {"theta": 1.0}, "duration": 0.1, "count": 3} | change
+    with pytest.raises(error, match=words):
+        ensemble(rolling, **asked)
+
+
+@pytest.mark.parametrize(
+    ("change", "error", "words"),
+    [
+        *MISTAKES,
+        ({"axes": {"nope": [1.0]}}, DeclarationError, "'nope' is no coordinate"),
+        ({"chunk": 0}, DeclarationError, "0 members in a chunk"),
+        ({"chunk": "a"}, DeclarationError, "'a' members in a chunk"),
+        ({"client": 3}, DeclarationError, "the client 3"),
+        ({"address": "rubbish"}, StoreError, "no scheduler answers"),
+        ({"axes": {"theta": np.ones(10**5), "psi": np.ones(10**5)}}, DeclarationError, "members"),
+    ],
+)
+def test_by_sweeps(rolling, tmp_path, change, error, words):
+    asked = {"axes": {"omega_3": [1.0, 2.0]}, "parameters": NUMBERS, "start": {}} | change
+    with pytest.raises(error, match=words):
+        sweep(rolling, out=tmp_path / "store", **{"duration": 0.1, "outputs": ["theta"]} | asked)
+    assert not (tmp_path / "store").exists()
+
+
+def test_by_refined_maps(rolling):
+    with pytest.raises(DeclarationError, match="'nope' is no coordinate"):
+        refined_map(rolling, {"theta": (0.6, 1.5), "nope": (0.0, 16.0)}, NUMBERS, {}, 0.3)
+
+
+@pytest.mark.parametrize("count", [-1, 0, 2.5, 10**12, True])
+def test_members_are_counted_in_whole_numbers(rolling, count):
+    with pytest.raises(DeclarationError, match=f"{count} members"):
+        ensemble(rolling, NUMBERS, {"theta": st.uniform(1, 0.1)}, 0.1, count=count)
+
+
+def test_outputs_that_make_no_sense():
+    with pytest.raises(DeclarationError, match="-1 events"):
+        EventTimes(-1)
+    with pytest.raises(NumericError, match="times"):
+        Series("theta", (0.1, -1.0))
+
+
+def test_names_of_any_mode_are_known(rolling):
+    """A height is a coordinate only in flight, a force one of contact; a forcing has its own."""
+    found = ensemble(rolling, NUMBERS, {"theta": 1.0, "z": 0.1}, 0.01, count=2, outputs=["v_z", "F_z"])
+    assert found.failed == 0
+    case, w = rough_balls(), symbol("w")
+    forcing = {**case.options["forcing"], "chi": w}
+    numbers = {**case.parameters, "mu": 0.3, "w": 0.1}
+    outputs = {"w": Final("w"), "slip": Final("slip_x_sheet")}
+    shaken = ensemble(
+        case.modes, numbers, {"v_x": [0.1, 0.2]}, 0.01, forcing=forcing, outputs=outputs
+    )
+    assert shaken["w"] == pytest.approx([0.1, 0.1])
+    kept = ensemble(derive(disk()), NUMBERS, {"theta": [1.0]}, 0.01, outputs=["F_z", "energy"])
+    assert kept.failed == 0
