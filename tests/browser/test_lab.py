@@ -145,6 +145,34 @@ def test_what_cannot_be_read_is_told_and_the_picture_stays(coin, tmp_path):
         field(coin, "theta").press("Enter")
 
 
+@pytest.mark.parametrize("text", ["-1 s", "soon", "1e9 s"])
+def test_a_duration_that_cannot_be_is_marked(coin, text):
+    duration = field(coin, "duration")
+    usual = duration.input_value()
+    duration.fill(text)
+    duration.press("Enter")
+    coin.page.wait_for_selector("[data-name=duration] [aria-invalid=true]", timeout=PATIENCE)
+    assert coin.page.locator(".message.wrong").inner_text()
+    with answered(coin):
+        duration.fill("")
+        duration.press("Enter")
+    assert all("422" in complaint for complaint in coin.complaints)
+    coin.complaints.clear()
+    assert duration.input_value() == usual
+    assert duration.get_attribute("aria-invalid") == "false"
+
+
+def test_an_emptied_field_is_as_usual_again(coin):
+    with answered(coin):
+        field(coin, "theta").fill("50 deg")
+        field(coin, "theta").press("Enter")
+    with answered(coin):
+        field(coin, "theta").fill("")
+        field(coin, "theta").press("Enter")
+    assert field(coin, "theta").input_value() == "70 deg"
+    assert float(coin.value()) == pytest.approx(70)
+
+
 def test_contacts_are_switched(coin):
     with answered(coin):
         coin.page.get_by_role("radio", name="Rolling").check(force=True)

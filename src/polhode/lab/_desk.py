@@ -59,7 +59,7 @@ class Desk:
         found = numbers_of(chosen.entry, chosen.equations, settings, wish.start, wish.duration)
         if found.duration > _LONGEST:
             raise NumericError(
-                f"a motion of {found.duration:g} s",
+                f"a duration of {found.duration:g} s",
                 expected=f"at most {_LONGEST:g} s in the lab",
                 advice="longer ones are for polhode run",
             )

@@ -10,7 +10,7 @@ import { asking, Claims, said } from "./claims";
 import { keeping } from "./keep";
 import { Player } from "./player";
 import { SheetDrag } from "./sheet";
-import { fieldRow, shownNumber, Slider } from "./sliders";
+import { Field, isAbout, shownNumber, Slider } from "./sliders";
 import { badge, invariants, steadyMotions } from "./standing";
 import { empty, read, written } from "./state";
 import { tabs } from "./tabs";
@@ -26,6 +26,7 @@ class Lab {
   private state: State;
   private described: Description | null = null;
   private sliders: Slider[] = [];
+  private fields: (Slider | Field)[] = [];
   private readonly player = new Player();
   private readonly claims = new Claims();
   private readonly drag = new SheetDrag(this.player, (rows, seconds) => ({ ...this.wish(), sheet: rounded(rows), duration: `${seconds.toFixed(2)} s` }), (rows) => this.dragged(rows));
@@ -106,12 +107,13 @@ class Lab {
     const extra = starts.filter(({ control }) => control.extra);
     const free = found.forcing.filter(({ name }) => !(this.state.sheet.length && (name === "X" || name === "Y")));
     const forcing = free.map(({ name, symbol, text }) =>
-      fieldRow(name, symbol, "(t)", settings[name] ?? text, (_, typed) => this.put(settings, { name, text }, typed)),
+      new Field(name, symbol, "(t)", settings[name] ?? text, text, (_, typed) => this.put(settings, { name, text }, typed)),
     );
-    const duration = fieldRow("duration", "", "", this.state.duration || found.duration, (_, text) => {
+    const duration = new Field("duration", "", "", this.state.duration || found.duration, found.duration, (_, text) => {
       this.state.duration = text === found.duration ? "" : text;
       this.changed();
     });
+    this.fields = [...this.sliders, ...forcing, duration];
     const reset = make("button", { type: "button", class: "switch" }, "Usual numbers");
     reset.addEventListener("click", () => void this.begin({ ...empty(this.state.system), contact: this.state.contact }));
     this.panel.replaceChildren(
@@ -121,8 +123,8 @@ class Lab {
       ...(extra.length ? [make("details", {}, make("summary", {}, "Other coordinates"), ...extra.map(({ row }) => row))] : []),
       make("h2", {}, "Parameters"),
       ...parameters.map(({ row }) => row),
-      ...(forcing.length ? [make("h2", {}, "Prescribed"), ...forcing] : []),
-      duration,
+      ...(forcing.length ? [make("h2", {}, "Prescribed"), ...forcing.map(({ row }) => row)] : []),
+      duration.row,
       reset,
     );
   }
@@ -191,7 +193,7 @@ class Lab {
     this.eager = false;
     this.equations.replaceChildren(...sections(scene));
     this.outcome.replaceChildren(...(this.state.sheet.length ? [returned(outcome)] : []));
-    for (const slider of this.sliders) slider.wrong("");
+    for (const field of this.fields) field.wrong("");
     this.tell("");
     if (first) document.body.dataset.ready = "yes";
     document.body.dataset.answers = String(Number(document.body.dataset.answers ?? 0) + 1);
@@ -216,7 +218,7 @@ class Lab {
   }
 
   private refused(message: string): void {
-    for (const slider of this.sliders) slider.wrong(message.startsWith(`${slider.control.name}:`) || message.startsWith(`${slider.control.name} =`) ? message : "");
+    for (const field of this.fields) field.wrong(isAbout(message, field.name) ? message : "");
     this.message.classList.add("wrong");
     this.message.textContent = message;
     document.body.dataset.ready = "yes";

@@ -39,9 +39,12 @@ export class Slider {
     this.changed(this.control.name, this.field.value);
   }
 
+  get name(): string {
+    return this.control.name;
+  }
+
   wrong(message: string): void {
-    this.field.setAttribute("aria-invalid", String(Boolean(message)));
-    this.field.title = message;
+    mark(this.field, message);
   }
 
   private show(text: string): void {
@@ -87,18 +90,49 @@ export class Slider {
     return `${Number(value.toPrecision(digits))} ${this.control.unit}`.trim();
   }
 
+  /** What is emptied is as usual again. */
   private typed(): void {
-    this.show(this.field.value.trim());
+    this.show(this.field.value.trim() || this.control.text);
     this.changed(this.control.name, this.field.value);
   }
 }
 
 /** A field without a slider, for formulas. */
-export function fieldRow(name: string, symbol: string, hint: string, text: string, changed: Changed): HTMLElement {
-  const field = make("input", { type: "text", spellcheck: "false", autocomplete: "off", value: text, "aria-label": `${name} ${hint}`.trim() });
-  field.addEventListener("change", () => changed(name, field.value.trim()));
-  const letter = symbol ? formula(symbol) : name;
-  return make("div", { class: "slider formula", "data-name": name }, make("span", { class: "what" }, letter, make("small", {}, hint)), field);
+export class Field {
+  readonly row: HTMLElement;
+  private readonly field: HTMLInputElement;
+
+  /** @param usual what it is set to where it is emptied. */
+  constructor(
+    readonly name: string,
+    symbol: string,
+    hint: string,
+    text: string,
+    usual: string,
+    changed: Changed,
+  ) {
+    this.field = make("input", { type: "text", spellcheck: "false", autocomplete: "off", value: text, "aria-label": `${name} ${hint}`.trim() });
+    this.field.addEventListener("change", () => {
+      this.field.value = this.field.value.trim() || usual;
+      changed(name, this.field.value);
+    });
+    const letter = symbol ? formula(symbol) : name;
+    this.row = make("div", { class: "slider formula", "data-name": name }, make("span", { class: "what" }, letter, make("small", {}, hint)), this.field);
+  }
+
+  wrong(message: string): void {
+    mark(this.field, message);
+  }
+}
+
+function mark(field: HTMLInputElement, message: string): void {
+  field.setAttribute("aria-invalid", String(Boolean(message)));
+  field.title = message;
+}
+
+/** Whether a refusal is about what is typed for a name. */
+export function isAbout(message: string, name: string): boolean {
+  return [`${name}:`, `${name} =`, `'${name}' in`, `a ${name} of`].some((begins) => message.startsWith(begins));
 }
 
 export function shownNumber(value: number | null): string {
