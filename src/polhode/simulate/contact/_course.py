@@ -147,7 +147,7 @@ class Walk:
             part, guard = self._cut(mode, entry, part)
             parts.append(part)
             now, state = part.end, state_at(part, part.end)
-            if guard is not None and now in drive.breaks and not _settled(guard, now, drive):
+            if now > span[0] and now in drive.breaks and not _settled(guard, now, drive):
                 guard = None
             if part.solution.stop is Stop.INTERRUPTED or now in drive.jerks:
                 break
@@ -326,12 +326,13 @@ class _Outcome:
         return self.segment.parts[-1].solution.stop is Stop.INTERRUPTED
 
 
-def _settled(guard: Guard, time: float, drive: Drive) -> bool:
-    """Whether a guard that falls where the forces change needs not be looked at beyond.
+def _settled(guard: Guard | None, time: float, drive: Drive) -> bool:
+    """Whether what happens where a stretch of the forcing ends is up to that stretch alone.
 
     Whether a body slips or lifts off there is up to the forces that hold from there on.
     """
-    return guard.kind == "near-flat" or (guard.kind == "sticks" and time not in drive.jerks)
+    kind = guard.kind if guard is not None else ""
+    return kind == "near-flat" or (kind == "sticks" and time not in drive.jerks)
 
 
 def _undecided(time: float, modes: set[str]) -> NumericError:
