@@ -12,7 +12,7 @@ from polhode.algebra._functions import CIRCULAR, Even
 from polhode.algebra._ring import Monomial, Polynomial, Ring, ring_of
 
 #: Longer polynomials are printed as they are.
-_LONGEST = 150
+_LONGEST = 80
 
 
 @dataclass(frozen=True)
@@ -23,8 +23,8 @@ class _Exchange:
     long: Polynomial
     sign: Monomial
 
-    def applied(self, ring: Ring, polynomial: Polynomial) -> Polynomial:
-        """The polynomial with as many exchanges as make it shorter."""
+    def applied(self, ring: Ring, polynomial: Polynomial) -> Iterator[Polynomial]:
+        """What the polynomial becomes by each exchange that makes it shorter."""
         for monomial, coefficient in polynomial.to_dict().items():
             if not all(map(le, self.sign, monomial)):
                 continue
@@ -32,8 +32,7 @@ class _Exchange:
             factor = ring.context.from_dict({rest: coefficient / self.long[self.sign]})
             other = polynomial - ring.reduce(factor * self.long)
             if len(other) + 1 < len(polynomial):
-                return self.applied(ring, other + factor * self.short)
-        return polynomial
+                yield other + factor * self.short
 
 
 def in_sums_of_angles(ring: Ring, polynomial: Polynomial) -> tuple[Ring, Polynomial]:
@@ -42,13 +41,18 @@ def in_sums_of_angles(ring: Ring, polynomial: Polynomial) -> tuple[Ring, Polynom
         return ring, polynomial
     for first, second in combinations(_angles(ring, polynomial), 2):
         wider = ring_of(frozenset(ring.generators) | set(_functions(first, second)))
-        before = wider.lift(ring, polynomial)
-        after = before
-        for exchange in _exchanges(wider, first, second):
-            after = exchange.applied(wider, after)
-        if len(after) < len(before):
-            ring, polynomial = wider, after
+        exchanges = list(_exchanges(wider, first, second))
+        shorter = _shortened(wider, exchanges, wider.lift(ring, polynomial))
+        if len(shorter) < len(polynomial):
+            ring, polynomial = wider, shorter
     return ring, polynomial
+
+
+def _shortened(ring: Ring, exchanges: list[_Exchange], polynomial: Polynomial) -> Polynomial:
+    """The exchange that saves most is made first, and so on until none saves anything."""
+    while found := [p for e in exchanges for p in e.applied(ring, polynomial)]:
+        polynomial = min(found, key=len)
+    return polynomial
 
 
 def _angles(ring: Ring, polynomial: Polynomial) -> list[Even]:
@@ -72,7 +76,7 @@ def _functions(first: Even, second: Even) -> Iterator[Even]:
 
 
 def _exchanges(ring: Ring, first: Even, second: Even) -> Iterator[_Exchange]:
-    """Squares before single functions: what is left of a square is never shorter for a single."""
+    """Single functions of the difference and of the sum, and their products of two."""
     c1, s1, c2, s2 = (ring.variable(g) for e in (first, second) for g in (e, e.partner()[0]))
     for even, sign in zip(_functions(first, second), (1, -1), strict=True):
         cosine, sine = ring.variable(even), ring.variable(even.partner()[0])
