@@ -28,17 +28,11 @@ _Z = np.array([0.0, 0.0, 1.0])
 
 @dataclass(frozen=True)
 class Slider:
-    """A ball, k = I/(m a²), or a block, k = ∞, on a level support that moves.
-
-    Attributes:
-        mu: coefficient of friction.
-        viscous: opposing force per slip speed and mass, 1/s.
-    """
+    """A ball, k = I/(m a²), or a block, k = ∞, with friction μ on a level support that moves."""
 
     k: float
     mu: float
     g: float
-    viscous: float = 0.0
 
     def follow(self, support: Support, state: State, duration: float, steps: int) -> State:
         """The state a duration later; `support` counts time from its begin."""
@@ -46,11 +40,10 @@ class Slider:
         h = duration / steps
         felt = 1 + 1 / self.k
         most = felt * self.mu * self.g * h
-        drag = felt * self.viscous * h
         for step in range(1, steps + 1):
             slip = velocity - rim - support(step * h, place)
             size = abs(slip)
-            left = (1 - most / size) / (1 + drag) if size > most else 0.0
+            left = 1 - most / size if size > most else 0.0
             impulse = slip * (left - 1) / felt
             velocity += impulse
             rim -= impulse / self.k
