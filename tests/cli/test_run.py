@@ -79,3 +79,16 @@ def test_people_are_told_where_it_ends_and_how_exact_that_is(polhode):
 
 def test_without_a_duration_the_catalogues_is_taken(document):
     assert document("run", "spinning-coin")["duration"] == 1.0
+
+
+@pytest.mark.parametrize(("first", "jerks"), [(-0.5, [0.5]), (-5.0, []), (5.0, []), (0.2, [1.2])])
+def test_a_sheet_may_begin_before_the_motion_or_end_after_it(document, tmp_path, first, jerks):
+    """It is at rest before its first row and after its last, whenever these are."""
+    path = tmp_path / "sheet.csv"
+    rows = [f"{first + i / 10},{3 * i * i / 1000},0" for i in range(11)]
+    path.write_text("\n".join(["t,x,y", *rows]))
+    found = document(
+        "run", "ball-on-paper", "--sheet", str(path), "--mu", "0.2", "--duration", "2s"
+    )
+    assert [e["time"] for e in found["events"] if e["kind"] == "jerk"] == pytest.approx(jerks)
+    assert found["drift"]["energy"] < 1e-13

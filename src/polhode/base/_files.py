@@ -16,6 +16,10 @@ def write_whole(path: Path, content: bytes) -> None:
     Raises:
         StoreError: where it cannot be written; what was there before is kept.
     """
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        raise StoreError(
+            f"{path} cannot be written (it is a device or a pipe)", expected="the name of a file"
+        )
     part = None
     try:
         descriptor, part = tempfile.mkstemp(suffix=".part", dir=path.parent)

@@ -28,6 +28,7 @@ from polhode.simulate.integrate._numbers import DOUBLES, Precision, numbers_for
 from polhode.simulate.precise._precisely import Wanted, precisely
 
 SAMPLES = 1001
+_LONGEST = 1e18  # s; the world is not as old
 #: Sine of the tilt at which a disk counts as lying flat.
 NEAR_FLAT = 1e-3
 
@@ -153,6 +154,8 @@ def _duration(value: Any) -> float:
     duration = to_si(given, TIME, "duration")
     if duration <= 0:
         raise UnitError(f"a duration of {duration:g} s", expected="a positive one")
+    if duration > _LONGEST:
+        raise UnitError(f"a duration of {duration:g} s", expected=f"at most {_LONGEST:g} s")
     return duration
 
 

@@ -127,3 +127,11 @@ def test_a_function_may_set_off_at_the_start_under_one_mode() -> None:
     assert abs(run.final["v_x"] - 0.1 - 2 / 7 * 0.15 * (np.cos(3.0) - 1)) < 1e-13
     with pytest.raises(ph.DeclarationError, match=r"jerks at t = 0\.5 s"):
         ph.simulate(equations, numbers, {}, 1.0, forcing=forcing | {"X": path([0, 0.5], [[0, 1]])})
+
+
+def test_a_sheet_that_gathers_speed_at_once_slips_at_that_instant() -> None:
+    """What the forces allow up to a knot and forbid from there on ends at the knot."""
+    table = np.array([[0.0, 0.0, 1.0], [0.04, 0.4, 3.0], [0.55, 2.2, -0.1]])
+    run = ball(Pieces(np.array([0.0, 0.2, 0.5, 0.9]), table), {"v_x": 0.0}, 0.6)
+    assert [(event.kind, event.time) for event in run.events[1:2]] == [("slips", 0.2)]
+    assert run.drift.energy < 1e-13

@@ -95,6 +95,11 @@ BAD = {
     "header alone": (HEADER, "0 rows; expected at least two"),
     "one row": (HEADER + "0,0,0\n", "1 rows; expected at least two"),
     "missing cell": (HEADER + "0,0,0\n1,,0\n", "line 3 of the sheet: no x"),
+    "one row as good as twice": (
+        HEADER + "0,0,0\n1e-12,1,0\n1,0,0\n",
+        "t = 9.9999999999999998e-13",
+    ),
+    "no time at all": (HEADER + "0,0,0\n1e-300,1,0\n1,0,0\n", "right after 0"),
     "short row": (HEADER + "0,0,0\n1,1\n", "line 3 of the sheet: 2 cells"),
     "long row": (HEADER + "0,0,0\n1,1,1,1\n", "line 3 of the sheet: 4 cells"),
     "empty line": (HEADER + "0,0,0\n\n1,1,1\n", "line 3 of the sheet: an empty line"),

@@ -7,6 +7,8 @@ from polhode.derive import Automaton
 from polhode.model import Contact, Coulomb
 from polhode.simulate.contact._machine import Machine
 
+_LEAST, _MOST = 1e-9, 1e9  # of friction: beyond, its forces drown in rounding, or drown all else
+
 
 def can_be_followed(modes: Automaton) -> bool:
     """Whether the forces that tell when contacts change are determined.
@@ -48,6 +50,10 @@ def _check_friction(machine: Machine, contact: Coulomb) -> None:
     kinetic, static = (machine.value(mu) for mu in (contact.mu, contact.mu_static))
     if kinetic < 0:
         raise _impossible("friction coefficient mu", kinetic, contact, "zero or more")
+    for what, value in (("mu", kinetic), ("mu_static", static)):
+        if value and not _LEAST <= value <= _MOST:
+            expected = f"zero, or a number from {_LEAST:g} to {_MOST:g}"
+            raise _impossible(f"friction coefficient {what}", value, contact, expected)
     if static < kinetic:
         raise _impossible(
             "friction coefficient mu_static", static, contact, f"no less than mu = {kinetic:g}"

@@ -270,7 +270,9 @@ class ModeMachine:
         function = self.dynamics.function(self.slip_changes, known)
         with np.errstate(all="ignore"):
             found = function(*state[: len(states)], *directions, *self.parameters, time)
-        return np.array(np.broadcast_arrays(*found), dtype=float).reshape(-1, 2, len(found[0]))
+        count = max(np.size(direction) for direction in directions)
+        rows = [np.broadcast_to(rate, (count,)) for rate in found]
+        return np.array(rows, dtype=float).reshape(-1, 2, count)
 
     def slip_rates(self, state: Array, time: float, directions: Sequence[float]) -> Array:
         """Rate of the slip velocity of every contact, m/s², shape (contacts, 2)."""

@@ -20,6 +20,7 @@ from polhode.simulate.integrate._integrators import Array
 _NEEDED = ("t", "x", "y")
 _OPTIONAL = ("angle", "segment")
 _LARGEST = 1e12  # beyond it a number is taken for a slip, in s, m and rad
+_CLOSEST = 1e-9  # of the whole time: rows closer than that are one row twice, with its rounding
 _SHOWN = 40  # characters of the file that a message repeats
 
 
@@ -167,10 +168,17 @@ def _starts(rows: Sequence[_Row]) -> tuple[int, ...]:
 
 
 def _refuse_disorder(rows: Sequence[_Row], starts: Sequence[int]) -> None:
+    least = _CLOSEST * abs(rows[-1].numbers["t"] - rows[0].numbers["t"])
     for i, (before, row) in enumerate(pairwise(rows), start=1):
         earlier, now = before.numbers["t"], row.numbers["t"]
         if now < earlier or (now == earlier and i not in starts):
             raise _bad(row.line, f"t = {now:.9g} after {earlier:.9g}", "times that increase")
+        if now - earlier < least and i not in starts:
+            raise _bad(
+                row.line,
+                f"t = {now:.17g} right after {earlier:.17g}",
+                f"rows at least {least:.1g} s apart, a billionth of the whole",
+            )
 
 
 def _refuse_gaps(rows: Sequence[_Row], times: Array, starts: Sequence[int]) -> None:

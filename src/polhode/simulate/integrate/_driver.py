@@ -20,7 +20,9 @@ from polhode.simulate.integrate._quadrature import Integral, integral
 
 _TURNS = 16  # periods after which an angle is counted from zero again
 _MOST_STEPS = 4_000_000
-_SMALLEST = 1e-14  # length of a step, relative to the whole, that means a singular position
+_SMALLEST = 1e-14  # length of a step, over the time and the longest, that means a singular position
+_GLANCE = 100  # steps after which it can be told that
+_HOPELESS = 4e12  # times as many would be too many
 
 States: TypeAlias = Callable[[Array], Array]
 
@@ -215,8 +217,8 @@ class _Watch:
     ) -> None:
         self.stop: Stop | None = None
         self._limits = limits
-        self._least = _SMALLEST * (span[1] - span[0])
-        self._end = span[1]
+        self._begin, self._end = span
+        self._longest = 0.0
         self._progress = progress
         self._watched = watched
         self._steps = 0
@@ -232,15 +234,27 @@ class _Watch:
             return False
         if self._steps > _MOST_STEPS:
             raise endless(time)
+        if self._is_hopeless(time):
+            raise _hopeless(self._end, time - self._begin)
         vanished = [self._vanishes(k, state) for k in range(len(self._vectors))]
         if any(vanished):
             self.stop = Stop.VANISHED
-        elif time - self._time < self._least and time < self._end:
+        elif self._is_stuck(time) and time < self._end:
             self.stop = Stop.VANISHED if self._is_small(state) else Stop.STUCK
         elif self._steps % self._watched.pause == 0 or self._watched.over(time, state):
             self.stop = Stop.PAUSE
         self._time = time
         return self.stop is None and bool(np.all(np.abs(state) < self._limits))
+
+    def _is_stuck(self, time: float) -> bool:
+        step = time - self._time
+        if step < np.inf:
+            self._longest = max(self._longest, step)
+        return step < _SMALLEST * max(abs(time), self._longest)
+
+    def _is_hopeless(self, time: float) -> bool:
+        passed = time - self._begin
+        return self._steps == _GLANCE and self._end - time > _HOPELESS / _GLANCE * passed
 
     def _is_small(self, state: Array) -> bool:
         vectors = (state[list(places)] for places in self._watched.vectors)
@@ -259,6 +273,15 @@ def endless(time: float) -> NumericError:
         f"{_MOST_STEPS} steps are not enough to go beyond t = {time:.9g} s",
         expected="a motion without singular positions, over a duration that can be kept in memory",
         advice="end before that time, or start elsewhere",
+    )
+
+
+def _hopeless(end: float, passed: float) -> NumericError:
+    """The end is out of reach."""
+    return NumericError(
+        f"a motion up to t = {end:g} s, of which {_GLANCE} steps cover {passed:.3g} s",
+        expected=f"a duration that {_MOST_STEPS} steps can cover",
+        advice=f"try {_MOST_STEPS / _GLANCE * passed / 100:.0e} s",
     )
 
 
