@@ -60,3 +60,41 @@ def test_two_equal_slips_are_corrected_together():
     assert verdict.answer is Answer.FAILS
     assert verdict.correction is not None
     assert verdict.correction.what == "wrong factor"
+
+
+@pytest.mark.parametrize(
+    ("context", "latex", "what"),
+    [
+        ("threshold", r"\omega_1^2 > \frac{4MgaI_{2p}\cos\theta}{I_1}", "wrong power"),
+        ("number", r"\frac{4I_{2p}}{I_2} = 2.0", "wrong factor"),
+    ],
+)
+def test_claims_that_are_judged_whole_are_corrected(context, latex, what):
+    gyroscope = ph.derive(CATALOGUE["gyroscope"].build())
+    given = [] if context == "threshold" else ["I_2 = M*a**2"]
+    let = [r"I_{2p} = I_2 + Ma^2"]
+    verdict = ph.check(latex, gyroscope, context=context, let=let, given=given)
+    assert verdict.answer is Answer.FAILS
+    assert verdict.correction is not None
+    assert what in {c.what for c in (verdict.correction, *verdict.alternatives)}
+    corrected = ph.check(verdict.correction.latex, gyroscope, context=context, let=let, given=given)
+    assert corrected.answer is Answer.HOLDS
+
+
+def test_a_dot_lost_throughout_is_one_slip():
+    coin = ph.derive(CATALOGUE["spinning-coin"].build())
+    verdict = ph.check(
+        r"P_\psi = \frac{\partial \mathcal L}{\partial \psi}"
+        r" = \frac{\partial T_{\rm rot}}{\partial \psi}",
+        coin,
+        context="identity",
+    )
+    assert verdict.correction is not None
+    assert verdict.correction.what == "dot lost"
+
+
+def test_what_only_repeats_the_other_side_is_no_correction():
+    gyroscope = ph.derive(CATALOGUE["gyroscope"].build())
+    verdict = ph.check(r"L_{z} = I_1\omega_1\cos\theta", gyroscope, context="identity")
+    assert verdict.correction is not None
+    assert verdict.correction.latex.count("L_{z}") == 1

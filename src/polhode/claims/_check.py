@@ -94,7 +94,7 @@ def _defined(letters: Iterable[Node]) -> str:
 
 
 def _corrected(verdict: Verdict, statement: Statement, notation: Notation, context: str) -> Verdict:
-    from polhode.claims.repair import REPAIRED, Repaired, repaired, tidied
+    from polhode.claims.repair import Repaired, repaired, tidied
 
     def holds(asked: Asked) -> bool:
         return judge(asked, context).holds
@@ -103,8 +103,6 @@ def _corrected(verdict: Verdict, statement: Statement, notation: Notation, conte
         what = "; ".join(dict.fromkeys(change.what for change in repair.changes))
         return Correction(what, write_latex(tidied(repair.statement)))
 
-    if context not in REPAIRED:
-        return verdict
     try:
         found = repaired(statement, notation, context, holds)
     except (PolhodeError, ArithmeticError):

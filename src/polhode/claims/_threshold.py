@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
-from polhode.algebra import Expr
+from polhode.algebra import Expr, Symbol
 from polhode.analyse import Truth, stability
 from polhode.base import ParseError, PolhodeError
-from polhode.claims._asked import EQUALITY, SENSE, Asked
+from polhode.claims._asked import EQUALITY, SENSE, Asked, The
 from polhode.claims._circumstances import AnyState
 from polhode.claims._components import Component
 from polhode.claims._counterexample import refutation
@@ -67,10 +68,22 @@ def _claimed(component: Component, asked: Asked) -> tuple[Component, int]:
     return component, SENSE[sign]
 
 
-def exact_conditions(asked: Asked) -> list[Exact]:
+def exact_conditions(asked: Asked) -> tuple[Exact, ...]:
     """Conditions of stability and of existence, for every family that obeys the restrictions."""
+    given = tuple(asked.given.items())
+    return _conditions(The(asked.equations), given, asked.relations, asked.positive)
+
+
+@lru_cache(maxsize=16)
+def _conditions(
+    the: The,
+    given: tuple[tuple[Symbol, Expr], ...],
+    relations: tuple[Expr, ...],
+    positive: tuple[Expr, ...],
+) -> tuple[Exact, ...]:
+    asked = Asked(((),), the.equations, dict(given), relations, positive=positive)
     families = steady_states(asked)
-    return [e for family in families for e in (*_stability(family), *_existence(family))]
+    return tuple(e for family in families for e in (*_stability(family), *_existence(family)))
 
 
 def _stability(family: SteadyStates) -> Iterator[Exact]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
 
@@ -34,11 +34,13 @@ from polhode.claims.repair._multiplier import (
     multiplier,
     simple_numbers,
 )
+from polhode.claims.repair._one_by_one import JUDGED_WHOLE, one_by_one
 from polhode.claims.repair._own_terms import fitted
 from polhode.claims.repair._places import Place, places, put, tidied, times
 from polhode.claims.repair._reading import Reading
+from polhode.claims.repair._repaired import Repaired, smallest
 from polhode.claims.repair._tally import UNKNOWN, Tally
-from polhode.claims.repair._trials import Trials, trials
+from polhode.claims.repair._trials import FITTED, Trials, trials
 from polhode.claims.repair._workpiece import Workpiece
 
 Holds = Callable[[Asked], bool]
@@ -48,24 +50,10 @@ _FACTOR = Symbol("multiplier")
 _LETTER = "multiplier"
 
 _CLOSE = 1e-8
-_EQUALLY_SMALL = 0.15
 _ONE_EDIT = 1.9  # what is larger may be undercut by a missing term
 _TRIED = 12
 _MOST_EDITS = 4
 _MOST_INNER = 8
-
-
-@dataclass(frozen=True)
-class Repaired:
-    """A corrected statement and the changes that were made."""
-
-    statement: Statement
-    changes: tuple[Edit, ...]
-
-    @property
-    def size(self) -> float:
-        """How much was changed."""
-        return sum(change.size for change in self.changes)
 
 
 def repaired(
@@ -79,6 +67,10 @@ def repaired(
         context: where the claim is to hold.
         holds: exact judgement of a corrected claim.
     """
+    if context in JUDGED_WHOLE:
+        return one_by_one(statement, reading, holds)
+    if context not in FITTED:
+        return ()
     repair = Repaired(statement, ())
     for _ in range(_MOST_EDITS):
         workshop = _Workshop(repair, reading, context)
@@ -91,7 +83,7 @@ def repaired(
             if any(r.size - repair.size < _ONE_EDIT for r in telling):
                 break
         if whole:
-            return _smallest(telling or whole)
+            return smallest(telling or whole)
         first = _begun(workshop)
         if first is None:
             return ()
@@ -130,13 +122,6 @@ def _vanishes(asked: Asked, member: int) -> bool:
     """Whether both sides of a member vanish by themselves."""
     sides = (c for c in asked.components() if c.member == member)
     return not any(c.left or c.right for c in sides)
-
-
-def _smallest(found: Sequence[Repaired]) -> tuple[Repaired, ...]:
-    ordered = sorted(found, key=lambda r: r.size)
-    limit = ordered[0].size + _EQUALLY_SMALL
-    kept = {tidied(r.statement): r for r in reversed(ordered) if r.size <= limit}
-    return tuple(reversed(kept.values()))
 
 
 class _Workshop:
@@ -212,7 +197,7 @@ class _Workshop:
         for letter in dict.fromkeys(p.node for p in found):
             alike = [p for p in found if p.node == letter]
             changes = tuple(replaced(p, dotted(p.node), 1 / len(alike)) for p in alike)
-            if self._hold(self._applied(changes).statement, kept):
+            if self._hold(self._repair.with_changes(changes).statement, kept):
                 yield changes
 
     def _hold(self, changed: Statement, kept: Collection[int]) -> bool:
@@ -223,15 +208,9 @@ class _Workshop:
             return False
 
     def _ranked(self, found: Iterable[tuple[Edit, ...]]) -> list[Repaired]:
-        ordered = sorted(map(self._applied, found), key=lambda repair: repair.size)
+        ordered = sorted(map(self._repair.with_changes, found), key=lambda repair: repair.size)
         different = {tidied(r.statement): r for r in reversed(ordered)}
         return list(reversed(different.values()))[:_TRIED]
-
-    def _applied(self, changes: Sequence[Edit]) -> Repaired:
-        changed = self._statement
-        for edit in changes:
-            changed = put(changed, edit.path, edit.node)
-        return Repaired(changed, (*self._repair.changes, *changes))
 
     def _response(self, place: Place, kept: Collection[int]) -> Response | None:
         """How the residuals of these members change with a factor at a place."""

@@ -78,5 +78,5 @@ _TRIALS: dict[str, Callable[[Asked], Trials]] = {
     "steady": _steady,
 }
 
-#: Contexts in which corrections are looked for.
-REPAIRED = tuple(_TRIALS)
+#: Contexts in which what is left can be fitted.
+FITTED = tuple(_TRIALS)
