@@ -87,7 +87,9 @@ def test_outputs_that_make_no_sense():
 
 def test_names_of_any_mode_are_known(rolling):
     """A height is a coordinate only in flight, a force one of contact; a forcing has its own."""
-    found = ensemble(rolling, NUMBERS, {"theta": 1.0, "z": 0.1}, 0.01, count=2, outputs=["v_z", "F_z"])
+    found = ensemble(
+        rolling, NUMBERS, {"theta": 1.0, "z": 0.1}, 0.01, count=2, outputs=["v_z", "F_z"]
+    )
     assert found.failed == 0
     case, w = rough_balls(), symbol("w")
     forcing = {**case.options["forcing"], "chi": w}
