@@ -103,6 +103,13 @@ def test_definitions_and_unknown_letters_are_told_apart():
     assert "q" in unread.reason
 
 
+@pytest.mark.parametrize("latex", ["hello", r"\omega_1", r"\theta + \phi"])
+def test_a_formula_without_a_relation_states_nothing(latex):
+    unread = ph.check(latex, equations("gyroscope"))
+    assert unread.answer is Answer.UNREAD
+    assert "states nothing" in unread.reason
+
+
 def test_a_known_symbol_cannot_be_defined_anew():
     with pytest.raises(ph.ParseError):
         ph.check(r"F_z = Mg", equations("gyroscope"), let=["theta = 1"])

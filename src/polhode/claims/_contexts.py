@@ -51,6 +51,12 @@ def judge(asked: Asked, context: str) -> Verdict:
     if context in _WHOLE:
         return _WHOLE[context](asked)
     found = list(_by_signs(asked, context))
+    if not found:
+        raise ParseError(
+            "a formula that states nothing",
+            expected="two sides with a sign between them, such as = or <",
+            advice="write out the whole equation",
+        )
     worst = next((v for v in found if not v.holds), None)
     if worst is not None:
         return replace(worst, context=context)
