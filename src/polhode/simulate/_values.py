@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import suppress
+from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
-from polhode.algebra import FLOATS, Expr, Symbol, compile_program
+from polhode.algebra import FLOATS, Compiled, Expr, Symbol, compile_program
 from polhode.base import (
     PURE,
     TIME,
@@ -99,8 +100,13 @@ def idle_parameters(equations: EquationsOfMotion, given: Mapping[Name, Any]) -> 
 
 def evaluate(expression: Expr, numbers: Numbers) -> float:
     """Value of an expression of known symbols."""
-    program = compile_program([expression], tuple(numbers))
-    return float(program.function(FLOATS)(*numbers.values())[0])
+    (value,) = _function((expression,), tuple(numbers))(*numbers.values())
+    return float(value)
+
+
+@lru_cache(maxsize=256)
+def _function(expressions: tuple[Expr, ...], symbols: tuple[Symbol, ...]) -> Compiled:
+    return compile_program(expressions, symbols).function(FLOATS)
 
 
 def _number(value: Any, name: str, dimension: Dimension | None, known: Numbers) -> float:
@@ -134,8 +140,8 @@ def _check_bodies(dynamics: Dynamics, values: Numbers) -> None:
     for body in getattr(dynamics.equations.system, "bodies", ()):
         if values.keys() >= set(constants([body.mass])):
             check_mass(body.name, evaluate(body.mass, values))
-        entries = [entry for row in body.inertia.rows for entry in row]
+        entries = tuple(entry for row in body.inertia.rows for entry in row)
         if values.keys() >= set(constants(entries)):
-            inertia = [evaluate(entry, values) for entry in entries]
+            inertia = _function(entries, tuple(values))(*values.values())
             moments = np.linalg.eigvalsh(np.reshape(inertia, (3, 3)))
             check_inertia(body.name, [float(moment) for moment in moments])
