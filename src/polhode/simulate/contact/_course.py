@@ -3,31 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import Symbol
 from polhode.base import NumericError, Progress
 from polhode.derive import Guard
-from polhode.simulate._dynamics import CLOCK, WORK
+from polhode.simulate._dynamics import WORK
 from polhode.simulate._segment import Part, Segment, state_at
+from polhode.simulate.contact._lookout import Lookout, meetings_of
 from polhode.simulate.contact._machine import Machine, ModeMachine, gap_symbol, slip_symbols
 from polhode.simulate.contact._onset import onset
-from polhode.simulate.contact._rise import Rise, fall_of
-from polhode.simulate.contact._settle import Entry, painleve
-from polhode.simulate.contact._touching import Meeting
-from polhode.simulate.contact._transition import Leaving, Transitions, beyond, index_of
+from polhode.simulate.contact._rise import fall_of
+from polhode.simulate.contact._settle import Entry
+from polhode.simulate.contact._transition import Leaving, Transitions
 from polhode.simulate.forcing._drive import Drive
-from polhode.simulate.integrate._crossing import first_fall
-from polhode.simulate.integrate._driver import Stop, Watched, integrate, stuck
+from polhode.simulate.integrate._driver import Stop, Watched, integrate
 from polhode.simulate.integrate._integrators import Array
 
 _LOOK = 400  # steps after which the guards are looked at
 _VANISHED = 1e-14  # slip speed, relative to the velocities around, that is none
 _LANDED = 1e-10  # the same at an instant at which the slip velocity turns round
-_JAMMED = 1e-6  # of what sliding has in reserve before it jams: as good as none
 _MOST_EVENTS = 50_000
+_NO_TIME = 1e-11  # of the time of the whole motion
 _MOST_AT_ONCE = 32  # changes of mode while no time passes: far more than contacts can have
 
 
@@ -105,15 +104,20 @@ class Walk:
             self._changes.append(Change(time, kind, before, after))
             if len(self._changes) > _MOST_EVENTS:
                 raise _chattering(time)
-            if self._stands_still():
+            if self._stands_still(end):
                 raise _undecided(time, {before, after})
         return Course(tuple(self._segments), tuple(self._changes), self._segments[-1].mode)
 
-    def _stands_still(self) -> bool:
-        """Whether mode has followed mode for long while no time has passed."""
-        last = self._changes[-_MOST_AT_ONCE:]
+    def _stands_still(self, end: float) -> bool:
+        """Whether mode has followed mode for long while no time has passed.
+
+        Next to none counts as none where contacts open again in the instant in which they close.
+        """
+        last, stays = self._changes[-_MOST_AT_ONCE:], self._segments[-_MOST_AT_ONCE:]
         passed = last[-1].time - last[0].time
-        return len(last) == _MOST_AT_ONCE and passed <= 8 * np.spacing(last[-1].time)
+        idle = sum(stay.end == stay.begin for stay in stays)
+        none = _NO_TIME * end if 2 * idle >= _MOST_AT_ONCE - 2 else 0.0
+        return len(last) == _MOST_AT_ONCE and passed <= max(none, 8 * np.spacing(last[-1].time))
 
     def _last(self, outcome: _Outcome) -> Change | None:
         """The change that ends the motion, if this is one."""
@@ -132,6 +136,7 @@ class Walk:
         begin = now = entry.place.time
         machine, drive = self._machine, self._machine.drive
         parts = list[Part]()
+        lookout = Lookout(machine, self._near_flat, mode, entry)
         state = self._start(mode, entry)
         guard: Guard | None = None
         while guard is None and now < end:
@@ -144,7 +149,7 @@ class Walk:
                 part = onset(mode, entry, state, span, machine.automaton.contacts)
             else:
                 part = self._stretch(mode, entry, state, span)
-            part, guard = self._cut(mode, entry, part)
+            part, guard = lookout.cut(part)
             parts.append(part)
             now, state = part.end, state_at(part, part.end)
             if now > span[0] and now in drive.breaks and not _settled(guard, now, drive):
@@ -170,7 +175,7 @@ class Walk:
             return np.inf
         state = np.concatenate([entry.coordinates, entry.speeds])
         falls = mode.closing_rates(state, entry.place.time)
-        rises = [meeting.velocity[2] for meeting in self._meetings(entry)]
+        rises = [meeting.velocity[2] for meeting in meetings_of(self._machine, entry)]
         hops = [fall_of(gap, rises[i], falls[i]) for i, gap in entry.gaps.items() if falls[i] < 0]
         return 1.5 * min((hop for hop in hops if hop > 0), default=np.inf)
 
@@ -178,7 +183,7 @@ class Walk:
         equations = mode.mode.equations
         values = (*entry.coordinates, *entry.speeds)
         state = dict(zip((*equations.coordinates, *equations.speeds), values, strict=True))
-        meetings = self._meetings(entry)
+        meetings = meetings_of(self._machine, entry)
         for i, touch in enumerate(mode.mode.touches):
             if gap_symbol(touch.contact) in mode.dynamics.carried:
                 state[gap_symbol(touch.contact)] = entry.gaps.get(i, meetings[i].gap)
@@ -225,94 +230,8 @@ class Walk:
         return lambda time, state: min(values(*state.tolist(), *constants, time)) < least
 
     def _speed_scale(self, entry: Entry) -> float:
-        meetings = self._meetings(entry)
+        meetings = meetings_of(self._machine, entry)
         return max((meeting.scale for meeting in meetings), default=0.0) or 1.0
-
-    def _meetings(self, entry: Entry) -> list[Meeting]:
-        return self._machine.touching.at(entry.place, beyond(entry.phases))
-
-    # -- guards ---------------------------------------------------------------------------------
-
-    def _cut(self, mode: ModeMachine, entry: Entry, part: Part) -> tuple[Part, Guard | None]:
-        """The part up to the first guard that falls, and that guard."""
-        solution = part.solution
-        watched = [g for g in mode.mode.guards if g.kind != "sticks"]
-        jams = mode.can_jam
-        fall = None
-        if watched or jams:
-            values = self._values(mode, entry, part, watched)
-            fall = first_fall(values, solution.steps)
-        if fall is not None:
-            if fall.guard == len(watched):
-                raise painleve(", ".join(e.name for e in mode.sliding), fall.time)
-            return replace(part, end=fall.time), watched[fall.guard]
-        if solution.stop is Stop.STUCK:
-            raise self._jammed(mode, entry, part) or stuck(solution)
-        return part, self._landing(mode, entry, part)
-
-    def _jammed(self, mode: ModeMachine, entry: Entry, part: Part) -> NumericError | None:
-        """Where a part ends because forces grow beyond all bounds: Painlevé's paradox, if it is."""
-        if not mode.can_jam:
-            return None
-        reserves = self._values(mode, entry, part, [])(part.solution.steps)[-1]
-        if reserves[-1] > _JAMMED * np.max(reserves):
-            return None
-        return painleve(", ".join(e.name for e in mode.sliding), part.end)
-
-    def _values(
-        self, mode: ModeMachine, entry: Entry, part: Part, watched: list[Guard]
-    ) -> Callable[[Array], Array]:
-        """Values of the guards, and how far sliding is from jamming."""
-        expressions = [self._looked_at(guard) for guard in watched]
-        size = len(mode.mode.equations.speeds)
-        masses = [e for row in mode.mode.equations.mass.rows for e in row] if mode.can_jam else []
-        arguments = (*part.solution.symbols, *mode.dynamics.parameters, CLOCK)
-        wanted = [*expressions, *masses]
-        function = mode.dynamics.function(wanted, arguments, part.solution.turned)
-        leaving = self._leaving(entry, watched)
-
-        def values(times: Array) -> Array:
-            with np.errstate(all="ignore"):
-                found = function(*part.solution.at(times), *part.constants, times)
-            rows = np.array([np.broadcast_to(v, times.shape) for v in found], dtype=float)
-            for k, rise in leaving.items():
-                rows[k] = rise.mean(rows[k], times)
-            own = rows[: len(expressions)]
-            if not mode.can_jam:
-                return own
-            matrices = rows[len(expressions) :].T.reshape(-1, size, size)
-            return np.vstack([own, np.linalg.det(matrices)])
-
-        return values
-
-    def _leaving(self, entry: Entry, watched: list[Guard]) -> dict[int, Rise]:
-        """The guards of contacts that have just opened, and how these rise."""
-        found = {}
-        for k, guard in enumerate(watched):
-            i = index_of(guard, self._machine)
-            if guard.kind == "touches down" and entry.gaps.get(i) == 0.0:
-                meeting = self._meetings(entry)[i]
-                found[k] = Rise(entry.place.time, float(meeting.velocity[2]), meeting.scale)
-        return found
-
-    def _looked_at(self, guard: Guard) -> Expr:
-        if guard.kind == "touches down" and guard.contact is not None:
-            return Expr.generator(gap_symbol(guard.contact))
-        if guard.kind == "near-flat":
-            return guard.positive - self._near_flat
-        return guard.positive
-
-    def _landing(self, mode: ModeMachine, entry: Entry, part: Part) -> Guard | None:
-        """The contact whose slip velocity vanishes at the end of a part."""
-        if part.solution.vanished is None:
-            return None
-        i = sorted(entry.slips)[part.solution.vanished]
-        name = self._machine.automaton.contacts[i].name
-        return next(
-            g
-            for g in mode.mode.guards
-            if g.kind == "sticks" and g.contact and g.contact.name == name
-        )
 
 
 @dataclass(frozen=True)

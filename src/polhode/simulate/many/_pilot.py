@@ -18,6 +18,7 @@ from polhode.simulate._names import Name
 from polhode.simulate._segment import Part, state_at
 from polhode.simulate.contact._checks import check_numbers
 from polhode.simulate.contact._course import Course, Walk
+from polhode.simulate.contact._lookout import Lookout
 from polhode.simulate.contact._machine import Machine
 from polhode.simulate.contact._onset import onset
 from polhode.simulate.contact._settle import Entry
@@ -93,7 +94,8 @@ class Pilot(Walk):
         if not entry.onset:
             return Entered(entry, begin, state)
         contacts = self._machine.automaton.contacts
-        part, guard = self._cut(mode, entry, onset(mode, entry, state, (begin, end), contacts))
+        lookout = Lookout(self._machine, self._near_flat, mode, entry)
+        part, guard = lookout.cut(onset(mode, entry, state, (begin, end), contacts))
         return Entered(entry, part.end, state_at(part, part.end), part, guard)
 
     def speed_scale(self, entry: Entry) -> float:
