@@ -14,6 +14,13 @@ def test_a_disk_that_falls_flat_on_unlimited_friction_is_refused_by_name() -> No
         ph.simulate(disk, NUMBERS, {"theta": "80 deg"}, "0.3 s")
 
 
+def test_a_disk_that_neither_rolls_nor_leaves_is_refused_by_name() -> None:
+    start = {"theta": 0.46459683733, "phi_dot": -7.0217058006, "omega_3": -39.007926335}
+    disk = CATALOGUE["rolling-disk"].build()
+    with pytest.raises(ph.NumericError, match="flight and contact exclude each other"):
+        ph.simulate(disk, {"m": "0.2 kg", "a": "30 mm", "g": 9.81}, start, "10 s")
+
+
 def test_with_friction_that_gives_way_it_slips_first_and_goes_on() -> None:
     disk = ph.with_friction(CATALOGUE["rolling-disk"].build(), mu=0.3)
     run = ph.simulate(disk, NUMBERS, {"theta": "80 deg"}, "0.3 s")

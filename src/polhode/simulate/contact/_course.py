@@ -111,13 +111,17 @@ class Walk:
     def _stands_still(self, end: float) -> bool:
         """Whether mode has followed mode for long while no time has passed.
 
-        Next to none counts as none where contacts open again in the instant in which they close.
+        Next to none counts as none unless contacts rebound, ever more often.
         """
-        last, stays = self._changes[-_MOST_AT_ONCE:], self._segments[-_MOST_AT_ONCE:]
+        last = self._changes[-_MOST_AT_ONCE:]
         passed = last[-1].time - last[0].time
-        idle = sum(stay.end == stay.begin for stay in stays)
-        none = _NO_TIME * end if 2 * idle >= _MOST_AT_ONCE - 2 else 0.0
-        return len(last) == _MOST_AT_ONCE and passed <= max(none, 8 * np.spacing(last[-1].time))
+        if len(last) < _MOST_AT_ONCE or passed > _NO_TIME * end:
+            return False
+        return passed <= 8 * np.spacing(last[-1].time) or not self._rebounds()
+
+    def _rebounds(self) -> bool:
+        contacts = self._machine.automaton.contacts
+        return any(self._machine.value(contact.restitution) > 0 for contact in contacts)
 
     def _last(self, outcome: _Outcome) -> Change | None:
         """The change that ends the motion, if this is one."""
@@ -257,8 +261,9 @@ def _settled(guard: Guard | None, time: float, drive: Drive) -> bool:
 def _undecided(time: float, modes: set[str]) -> NumericError:
     # Where N vanishes while unlimited friction still pulls, the contact cannot open, for without
     # friction it would close again; nor can it hold, for it would have to pull (Painlevé).
+    names = sorted(modes) if len(modes) > 1 else [*modes, "contact"]
     return NumericError(
-        f"at t = {time:.9g} s no mode can follow: {' and '.join(sorted(modes))} exclude each other",
+        f"at t = {time:.9g} s no mode can follow: {' and '.join(names)} exclude each other",
         expected="friction that gives way before the contact has to open",
         advice="give the contact a friction coefficient mu, or end the motion before that time",
     )
