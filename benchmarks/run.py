@@ -66,6 +66,8 @@ OUR_COLD_RUN = ("ours/run_disk.py", "--cold")
 OUR_WARM_RUN = ("ours/run_disk.py", "--warm")
 OUR_DISKS = ("ours/ensemble_disk.py",)
 BARE_DISKS = ("ours/ensemble_disk.py", "--bare")
+OUR_ROUGH = ("ours/ensemble_rough.py",)
+ALONE_ROUGH = ("ours/ensemble_rough.py", "--alone", "--members", "64")
 SCIPY_DISKS = ("peers/scipy_disks.py",)
 DIFFRAX_DISKS = ("peers/diffrax_disks.py",)
 KANE_DISK = ("peers/kane_disk.py",)
@@ -107,6 +109,7 @@ COMPARISONS = (
     derivation("each of 2048 disks / bare heyoka", OUR_DISKS, BARE_DISKS, times_less(0.9)),
     derivation("each of 2048 disks / SciPy", OUR_DISKS, SCIPY_DISKS, times_less(100)),
     derivation("each of 2048 disks / diffrax", OUR_DISKS, DIFFRAX_DISKS, times_less(20)),
+    derivation("each of 512 slipping balls / alone", OUR_ROUGH, ALONE_ROUGH, times_less(2.5)),
     contact("ball on a sheet", "sheet"),
     contact("ball that slides", "slide"),
     contact("disk that slips", "disk"),

@@ -33,12 +33,14 @@ def case(members: int):
     from polhode.derive import automaton
     from polhode.model import with_friction
 
-    random = np.random.default_rng(1)
+    # rows of draws, so that the first members are the same however many there are
+    frictions = np.random.default_rng(1).uniform(0.05, 0.35, members)
+    speeds = np.random.default_rng(2).normal(0, 0.3, (members, 2))
     mu = symbol("mu")
     modes = automaton(with_friction(CATALOGUE["ball-on-paper"].build(), mu, 1.2 * mu))
     sheet = {"X": sin(10 * time) ** 3 / 30, "Y": sin(4 * time) ** 2 / 30, "chi": 0}
-    numbers = {**NUMBERS, "mu": random.uniform(0.05, 0.35, members)}
-    starts = {name: random.normal(0, 0.3, members) for name in ("v_x", "v_y")}
+    numbers = {**NUMBERS, "mu": frictions}
+    starts = {"v_x": speeds[:, 0], "v_y": speeds[:, 1]}
     return modes, sheet, numbers, starts
 
 
