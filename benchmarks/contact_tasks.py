@@ -6,8 +6,11 @@ disk that is thrown slipping, grips, and rolls on. Every side gives the numbers 
 
 from __future__ import annotations
 
+import argparse
+import json
 from bisect import bisect_right
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from time import process_time
 from typing import Any
 
@@ -91,6 +94,23 @@ def measured(setting: str, run: Callable[[], dict[str, float]], repeats: int = 5
         run()
         times.append(process_time() - begun)
     return {"setting": setting, "answer": answer, "first": first, "seconds": min(times)}
+
+
+def tell(
+    description: str | None,
+    runs: Mapping[str, Callable[[float], dict[str, float]]],
+    settings: Mapping[str, Sequence[float]],
+    unit: str = "",
+) -> None:
+    """Print the document of a side that has a setting: every task, or those of `--task`."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--task", choices=TASKS, action="append")
+    choice = parser.parse_args()
+    document = {
+        name: [measured(f"{s:g}{unit}", partial(runs[name], s)) for s in settings[name]]
+        for name in choice.task or TASKS
+    }
+    print(json.dumps(document | single(document)))
 
 
 def single(document: dict[str, list[dict[str, Any]]]) -> dict[str, Any]:

@@ -10,8 +10,6 @@ made in one call. Models are compiled once.
 
 from __future__ import annotations
 
-import argparse
-import json
 import math
 import sys
 from functools import cache
@@ -35,17 +33,7 @@ CONTACT = 'condim="3" solimp="0.999 0.9999 0.001" friction="{mu} 0 0" solref="{s
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--task", choices=tasks.TASKS, action="append")
-    choice = parser.parse_args()
-    runs = {"sheet": sheet, "slide": slide, "disk": disk}
-    document = {
-        name: [
-            tasks.measured(f"{h:g} s", lambda h=h, name=name: runs[name](h)) for h in STEPS[name]
-        ]
-        for name in choice.task or tasks.TASKS
-    }
-    print(json.dumps(document | tasks.single(document)))
+    tasks.tell(__doc__, {"sheet": sheet, "slide": slide, "disk": disk}, STEPS, " s")
 
 
 @cache

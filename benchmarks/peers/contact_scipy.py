@@ -8,8 +8,6 @@ quicker here than arrays.
 
 from __future__ import annotations
 
-import argparse
-import json
 import sys
 from collections.abc import Callable
 from math import cos, hypot, sin
@@ -28,15 +26,8 @@ Rates = Callable[[float, State], Any]
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--task", choices=tasks.TASKS, action="append")
-    choice = parser.parse_args()
-    runs = {"sheet": sheet, "slide": slide, "disk": disk}
-    document = {
-        name: [tasks.measured(f"{t:g}", lambda t=t, name=name: runs[name](t)) for t in TOLERANCES]
-        for name in choice.task or tasks.TASKS
-    }
-    print(json.dumps(document | tasks.single(document)))
+    settings = dict.fromkeys(tasks.TASKS, TOLERANCES)
+    tasks.tell(__doc__, {"sheet": sheet, "slide": slide, "disk": disk}, settings)
 
 
 def ended(threshold: float, slip: Callable[[float, State], float]) -> Any:

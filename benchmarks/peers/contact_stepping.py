@@ -6,8 +6,6 @@ the disk.
 
 from __future__ import annotations
 
-import argparse
-import json
 import math
 import sys
 from itertools import pairwise
@@ -29,17 +27,7 @@ STEPS = {
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--task", choices=tasks.TASKS, action="append")
-    choice = parser.parse_args()
-    runs = {"sheet": sheet, "slide": slide, "disk": disk}
-    document = {
-        name: [
-            tasks.measured(f"{h:g} s", lambda h=h, name=name: runs[name](h)) for h in STEPS[name]
-        ]
-        for name in choice.task or tasks.TASKS
-    }
-    print(json.dumps(document | tasks.single(document)))
+    tasks.tell(__doc__, {"sheet": sheet, "slide": slide, "disk": disk}, STEPS, " s")
 
 
 def slider() -> Slider:

@@ -129,9 +129,10 @@ def is_plainly_positive(x: Expr) -> bool:
 
 
 def _seen_positive(polynomial: Expr) -> bool:
+    if _all_positive(polynomial):
+        return True
     ring = polynomial.ring
-    other = Expr(ring, in_shortest_squares(ring, polynomial.num), ring.one)
-    return _all_positive(polynomial) or _all_positive(other)
+    return _all_positive(Expr(ring, in_shortest_squares(ring, polynomial.num), ring.one))
 
 
 def _all_positive(polynomial: Expr) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import combinations
 from operator import le, sub
 
@@ -72,7 +73,7 @@ def _angles(ring: Ring, polynomial: Polynomial) -> list[Even]:
 def _functions(first: Even, second: Even) -> Iterator[Even]:
     x, y = first.argument, second.argument
     for argument in (x - y, x + y):
-        yield Even(CIRCULAR, argument, first.unit / first.unit)
+        yield Even(CIRCULAR, argument, Fraction(1))
 
 
 def _exchanges(ring: Ring, first: Even, second: Even) -> Iterator[_Exchange]:

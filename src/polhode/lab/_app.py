@@ -102,9 +102,7 @@ async def _answer(request: Request, task: str, crew: Crew, limits: Limits) -> Re
     except PolhodeError as error:
         return _problem(400, error.given, error.expected, error.advice)
     purpose = _PURPOSES[task]
-    seconds = {"run": limits.motion, "follow": limits.motion, "export": limits.file}.get(
-        task, limits.thought
-    )
+    seconds = _seconds(task, limits)
     gone = asyncio.Event()
     watch = asyncio.create_task(_watch(request, gone))
     try:

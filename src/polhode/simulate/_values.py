@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from functools import lru_cache
 from types import MappingProxyType
@@ -79,15 +79,24 @@ def read_parameters(
     dimensions = getattr(dynamics.equations, "dimensions", {})
     values = read_values(given, by_name(wanted), "parameter", dimensions, {})
     missing = [symbol.published for symbol in wanted if symbol not in values]
-    if missing:
-        raise DeclarationError(
-            f"no value for {', '.join(missing)}",
-            expected="a value for every parameter",
-            advice=f"give {missing[0]} as a number in SI units or with a unit",
-        )
+    refuse_missing(missing)
     _check_signs(values)
     _check_bodies(dynamics, values)
     return {symbol: values[symbol] for symbol in wanted}
+
+
+def refuse_missing(parameters: Sequence[str]) -> None:
+    """Refuse parameters without a value, if there are any.
+
+    Raises:
+        DeclarationError: with their names.
+    """
+    if parameters:
+        raise DeclarationError(
+            f"no value for {', '.join(parameters)}",
+            expected="a value for every parameter",
+            advice=f"give {parameters[0]} as a number in SI units or with a unit",
+        )
 
 
 def idle_parameters(equations: EquationsOfMotion, given: Mapping[Name, Any]) -> tuple[Symbol, ...]:

@@ -6,10 +6,10 @@ from collections.abc import Collection, Iterator
 from itertools import chain, product
 
 from polhode.algebra import Expr, Kind
-from polhode.base import DeclarationError, NumericError, look_up
+from polhode.base import NumericError, look_up
 from polhode.derive import Automaton, Equations
 from polhode.model import Contact
-from polhode.simulate import quantity_names, slip_symbols
+from polhode.simulate import quantity_names, refuse_missing, slip_symbols
 from polhode.study._block import Order
 from polhode.study._columns import published_names
 from polhode.study._happenings import EventCount, EventTime
@@ -37,12 +37,7 @@ def _refuse_names(order: Order, parameters: Collection[str], start: Collection[s
     for name in start:
         look_up(name, moving, "coordinate or speed of this system")
     missing = [s.published for s in order.derived.parameters if s.published not in parameters]
-    if missing:
-        raise DeclarationError(
-            f"no value for {', '.join(missing)}",
-            expected="a value for every parameter",
-            advice=f"give {missing[0]} as a number in SI units or with a unit",
-        )
+    refuse_missing(missing)
 
 
 def _refuse_quantities(order: Order) -> None:

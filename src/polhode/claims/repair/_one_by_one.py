@@ -33,12 +33,12 @@ def one_by_one(
     whole = Repaired(statement, ())
     found = sorted((e for p in places(statement) for e in _changes(p, reading)), key=_size)
     tried = (whole.with_changes((edit,)) for edit in found)
-    possible = islice((r for r in tried if _is_possible(r, reading)), _MOST)
+    possible = ((r, asked) for r in tried if (asked := _possible(r, reading)) is not None)
     right: list[Repaired] = []
-    for repair in possible:
+    for repair, asked in islice(possible, _MOST):
         if right and repair.size > right[0].size:
             break
-        if _holds(repair, reading, holds):
+        if _is_right(asked, holds):
             right.append(repair)
     return smallest(right) if right else ()
 
@@ -71,16 +71,18 @@ def _is_like(other: Node, node: Node) -> bool:
     return _is_scalar_letter(other) and other != node
 
 
-def _is_possible(repair: Repaired, reading: Reading) -> bool:
+def _possible(repair: Repaired, reading: Reading) -> Asked | None:
+    """The claim it makes, if that is of one dimension."""
     try:
-        return not dimensions_at_odds(reading.asked(repair.statement, {}))
+        asked = reading.asked(repair.statement, {})
+        return None if dimensions_at_odds(asked) else asked
     except (PolhodeError, ArithmeticError):
-        return False
+        return None
 
 
-def _holds(repair: Repaired, reading: Reading, holds: Callable[[Asked], bool]) -> bool:
+def _is_right(asked: Asked, holds: Callable[[Asked], bool]) -> bool:
     try:
-        return holds(reading.asked(repair.statement, {}))
+        return holds(asked)
     except (PolhodeError, ArithmeticError):
         return False
 

@@ -211,15 +211,14 @@ class Walk:
         return Part(span[0], float(solution.steps[-1]), solution, constants)
 
     def _watched(self, mode: ModeMachine, entry: Entry) -> Watched:
+        if not mode.mode.guards:
+            return Watched()
         core = mode.flow.core.symbols
-        guarded = bool(mode.mode.guards)
         vectors = [slip_symbols(self._machine.automaton.contacts[i]) for i in sorted(entry.slips)]
         places = tuple(
             tuple(core.index(s) for s in pair) for pair in vectors if set(pair) <= set(core)
         )
         scale = self._speed_scale(entry)
-        if not guarded:
-            return Watched()
         over = self._is_flat(mode)
         return Watched(_LOOK, places, _VANISHED * scale, _LANDED * scale, over)
 

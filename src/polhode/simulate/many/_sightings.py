@@ -50,7 +50,7 @@ class Sightings:
     end: Array
     first: list[str]
     last: list[str]
-    _seen: dict[tuple[int, int], list[tuple[Stay, Rows, Array]]] = field(default_factory=dict)
+    _seen: dict[int, dict[int, list[tuple[Stay, Rows, Array]]]] = field(default_factory=dict)
     _happened: list[tuple[int, float, str]] = field(default_factory=list)
 
     @classmethod
@@ -66,7 +66,8 @@ class Sightings:
 
     def note(self, look: int, stay: Stay, rows: Rows, states: Array) -> None:
         """States of some motions, shape (states, rows)."""
-        self._seen.setdefault((look, id(stay)), []).append((stay, rows, states))
+        by_mode = self._seen.setdefault(look, {})
+        by_mode.setdefault(id(stay), []).append((stay, rows, states))
 
     def note_one(self, look: int, stay: Stay, row: int, state: Mapping[Symbol, float]) -> None:
         """The state of one motion."""
@@ -92,10 +93,9 @@ class Sightings:
         return found
 
     def _by_mode(self, look: int) -> Iterator[tuple[Stay, Rows, Array]]:
-        for (where, _), parts in self._seen.items():
-            if where == look:
-                rows = np.concatenate([rows for _, rows, _ in parts])
-                yield parts[0][0], rows, np.concatenate([x for *_, x in parts], axis=1)
+        for parts in self._seen.get(look, {}).values():
+            rows = np.concatenate([rows for _, rows, _ in parts])
+            yield parts[0][0], rows, np.concatenate([x for *_, x in parts], axis=1)
 
     def events(self) -> Events:
         """All that happened, motion by motion."""
