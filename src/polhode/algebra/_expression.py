@@ -149,6 +149,9 @@ class Expr:
     # -- arithmetic -----------------------------------------------------------------------------
 
     def __add__(self, other: ExprLike) -> Expr:
+        other = Expr.of(other)
+        if self.num == 0 or other.num == 0:
+            return other if self.num == 0 else self
         a, b, ring = _together(self, other)
         if a.is_polynomial and b.is_polynomial:
             return Expr(ring, a.num + b.num, ring.one)
@@ -160,11 +163,21 @@ class Expr:
     def __mul__(self, other: ExprLike) -> Expr:
         if not Expr.reads(other):
             return NotImplemented  # a vector knows how to multiply itself
+        other = Expr.of(other)
+        if other.ring is CONSTANTS:
+            return self._scaled(other.num)
+        if self.ring is CONSTANTS:
+            return other._scaled(self.num)
         a, b, ring = _together(self, other)
         num = ring.reduce(a.num * b.num)
         if a.is_polynomial and b.is_polynomial:
             return Expr(ring, num, ring.one)
         return Expr(ring, *ring.cancel(num, a.den * b.den))
+
+    def _scaled(self, number: Polynomial) -> Expr:
+        if number == 0:
+            return ZERO
+        return Expr(self.ring, self.num * number.leading_coefficient(), self.den)
 
     def __neg__(self) -> Expr:
         return Expr(self.ring, -self.num, self.den)
