@@ -81,7 +81,7 @@ def judged_claim(
 def _judged(asked: Asked, context: str) -> Verdict:
     """The verdict, with terms of different dimensions named where it does not hold."""
     try:
-        verdict = judge(asked, context)
+        verdict = judge(asked, context).proved()
     except (PolhodeError, ZeroDivisionError) as error:
         verdict = Verdict(Answer.UNREAD, context, reason=str(error))
     odd = "" if verdict.holds else dimensions_at_odds(asked)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from math import prod
 
 from polhode.algebra import ONE
 from polhode.claims._asked import Asked
 from polhode.claims._circumstances import AnyState, Circumstances, TrueMotion
 from polhode.claims._components import Component
-from polhode.claims._verdict import Answer, Residual, Verdict
+from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 
 
 @dataclass(frozen=True)
@@ -63,18 +64,16 @@ def _failure(alike: Sequence[Component], states: Circumstances) -> Failure | Non
 
 def failed(found: Sequence[Failure], context: str) -> Verdict:
     """The verdict on a claim with these failures, refuted at a state."""
+    residuals = tuple(f.residual for f in found)
+    return Refuted(
+        Answer.FAILS, context, _reason(found), residuals, evidence=partial(_evidence, found[0])
+    )
+
+
+def _evidence(worst: Failure) -> Evidence:
     from polhode.claims._counterexample import refutation  # numbers are for failures alone
 
-    worst = found[0]
-    example, second = refutation(worst.component, worst.residual, worst.states)
-    return Verdict(
-        Answer.FAILS,
-        context,
-        reason=_reason(found),
-        residuals=tuple(f.residual for f in found),
-        counterexample=example,
-        confirmation=second,
-    )
+    return refutation(worst.component, worst.residual, worst.states)
 
 
 def _reason(found: Sequence[Failure]) -> str:

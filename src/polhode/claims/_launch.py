@@ -14,7 +14,14 @@ from polhode.claims._circumstances import TrueMotion
 from polhode.claims._course import Followed, courses
 from polhode.claims._initially import judged_initially
 from polhode.claims._judge import failures
-from polhode.claims._verdict import Answer, Counterexample, Residual, Verdict
+from polhode.claims._verdict import (
+    Answer,
+    Confirmation,
+    Counterexample,
+    Refuted,
+    Residual,
+    Verdict,
+)
 
 _MOTIONS = 3
 _SHORT, _LONG = 6.0, 24.0
@@ -97,8 +104,6 @@ def _along_motions(asked: Asked, event: Mapping[Symbol, Expr]) -> Iterator[Follo
 
 
 def _refuted(followed: Followed, sample: int, asked: Asked) -> Verdict:
-    from polhode.claims._own_motion import followed_anew  # only failures are followed anew
-
     component, course = followed.component, followed.course
     left, right = (float(side[sample]) for side in followed.sides)
     since = float(course.times[sample])
@@ -106,11 +111,17 @@ def _refuted(followed: Followed, sample: int, asked: Asked) -> Verdict:
     state = {*asked.equations.coordinates, *asked.equations.speeds, *asked.equations.parameters}
     said = {f"{s.published}": f"{course.start[s]:.12g}" for s in state}
     values = {"t": f"{since + course.begin:.12g}", **dict(sorted(said.items()))}
-    return Verdict(
+    example = Counterexample(values, Expr.of(left), Expr.of(right), residual)
+    return Refuted(
         Answer.FAILS,
         "launch",
         reason=f"not met {since:.4g} s after the start of a motion that was followed by numbers",
         residuals=(residual,),
-        counterexample=Counterexample(values, Expr.of(left), Expr.of(right), residual),
-        confirmation=followed_anew(followed, sample),
+        evidence=lambda: (example, _second_opinion(followed, sample)),
     )
+
+
+def _second_opinion(followed: Followed, sample: int) -> Confirmation | None:
+    from polhode.claims._own_motion import followed_anew  # only failures are followed anew
+
+    return followed_anew(followed, sample)

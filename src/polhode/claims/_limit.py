@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from math import log
 
 from polhode.algebra import ONE, ZERO, Expr, Symbol
@@ -17,7 +17,7 @@ from polhode.claims._counterexample import refutation
 from polhode.claims._numeric import number
 from polhode.claims._roots_of_steady import steady_roots
 from polhode.claims._scaling import SMALLNESS, leading_orders, restored, scaled
-from polhode.claims._verdict import Answer, Residual, Verdict
+from polhode.claims._verdict import Answer, Refuted, Residual, Verdict
 
 _HIGHEST = 6
 _LOWEST = -4
@@ -143,16 +143,14 @@ def _failed(left: _Remainder, order: int, term: Expr) -> Verdict:
     component = left.component
     residual = Residual(component.member, component.label, term)
     wrong = Component(component.member, component.label, *_coefficients(left, order))
-    example, second = refutation(wrong, residual, left.states)
-    return Verdict(
+    return Refuted(
         Answer.FAILS,
         "limit",
         reason=f"the sides differ at order {order} already",
         residuals=(residual,),
-        counterexample=example,
-        confirmation=second,
         order=order - 1,
         dropped=term,
+        evidence=partial(refutation, wrong, residual, left.states),
     )
 
 

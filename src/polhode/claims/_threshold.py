@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 
 from polhode.algebra import Expr, Symbol
 from polhode.analyse import Truth, stability
@@ -17,7 +17,7 @@ from polhode.claims._judge import failed, failures
 from polhode.claims._numeric import number
 from polhode.claims._signs import definite_sign
 from polhode.claims._steady_states import SteadyStates, steady_states
-from polhode.claims._verdict import Answer, Residual, Verdict
+from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 
 
 @dataclass(frozen=True)
@@ -122,19 +122,21 @@ def _equivalent(component: Component, greater: int, exact: Exact, asked: Asked) 
 def _refuted(component: Component, exact: Exact, asked: Asked) -> Verdict:
     residual = Residual(component.member, component.label, component.difference)
     states = replace(_any(asked), relations=(*asked.relations, exact.expression))
-    try:
-        example, second = refutation(component, residual, states, _differ_above_zero)
-    except PolhodeError:
-        example, second = None, None
-    return Verdict(
+    return Refuted(
         Answer.FAILS,
         "threshold",
         reason=f"not equivalent to the condition of {exact.decides}, {exact.expression} > 0; "
         "where that is just met, the sides differ",
         residuals=(residual,),
-        counterexample=example,
-        confirmation=second,
+        evidence=partial(_where_just_met, component, residual, states),
     )
+
+
+def _where_just_met(component: Component, residual: Residual, states: AnyState) -> Evidence:
+    try:
+        return refutation(component, residual, states, _differ_above_zero)
+    except PolhodeError:
+        return None, None
 
 
 def _differ_above_zero(left: Expr, right: Expr) -> bool:

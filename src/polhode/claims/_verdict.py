@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields
 from enum import Enum
 
 from polhode.algebra import Expr
@@ -126,8 +126,33 @@ class Verdict(Shown):
         """Whether nothing speaks against the claim."""
         return self.answer in (Answer.HOLDS, Answer.APPROXIMATE, Answer.DEFINITION)
 
+    def proved(self) -> Verdict:
+        """With all evidence for it."""
+        return self
+
     def __str__(self) -> str:
         said = self.answer.value
         if self.correction is not None:
             said += f"; {self.correction.what}: {self.correction.latex}"
         return f"{said} ({self.reason})" if self.reason else said
+
+
+#: A state that refutes a claim, and a second opinion on it, as far as they can be found.
+Evidence = tuple[Counterexample | None, Confirmation | None]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Refuted(Verdict):
+    """A failure that is certain, with evidence that is worked out only if somebody asks for it.
+
+    Attributes:
+        evidence: works it out.
+    """
+
+    evidence: Callable[[], Evidence]
+
+    def proved(self) -> Verdict:
+        """With its evidence."""
+        example, second = self.evidence()
+        told = {entry.name: getattr(self, entry.name) for entry in fields(Verdict)}
+        return Verdict(**{**told, "counterexample": example, "confirmation": second})

@@ -47,7 +47,7 @@ class Figure:
     def cross(self, other: Figure) -> Figure:
         """The vector product; of scalars, the product."""
         if self.rank == other.rank == 1:
-            return Figure(1, np.cross(self.array, other.array, axis=0))
+            return Figure(1, _crossed(self.array, other.array))
         return self * other
 
     def dot(self, other: Figure) -> Figure:
@@ -80,6 +80,11 @@ class Figure:
         if self.rank:
             raise _unlike("a function of")
         return Figure(0, function(self.array))
+
+
+def _crossed(one: Array, other: Array) -> Array:
+    (a, b, c), (x, y, z) = one, other
+    return np.array([b * z - c * y, c * x - a * z, a * y - b * x])
 
 
 def scalar(array: Array) -> Figure:

@@ -28,7 +28,6 @@ from polhode.claims.repair._edits import Edit, number_node, times_match
 from polhode.claims.repair._figures import scalar
 from polhode.claims.repair._places import ONE as ONE_NODE
 from polhode.claims.repair._places import Place, added, negated, over, put, raised, times
-from polhode.claims.repair._products import products
 from polhode.claims.repair._tally import UNKNOWN
 from polhode.claims.repair._vector_terms import vector_terms
 from polhode.claims.repair._workpiece import Workpiece
@@ -37,6 +36,7 @@ _UNKNOWN = Symbol("missing")
 _LETTER = "missing"
 _LARGEST_SIZE = 12
 _LONGEST_SUM = 4
+_MOST = 16
 _MOST_MATCHES = 5
 
 
@@ -79,8 +79,10 @@ def _along(
     if amount is not None:
         if not np.isfinite(amount).all():
             return
-        for match in islice(products(amount, work.known), _MOST_MATCHES):
-            yield times_match(match, *tail)
+        found = list(islice(work.products.equal_to(amount), _MOST_MATCHES))
+        yield from (times_match(match, *tail) for match in found)
+        if found:
+            return
     lost = _lost(work, place, direction, members)
     if lost is not None:
         yield from _written(work, lost, tail)
@@ -134,10 +136,9 @@ def _lost(
 
 def _written(work: Workpiece, lost: Expr, tail: Sequence[Node]) -> Iterator[Node]:
     """A missing term in the letters of the text, with one quantity of the motion at most."""
-    known = {node: value for node, value in work.vocabulary.items() if value is not None}
-    plain = {e: n for n, e in reversed(list(known.items()))}
-    settled = {node: work.tried.states.on(value) for node, value in known.items()}
-    moving = [(node, v) for node, v in settled.items() if v and v != known[node]]
+    settled = work.settled
+    plain = {e: n for n in reversed(settled) if (e := work.vocabulary[n]) is not None}
+    moving = [(node, v) for node, v in settled.items() if v and v != work.vocabulary[node]]
     for factor, value in [(ONE_NODE, ONE), *moving]:
         product = _product(lost / value, plain)
         if product is not None and len(product[1]) + len(product[2]) < _LARGEST_SIZE:
@@ -150,6 +151,8 @@ def _product(
     expression: Expr, plain: Mapping[Expr, Node]
 ) -> tuple[Fraction, list[Node], list[Node]] | None:
     """An expression as a number times letters over letters, if it is that simple."""
+    if _is_longer(expression.numerator, _MOST) or _is_longer(expression.denominator, _MOST):
+        return None
     number, powers = factors(expression)
     above: list[Node] = []
     below: list[Node] = []
@@ -166,7 +169,9 @@ def _product(
 
 def _sum(factor: Expr, plain: Mapping[Expr, Node]) -> Node | None:
     """A short sum of products of letters."""
-    terms = []
+    terms: list[Node] = []
+    if _is_longer(factor, _LONGEST_SUM) or not _is_longer(factor, 1):
+        return None
     for powers, coefficient in factor.terms():
         nodes = [(plain.get(Expr.generator(g)), power) for g, power in powers.items()]
         if any(node is None for node, _ in nodes):
@@ -174,7 +179,12 @@ def _sum(factor: Expr, plain: Mapping[Expr, Node]) -> Node | None:
         above = [raised(node, power) for node, power in nodes if node is not None]
         term = _fraction(abs(Fraction(coefficient)), above, ())
         terms.append(negated(term) if coefficient < 0 else term)
-    return Sum(tuple(terms)) if 1 < len(terms) <= _LONGEST_SUM else None
+    return Sum(tuple(terms))
+
+
+def _is_longer(polynomial: Expr, most: int) -> bool:
+    """Whether it has more than so many terms."""
+    return any(islice(polynomial.terms(), most, None))
 
 
 def _fraction(number: Fraction, above: Iterable[Node], below: Iterable[Node]) -> Node:

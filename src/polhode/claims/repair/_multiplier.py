@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import product
+from functools import cached_property
 
 import numpy as np
 
@@ -15,7 +15,9 @@ from polhode.claims.latex._tree import Node
 _CLOSE = 1e-8
 _STEPS = 25
 _LARGEST = 60
-_TRIED = (Fraction(-1), *(Fraction(n, d) for n in range(1, 5) for d in range(1, 5) if n != d))
+_SETTLED = 1e-14
+_TRIED = (Fraction(-1), *{Fraction(n, d): 0 for n in range(1, 5) for d in range(1, 5) if n != d})
+_PROBES = (1.0, 1.25, *map(float, _TRIED))
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,9 +40,25 @@ class Response:
         with np.errstate(all="ignore"):
             return self.changing(factors)
 
-    def at(self, numbers: Sequence[float]) -> Array:
-        """The changing rows for factors that are the same at all states."""
-        return self(np.outer(numbers, np.ones(self.states)))
+    @cached_property
+    def probed(self) -> Array:
+        """The changing rows for some factors that are the same at all states, all at once."""
+        return self(np.outer(_PROBES, np.ones(self.states)))
+
+    def among(self, kept: Sequence[int]) -> Response | None:
+        """The same with some of all rows alone; None where none of those changes."""
+        places = [k for k, row in enumerate(self.rows) if row in kept]
+        if len(kept) == len(self.before):
+            return self
+        if not places:
+            return None
+        rows = tuple(kept.index(self.rows[k]) for k in places)
+        return Response(lambda at: self.changing(at)[places], rows, self.before[kept])
+
+    @property
+    def here(self) -> Array:
+        """The changing rows for a factor one: (rows, states)."""
+        return np.asarray(self.probed[:, 0])
 
     @property
     def states(self) -> int:
@@ -50,18 +68,27 @@ class Response:
     @property
     def is_faithful(self) -> bool:
         """Whether a factor one changes nothing."""
-        now, known = self.at([1.0])[:, 0], self.before[list(self.rows)]
-        return now.shape == known.shape and np.allclose(now, known, rtol=_CLOSE, atol=_CLOSE)
+        known = self.before[list(self.rows)]
+        if self.here.shape != known.shape:
+            return False
+        return bool((np.abs(self.here - known) <= _CLOSE * (1 + np.abs(known))).all())
 
-    def slope(self) -> Array | None:
-        """Change of all rows per unit of the factor, where that is the same for any factor."""
-        one, two, three = np.moveaxis(self.at([1.0, 2.0, 3.0]), 1, 0)
+    @cached_property
+    def change(self) -> Array | None:
+        """Change of the changing rows per unit of the factor, where that is the same for any."""
+        one, two, three = (self.probed[:, _PROBES.index(x)] for x in (1.0, 2.0, 3.0))
         change = two - one
         straight = np.abs(three - two - change) <= _CLOSE * (np.abs(one) + np.abs(three))
         if not np.isfinite(change).all() or not straight.all() or not change.any():
             return None
+        return np.asarray(change)
+
+    def slope(self) -> Array | None:
+        """The same of all rows."""
+        if self.change is None:
+            return None
         whole = np.zeros_like(self.before)
-        whole[list(self.rows)] = change
+        whole[list(self.rows)] = self.change
         return whole
 
 
@@ -70,33 +97,42 @@ def multiplier(response: Response) -> Array | None:
 
     A residual that no factor changes must vanish already.
     """
-    here, there = np.moveaxis(response.at([1.0, 1.25]), 1, 0)
-    at, before = np.full(response.states, 1.0), np.full(response.states, 1.25)
+    here, there = response.here, response.probed[:, _PROBES.index(1.25)]
     size = np.abs(here) + np.abs(there)
     row = int(np.argmax(np.abs(here - there).min(axis=1)))
     if not np.isfinite(here).all() or not np.abs(here - there)[row].all():
         return None
-    for _ in range(_STEPS):
-        with np.errstate(all="ignore"):
-            step = here[row] * (at - before) / (here[row] - there[row])
-        step = np.where(here[row] == 0, 0.0, step)
-        if not np.isfinite(step).all():
-            break
-        before, there = at, here
-        at = at - step
-        here = response(at[None])[:, 0]
-        if (np.abs(step) < 1e-14 * (1 + np.abs(at))).all():
-            break
+    change = response.change
+    at = 1 - here[row] / change[row] if change is not None else _by_secants(response, row)
+    here = response(at[None])[:, 0]
     scale = size.max(axis=1, keepdims=True) + np.abs(at)
     vanishes = np.isfinite(here).all() and (np.abs(here) <= _CLOSE * scale).all()
     return at if vanishes else None
 
 
+def _by_secants(response: Response, row: int) -> Array:
+    """Where one row vanishes, as nearly as that can be found."""
+    here, there = (response.probed[row, _PROBES.index(x)] for x in (1.0, 1.25))
+    at, before = np.full(response.states, 1.0), np.full(response.states, 1.25)
+    for _ in range(_STEPS):
+        with np.errstate(all="ignore"):
+            step = here * (at - before) / (here - there)
+        step = np.where(here == 0, 0.0, step)
+        if not np.isfinite(step).all():
+            break
+        before, there = at, here
+        at = at - step
+        if (np.abs(step) < _SETTLED * (1 + np.abs(at))).all():
+            break
+        here = response(at[None])[row, 0]
+    return at
+
+
 def simple_numbers(response: Response) -> Iterator[Fraction]:
     """The simple factors at which all vanishes; what is not linear may have several."""
-    one, *left = np.moveaxis(response.at([1.0, *map(float, _TRIED)]), 1, 0)
-    size = np.abs(one).max(axis=1, keepdims=True)
-    for number, rows in zip(_TRIED, left, strict=True):
+    size = np.abs(response.here).max(axis=1, keepdims=True)
+    for number in _TRIED:
+        rows = response.probed[:, _PROBES.index(float(number))]
         if np.isfinite(rows).all() and (np.abs(rows) <= _CLOSE * (size + 1)).all():
             yield number
 
@@ -128,35 +164,3 @@ def simple_number(values: Array) -> Fraction | None:
     number = Fraction(first).limit_denominator(_LARGEST)
     close = abs(float(number) - first) <= _CLOSE * max(1.0, abs(first))
     return number if close and abs(number.numerator) <= _LARGEST else None
-
-
-def matches(factor: Array, known: Sequence[tuple[Node, Array]]) -> Iterator[Match]:
-    """Every simple product that equals a factor, the simplest first."""
-    number = simple_number(factor)
-    if number is not None:
-        yield Match(number)
-        return
-    found = [*_singles(factor, known), *_pairs(factor, known)]
-    yield from sorted(found, key=lambda match: match.size)
-
-
-def _singles(factor: Array, known: Sequence[tuple[Node, Array]]) -> Iterator[Match]:
-    for (node, values), power in product(known, (1, -1, 2, -2)):
-        left = simple_number(factor / values**power)
-        if left:
-            yield Match(left, ((node, power),))
-
-
-def _pairs(factor: Array, known: Sequence[tuple[Node, Array]]) -> Iterator[Match]:
-    """Products of two quantities or their reciprocals, all tried at once."""
-    if len(known) < 2:
-        return
-    values = np.array([v for _, v in known])
-    table = np.concatenate([values, 1 / values])
-    signed = [(node, 1) for node, _ in known] + [(node, -1) for node, _ in known]
-    left = factor / (table[:, None, :] * table[None, :, :])
-    constant = np.ptp(left, axis=2) <= _CLOSE * np.abs(left[:, :, 0])
-    for i, j in zip(*np.nonzero(np.triu(constant, 1)), strict=True):
-        number, (first, p), (second, q) = simple_number(left[i, j]), signed[i], signed[j]
-        if number and first != second:
-            yield Match(number, ((first, p), (second, q)))

@@ -14,6 +14,7 @@ from polhode.claims.repair._multiplier import Match, Response, simple_number
 from polhode.claims.repair._places import Place
 
 _CLOSE = 1e-8
+_INDEPENDENT = 1e-10
 _MOST_TOGETHER = 3
 _MOST_PLACES = 24
 
@@ -28,28 +29,37 @@ def fitted(responses: Mapping[Place, Response]) -> Iterator[tuple[Edit, ...]]:
     slopes = {p: s.ravel() for p in places if (s := responses[p].slope()) is not None}
     if not slopes:
         return
+    tried = list(slopes)[:_MOST_PLACES]
     rest = next(iter(responses.values())).before.ravel()
     for together in range(2, _MOST_TOGETHER + 1):
         found = False
-        for chosen in combinations(list(slopes)[:_MOST_PLACES], together):
-            factors = _factors(rest, [slopes[p] for p in chosen])
-            if factors is not None and _apart(chosen):
+        for chosen, factors in _solutions(rest, np.array([slopes[p] for p in tried]), together):
+            where = [tried[i] for i in chosen]
+            if _apart(where):
                 found = True
-                yield from _written(chosen, factors)
+                yield from _written(where, factors)
         if found:
             return
 
 
-def _factors(rest: Array, slopes: Sequence[Array]) -> list[Match] | None:
-    matrix = np.array(slopes).T
-    change, _, rank, _ = np.linalg.lstsq(matrix, -rest, rcond=1e-10)
-    left = np.abs(matrix @ change + rest).max()
-    if rank < len(slopes) or left > _CLOSE * np.abs(rest).max():
-        return None
-    numbers = [simple_number(np.array([1 + x])) for x in change]
-    if any(number is None or number == 1 for number in numbers):
-        return None
-    return [Match(number) for number in numbers if number is not None]
+def _solutions(
+    rest: Array, slopes: Array, together: int
+) -> Iterator[tuple[tuple[int, ...], list[Match]]]:
+    """Which slopes, with which factors, bring the rest to nothing; all sets are tried at once."""
+    sets = list(combinations(range(len(slopes)), together))
+    if not sets or together > len(rest):
+        return
+    bases, triangles = np.linalg.qr(np.moveaxis(slopes[np.array(sets)], 1, 2))
+    shares = np.einsum("snk,n->sk", bases, -rest)
+    left = np.abs(np.einsum("snk,sk->sn", bases, shares) + rest).max(axis=1)
+    sizes = np.abs(np.diagonal(triangles, axis1=1, axis2=2))
+    apart = sizes.min(axis=1) > _INDEPENDENT * sizes.max(axis=1)
+    for i in np.flatnonzero(apart & (left <= _CLOSE * np.abs(rest).max())):
+        change = np.linalg.solve(triangles[i], shares[i])
+        numbers = [simple_number(np.array([1 + x])) for x in change]
+        factors = [Match(n) for n in numbers if n is not None and n != 1]
+        if len(factors) == together:
+            yield sets[i], factors
 
 
 def _apart(chosen: Sequence[Place]) -> bool:

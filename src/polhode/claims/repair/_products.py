@@ -1,64 +1,139 @@
-"""Products of several letters that equal a quantity at every state."""
+"""Products of letters that equal a quantity at every state."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
 from itertools import combinations_with_replacement
 
 import numpy as np
 
 from polhode.claims._numeric import Array
 from polhode.claims.latex._tree import Node
-from polhode.claims.repair._multiplier import Match, matches, simple_number
+from polhode.claims.repair._multiplier import Match, simple_number
 
 _CLOSE = 1e-8
 _MOST_LETTERS = 40
 _MOST_TOGETHER = 3
+_POWERS = (1, -1, 2, -2)
 
 
-def products(amount: Array, known: Sequence[tuple[Node, Array]]) -> Iterator[Match]:
-    """A number times products of letters, the shortest first.
+@dataclass(frozen=True, eq=False)
+class Products:
+    """Everything that can be formed of some letters, at the states of a bench.
 
-    Up to two letters may stand above or below; more of them, up to six, above only.
+    Attributes:
+        known: letters with their values: (states,).
     """
-    found = list(matches(amount, known))
-    if not found:
-        different = list({v.tobytes(): (n, v) for n, v in reversed(known)}.values())[::-1]
-        found = sorted(_long(amount, different[:_MOST_LETTERS]), key=lambda match: match.size)
-    yield from found
+
+    known: Sequence[tuple[Node, Array]]
+
+    def equal_to(self, amount: Array) -> Iterator[Match]:
+        """A number times products of letters, the shortest first.
+
+        Up to two letters may stand above or below; more of them, up to six, above only.
+        """
+        yield from list(self.short(amount)) or sorted(self._long(amount), key=_size)
+
+    def short(self, amount: Array) -> Iterator[Match]:
+        """Those of up to two letters alone, the simplest first."""
+        number = simple_number(amount)
+        if number is not None:
+            yield Match(number)
+        elif self.known:
+            yield from sorted([*self._singles(amount), *self._pairs(amount)], key=_size)
+
+    # -- one letter or two -----------------------------------------------------------------------
+
+    @cached_property
+    def _values(self) -> Array:
+        return np.array([values for _, values in self.known])
+
+    def _singles(self, amount: Array) -> Iterator[Match]:
+        powers = np.array(_POWERS)[None, :, None]
+        left = amount / self._values[:, None] ** powers.astype(float)
+        for (i, j), number in _simple(left):
+            yield Match(number, ((self.known[i][0], _POWERS[j]),))
+
+    @cached_property
+    def _signed(self) -> list[tuple[Node, int]]:
+        return [(node, power) for power in (1, -1) for node, _ in self.known]
+
+    @cached_property
+    def _table(self) -> Array:
+        """Products of two of the letters or of their reciprocals."""
+        table = np.concatenate([self._values, 1 / self._values])
+        return np.asarray(table[:, None] * table[None])
+
+    def _pairs(self, amount: Array) -> Iterator[Match]:
+        for (i, j), number in _simple(amount / self._table):
+            (first, p), (second, q) = self._signed[i], self._signed[j]
+            if i < j and first != second:
+                yield Match(number, ((first, p), (second, q)))
+
+    # -- more of them ----------------------------------------------------------------------------
+
+    def _long(self, amount: Array) -> Iterator[Match]:
+        """Met in the middle: what a few letters leave must be the product of a few others."""
+        if len(amount) < _MOST_TOGETHER or not amount.all() or not self.known:
+            return
+        few = self._few
+        for one, other in few.pairs(_without_number(np.log(np.abs(amount)))):
+            letters = sorted(i for i in (*few.letters[one], *few.letters[other]) if i)
+            number = simple_number(amount / np.prod(few.values[letters], axis=0))
+            if number:
+                counted = Counter(few.nodes[i] for i in letters)
+                yield Match(number, tuple(counted.items()))
+
+    @cached_property
+    def _few(self) -> _Few:
+        different = list({v.tobytes(): (n, v) for n, v in reversed(self.known)}.values())[::-1]
+        kept = different[:_MOST_LETTERS]
+        # a product of nothing stands first, so that shorter ones are among them
+        values = np.array([np.ones_like(kept[0][1]), *(v for _, v in kept)])
+        return _Few([kept[0][0], *(n for n, _ in kept)], values)
 
 
-def _long(amount: Array, known: Sequence[tuple[Node, Array]]) -> Iterator[Match]:
-    """Met in the middle: what a few letters leave must be the product of a few others."""
-    if len(amount) < _MOST_TOGETHER or not amount.all():
-        return
-    # a product of nothing stands first, so that shorter ones are among them
-    values = np.array([np.ones_like(amount), *(v for _, v in known)])
-    logs = _without_number(np.log(np.abs(values)))
-    few = np.array(list(combinations_with_replacement(range(len(values)), _MOST_TOGETHER)))
-    sums = logs[few].sum(axis=1)
-    wanted = _without_number(np.log(np.abs(amount))) - sums
-    for one, other in _equal(wanted, sums):
-        letters = sorted(i for i in (*few[one], *few[other]) if i)
-        number = simple_number(amount / np.prod(values[letters], axis=0))
-        if number and one <= other:
-            counted = Counter(known[i - 1][0] for i in letters)
-            yield Match(number, tuple(counted.items()))
+class _Few:
+    """Products of a few letters by the logarithms of their values, in an order to find them by."""
+
+    def __init__(self, nodes: Sequence[Node], values: Array) -> None:
+        self.nodes, self.values = nodes, values
+        places = combinations_with_replacement(range(len(values)), _MOST_TOGETHER)
+        self.letters = np.array(list(places))
+        self._sums = _without_number(np.log(np.abs(values)))[self.letters].sum(axis=1)
+        self._weights = np.random.default_rng(1).uniform(1, 2, self._sums.shape[1])
+        self._keys = self._sums @ self._weights
+        self._order = np.argsort(self._keys)
+        self._sorted = self._keys[self._order]
+
+    def pairs(self, wanted: Array) -> Iterator[tuple[int, int]]:
+        """Two of them, the first one first, whose logarithms make up a sum."""
+        keys = wanted @ self._weights - self._keys
+        first = np.searchsorted(self._sorted, keys - _CLOSE)
+        last = np.searchsorted(self._sorted, keys + _CLOSE)
+        for one in np.flatnonzero(last > first):
+            for other in self._order[first[one] : last[one]]:
+                left = wanted - self._sums[one] - self._sums[other]
+                if one <= other and np.abs(left).max() < _CLOSE:
+                    yield int(one), int(other)
+
+
+def _simple(left: Array) -> Iterator[tuple[tuple[int, int], Fraction]]:
+    """Where an array of quotients, (.., .., states), is one simple number at all states."""
+    constant = np.ptp(left, axis=2) <= _CLOSE * np.abs(left[:, :, 0])
+    for i, j in zip(*np.nonzero(constant), strict=True):
+        number = simple_number(left[i, j])
+        if number:
+            yield (int(i), int(j)), number
+
+
+def _size(match: Match) -> int:
+    return match.size
 
 
 def _without_number(logs: Array) -> Array:
     return np.asarray(logs[..., 1:] - logs[..., :1])
-
-
-def _equal(some: Array, others: Array) -> Iterator[tuple[int, int]]:
-    """Pairs of equal rows."""
-    weights = np.random.default_rng(1).uniform(1, 2, some.shape[1])
-    order = np.argsort(others @ weights)
-    keys = (others @ weights)[order]
-    first = np.searchsorted(keys, some @ weights - _CLOSE)
-    last = np.searchsorted(keys, some @ weights + _CLOSE)
-    for i in np.flatnonzero(last > first):
-        for j in order[first[i] : last[i]]:
-            if np.allclose(some[i], others[j], rtol=0, atol=_CLOSE):
-                yield int(i), int(j)

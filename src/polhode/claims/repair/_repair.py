@@ -17,6 +17,7 @@ from polhode.claims.latex._tree import (
     Call,
     Dots,
     Name,
+    Piece,
     Power,
     Product,
     Quotient,
@@ -30,7 +31,6 @@ from polhode.claims.repair._missing import missing_terms
 from polhode.claims.repair._multiplier import (
     Match,
     Response,
-    matches,
     multiplier,
     simple_numbers,
 )
@@ -136,6 +136,7 @@ class _Workshop:
         self._links = Links(self._statement, self._asked)
         bench = self._tried.bench
         self._tally = Tally(self._statement, self._asked, self._links, reading, bench)
+        self._responses: dict[Place, Response | None] = {}
         self._work = Workpiece(self._statement, reading, self._tried, self._tally)
 
     @cached_property
@@ -208,20 +209,29 @@ class _Workshop:
             return False
 
     def _ranked(self, found: Iterable[tuple[Edit, ...]]) -> list[Repaired]:
-        ordered = sorted(map(self._repair.with_changes, found), key=lambda repair: repair.size)
-        different = {tidied(r.statement): r for r in reversed(ordered)}
-        return list(reversed(different.values()))[:_TRIED]
+        different: dict[Piece, Repaired] = {}
+        for changes in sorted(found, key=lambda changes: sum(c.size for c in changes)):
+            repair = self._repair.with_changes(changes)
+            different.setdefault(tidied(repair.statement), repair)
+            if len(different) == _TRIED:
+                break
+        return list(different.values())
 
     def _response(self, place: Place, kept: Collection[int]) -> Response | None:
         """How the residuals of these members change with a factor at a place."""
-        members = sorted(self._links.members(place) & set(kept))
-        of_kept = [i for i, m in enumerate(self._members) if m in kept]
-        rows = tuple(k for k, i in enumerate(of_kept) if self._members[i] in members)
+        if place not in self._responses:
+            self._responses[place] = self._found_response(place)
+        found = self._responses[place]
+        return found and found.among([i for i, m in enumerate(self._members) if m in kept])
+
+    def _found_response(self, place: Place) -> Response | None:
+        members = sorted(self._links.members(place))
+        rows = tuple(i for i, m in enumerate(self._members) if m in members)
         if not rows:
             return None
         for changing in (self._by_numbers, self._exactly):
             try:
-                found = Response(changing(place, members), rows, self._values[of_kept])
+                found = Response(changing(place, members), rows, self._values)
                 if found.is_faithful:
                     return found
             except UNKNOWN:
@@ -247,7 +257,7 @@ class _Workshop:
             yield from edits(place, Match(number))
         factor = multiplier(response)
         if factor is not None:
-            for match in matches(factor, self._work.known):
+            for match in self._work.products.short(factor):
                 yield from edits(place, match)
             yield from self._exchanged(place, factor)
 
@@ -268,8 +278,9 @@ class _Workshop:
         known = dict(self._work.known)
         if place.node in known:
             wanted = factor * known[place.node]
-            fitting = {n: True for n, v in self._work.known if np.allclose(v, wanted, rtol=_CLOSE)}
-            yield from replaced_by(place, fitting)
+            close = np.abs(self._work.figures - wanted) <= _CLOSE * (1 + np.abs(wanted))
+            fitting = [self._work.known[i][0] for i in np.flatnonzero(close.all(axis=1))]
+            yield from replaced_by(place, dict.fromkeys(fitting, True))
 
     def _vectors(self, place: Place, kept: Collection[int]) -> Iterator[Edit]:
         """Other vectors put in the place of one."""

@@ -3,41 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations, islice
+from itertools import islice
 
 import numpy as np
 
-from polhode.claims.latex._tree import Cross, Node
+from polhode.claims.latex._tree import Node
 from polhode.claims.repair._edits import times_match
-from polhode.claims.repair._figures import Figure, together
 from polhode.claims.repair._places import Place
-from polhode.claims.repair._products import products
 from polhode.claims.repair._tally import UNKNOWN
-from polhode.claims.repair._workpiece import Workpiece
+from polhode.claims.repair._workpiece import Terms, Workpiece
 
-_MOST_VECTORS = 40
 _MOST_MATCHES = 2
 
 
 def vector_terms(work: Workpiece, place: Place, members: Sequence[int]) -> Iterator[Node]:
     """Multiples of vectors of the text, and of products of two, that make a formula right."""
-    single = work.vectors
-    yield from _multiples(work, place, members, single)
-    pairs = combinations(list(single.items())[:_MOST_VECTORS], 2)
-    crossed: dict[Node, Figure] = {Cross(u, v): one.cross(other) for (u, one), (v, other) in pairs}
-    yield from _multiples(work, place, members, crossed)
+    yield from _multiples(work, place, members, work.vectors)
+    yield from _multiples(work, place, members, work.crossed)
 
 
 def _multiples(
-    work: Workpiece, place: Place, members: Sequence[int], terms: dict[Node, Figure]
+    work: Workpiece, place: Place, members: Sequence[int], terms: Terms
 ) -> Iterator[Node]:
-    if not terms:
+    if not len(terms):
         return
     try:
-        amounts = work.tally.amounts(place, together(list(terms.values())), members)
+        amounts = work.tally.amounts(place, terms.figures, members)
     except UNKNOWN:
         return
-    for node, amount in zip(terms, amounts, strict=True):
-        if np.isfinite(amount).all():
-            for match in islice(products(amount, work.known), _MOST_MATCHES):
-                yield times_match(match, node)
+    for i in np.flatnonzero(np.isfinite(amounts).all(axis=1)):
+        for match in islice(work.products.equal_to(amounts[i]), _MOST_MATCHES):
+            yield times_match(match, terms[int(i)])

@@ -4,22 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 
 import numpy as np
 
 from polhode.algebra import Expr, Vector
 from polhode.claims._components import Side
 from polhode.claims._numeric import Array
-from polhode.claims.latex._tree import Derivative, Dots, Name, Node, Statement
+from polhode.claims.latex._tree import Cross, Derivative, Dots, Name, Node, Statement
 from polhode.claims.repair._edits import letters, relabelled, turned
-from polhode.claims.repair._figures import Figure
+from polhode.claims.repair._figures import Figure, together
 from polhode.claims.repair._places import Place, places, put
+from polhode.claims.repair._products import Products
 from polhode.claims.repair._reading import Reading
 from polhode.claims.repair._tally import UNKNOWN, Tally
 from polhode.claims.repair._trials import Trials
 
 _CLOSE = 1e-7
+_MOST_VECTORS = 40
 _UPRIGHT = Name("z", decoration="hat")
 
 
@@ -107,6 +109,16 @@ class Workpiece:
         return found
 
     @cached_property
+    def products(self) -> Products:
+        """Products of these scalars."""
+        return Products(self.known)
+
+    @cached_property
+    def figures(self) -> Array:
+        """The same values alone: (scalars, states)."""
+        return np.array([values for _, values in self.known])
+
+    @cached_property
     def other_vectors(self) -> list[Node]:
         """Vectors of the claim and of the text that do not vanish."""
         named = (n for n, e in self.vocabulary.items() if e is None and isinstance(n, Name | Dots))
@@ -122,15 +134,30 @@ class Workpiece:
         return [n for n in dict.fromkeys(named) if isinstance(self.value(n), Vector)]
 
     @cached_property
-    def vectors(self) -> dict[Node, Figure]:
-        """Different vectors a missing term may be formed of, with their figures."""
+    def settled(self) -> dict[Node, Expr]:
+        """The scalars as they are in these circumstances."""
+        known = {node: e for node, e in self.vocabulary.items() if e is not None}
+        return {node: self.tried.states.on(e) for node, e in known.items()}
+
+    @cached_property
+    def vectors(self) -> Terms:
+        """Different vectors a missing term may be formed of, and then their rates."""
         found: dict[Node, Figure] = {}
         for node in dict.fromkeys([*self.own, *self.reading.vectors]):
             if isinstance(node, Name) and isinstance(self.value(node), Vector):
                 self._enter(node, found)
         for node in tuple(found):
             self._enter(Derivative(node, Name("t")), found)
-        return found
+        return Terms(tuple((node,) for node in found), together(list(found.values())))
+
+    @cached_property
+    def crossed(self) -> Terms:
+        """Products of two of these vectors."""
+        singles = [nodes[0] for nodes in self.vectors.nodes[:_MOST_VECTORS]]
+        first, second = np.triu_indices(len(singles), 1)
+        one, other = (Figure(1, self.vectors.figures.array[:, i]) for i in (first, second))
+        pairs = tuple((singles[i], singles[j]) for i, j in zip(first, second, strict=True))
+        return Terms(pairs, one.cross(other))
 
     def _enter(self, node: Node, found: dict[Node, Figure]) -> None:
         try:
@@ -138,5 +165,28 @@ class Workpiece:
         except UNKNOWN:
             return
         finite = np.isfinite(figure.array).all() and np.abs(figure.array).max() > _CLOSE
-        if finite and not any(np.allclose(figure.array, f.array) for f in found.values()):
+        if finite and not any(_alike(figure.array, f.array) for f in found.values()):
             found[node] = figure
+
+
+def _alike(one: Array, other: Array) -> bool:
+    return bool((np.abs(one - other) <= _CLOSE * (1 + np.abs(other))).all())
+
+
+@dataclass(frozen=True, eq=False)
+class Terms:
+    """Vectors a formula may lack.
+
+    Attributes:
+        nodes: for every one the vectors it is the product of; one or two.
+        figures: of all of them, as trials of one.
+    """
+
+    nodes: tuple[tuple[Node, ...], ...]
+    figures: Figure
+
+    def __len__(self) -> int:
+        return len(self.nodes)
+
+    def __getitem__(self, i: int) -> Node:
+        return reduce(Cross, self.nodes[i])
