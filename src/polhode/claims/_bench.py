@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import islice
@@ -77,6 +77,11 @@ def _evaluated(found: Sequence[Rational], at: Array) -> Array:
 
 def bench(states: Circumstances, expressions: Iterable[Expr]) -> Bench:
     """States with independent numbers for everything the circumstances leave open."""
+    return Bench(tuple(islice(real_states(states, expressions), _STATES)))
+
+
+def real_states(states: Circumstances, expressions: Iterable[Expr]) -> Iterator[Numbers]:
+    """One such state after another, as long as some of the first ones drawn are real."""
     used = [states.on(e) for e in expressions]
     used += [*states.settled_relations, *states.signs]
     used += list(states.equations.accelerations.values())
@@ -84,8 +89,7 @@ def bench(states: Circumstances, expressions: Iterable[Expr]) -> Bench:
     symbols = {s for e in used for s in e.symbols()}
     symbols |= {*equations.coordinates, *equations.speeds, *equations.parameters}
     drawn = (Numbers(points(used, symbols, seed), states) for seed in range(1000, 1000 + _TRIES))
-    real = (found for found in drawn if _is_real(found, states, symbols))
-    return Bench(tuple(islice(real, _STATES)))
+    return (found for found in drawn if _is_real(found, states, symbols))
 
 
 def _is_real(numbers: Numbers, states: Circumstances, symbols: Iterable[Symbol]) -> bool:

@@ -12,7 +12,7 @@ import numpy as np
 from polhode.algebra import ZERO, Expr, Symbol, as_symbol, time
 from polhode.base import PolhodeError
 from polhode.claims._asked import SENSE, Asked
-from polhode.claims._bench import bench
+from polhode.claims._bench import real_states
 from polhode.claims._circumstances import TrueMotion
 from polhode.claims._components import Component
 from polhode.claims._numeric import Array, number
@@ -26,6 +26,8 @@ _SAMPLES = 400
 _CLOSE = 1e-6
 _SETTLED = 1e-3
 _LASTING = _SAMPLES // 20
+_NARROWED = 8
+_PARTS = 64
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,21 +51,22 @@ class Course:
 
         None where that does not come to pass.
         """
-        from scipy.optimize import brentq  # it takes longer to load than most motions to follow
-
         for symbol, value in event.items():
-            level = float(number(value, self.start))
-            away = self.run.evaluate(symbol, self.times) - level
+            moment = self._first_at(symbol, float(number(value, self.start)))
+            return None if moment is None else replace(self, times=moment)
+        return self
+
+    def _first_at(self, symbol: Symbol, level: float) -> Array | None:
+        """When a quantity first has a value: the interval between samples, made ever shorter."""
+        times = self.times
+        for _ in range(_NARROWED):
+            away = self.run.evaluate(symbol, times) - level
             crossed = np.flatnonzero(np.diff(np.sign(away)))
             if not len(crossed):
                 return None
             first = int(crossed[0])
-            time = brentq(
-                lambda t, s=symbol, level=level: float(self.run.evaluate(s, t)) - level,
-                *self.times[first : first + 2],
-            )
-            return replace(self, times=np.array([time]))
-        return self
+            times = np.linspace(times[first], times[first + 1], _PARTS)
+        return times[:1]
 
     @cached_property
     def states(self) -> dict[Symbol, Array | float]:
@@ -87,7 +90,7 @@ def courses(
     """
     equations = states.equations
     state = (*equations.coordinates, *equations.speeds)
-    for start in bench(states, used).states:
+    for start in real_states(states, used):
         first: dict[Name, float] = {s: start[s] for s in state}
         parameters: dict[Name, float] = {s: start[s] for s in equations.parameters}
         try:

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import lru_cache
 from itertools import islice
 
 from polhode.algebra import Expr, Symbol
 from polhode.analyse import invariants
 from polhode.base import NumericError, PolhodeError
-from polhode.claims._asked import EQUALITY, Asked
+from polhode.claims._asked import EQUALITY, Asked, The
 from polhode.claims._circumstances import TrueMotion
-from polhode.claims._course import Followed, courses
+from polhode.claims._course import TIME, Followed, courses
 from polhode.claims._initially import judged_initially
 from polhode.claims._judge import failures
 from polhode.claims._verdict import (
@@ -43,7 +44,8 @@ def judged_launch(asked: Asked) -> Verdict:
     event = {s: e for s, e in asked.given.items() if s.kind.varies}
     asked = replace(asked, given=fixed)
     equal = all(relation.sign in EQUALITY for relation in asked.members)
-    plain = equal and not asked.when and not event
+    timeless = not any(TIME in c.difference.symbols() for c in asked.components())
+    plain = equal and timeless and not asked.when and not event
     if plain and _holds_exactly(asked, _whole(asked)):
         return Verdict(Answer.HOLDS, "launch", reason="follows from the conserved quantities")
     return _followed(asked, event)
@@ -66,13 +68,19 @@ def _whole(asked: Asked) -> dict[Symbol, Expr]:
 
 def _holds_exactly(asked: Asked, start: Mapping[Symbol, Expr]) -> bool:
     try:
-        kept = [i.expression for i in invariants(asked.equations)]
-        fixed = [e - e.subs(start) for e in map(asked.equations.kinetics.on_speeds, kept)]
+        kept = _conserved(The(asked.equations))
+        fixed = [e - e.subs(start) for e in kept]
         relations = (*asked.relations, *(e for e in fixed if e))
         states = replace(asked.states(TrueMotion), relations=relations)
         return next(failures(asked, [states]), None) is None
     except (PolhodeError, ArithmeticError):
         return False
+
+
+@lru_cache(maxsize=16)
+def _conserved(the: The) -> tuple[Expr, ...]:
+    found = (i.expression for i in invariants(the.equations))
+    return tuple(map(the.equations.kinetics.on_speeds, found))
 
 
 def _followed(asked: Asked, event: Mapping[Symbol, Expr]) -> Verdict:
@@ -92,8 +100,8 @@ def _followed(asked: Asked, event: Mapping[Symbol, Expr]) -> Verdict:
 
 def _along_motions(asked: Asked, event: Mapping[Symbol, Expr]) -> Iterator[Followed]:
     components = asked.components()
-    starts = replace(asked.states(TrueMotion), given={**asked.given, **asked.start})
-    running = replace(asked.states(TrueMotion), relations=())
+    starts = replace(asked, given={**asked.given, **asked.start}).states(TrueMotion)
+    running = replace(asked, relations=()).states(TrueMotion)
     used = [running.on(side) for c in components for side in (c.left, c.right)]
     clock = next((s for e in used for s in e.symbols() if s == _CLOCK), None)
     duration = _LONG if event or asked.when == "finally" else _SHORT

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from math import log
@@ -17,7 +17,7 @@ from polhode.claims._counterexample import refutation
 from polhode.claims._numeric import number
 from polhode.claims._roots_of_steady import steady_roots
 from polhode.claims._scaling import SMALLNESS, leading_orders, restored, scaled
-from polhode.claims._verdict import Answer, Refuted, Residual, Verdict
+from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 
 _HIGHEST = 6
 _LOWEST = -4
@@ -69,20 +69,19 @@ class _Remainder:
         return min((order for orders in both for order in orders), default=0)
 
 
-def _readings(asked: Asked) -> Iterator[list[_Remainder]]:
+def _readings(asked: Asked) -> Iterator[Iterator[_Remainder]]:
     kinds = (AnyState, TrueMotion)
     for kind in kinds:
         states = asked.states(kind)
-        yield [_remainder(c, states, c.left, c.right, asked) for c in asked.components()]
+        yield (_remainder(c, states, c.left, c.right, asked) for c in asked.components())
     roots = list(steady_roots(asked))
     for branch in range(max((len(values) for _, values in roots), default=0)):
-        yield [
-            _remainder(
-                c, replace(asked.states(TrueMotion), relations=()), values[branch], c.right, asked
-            )
+        states = replace(asked, relations=()).states(TrueMotion)
+        yield (
+            _remainder(c, states, values[branch], c.right, asked)
             for c, values in roots
             if branch < len(values)
-        ]
+        )
 
 
 def _remainder(
@@ -102,19 +101,18 @@ def _below(quantity: Expr) -> frozenset[Symbol]:
     return quantity.denominator.symbols()
 
 
-def _judged(asked: Asked, remainders: Sequence[_Remainder]) -> Verdict:
+def _judged(asked: Asked, remainders: Iterable[_Remainder]) -> Verdict:
     stated = [small.order for small in asked.small if small.order is not None]
     reached: list[tuple[int, Expr]] = []
+    seen: list[_Remainder] = []
     for left in remainders:
+        seen.append(left)
         if not left.orders:
             if left.left != left.right:
                 reached.append((_HIGHEST + 1, ZERO))
             continue
         order, term = next(iter(left.orders.items()))
-        kept = _highest_printed(left.component, asked)
-        # terms printed to be kept may be products of what is small, each to its stated order
-        wanted = max(min(stated), min(kept, sum(stated))) if stated else left.leading
-        if order <= wanted:
+        if order <= _wanted(left, stated, asked):
             return _failed(left, order, restored(term, asked.small))
         reached.append((order, term))
     if not reached:
@@ -126,8 +124,17 @@ def _judged(asked: Asked, remainders: Sequence[_Remainder]) -> Verdict:
         reason=f"true up to order {order - 1}; the first term left out is of order {order}",
         order=order - 1,
         dropped=restored(dropped, asked.small),
-        remarks=tuple(_measured(remainders)),
+        remarks=tuple(_measured(seen)),
     )
+
+
+def _wanted(left: _Remainder, stated: Sequence[int], asked: Asked) -> int:
+    """The order to which a claim is to be true."""
+    if not stated:
+        return left.leading
+    # terms printed to be kept may be products of what is small, each to its stated order
+    kept = _highest_printed(left.component, asked)
+    return max(min(stated), min(kept, sum(stated)))
 
 
 def _highest_printed(component: Component, asked: Asked) -> int:
@@ -140,9 +147,7 @@ def _highest_printed(component: Component, asked: Asked) -> int:
 
 
 def _failed(left: _Remainder, order: int, term: Expr) -> Verdict:
-    component = left.component
-    residual = Residual(component.member, component.label, term)
-    wrong = Component(component.member, component.label, *_coefficients(left, order))
+    residual = Residual(left.component.member, left.component.label, term)
     return Refuted(
         Answer.FAILS,
         "limit",
@@ -150,8 +155,14 @@ def _failed(left: _Remainder, order: int, term: Expr) -> Verdict:
         residuals=(residual,),
         order=order - 1,
         dropped=term,
-        evidence=partial(refutation, wrong, residual, left.states),
+        evidence=partial(_evidence, left, order, residual),
     )
+
+
+def _evidence(left: _Remainder, order: int, residual: Residual) -> Evidence:
+    """A state at which the coefficients of that order differ."""
+    wrong = Component(residual.member, residual.component, *_coefficients(left, order))
+    return refutation(wrong, residual, left.states)
 
 
 def _coefficients(left: _Remainder, order: int) -> tuple[Expr, Expr]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
+from functools import lru_cache
 
 from polhode.algebra import ONE, ZERO, Expr, Symbol
 from polhode.base import NumericError
@@ -21,10 +22,7 @@ def scaled(expression: Expr, small: Sequence[Small]) -> Expr:
     The symbol that a small quantity is formed of then stands for the departure itself: with
     ε = θ - π/2 small, θ becomes π/2 + smallness · θ. Rates of it are as small.
     """
-    images: dict[Symbol, Expr] = {}
-    for each in small:
-        images |= dict(_images(each.quantity))
-    return expression.subs(images)
+    return expression.subs(_images(tuple(each.quantity for each in small)))
 
 
 def restored(expression: Expr, small: Sequence[Small]) -> Expr:
@@ -32,7 +30,12 @@ def restored(expression: Expr, small: Sequence[Small]) -> Expr:
     return expression.subs({_formed_of(each.quantity)[0]: each.quantity for each in small})
 
 
-def _images(quantity: Expr) -> Iterator[tuple[Symbol, Expr]]:
+@lru_cache(maxsize=64)
+def _images(quantities: tuple[Expr, ...]) -> dict[Symbol, Expr]:
+    return {symbol: value for each in quantities for symbol, value in _images_of(each)}
+
+
+def _images_of(quantity: Expr) -> Iterator[tuple[Symbol, Expr]]:
     scale = Expr.generator(SMALLNESS)
     symbol, value = _formed_of(quantity)
     departure = Expr.generator(symbol)
