@@ -84,6 +84,30 @@ def test_side_by_side_and_one_by_one_tell_the_same(rolling):
         assert quick[name] == pytest.approx(slow[name], rel=1e-10, abs=1e-11, nan_ok=True), name
 
 
+def test_the_bits_of_a_member_do_not_depend_on_its_company(rolling):
+    """Lanes are taken up again one by one, in whatever order threads and motions come to it."""
+    angles, spins = np.linspace(0.1, 1.5, 40), np.linspace(40.0, 0.0, 40)
+    outputs = {"theta": Final("theta"), "when": Series("omega_3", (0.01, 0.02, 0.7))}
+
+    def found(rows):
+        start = {"theta": angles[rows], "omega_3": spins[rows], "phi_dot": 1.0}
+        return ensemble(rolling, NUMBERS, start, 1.0, outputs=outputs, **HERE)
+
+    whole, part = found(slice(None)), found(slice(33, 2, -1))
+    assert whole.failed == 0
+    for name in outputs:
+        assert np.array_equal(whole[name][33:2:-1], part[name], equal_nan=True)
+
+
+def test_motions_that_cannot_be_continued_hold_nobody_up():
+    """Flat after a while, in equations that end there: beside them the others go on."""
+    rolls = np.arange(24) % 3 > 0
+    falling = {"theta": np.where(rolls, 1.2, 0.4), "omega_3": np.where(rolls, 30.0, 0.0)}
+    found = ensemble(derive(disk()), NUMBERS, falling, 1.0, outputs=["theta"])
+    assert np.array_equal(found.done, rolls)
+    assert len(set(found["theta"][found.done])) == 1
+
+
 def test_switching_members_are_single_runs():
     rough = automaton(rough_disk())
     outputs = ["omega_3", "mode"]

@@ -15,7 +15,7 @@ from polhode.simulate._names import Name
 from polhode.simulate.contact._settle import Entry
 from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.many._endings import Ending
-from polhode.simulate.many._lanes import NONE, Arrivals, Launch
+from polhode.simulate.many._launch import NONE, Arrivals, Launch
 from polhode.simulate.many._sightings import LAST, Rows, Sightings
 from polhode.simulate.many._stay import STILL, Stay
 

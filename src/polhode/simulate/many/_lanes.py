@@ -3,75 +3,22 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from copy import copy
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from polhode.algebra import Arithmetic, Expr, Matrix, Symbol
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate.integrate._heyoka import library
 from polhode.simulate.integrate._integrators import LOOKS, Array
-
-NONE = -1
-"""The guard of a motion that none has ended."""
+from polhode.simulate.many._crew import Crew, Ended, Places, Work
+from polhode.simulate.many._launch import Arrivals, Launch
 
 _VECTORS = 2  # that are worked on at once: while one waits for its memory the other goes on
-_MOST_STEPS = 1_000_000  # between two looks: a motion that needs more is at a singular position
-
-
-@dataclass(frozen=True)
-class Launch:
-    """Where motions are taken up, and what ends them.
-
-    Attributes:
-        begin: s, shape (motions,).
-        states: shape (states, motions).
-        parameters: shape (parameters, motions).
-        least: value at which a guard has fallen, shape (guards, motions).
-    """
-
-    begin: Array
-    states: Array
-    parameters: Array
-    least: Array
-
-    @property
-    def count(self) -> int:
-        """How many motions there are."""
-        return len(self.begin)
-
-    def some(self, which: NDArray[np.intp]) -> Launch:
-        """Some of the motions."""
-        return Launch(
-            self.begin[which],
-            self.states[:, which],
-            self.parameters[:, which],
-            self.least[:, which],
-        )
-
-
-@dataclass(frozen=True)
-class Arrivals:
-    """Where motions are at some times, or at the guard that ended them.
-
-    Attributes:
-        states: shape (times, states, motions); before it is taken up and after its end a motion
-            rests.
-        end: how far each went, s.
-        guard: which guard ended it, or NONE.
-        good: whether the result can be relied on.
-    """
-
-    states: Array
-    end: Array
-    guard: NDArray[np.intp]
-    good: NDArray[np.bool_]
 
 
 class Lanes:
@@ -145,28 +92,24 @@ class Lanes:
         Args:
             times: s, increasing, the last of them after every beginning.
         """
-        count = launch.count
-        found = Arrivals(
-            np.full((len(times), len(self.states), count), np.nan),
-            np.full(count, float(times[-1])),
-            np.full(count, NONE, dtype=np.intp),
-            np.ones(count, dtype=bool),
-        )
-        if not count:
-            return found
-        order = np.argsort(launch.begin, kind="stable")
-        sizes = np.abs(self.guarded(launch))
-        scale = 1 / np.where(sizes > 0, sizes, 1.0)
-        threads = min(os.cpu_count() or 1, max(1, count // self.width))
-        crews = [_Crew(copy(self._compiled), self.guards, self._looks) for _ in range(threads)]
-
-        def work(k: int) -> None:
-            for rows in _rows(count, self.width, k, threads):
-                crews[k].follow(launch, scale, times, order[rows], found)
-
-        with ThreadPoolExecutor(threads) as pool:
-            list(pool.map(work, range(threads)))
+        found = Arrivals.none_yet(times, len(self.states), launch.count)
+        work = Work(launch, self._constants(launch), times, self._looks, found)
+        queue = iter(np.argsort(launch.begin, kind="stable").tolist())
+        threads = min(os.cpu_count() or 1, -(-launch.count // self.width))
+        if threads:
+            crews = [Crew(copy(self._compiled), work) for _ in range(threads)]
+            with ThreadPoolExecutor(threads) as pool:
+                list(pool.map(lambda crew: crew.follow(queue), crews))
         return found
+
+    def _constants(self, launch: Launch) -> Array:
+        """All parameters of the compiled equations, shape (parameters, motions)."""
+        if not self.guards:
+            return launch.parameters
+        sizes = np.abs(self.guarded(launch))
+        unit = 1 / np.where(sizes > 0, sizes, 1.0)
+        going = np.ones((1, launch.count))
+        return np.vstack([launch.parameters, unit, unit * launch.least, going])
 
     @cached_property
     def _compiled(self) -> Any:
@@ -188,14 +131,14 @@ class Lanes:
             guards.append(determinant([list(flat[i * side :][:side]) for i in range(side)]))
         if not guards:
             return self._batch([(x, rate) for x, rate in zip(states, rates, strict=True)], [])
-        places = _Places(own, len(guards))
+        places = Places(own, len(guards))
         going = heyoka.par[places.going]
         events = [
             heyoka.t_event_batch(
                 going * (heyoka.par[places.scale(i)] * guard - heyoka.par[places.least(i)])
                 + (1.0 - going),
                 direction=heyoka.event_direction.negative,
-                callback=_Ended(places.scale(i), places.going),
+                callback=Ended(places.scale(i), places.going),
             )
             for i, guard in enumerate(guards)
         ]
@@ -222,89 +165,3 @@ def determinant(rows: Sequence[Sequence[Any]]) -> Any:
         term = entry * determinant(minor)
         total = total + term if k % 2 == 0 else total - term
     return total
-
-
-@dataclass(frozen=True)
-class _Places:
-    """Where among the parameters the switch is, and what brings the guards to order one."""
-
-    own: int
-    guards: int
-
-    def scale(self, guard: int) -> int:
-        return self.own + guard
-
-    def least(self, guard: int) -> int:
-        return self.own + self.guards + guard
-
-    @property
-    def going(self) -> int:
-        return self.own + 2 * self.guards
-
-
-@dataclass
-class _Ended:
-    """Stops one lane, and lets the others go on.
-
-    Where the scale of the guard was, which a lane at rest has no use for, the time is kept.
-    """
-
-    scale: int
-    going: int
-
-    def __call__(self, taylor: Any, _: int, lane: int) -> bool:
-        taylor.pars[self.going, lane] = 0.0
-        taylor.pars[self.scale, lane] = -1.0 - taylor.time[lane]
-        return True
-
-
-@dataclass(frozen=True)
-class _Crew:
-    """One integrator, for one thread."""
-
-    integrator: Any
-    guards: int
-    looks: int
-
-    def follow(
-        self,
-        launch: Launch,
-        scale: Array,
-        times: Array,
-        rows: NDArray[np.intp],
-        found: Arrivals,
-    ) -> None:
-        """Follow as many motions as there are lanes."""
-        taylor = self.integrator
-        now = launch.begin[rows]
-        taylor.set_time(now)
-        taylor.state[:] = launch.states[:, rows]
-        taylor.pars[:] = self._constants(launch, scale, rows)[: len(taylor.pars)]
-        for k, time in enumerate(times):
-            target = np.maximum(now, time)
-            spans = target - now
-            longest = np.where((spans > 0) & (self.looks > 1), spans / self.looks, np.inf)
-            taylor.propagate_until(target, max_delta_t=longest, max_steps=_MOST_STEPS)
-            found.states[k][:, rows] = taylor.state
-            now = target
-        finite = np.all(np.isfinite(taylor.state), axis=0)
-        found.good[rows] = finite & (taylor.time == now)
-        if self.guards:
-            own = len(launch.parameters)
-            ended = taylor.pars[-1] == 0.0
-            kept = taylor.pars[own : own + self.guards]
-            found.guard[rows] = np.where(ended, np.argmin(kept, axis=0), NONE)
-            found.end[rows] = np.where(ended, -1.0 - np.min(kept, axis=0), times[-1])
-
-    def _constants(self, launch: Launch, scale: Array, rows: NDArray[np.intp]) -> Array:
-        own = launch.parameters[:, rows]
-        if not self.guards:
-            return own
-        unit = scale[:, rows]
-        return np.vstack([own, unit, unit * launch.least[:, rows], np.ones((1, len(rows)))])
-
-
-def _rows(count: int, width: int, first: int, step: int) -> Iterator[NDArray[np.intp]]:
-    """Motions for every filling of the lanes; the last is filled up with repetitions."""
-    for begin in range(first * width, count, step * width):
-        yield np.minimum(np.arange(begin, begin + width), count - 1)

@@ -14,7 +14,8 @@ from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
 from polhode.simulate._readable import readable
 from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.many._endings import Ending
-from polhode.simulate.many._lanes import Arrivals, Lanes, Launch, table
+from polhode.simulate.many._lanes import Lanes, table
+from polhode.simulate.many._launch import Arrivals, Launch
 
 _CLEAR = 1e-9  # of a guard, relative to the largest: further above its least value is no doubt
 #: Slip speed, relative to the velocities around, that is as good as none. Not sooner: where the
