@@ -19,10 +19,3 @@ from polhode.simulate.forcing._sheet_file import SheetPath as SheetPath
 from polhode.simulate.forcing._sheet_file import read_sheet as read_sheet
 from polhode.simulate.forcing._spline import sampled as sampled
 from polhode.simulate.integrate._numbers import numbers_for as numbers_for
-from polhode.simulate.many._abreast import Abreast as Abreast
-from polhode.simulate.many._abreast import Flights as Flights
-from polhode.simulate.many._abreast import abreast as abreast
-from polhode.simulate.many._sightings import LAST as LAST
-from polhode.simulate.many._sightings import Sightings as Sightings
-from polhode.simulate.many._subjects import Plan as Plan
-from polhode.simulate.many._tangents import Tangents as Tangents

@@ -11,6 +11,7 @@ import numpy as np
 from polhode.algebra import Expr
 from polhode.simulate._dynamics import WORK
 from polhode.simulate._segment import Segment
+from polhode.simulate.integrate._ascending import ascending
 from polhode.simulate.integrate._integrators import Array
 
 _MOST_CHECKED = 20_000  # instants of a segment that are looked at
@@ -59,7 +60,7 @@ def _instants(segment: Segment, samples: Array) -> Array:
     picked = steps[:: len(steps) // _MOST_CHECKED + 1]
     inside = samples[(samples >= segment.begin) & (samples < segment.end)]
     # Just before its end: at the end itself the next mode has begun.
-    return np.unique(np.concatenate([[segment.begin], picked, inside, [segment.end]]))
+    return ascending([np.array([segment.begin, segment.end]), picked, inside])
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,9 @@ from polhode.derive import Automaton
 from polhode.model import System
 from polhode.simulate._dynamics import EquationsOfMotion
 from polhode.simulate._event import Event, placed
-from polhode.simulate._follow import Motion, Prepared, Task, prepared
+from polhode.simulate._follow import prepared
 from polhode.simulate._names import Name
+from polhode.simulate._task import Motion, Prepared, Task
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate._validity import pulling_contacts, refuse_lost_side
 from polhode.simulate._values import evaluate

@@ -12,6 +12,7 @@ from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate._readable import moving
+from polhode.simulate.integrate._ascending import ascending, occurring
 from polhode.simulate.integrate._driver import Solution
 from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
@@ -72,7 +73,7 @@ class Segment:
     def steps(self) -> Array:
         """Where the steps of the integrator begin and end, s."""
         inside = [p.solution.steps[p.solution.steps < p.end] for p in self.parts]
-        return np.unique(np.concatenate([*inside, [self.begin, self.end]]))
+        return ascending([*inside, np.array([self.begin, self.end])])
 
     @property
     def numbers(self) -> Numbers:
@@ -96,7 +97,7 @@ class Segment:
         begins = np.array([part.begin for part in self.parts])
         which = np.clip(np.searchsorted(begins, times, "right") - 1, 0, None)
         found = np.empty((len(wanted), len(times)), dtype=self.numbers.dtype)
-        for i in np.unique(which):
+        for i in occurring(which):
             here = which == i
             found[:, here] = values_of(self.dynamics, self.parts[i], wanted, times[here])
         return found

@@ -18,6 +18,7 @@ from polhode.simulate._event import Event, placed
 from polhode.simulate._readable import readable
 from polhode.simulate._segment import Segment
 from polhode.simulate.files._csv import write_csv
+from polhode.simulate.integrate._ascending import occurring
 from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
 
@@ -271,7 +272,7 @@ class Trajectory(Shown):
         begins = np.array([segment.begin for segment in self.segments])
         which = np.clip(np.searchsorted(begins, flat, "right") - 1, 0, None)
         found = np.empty((len(wanted), len(flat)), dtype=self._numbers.dtype)
-        for i in np.unique(which):
+        for i in occurring(which):
             here = which == i
             expressions = [self._expression(quantity, int(i)) for quantity in wanted]
             found[:, here] = self.segments[i].values(expressions, flat[here])

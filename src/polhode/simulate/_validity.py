@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from polhode.simulate._trajectory import Trajectory
 
 #: How finely a motion is looked at between its ends.
-_LOOKS = 20001
+_LOOKS = 10_000
 
 
 def refuse_lost_side(trajectory: Trajectory) -> None:

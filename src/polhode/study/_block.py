@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from polhode.base import PolhodeError
 from polhode.derive import Automaton, Equations, automaton, derive
 from polhode.model import System
-from polhode.simulate import NEAR_FLAT, Abreast, Experiment, Plan, abreast
+from polhode.simulate import NEAR_FLAT, Experiment
+from polhode.simulate.many import Abreast, Plan, abreast
 from polhode.study._columns import Array, Members
 from polhode.study._happenings import OF_EVENTS
 from polhode.study._motions import Motions

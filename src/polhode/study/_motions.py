@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.simulate import LAST, Sightings
+from polhode.simulate.many import LAST, Sightings
 from polhode.study._columns import Array
 from polhode.study._extremes import Quantity
 

@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 
 from polhode.algebra import Expr, Symbol, as_symbol
 from polhode.base import NumericError, look_up
-from polhode.simulate import Dynamics, Experiment, Tangents, Trajectory
+from polhode.simulate import Dynamics, Experiment, Trajectory
+from polhode.simulate.many import Tangents
 from polhode.study._block import Subject
 from polhode.study._columns import Array, Name, published_names
 from polhode.study._extremes import Quantity

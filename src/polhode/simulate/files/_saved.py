@@ -15,8 +15,8 @@ from polhode.derive import Automaton, automaton, derive
 from polhode.model import System, read_declaration, write_declaration
 from polhode.simulate._dynamics import Dynamics
 from polhode.simulate._event import Event, placed
-from polhode.simulate._follow import AS_DECLARED
 from polhode.simulate._segment import Part, Segment
+from polhode.simulate._task import AS_DECLARED
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate.contact._machine import Machine
 from polhode.simulate.files._archive import Archive, Sampled, Stretch, series_of

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from polhode.algebra import Program, Symbol, arrays
 from polhode.base import Enough, NumericError, Progress
+from polhode.simulate.integrate._ascending import ascending, occurring
 from polhode.simulate.integrate._crossing import bisected
 from polhode.simulate.integrate._flow import Flow
 from polhode.simulate.integrate._integrators import LOOKS, Array, Leg, Stepper, broken
@@ -111,13 +112,13 @@ def integrate(
     size = len(flow.core.symbols)
     watched = watched or Watched()
     path = _legs(flow, stepper, parameters, start[:size], span, progress, watched)
-    steps = np.unique(np.concatenate([leg.times for leg in path.legs]))
+    steps = ascending([leg.times for leg in path.legs])
     vanished = None
     if path.stop is Stop.VANISHED:
         end, vanished = _vanishing(path, watched, (float(steps[-2]), float(steps[-1])))
         steps = np.append(steps[:-1], end)
     if flow.is_driven:
-        steps = np.union1d(steps, np.linspace(steps[0], steps[-1], LOOKS + 1))
+        steps = ascending([steps, np.linspace(steps[0], steps[-1], LOOKS + 1)])
     at: States = path.at
     known = size
     for stage in flow.stages:
@@ -168,7 +169,7 @@ class _Path:
     def at(self, times: Array) -> Array:
         which = np.clip(np.searchsorted(self.begins, times, "right") - 1, 0, None)
         states = np.empty((len(self.periodic), len(times)))
-        for i in np.unique(which):
+        for i in occurring(which):
             here = which == i
             states[:, here] = self.legs[i].at(times[here])
         return np.vstack([states + self.turned[which].T, states[self.periodic]])

@@ -10,6 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from polhode.algebra import Program
+from polhode.simulate.integrate._ascending import occurring
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
 
 
@@ -55,7 +56,7 @@ class Series:
     ) -> Any:
         which = np.clip(np.searchsorted(starts, times, "right") - 1, 0, len(starts) - 2)
         found = np.empty((self.limbs.shape[3], len(times)), dtype=numbers.dtype)
-        for i in np.unique(which):
+        for i in occurring(which):
             here = which == i
             share = (times[here] - starts[i]) / (starts[i + 1] - starts[i])
             found[:, here] = _horner(piece(int(i)), share)

@@ -13,8 +13,8 @@ from polhode.base import DeclarationError, Enough, NumericError, Progress
 from polhode.derive import Mode
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
 from polhode.simulate._event import Event, placed
-from polhode.simulate._follow import Motion, Task
 from polhode.simulate._segment import Part, Segment
+from polhode.simulate._task import Motion, Task
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate._watching import passages
 from polhode.simulate.contact._machine import gap_symbol, slip_symbols

@@ -1,0 +1,84 @@
+"""What is asked of a motion, and what came of it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Protocol
+
+from polhode.base import Progress
+from polhode.derive import Mode
+from polhode.simulate._dynamics import Dynamics
+from polhode.simulate._names import Name
+from polhode.simulate._segment import Segment
+from polhode.simulate._start import Start
+from polhode.simulate.integrate._integrators import Integrator
+
+if TYPE_CHECKING:
+    from polhode.simulate.contact._course import Change
+
+AS_DECLARED = "as declared"
+
+
+@dataclass(frozen=True)
+class Task:
+    """What is asked for: numbers, a start, and how to go on from it."""
+
+    given: Mapping[Name, Any]
+    start: Mapping[Name, Any]
+    forcing: Mapping[Name, Any]
+    end: float
+    integrator: Integrator
+    tolerance: float | None
+    near_flat: float
+    seconds: dict[str, float]
+    until: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True)
+class Begun:
+    """The start as it was read, and the equations in which it was."""
+
+    dynamics: Dynamics
+    start: Start
+
+
+@dataclass(frozen=True)
+class Motion:
+    """What came of it.
+
+    Attributes:
+        unguarded: whether the contacts were taken as declared, and not looked after.
+        begun: how the start was read.
+        mode: the contact mode it begins in, where contacts are looked after.
+    """
+
+    segments: tuple[Segment, ...]
+    changes: tuple[Change, ...]
+    ending: str
+    parameters: Mapping[str, float]
+    assumed: Mapping[str, float]
+    unguarded: bool
+    begun: Begun
+    mode: Mode | None = None
+
+
+class Prepared(Protocol):
+    """A system with its equations compiled, ready for any numbers and any start."""
+
+    def follow(self, task: Task, progress: Progress) -> Motion:
+        """The motion from its start to its end.
+
+        Args:
+            task: what is asked for; only values and start may differ from what was prepared for.
+        """
+        ...
+
+
+@contextmanager
+def timed(task: Task, what: str) -> Iterator[None]:
+    began = time.perf_counter()
+    yield
+    task.seconds[what] = task.seconds.get(what, 0.0) + time.perf_counter() - began

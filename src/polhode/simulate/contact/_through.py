@@ -1,0 +1,115 @@
+"""Follows a motion through all contact modes, as the forces demand."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from polhode.algebra import Symbol
+from polhode.base import ConstraintError, Progress
+from polhode.derive import Automaton
+from polhode.model import FLIGHT, FRICTIONLESS, Apart, Coulomb, Phase
+from polhode.simulate._dynamics import Dynamics
+from polhode.simulate._names import published
+from polhode.simulate._start import read_start
+from polhode.simulate._task import Begun, Motion, Task, timed
+from polhode.simulate._values import idle_parameters, read_parameters
+from polhode.simulate.contact._begin import begun_at
+from polhode.simulate.contact._checks import check_numbers
+from polhode.simulate.contact._course import Walk
+from polhode.simulate.contact._machine import Machine
+from polhode.simulate.contact._place import Place
+from polhode.simulate.contact._settle import Entry
+from polhode.simulate.forcing._drive import drive_of
+
+
+class ThroughModes:
+    """Through all contact modes, as the forces demand."""
+
+    def __init__(self, modes: Automaton, task: Task) -> None:
+        with timed(task, "derive"):
+            self._drive = drive_of(modes.functions, task.forcing, task.end)
+            idle = idle_parameters(modes.together.equations, task.given)
+            constants = (*modes.parameters, *idle)
+            equations = modes.together.equations
+            self._dynamics = Dynamics(equations, self._drive.expressions, constants)
+        self._modes = modes
+        self._machine: Machine | None = None
+
+    def follow(self, task: Task, progress: Progress) -> Motion:
+        numbers = read_parameters(self._dynamics, task.given, self._drive.constants(0.0))
+        machine = self._with(numbers, task)
+        check_numbers(machine)
+        with timed(task, "compile"):
+            walk = Walk(machine, task.near_flat, progress, task.until)
+            first, begun = first_entry(machine, task)
+            machine.mode(first.phases).stepper  # noqa: B018
+        with timed(task, "integrate"):
+            course = walk.along(first, task.end)
+        return Motion(
+            course.segments,
+            course.changes,
+            course.ending,
+            {symbol.published: value for symbol, value in numbers.items()},
+            begun.start.assumed,
+            unguarded=False,
+            begun=begun,
+            mode=machine.mode(first.phases).mode,
+        )
+
+    def _with(self, numbers: Mapping[Symbol, float], task: Task) -> Machine:
+        """The machine with these numbers; what it has compiled stays."""
+        if self._machine is None:
+            self._machine = Machine(
+                self._modes, self._drive, numbers, task.integrator, task.tolerance
+            )
+        self._machine.take(numbers)
+        return self._machine
+
+
+def first_entry(machine: Machine, task: Task) -> tuple[Entry, Begun]:
+    """The first mode of a motion, and the start as it was read."""
+    place, begun, apart = _begin(machine, task)
+    return begun_at(machine, place, apart), begun
+
+
+def _begin(machine: Machine, task: Task) -> tuple[Place, Begun, frozenset[int]]:
+    """Where it starts, and which contacts are apart there.
+
+    Contacts touch unless a height is given, and stick where they can unless that contradicts what
+    is given.
+    """
+    given = {published(name) for name in task.start}
+    modes = machine.automaton
+    apart = frozenset(
+        i
+        for i, option in enumerate(modes.options)
+        if isinstance(above := option[FLIGHT], Apart)
+        and given & {above.height.published, above.rise.published}
+    )
+    if apart:
+        place, begun = _read(machine, _phases(modes, apart, slips=True), task)
+        return place, begun, apart
+    try:
+        return (*_read(machine, _phases(modes, apart, slips=False), task), apart)
+    except ConstraintError:
+        if not any(isinstance(contact, Coulomb) for contact in modes.contacts):
+            raise
+        return (*_read(machine, _phases(modes, apart, slips=True), task), apart)
+
+
+def _phases(modes: Automaton, apart: frozenset[int], *, slips: bool) -> tuple[Phase, ...]:
+    """Phases in which the start values are read: friction does not matter to them."""
+    found = []
+    for i, option in enumerate(modes.options):
+        free = FRICTIONLESS if slips and FRICTIONLESS in option else next(iter(option))
+        found.append(FLIGHT if i in apart else free)
+    return tuple(found)
+
+
+def _read(machine: Machine, phases: tuple[Phase, ...], task: Task) -> tuple[Place, Begun]:
+    mode = machine.mode(phases)
+    plain = mode.dynamics.without_carried
+    numbers = dict(zip(plain.parameters, mode.parameters.tolist(), strict=True))
+    start = read_start(plain, task.start, numbers)
+    state = dict(zip(plain.states, (float(x) for x in start.state), strict=True))
+    return mode.lifted(0.0, state, 0.0), Begun(plain, start)
