@@ -1,5 +1,7 @@
 """Exact expressions, vectors, linear algebra, printing."""
 
+from polhode.algebra._blocks import eliminate_in_parts as eliminate_in_parts
+from polhode.algebra._blocks import solve_definite as solve_definite
 from polhode.algebra._calculus import integrate as integrate
 from polhode.algebra._calculus import linear_parts as linear_parts
 from polhode.algebra._calculus import taylor as taylor
@@ -10,6 +12,7 @@ from polhode.algebra._expression import ZERO as ZERO
 from polhode.algebra._expression import Expr as Expr
 from polhode.algebra._expression import ExprLike as ExprLike
 from polhode.algebra._expression import as_symbol as as_symbol
+from polhode.algebra._expression import total as total
 from polhode.algebra._functions import cos as cos
 from polhode.algebra._functions import cosh as cosh
 from polhode.algebra._functions import exp as exp
@@ -30,6 +33,7 @@ from polhode.algebra._latex import mathml as mathml
 from polhode.algebra._layout import layout as layout
 from polhode.algebra._linear import Elimination as Elimination
 from polhode.algebra._linear import Matrix as Matrix
+from polhode.algebra._linear import OutgrownError as OutgrownError
 from polhode.algebra._linear import Row as Row
 from polhode.algebra._linear import dot as dot
 from polhode.algebra._linear import eliminate as eliminate
@@ -38,6 +42,8 @@ from polhode.algebra._linear import solve as solve
 from polhode.algebra._linear import variables as variables
 from polhode.algebra._nodes import Node as Node
 from polhode.algebra._nodes import Style as Style
+from polhode.algebra._parts import named as named
+from polhode.algebra._parts import under_letters as under_letters
 from polhode.algebra._program import FLOATS as FLOATS
 from polhode.algebra._program import Arithmetic as Arithmetic
 from polhode.algebra._program import Compiled as Compiled

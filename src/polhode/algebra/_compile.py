@@ -13,11 +13,13 @@ from flint import fmpq
 
 from polhode.algebra._elimination import solve_on
 from polhode.algebra._expression import ONE, ZERO, Expr
+from polhode.algebra._factored import extracted
 from polhode.algebra._forms import shortest
 from polhode.algebra._functions import CIRCULAR, Elementary, exponentials
 from polhode.algebra._generators import Generator, Symbol
 from polhode.algebra._half_angles import Factors, lowest
 from polhode.algebra._linear import Matrix, Row
+from polhode.algebra._parts import Part
 from polhode.algebra._program import Op, Program
 from polhode.algebra._ring import Polynomial, Ring
 from polhode.algebra._roots import Root
@@ -145,6 +147,8 @@ class _Writer:
                 return self.tape.call(Op.SQRT, self.expression(generator.radicand))
             case Elementary():
                 return self.tape.call(Op(generator.name), self._argument(generator))
+            case Part():
+                return self.expression(generator.meaning)
             case _:
                 raise NumericError(
                     f"the function {generator.key}", expected="one with a numeric value"
@@ -182,10 +186,10 @@ class _Writer:
     # -- polynomials ----------------------------------------------------------------------------
 
     def _fraction(self, form: _Fraction) -> Value:
-        content, above = _factored(form.num)
+        content, above = _factored(form.ring, form.num)
         below: Factors = []
         for part, exponent in form.below:
-            divisor, factors = _factored(part)
+            divisor, factors = _factored(form.ring, part)
             content /= divisor**exponent
             below += [(factor, power * exponent) for factor, power in factors]
         num = self._product(form.ring, above, content)
@@ -219,7 +223,7 @@ class _Writer:
         return self.tape.add(value, self._polynomial(ring, rest)) if rest else value
 
     def _polynomial(self, ring: Ring, polynomial: Polynomial) -> Value:
-        content, factors = _factored(polynomial)
+        content, factors = _factored(ring, polynomial)
         return self._product(ring, factors, content)
 
     def _term(self, ring: Ring, monomial: Sequence[int], coefficient: Any) -> Value:
@@ -247,6 +251,9 @@ def _divided(solve: LinearSolve) -> tuple[Matrix, Row]:
 
 def _forms(expression: Expr) -> Iterator[_Fraction]:
     ring, num, den = expression.ring, expression.num, expression.den
+    if ring.has_parts:
+        yield _Fraction(ring, num, [(den, 1)])
+        return
     cancelled = lowest(expression)
     if cancelled is not None:
         yield _Fraction(ring, shortest(ring, cancelled.num), cancelled.factors)
@@ -259,11 +266,20 @@ def _forms(expression: Expr) -> Iterator[_Fraction]:
     yield _Fraction(ring, above / common, [(below / common, 1)])
 
 
-def _factored(polynomial: Polynomial) -> tuple[Fraction, Factors]:
+def _factored(ring: Ring, polynomial: Polynomial) -> tuple[Fraction, Factors]:
     if polynomial == 0:
         return Fraction(0), []
+    if ring.has_parts:
+        return _extracted(ring, polynomial)
     content, factors = polynomial.factor()
     return _rational(content), [(factor, int(exponent)) for factor, exponent in factors]
+
+
+def _extracted(ring: Ring, polynomial: Polynomial) -> tuple[Fraction, Factors]:
+    """Only what all terms have taken out: in many generators further factors are dear and rare."""
+    outside = extracted(ring, polynomial)
+    powers = [(ring.variable(g), power) for g, power in outside.powers.items()]
+    return outside.number, [*powers, *outside.sums]
 
 
 def _most_shared(polynomial: Polynomial) -> tuple[int, int, int]:

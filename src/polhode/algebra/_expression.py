@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from numbers import Rational
@@ -11,6 +11,8 @@ from typing import Any, TypeAlias, Union
 from flint import fmpq
 
 from polhode.algebra._generators import Generator, Rate, Symbol
+from polhode.algebra._given import decimal, is_numpy_scalar
+from polhode.algebra._printed import Printed
 from polhode.algebra._ring import CONSTANTS, Polynomial, Ring, ring_of, union
 from polhode.base import DeclarationError, NumericError
 
@@ -22,7 +24,7 @@ ExprLike: TypeAlias = Union["Expr", int, float, Fraction, Any]
 _LARGEST_POWER = 1000
 
 
-class Expr:
+class Expr(Printed):
     """An exact expression; immutable, hashable, picklable, with a decided equality.
 
     Made from `symbols`, `coordinates`, `speeds`, numbers and functions by ordinary arithmetic.
@@ -45,12 +47,12 @@ class Expr:
         if isinstance(value, Rational):
             return cls.constant(Fraction(int(value.numerator), int(value.denominator)))
         if isinstance(value, float):
-            return cls.constant(_decimal(value))
+            return cls.constant(decimal(value))
         if type(value).__module__.startswith("sympy"):
             from polhode.algebra._sympy import from_sympy
 
             return from_sympy(value)
-        if _is_numpy_scalar(value):
+        if is_numpy_scalar(value):
             return cls.of(value.item())  # type: ignore[union-attr]
         raise NumericError(
             f"{value!r} of type {type(value).__name__} is no expression",
@@ -61,7 +63,7 @@ class Expr:
     @staticmethod
     def reads(value: object) -> bool:
         """Whether `of` takes values of this type."""
-        plain = isinstance(value, Expr | Rational | float) or _is_numpy_scalar(value)
+        plain = isinstance(value, Expr | Rational | float) or is_numpy_scalar(value)
         return plain or type(value).__module__.startswith("sympy")
 
     @classmethod
@@ -88,8 +90,17 @@ class Expr:
 
     @property
     def is_zero(self) -> bool:
-        """Whether it vanishes identically; decided, up to the branch of a root."""
-        return bool(self.num == 0)
+        """Whether it vanishes identically; decided, up to the branch of a root.
+
+        With named parts, which are not multiplied out, it is evaluated instead: see `vanishes`.
+        """
+        return bool(self.num == 0) or (self.ring.has_parts and self._vanishes)
+
+    @cached_property
+    def _vanishes(self) -> bool:
+        from polhode.algebra._balls import vanishes
+
+        return vanishes(self)
 
     @property
     def is_polynomial(self) -> bool:
@@ -260,14 +271,14 @@ class Expr:
 
     def chain(self, rate: Rate) -> Expr:
         """Derivative along a direction in which every symbol changes at its `rate`."""
-        result = ZERO
-        for generator in self.generators:
-            slope = self._partial(generator)
-            if slope:
-                result = result + slope * generator.chain(rate)
-        return result
+        return self._chain(self.generators, rate)
 
-    def _partial(self, generator: Generator) -> Expr:
+    def _chain(self, changing: Iterable[Generator], rate: Rate) -> Expr:
+        slopes = ((g, self.partial(g)) for g in changing)
+        return total(slope * g.chain(rate) for g, slope in slopes if slope)
+
+    def partial(self, generator: Generator) -> Expr:
+        """Partial derivative by a generator, all others held."""
         ring, position = self.ring, self.ring.index[generator]
         above = ring.reduce(self.num.derivative(position))
         if self.is_polynomial:
@@ -279,11 +290,15 @@ class Expr:
     def diff(self, symbol: Expr | Symbol) -> Expr:
         """Partial derivative with respect to a symbol."""
         wanted = as_symbol(symbol)
-        return self.chain(lambda s: ONE if s == wanted else ZERO)
+        changing = (g for g in self.generators if wanted in g.symbols())
+        return self._chain(changing, _along(wanted))
 
     def dt(self) -> Expr:
         """Time derivative: coordinates, speeds and functions of time change, parameters do not."""
-        return self.chain(time_rate)
+        if not self.ring.has_parts:
+            return self.chain(time_rate)
+        changing = sorted(self.symbols(), key=lambda symbol: symbol.key)  # their rates stay visible
+        return total(self.diff(s) * rate for s in changing if (rate := time_rate(s)))
 
     def subs(self, images: Mapping[Any, ExprLike]) -> Expr:
         """With symbols replaced, all at once, also inside functions."""
@@ -302,36 +317,16 @@ class Expr:
         num = _compose(self.ring, self.num, images)
         return num if self.is_polynomial else num / _compose(self.ring, self.den, images)
 
-    # -- printing -------------------------------------------------------------------------------
 
-    def __repr__(self) -> str:
-        return str(self)
-
-    def __str__(self) -> str:
-        from polhode.algebra._text import text
-
-        return text(self)
-
-    def pretty(self) -> str:
-        """One line with Greek letters, dots and superscripts."""
-        from polhode.algebra._text import pretty
-
-        return pretty(self)
-
-    def latex(self) -> str:
-        """LaTeX as a text would print it."""
-        from polhode.algebra._latex import latex
-
-        return latex(self)
-
-    def mathml(self) -> str:
-        """Presentation MathML."""
-        from polhode.algebra._latex import mathml
-
-        return mathml(self.latex())
-
-    def _repr_latex_(self) -> str:
-        return f"$\\displaystyle {self.latex()}$"
+def total(expressions: Iterable[Expr]) -> Expr:
+    """Their sum; of many polynomials at once, which is quicker than one by one."""
+    terms = tuple(expressions)
+    if len(terms) < 3 or not all(term.is_polynomial for term in terms):
+        return sum(terms, ZERO)
+    ring = union(*(term.ring for term in terms))
+    if _refinements(ring):
+        return sum(terms, ZERO)
+    return Expr(ring, sum((_lifted(term, ring).num for term in terms), ring.zero), ring.one)
 
 
 def as_symbol(value: Expr | Symbol) -> Symbol:
@@ -347,6 +342,12 @@ def time_rate(symbol: Symbol) -> Expr:
     if symbol.kind.varies:
         return Expr.generator(symbol.derivative())
     return ONE if symbol.kind.value == "time" else ZERO
+
+
+@lru_cache(maxsize=1024)
+def _along(wanted: Symbol) -> Rate:
+    """The same function for the same symbol, so that what it gave of a part is known again."""
+    return lambda symbol: ONE if symbol == wanted else ZERO
 
 
 def _together(first: Expr, second: ExprLike) -> tuple[Expr, Expr, Ring]:
@@ -390,16 +391,6 @@ def _compose(ring: Ring, polynomial: Polynomial, images: Mapping[Generator, Expr
                 term = term * powers[generator, power]
         result = result + term
     return result
-
-
-def _decimal(value: float) -> Fraction:
-    if value != value or value in (float("inf"), float("-inf")):
-        raise NumericError(f"the number {value}", expected="a finite number", advice="")
-    return Fraction(repr(float(value)))
-
-
-def _is_numpy_scalar(value: object) -> bool:
-    return getattr(value, "shape", None) == () and hasattr(value, "item")
 
 
 ZERO = Expr.constant(0)

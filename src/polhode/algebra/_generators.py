@@ -27,6 +27,8 @@ class Generator(ABC):
     key: str
     #: Whether its value is known to be positive.
     positive: bool = False
+    #: Whether it stands for a longer expression that is not multiplied out.
+    is_part: bool = False
 
     @property
     def depth(self) -> int:

@@ -36,6 +36,7 @@ from polhode.algebra._nodes import (
     product,
     total,
 )
+from polhode.algebra._parts import under_letters
 from polhode.algebra._quotient import shortest_quotient
 from polhode.algebra._radicals import Radicals, gathered
 from polhode.algebra._ring import Monomial, Polynomial, Ring
@@ -54,6 +55,8 @@ def layout(expression: Expr) -> Node:
     """The display tree of an expression: the shortest of its textbook forms."""
     if expression.is_zero:
         return Number(0)
+    if expression.ring.has_parts:
+        ((expression,), _) = under_letters((expression,))
     expression = expression.trimmed()
     ring = expression.ring
     num, den = shortest_quotient(expression)

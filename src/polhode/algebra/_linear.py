@@ -5,12 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from polhode.algebra._expression import ONE, ZERO, Expr, ExprLike
+from polhode.algebra._expression import ONE, ZERO, Expr, ExprLike, total
 from polhode.algebra._generators import Symbol
 from polhode.algebra._roots import is_positive
 from polhode.base import NumericError
 
 Row = tuple[Expr, ...]
+
+
+class OutgrownError(NumericError):
+    """An exact solution that has grown too long to be of use."""
+
 
 LONGEST = 3000  # terms of an entry; the longest of the systems in the tests has half as many
 
@@ -71,8 +76,7 @@ def _listed(row: Row) -> str:
 
 def dot(first: Iterable[Expr], second: Iterable[Expr]) -> Expr:
     """Sum of products."""
-    products = (a * b for a, b in zip(first, second, strict=True) if a and b)
-    return sum(products, ZERO)
+    return total(a * b for a, b in zip(first, second, strict=True) if a and b)
 
 
 @dataclass(frozen=True)
@@ -104,7 +108,7 @@ def eliminate(
     pivot is taken, so that no expression grows without need.
 
     Raises:
-        NumericError: where the exact solution grows beyond `LONGEST` terms all the same.
+        OutgrownError: where the exact solution grows beyond `LONGEST` terms all the same.
     """
     width = len(rows[0]) if rows else len(rank or ())
     rank = rank or [0] * width
@@ -165,7 +169,7 @@ def _refuse_long(table: list[list[Expr]]) -> None:
     # Elimination multiplies lengths: what has grown this long takes hours two pivots later.
     longest = max(len(entry.num) + len(entry.den) for row in table for entry in row)
     if longest > LONGEST:
-        raise NumericError(
+        raise OutgrownError(
             f"linear equations whose exact solution has grown to {longest} terms",
             expected=f"at most {LONGEST}",
             advice="put in numbers or fewer parameters, or choose coordinates that suit them",

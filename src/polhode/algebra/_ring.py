@@ -26,7 +26,7 @@ Monomial = tuple[int, ...]
 class Ring:
     """Q[generators] modulo the squares of the algebraic ones; made by `ring_of` only."""
 
-    __slots__ = ("_algebraic", "context", "generators", "index", "one", "zero")
+    __slots__ = ("_algebraic", "context", "generators", "has_parts", "index", "one", "zero")
 
     def __init__(self, generators: tuple[Generator, ...]) -> None:
         self.generators = generators
@@ -36,6 +36,7 @@ class Ring:
         self.zero: Polynomial = self.context.constant(0)
         self.one: Polynomial = self.context.constant(1)
         self._algebraic: tuple[tuple[int, Polynomial], ...] | None = None
+        self.has_parts = any(generator.is_part for generator in generators)
 
     @property
     def algebraic(self) -> tuple[tuple[int, Polynomial], ...]:
@@ -161,9 +162,10 @@ def _ordered(generators: set[Generator]) -> tuple[Generator, ...]:
 
 
 @lru_cache(maxsize=16384)
-def union(first: Ring, second: Ring) -> Ring:
-    """The smallest ring that holds both."""
-    known_first = sorted((*first.generators, *second.generators), key=lambda g: not g.positive)
+def union(*rings: Ring) -> Ring:
+    """The smallest ring that holds them all."""
+    generators = (generator for ring in rings for generator in ring.generators)
+    known_first = sorted(generators, key=lambda g: not g.positive)
     return ring_of(frozenset(known_first))
 
 

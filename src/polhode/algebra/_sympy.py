@@ -25,7 +25,16 @@ def to_sympy(expression: Expr, names: Mapping[str, Any] | None = None) -> Any:
     Args:
         expression: what to convert.
         names: what to put for a published name; elsewhere a plain `sympy.Symbol` of that name.
+
+    Raises:
+        NumericError: for an expression in named parts.
     """
+    if expression.ring.has_parts:
+        raise NumericError(
+            f"{expression} for SymPy, where z_1, z_2, ... are long expressions under names",
+            expected="an expression that is written out",
+            advice="evaluate it with compile_program",
+        )
     return layout(expression).drawn(_SymPy(names or {}))
 
 

@@ -4,11 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from polhode.algebra import Expr, Matrix, Row, Symbol, eliminate
+from polhode.algebra import (
+    Expr,
+    Matrix,
+    Row,
+    Symbol,
+    eliminate,
+    eliminate_in_parts,
+    solve_definite,
+)
 from polhode.base import NumericError
 
 #: A block of the mass matrix that couples more speeds than this is not inverted symbolically.
 LARGEST_SYMBOLIC = 5
+
+
+def accelerations_in_parts(mass: Matrix, forcing: Row) -> Row:
+    """The accelerations of all speeds, with what is long under names."""
+    if mass == mass.T:
+        return solve_definite(mass.rows, forcing)
+    solved = eliminate_in_parts(mass.rows, forcing).solved
+    return tuple(value for _, value in solved.values())
 
 
 def solve_accelerations(speeds: tuple[Symbol, ...], mass: Matrix, forcing: Row) -> Row:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from polhode.algebra import Vector
-from polhode.derive._motion import Motion, inertia_times
+from polhode.derive._motion import Motion
 from polhode.model import Action, Body
 
 
@@ -37,11 +37,12 @@ def applied(motion: Motion) -> tuple[Action, ...]:
 
 
 def _demand(motion: Motion, body: Body, actions: tuple[Action, ...]) -> Wrench:
-    velocity, angular = motion.velocities[body]
+    velocity, _ = motion.velocities[body]
     force = motion.derivative(velocity) * body.mass
-    couple = motion.derivative(inertia_times(body.inertia, angular))
+    couple = motion.derivative(motion.spin(body))
     for action in actions:
         if action.body == body:
             force = force - action.force
             couple = couple - action.couple - action.arm.cross(action.force).express(body.axes)
-    return Wrench(force, couple)
+    kept = motion.form.kept
+    return Wrench(kept(force, motion.accelerations), kept(couple, motion.accelerations))

@@ -2,12 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
-from polhode.algebra import ZERO, Expr, Matrix, Symbol, Vector, linear_parts
+from polhode.algebra import (
+    ZERO,
+    Expr,
+    Matrix,
+    OutgrownError,
+    Row,
+    Symbol,
+    Vector,
+    linear_parts,
+    total,
+)
 from polhode.base import DeclarationError
 from polhode.derive._balance import Wrench, demands
 from polhode.derive._equations import Equations
+from polhode.derive._form import CLOSED, IN_PARTS, Form
 from polhode.derive._motion import Motion, motion_of
 from polhode.derive._names import refuse_shared_names
 from polhode.derive._reactions import Line, lines, solve_reactions
@@ -18,7 +29,8 @@ def derive(system: System) -> Equations:
     """Exact equations of motion and reactions of a system as declared.
 
     Newton's and Euler's equations of every body are projected on the motions that the velocity
-    constraints allow (Jourdain's principle), which removes all reactions that do no work.
+    constraints allow (Jourdain's principle), which removes all reactions that do no work. Where
+    that grows too long to be written out, long expressions stand under names of their own.
 
     Raises:
         ConstraintError: for constraints that contradict one another.
@@ -30,7 +42,14 @@ def derive(system: System) -> Equations:
             expected="a System",
             advice="put bodies, contacts and loads together in a System(...) first",
         )
-    motion = motion_of(system)
+    try:
+        return _derived(system, CLOSED)
+    except OutgrownError:
+        return _derived(system, IN_PARTS)
+
+
+def _derived(system: System, form: Form) -> Equations:
+    motion = motion_of(system, form)
     needs = demands(motion)
     refuse_shared_names(motion, needs)
     columns = lines(motion)
@@ -43,16 +62,28 @@ def derive(system: System) -> Equations:
             for row, u in zip(rows, motion.speeds, strict=True)
         )
     parts = [linear_parts(row, motion.accelerations) for row in rows]
-    mass = Matrix(tuple(coefficients for coefficients, _ in parts))
+    mass = _mirrored([coefficients for coefficients, _ in parts])
     return Equations(system, motion, needs, columns, rows, mass, tuple(-rest for _, rest in parts))
+
+
+def _mirrored(rows: Sequence[Row]) -> Matrix:
+    """The matrix, of two entries that mirror each other and are equal one written twice."""
+
+    def entry(i: int, j: int) -> Expr:
+        above, below = rows[min(i, j)][max(i, j)], rows[max(i, j)][min(i, j)]
+        return rows[i][j] if above - below else above
+
+    size = range(len(rows))
+    return Matrix(tuple(tuple(entry(i, j) for j in size) for i in size))
 
 
 def _projected(motion: Motion, needs: Mapping[Body, Wrench]) -> tuple[Expr, ...]:
     """One row per independent speed: power of all demands in a unit of that speed alone."""
-    return tuple(
-        sum((_share(motion, body, need, speed) for body, need in needs.items()), ZERO)
+    rows = (
+        total(_share(motion, body, need, speed) for body, need in needs.items())
         for speed in motion.speeds
     )
+    return tuple(motion.form.keep(row, motion.accelerations) for row in rows)
 
 
 def _share(motion: Motion, body: Body, need: Wrench, speed: Symbol) -> Expr:

@@ -41,9 +41,9 @@ def infer(uses: Iterable[Use]) -> dict[Symbol, Dimension]:
 
 @dataclass(frozen=True)
 class _Term:
-    """One term: a product of powers of symbols that must have a dimension."""
+    """One term: a product of powers of symbols, and named parts, that must have a dimension."""
 
-    powers: Mapping[Symbol, Fraction]
+    powers: Mapping[Generator, Fraction]
     dimension: Dimension
 
 
@@ -73,10 +73,12 @@ def _inside(generator: Generator, role: str) -> Iterator[_Term]:
 
 def _dimensional(powers: Mapping[Generator, int]) -> _Term:
     """Powers of symbols in a monomial; a root counts as half of the first term under it."""
-    found: dict[Symbol, Fraction] = {}
+    found: dict[Generator, Fraction] = {}
     dimension = PURE
     for generator, power in powers.items():
-        if isinstance(generator, Symbol):
+        if generator.is_part:
+            found[generator] = Fraction(power)
+        elif isinstance(generator, Symbol):
             base = generator.base()
             found[base] = found.get(base, Fraction(0)) + power
             if generator.order:
@@ -95,8 +97,8 @@ def _quotient(above: _Term, below: _Term, dimension: Dimension) -> _Term:
 
 
 def _difference(
-    above: Mapping[Symbol, Fraction], below: Mapping[Symbol, Fraction]
-) -> dict[Symbol, Fraction]:
+    above: Mapping[Generator, Fraction], below: Mapping[Generator, Fraction]
+) -> dict[Generator, Fraction]:
     zero = Fraction(0)
     return {s: above.get(s, zero) - below.get(s, zero) for s in dict.fromkeys([*above, *below])}
 
@@ -105,8 +107,8 @@ class _Exponents:
     """Gaussian elimination on exponents that remembers which role fixed which symbol."""
 
     def __init__(self) -> None:
-        self._rows: dict[Symbol, _Term] = {}
-        self._roles: dict[Symbol, str] = {}
+        self._rows: dict[Generator, _Term] = {}
+        self._roles: dict[Generator, str] = {}
 
     def demand(self, term: _Term, role: str) -> None:
         reduced = self._reduced(term)
@@ -126,7 +128,7 @@ class _Exponents:
     def _conflict(self, term: _Term, role: str, excess: Dimension) -> UnitError:
         involved = [s for s, power in term.powers.items() if power]
         earlier = dict.fromkeys(self._roles[s] for s in involved if s in self._roles)
-        names = ", ".join(s.published for s in involved) or "a number"
+        names = ", ".join(_told(s) for s in involved) or "a number"
         return UnitError(
             f"dimensions of {names}: as {role} they are off by {excess}",
             expected="one dimension for each quantity; before, it followed from "
@@ -138,9 +140,13 @@ class _Exponents:
         found = {}
         for symbol in self._rows:
             solved = self._reduced(_Term({symbol: Fraction(1)}, PURE))
-            if not any(solved.powers.values()):
+            if isinstance(symbol, Symbol) and not any(solved.powers.values()):
                 found[symbol] = PURE / solved.dimension
         return found
+
+
+def _told(generator: Generator) -> str:
+    return generator.published if isinstance(generator, Symbol) else "a part"
 
 
 def _scaled(term: _Term, factor: Fraction) -> _Term:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import Expr, Symbol, dot, under_letters
 
 if TYPE_CHECKING:
     from polhode.derive._equations import Equations
@@ -13,20 +13,39 @@ if TYPE_CHECKING:
 
 def equations_text(equations: Equations) -> str:
     """Kinematics, equations of motion and reactions, one to a line."""
+    title = f"Equations of motion of {equations.system.name}"
+    if equations.in_parts:
+        return "\n".join([title, *_in_parts(equations)])
     blocks = {
-        f"Equations of motion of {equations.system.name}": [
-            f"{row.pretty()} = 0" for row in equations.motion
-        ],
+        title: [f"{row.pretty()} = 0" for row in equations.motion],
         "with": _assignments(_told_rates(equations)),
         "Reactions": [f"{name} = {value.pretty()}" for name, value in equations.components.items()],
     }
     lines = []
-    for title, block in blocks.items():
+    for heading, block in blocks.items():
         if block:
-            lines += [title, *(f"  {line}" for line in block)]
+            lines += [heading, *(f"  {line}" for line in block)]
     if equations.undetermined:
         lines.append(f"Not determined: {', '.join(equations.undetermined)}")
     return "\n".join(lines)
+
+
+def _in_parts(equations: Equations) -> list[str]:
+    rows, parts = under_letters(_rows(equations))
+    names = [Expr.generator(symbol).pretty() for symbol in parts]
+    return [
+        *(f"  {row.pretty()} = 0" for row in rows),
+        f"where {names[0]}, ..., {names[-1]} are long expressions of coordinates and speeds, kept"
+        " under names",
+        f"Reactions: {', '.join(line.name for line in equations.lines)}",
+    ]
+
+
+def _rows(equations: Equations) -> tuple[Expr, ...]:
+    """Mass times accelerations less forcing."""
+    accelerations = [Expr.generator(symbol) for symbol in equations.acceleration_symbols]
+    pairs = zip(equations.mass.rows, equations.forcing, strict=True)
+    return tuple(dot(row, accelerations) - force for row, force in pairs)
 
 
 def _told_rates(equations: Equations) -> dict[Symbol, Expr]:
@@ -40,5 +59,8 @@ def _assignments(values: Mapping[Symbol, Expr]) -> list[str]:
 
 def equations_latex(equations: Equations) -> str:
     """The equations of motion, aligned."""
-    rows = r" \\ ".join(f"{row.latex()} &= 0" for row in equations.motion)
+    written = equations.motion
+    if equations.in_parts:
+        written, _ = under_letters(_rows(equations))
+    rows = r" \\ ".join(f"{row.latex()} &= 0" for row in written)
     return rf"\begin{{aligned}} {rows} \end{{aligned}}"

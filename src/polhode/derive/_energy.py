@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from polhode.algebra import ZERO, Expr, Kind, Vector
 from polhode.derive._balance import applied
-from polhode.derive._motion import Motion, inertia_times
+from polhode.derive._motion import Motion
 from polhode.derive._reactions import Line
 from polhode.model import Body, Load
 
@@ -16,8 +16,9 @@ def kinetic_energy(motion: Motion) -> Expr:
 
 def _kinetic(motion: Motion, body: Body) -> Expr:
     velocity, angular = motion.velocities[body]
-    spin = angular.dot(inertia_times(body.inertia, angular))
-    return (body.mass * velocity.dot(velocity) + spin) / 2
+    spin = angular.dot(motion.spin(body))
+    energy = (body.mass * velocity.dot(velocity) + spin) / 2
+    return motion.form.keep(energy, motion.speeds)
 
 
 def potential_energy(motion: Motion) -> Expr:
@@ -85,9 +86,9 @@ def angular_momentum(motion: Motion, about: Vector) -> Vector:
     root = motion.system.root
     total = root.zero
     for body in motion.system.bodies:
-        velocity, angular = motion.velocities[body]
+        velocity, _ = motion.velocities[body]
         arm = motion.places[body] - about
-        total = total + inertia_times(body.inertia, angular)
+        total = total + motion.spin(body)
         total = total + arm.cross(velocity) * body.mass
     return total
 

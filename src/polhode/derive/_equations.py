@@ -20,9 +20,10 @@ from polhode.base import Dimension, Shown
 from polhode.derive import _dimensions as units
 from polhode.derive import _energy as energies
 from polhode.derive._accelerations import LARGEST_SYMBOLIC as LARGEST_SYMBOLIC
-from polhode.derive._accelerations import solve_accelerations
+from polhode.derive._accelerations import accelerations_in_parts, solve_accelerations
 from polhode.derive._balance import Wrench
 from polhode.derive._display import equations_latex, equations_text
+from polhode.derive._form import IN_PARTS
 from polhode.derive._motion import Motion
 from polhode.derive._reactions import Line, Reactions, solve_reactions
 from polhode.derive._textbook import without_idle_factors
@@ -87,6 +88,11 @@ class Equations(Shown):
         return f"$\\displaystyle {self.latex()}$"
 
     @property
+    def in_parts(self) -> bool:
+        """Whether long expressions stand under names, because in closed form they are too long."""
+        return self.kinetics.form == IN_PARTS
+
+    @property
     def coordinates(self) -> tuple[Symbol, ...]:
         """All coordinates."""
         return self.kinetics.coordinates
@@ -123,7 +129,10 @@ class Equations(Shown):
         Raises `NumericError` beyond five coupled speeds, where only the blocks are kept, and for
         motions that nothing resists.
         """
-        solved = solve_accelerations(self.speeds, self.mass, self.forcing)
+        if self.in_parts:
+            solved = accelerations_in_parts(self.mass, self.forcing)
+        else:
+            solved = solve_accelerations(self.speeds, self.mass, self.forcing)
         return dict(zip(self.acceleration_symbols, solved, strict=True))
 
     def on_shell(self, expression: Expr) -> Expr:

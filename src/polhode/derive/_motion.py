@@ -15,7 +15,8 @@ from polhode.algebra import (
     variables,
 )
 from polhode.base import ConstraintError, DeclarationError
-from polhode.derive._constraints import against, dependent_speeds
+from polhode.derive._constraints import Speeds, against, dependent_speeds
+from polhode.derive._form import IN_PARTS, Form
 from polhode.model import Body, Element, Restraint, System
 
 
@@ -33,6 +34,7 @@ class Motion:
         restraints: what every contact and joint prescribes, by its name.
         velocities: velocity of the centre of mass and angular velocity of every body, in inertial
             space, along the body's axes.
+        form: closed, or in named parts.
     """
 
     system: System
@@ -44,6 +46,7 @@ class Motion:
     dependent: dict[Symbol, Expr]
     restraints: dict[str, tuple[Restraint, ...]]
     velocities: dict[Body, tuple[Vector, Vector]]
+    form: Form
 
     @cached_property
     def accelerations(self) -> tuple[Symbol, ...]:
@@ -65,13 +68,24 @@ class Motion:
 
     def resolve(self, vector: Vector) -> Vector:
         """A vector with rates and dependent speeds put in terms of the independent speeds."""
-        return Vector(tuple(self.on_speeds(c) for c in vector.components), vector.triad)
+        settled = Vector(tuple(self.on_speeds(c) for c in vector.components), vector.triad)
+        return self.form.kept(settled, self.speeds)
 
     def derivative(self, vector: Vector) -> Vector:
         """Time derivative in inertial space along the motion."""
         components = tuple(c.chain(self.rate) for c in vector.components)
         turning = self.resolve(vector.triad.angular_velocity)
-        return Vector(components, vector.triad) + turning.cross(vector)
+        rate = Vector(components, vector.triad) + turning.cross(vector)
+        return self.form.kept(rate, self.accelerations)
+
+    def spin(self, body: Body) -> Vector:
+        """Angular momentum of a body about its centre of mass, kg m²/s, along its axes."""
+        inertia = Matrix(
+            tuple(tuple(self.form.keep(entry, ()) for entry in row) for row in body.inertia.rows)
+        )
+        angular = self.velocities[body][1]
+        spin = Vector(inertia.times(angular.components), angular.triad)
+        return self.form.kept(spin, self.speeds)
 
     def point_velocity(self, body: Body, arm: Vector) -> Vector:
         """Velocity of the point of a body at `arm` from its centre of mass, m/s."""
@@ -80,12 +94,14 @@ class Motion:
 
     def slip(self, restraint: Restraint) -> Vector:
         """Velocity of the restrained point (or of the body's rotation) against its support."""
-        own = against(restraint, self.velocities)
+        own = against(restraint, self.velocities, self.form, self.speeds)
         return own - self.resolve(restraint.velocity)
 
 
-def motion_of(system: System) -> Motion:
+def motion_of(system: System, form: Form) -> Motion:
     """Place every body, gather coordinates and speeds, and solve the velocity constraints.
+
+    Where places of contact are in named parts already, so is all that follows.
 
     Raises:
         DeclarationError: for bodies that share coordinates, or independent speeds that are none.
@@ -93,16 +109,22 @@ def motion_of(system: System) -> Motion:
     """
     elements, places, brought = _placed(system)
     _refuse_gaps(elements, places)
+    restraints = {e.name: e.restraints(places) for e in elements}
+    prescribed = [r for group in restraints.values() for r in group]
+    if any(r.is_in_parts for r in prescribed):
+        form = IN_PARTS
     given = _given_rates(system, brought)
     coordinates = _coordinates(system, places, given)
     bare = tuple(q.derivative() for q in coordinates if q not in given)
     quasi = tuple(_quasi_speeds(system, brought))
     rates = {q.derivative(): rate for q, rate in given.items()}
-    raw = {body: _raw_velocity(body, places[body], rates) for body in system.bodies}
-    restraints = {e.name: e.restraints(places) for e in elements}
     speeds = bare + quasi
-    prescribed = [r for group in restraints.values() for r in group]
-    dependent = dependent_speeds(prescribed, raw, rates, _ranks(system, bare, quasi, brought))
+    raw = {
+        body: _kept(_raw_velocity(body, places[body], rates), form, speeds)
+        for body in system.bodies
+    }
+    ranks = _ranks(system, bare, quasi, brought)
+    dependent = dependent_speeds(prescribed, raw, rates, ranks, form)
     independent = tuple(s for s in speeds if s not in dependent)
     kinematics = {q.derivative(): Expr.generator(q.derivative()) for q in coordinates} | rates
     return Motion(
@@ -111,10 +133,11 @@ def motion_of(system: System) -> Motion:
         places,
         coordinates,
         independent,
-        {rate: value.subs(dependent) for rate, value in kinematics.items()},
+        {rate: form.keep(e.subs(dependent), independent) for rate, e in kinematics.items()},
         dependent,
         restraints,
-        {body: _settled(body, pair, dependent) for body, pair in raw.items()},
+        {body: _settled(body, pair, dependent, form, independent) for body, pair in raw.items()},
+        form,
     )
 
 
@@ -244,16 +267,23 @@ def _refuse_unknown(wanted: Iterable[Symbol], speeds: Mapping[Symbol, int]) -> N
             )
 
 
+Pair = tuple[Vector, Vector]
+
+
+def _kept(pair: Pair, form: Form, speeds: Speeds) -> Pair:
+    first, second = (form.kept(vector, speeds) for vector in pair)
+    return first, second
+
+
 def _settled(
-    body: Body, pair: tuple[Vector, Vector], dependent: Mapping[Symbol, Expr]
-) -> tuple[Vector, Vector]:
-    velocity, angular = (
-        Vector(tuple(c.subs(dependent) for c in v.components), v.triad).express(body.axes)
-        for v in pair
-    )
+    body: Body, pair: Pair, dependent: Mapping[Symbol, Expr], form: Form, speeds: Speeds
+) -> Pair:
+    """Both in terms of the independent speeds, along the body's axes."""
+
+    def settled(vector: Vector) -> Vector:
+        solved = Vector(tuple(c.subs(dependent) for c in vector.components), vector.triad)
+        along = form.express(form.kept(solved, speeds), body.axes)
+        return form.kept(along, speeds)
+
+    velocity, angular = map(settled, pair)
     return velocity, angular
-
-
-def inertia_times(inertia: Matrix, vector: Vector) -> Vector:
-    """Inertia about the centre of mass times angular velocity, both along one triad."""
-    return Vector(inertia.times(vector.components), vector.triad)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import pairwise
 
 from polhode.algebra import variables
 from polhode.base import DeclarationError
@@ -12,15 +13,22 @@ from polhode.model import Body
 
 
 def refuse_shared_names(motion: Motion, demands: Mapping[Body, Wrench]) -> None:
-    """Refuse reaction components that are called as another one, or as a symbol in use."""
+    """Refuse two symbols of one name, and reactions called as another one or as a symbol."""
     owners: dict[str, str] = {}
     for name, element in _components(motion):
         if name in owners:
             raise _shared(name, f"both {owners[name]!r} and {element!r}")
         owners[name] = element
-    for symbol in _symbols(demands):
-        if symbol in owners:
-            raise _shared(symbol, f"{owners[symbol]!r}, and a symbol of the declaration")
+    for first, second in pairwise(_names(demands)):
+        if first == second:
+            raise DeclarationError(
+                f"two different quantities are both called {first!r}",
+                expected="one meaning for one name",
+                advice="rename one of them",
+            )
+    for name in _names(demands):
+        if name in owners:
+            raise _shared(name, f"{owners[name]!r}, and a symbol of the declaration")
 
 
 def _components(motion: Motion) -> Iterator[tuple[str, str]]:
@@ -32,10 +40,11 @@ def _components(motion: Motion) -> Iterator[tuple[str, str]]:
             yield from ((name, element.name) for name, _ in friction.directions)
 
 
-def _symbols(demands: Mapping[Body, Wrench]) -> Iterator[str]:
-    for wrench in demands.values():
-        used = variables((*wrench.force.components, *wrench.couple.components))
-        yield from sorted(symbol.published for symbol in used)
+def _names(demands: Mapping[Body, Wrench]) -> list[str]:
+    """Of all symbols that occur, sorted; twice where two different ones share it."""
+    wrenches = ((w.force, w.couple) for w in demands.values())
+    components = (c for pair in wrenches for vector in pair for c in vector.components)
+    return sorted(symbol.published for symbol in variables(components))
 
 
 def _shared(name: str, owners: str) -> DeclarationError:

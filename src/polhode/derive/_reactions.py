@@ -10,15 +10,16 @@ from polhode.algebra import (
     ZERO,
     Elimination,
     Expr,
+    OutgrownError,
     Row,
     Symbol,
     Vector,
     dot,
-    eliminate,
     solve,
 )
 from polhode.base import ConstraintError
 from polhode.derive._balance import Wrench
+from polhode.derive._form import IN_PARTS
 from polhode.derive._motion import Motion
 from polhode.model import Body, Friction, Restraint
 
@@ -118,7 +119,11 @@ def solve_reactions(
         for i in range(3):
             rows.append(tuple(_part(w.couple, body.axes, i) if w else ZERO for w in unit))
             right.append(demand.couple.components[i])
-    outcome = eliminate(rows, right, [0] * len(columns))
+    equations = (rows, right, [0] * len(columns), motion.accelerations)
+    try:
+        outcome = motion.form.eliminate(*equations)
+    except OutgrownError:
+        outcome = IN_PARTS.eliminate(*equations)
     _refuse_unheld(motion, outcome, bodies)
     return _named(outcome, [line.name for line in columns])
 

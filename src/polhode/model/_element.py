@@ -45,6 +45,11 @@ class Restraint:
         """Whether the reaction is a couple rather than a force."""
         return self.arm is None
 
+    @property
+    def is_in_parts(self) -> bool:
+        """Whether the place at which it holds is told in named parts."""
+        return self.arm is not None and any(c.ring.has_parts for c in self.arm.components)
+
 
 @dataclass(frozen=True)
 class Friction:

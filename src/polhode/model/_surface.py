@@ -5,9 +5,12 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
-from polhode.algebra import ZERO, Expr, Vector, principal_root
+from polhode.algebra import ZERO, Expr, Vector, named, principal_root
 from polhode.model._checks import not_negative, positive, quantity
 from polhode.model._frame import Frame
+
+#: Terms of a squared length beyond which what follows from its root is too long to be written out.
+_LONG = 10
 
 
 class Surface(ABC):
@@ -79,7 +82,7 @@ class Rim(Surface):
 
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
         steepest = self._steepest(axes, normal)
-        length = principal_root(steepest.dot(steepest))
+        length = principal_root(_brief(steepest.dot(steepest)))
         return axes[self.axis] * self.offset - steepest * (self.radius / length)
 
     def assumed_positive(self, axes: Frame, normal: Vector) -> tuple[Expr, ...]:
@@ -104,7 +107,7 @@ class Ellipsoidal(Surface):
         upright = normal.express(axes).components
         stretched = [h * h * n for h, n in zip(self.half_axes, upright, strict=True)]
         support = sum((s * n for s, n in zip(stretched, upright, strict=True)), ZERO)
-        height = principal_root(support)
+        height = principal_root(_brief(support))
         return Vector(tuple(-s / height for s in stretched), axes)
 
 
@@ -129,3 +132,8 @@ class Face(Surface):
 
     def is_symmetric(self, axes: Frame, axis: int) -> bool:
         return False
+
+
+def _brief(squared: Expr) -> Expr:
+    """A squared length, under a name where it is long."""
+    return named(squared) if sum(1 for _ in squared.terms()) > _LONG else squared

@@ -1,0 +1,130 @@
+"""Named parts: long expressions that stand under one name, so that nothing is multiplied out.
+
+Arithmetic takes a part for a symbol of its own. Derivatives, substitution, programs and printing
+look inside, and do there once what they would do wherever it occurs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from hashlib import blake2b
+from math import prod
+
+from polhode.algebra._expression import ONE, ZERO, Expr, total
+from polhode.algebra._generators import Generator, Rate, Symbol
+from polhode.algebra._roots import factors
+
+_SHORT = 3  # terms that cost no more written out than under a name
+_MEMORY = 65536  # derivatives and substitutions that are remembered
+
+
+@dataclass(frozen=True, eq=False)
+class Part(Generator):
+    """A name for an expression."""
+
+    meaning: Expr
+    is_part = True
+
+    @cached_property
+    def key(self) -> str:  # type: ignore[override]
+        return f"part {blake2b(self.meaning.key.encode(), digest_size=10).hexdigest()}"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Part) and other.key == self.key
+
+    def __hash__(self) -> int:
+        return hash(self.key)
+
+    def symbols(self) -> frozenset[Symbol]:
+        return self._symbols
+
+    @cached_property
+    def _symbols(self) -> frozenset[Symbol]:
+        return self.meaning.symbols()
+
+    def slope(self, generator: Generator) -> Expr:
+        """Partial derivative by one of the generators of its meaning."""
+        if generator not in self._slopes:
+            self._slopes[generator] = named(self.meaning.partial(generator))
+        return self._slopes[generator]
+
+    @cached_property
+    def _slopes(self) -> dict[Generator, Expr]:
+        return {}
+
+    def chain(self, rate: Rate) -> Expr:
+        return _chained(self, rate)
+
+    def replaced(self, image: Rate) -> Expr:
+        return _replaced(self, image)
+
+
+@lru_cache(_MEMORY)
+def _chained(part: Part, rate: Rate) -> Expr:
+    slopes = ((g, part.slope(g)) for g in part.meaning.generators)
+    return named(total(slope * named(g.chain(rate)) for g, slope in slopes))
+
+
+@lru_cache(_MEMORY)
+def _replaced(part: Part, image: Rate) -> Expr:
+    return named(part.meaning.replaced(image))
+
+
+def named(expression: Expr, visible: Iterable[Symbol] = ()) -> Expr:
+    """An expression with what is long in it under names, and no denominators.
+
+    Args:
+        expression: any.
+        visible: symbols in which it is a polynomial, and remains one for all to see.
+    """
+    ring = expression.ring
+    open_ = [symbol for symbol in visible if symbol in ring.index]
+    groups = ring.grouped(expression.num, [ring.index[symbol] for symbol in open_])
+    below = ONE if expression.is_polynomial else _reciprocal(expression.denominator)
+    terms = []
+    for powers, part in groups.items():
+        product = (Expr.generator(s) ** int(p) for s, p in zip(open_, powers, strict=True) if p)
+        terms.append(prod(product, start=_named(Expr(ring, part, ring.one) * below)))
+    return total(terms)
+
+
+def _named(expression: Expr) -> Expr:
+    if expression.is_zero:
+        return ZERO
+    if len(expression.num) <= _SHORT:
+        return expression
+    if expression.num.leading_coefficient() < 0:
+        return -_part(-expression)
+    return _part(expression)
+
+
+def _reciprocal(denominator: Expr) -> Expr:
+    """One over it, each of its factors under a name."""
+    _, powers = factors(denominator)
+    return prod((_part(1 / factor) ** power for factor, power in powers.items()), start=ONE)
+
+
+def _part(meaning: Expr) -> Expr:
+    return Expr.generator(Part(meaning.trimmed()))
+
+
+def under_letters(expressions: Sequence[Expr]) -> tuple[tuple[Expr, ...], dict[Symbol, Generator]]:
+    """Expressions with a symbol z_1, z_2, ... for every part, for print; and what those stand for.
+
+    The letter is another one where a symbol has such a name already.
+    """
+    parts = dict.fromkeys(g for e in expressions for g in e.generators if _hides(g))
+    taken = {s.name.partition("_")[0] for e in expressions for s in e.symbols()}
+    letter = next(letter for letter in ("z", "Z", "zeta", "part") if letter not in taken)
+    symbols = {part: Symbol(f"{letter}_{i}") for i, part in enumerate(parts, 1)}
+    images = {part: Expr.generator(symbol) for part, symbol in symbols.items()}
+    written = tuple(
+        e.recast({g: images[g] for g in e.generators if g in images}) for e in expressions
+    )
+    return written, {symbol: part for part, symbol in symbols.items()}
+
+
+def _hides(generator: Generator) -> bool:
+    return generator.is_part or any(a.ring.has_parts for a in generator.arguments)

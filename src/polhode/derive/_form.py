@@ -1,0 +1,67 @@
+"""The form in which equations are derived: in closed form, or in named parts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from polhode.algebra import (
+    Elimination,
+    Expr,
+    Symbol,
+    Triad,
+    Vector,
+    dot,
+    eliminate,
+    eliminate_in_parts,
+    named,
+)
+
+
+class Solver(Protocol):
+    """Solves linear equations; what it gives stays a polynomial in the visible symbols."""
+
+    def __call__(
+        self,
+        rows: Sequence[Sequence[Expr]],
+        right: Sequence[Expr],
+        rank: Sequence[int],
+        visible: Iterable[Symbol],
+        /,
+    ) -> Elimination: ...
+
+
+@dataclass(frozen=True)
+class Form:
+    """What is done with expressions as they grow.
+
+    Attributes:
+        keep: an expression as it is worked on; polynomials in some symbols stay such.
+        eliminate: how linear equations are solved.
+    """
+
+    name: str
+    keep: Callable[[Expr, Iterable[Symbol]], Expr]
+    eliminate: Solver
+
+    def express(self, vector: Vector, triad: Triad) -> Vector:
+        """A vector resolved along another triad."""
+        if triad == vector.triad:
+            return vector
+        turned = vector.triad.rotation_to(triad).rows
+        rows = (tuple(self.keep(entry, ()) for entry in row) for row in turned)
+        return Vector(tuple(dot(row, vector.components) for row in rows), triad)
+
+    def kept(self, vector: Vector, visible: Iterable[Symbol] = ()) -> Vector:
+        """A vector in this form."""
+        wanted = tuple(visible)
+        return Vector(tuple(self.keep(c, wanted) for c in vector.components), vector.triad)
+
+
+CLOSED = Form(
+    "closed",
+    lambda expression, visible: expression,
+    lambda rows, right, rank, visible: eliminate(rows, right, rank),
+)
+IN_PARTS = Form("in parts", named, eliminate_in_parts)
