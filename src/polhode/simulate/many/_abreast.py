@@ -74,11 +74,13 @@ class Abreast:
         subject, dynamics = self._subject, self._subject.dynamics
         constants = filled(tuple(subject.numbers), subject.numbers, columns, count)
         states = filled(dynamics.states, self._start or {}, columns, count)
-        begun = Beginning(dynamics, states, constants, subject.contacts)
+        at_once = subject.stretches.from_then(np.zeros(count))
+        begun = Beginning(dynamics, states, constants | at_once, subject.contacts)
         possible = begun.possible()
         usual = possible & begun.regular() & (self._start is not None)
         first = subject.stay(subject.phases).mode
-        company = subject.company(Sightings.of(count, times, constants, first), starts)
+        sightings = Sightings.of(count, times, constants, subject.stretches, first)
+        company = subject.company(sightings, starts)
         company.together(subject.phases, _group(np.flatnonzero(usual), states))
         for row in np.flatnonzero(possible & ~usual).tolist():
             company.start(row)

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polhode.algebra import Symbol
+from polhode.derive import Guard
 from polhode.model import Phase
 from polhode.simulate._names import Name
 from polhode.simulate.contact._settle import Entry
 from polhode.simulate.integrate._integrators import Array
-from polhode.simulate.many._endings import Ending
 from polhode.simulate.many._launch import NONE, Arrivals, Launch
 from polhode.simulate.many._sightings import LAST, Rows, Sightings
 from polhode.simulate.many._stay import STILL, Stay
@@ -54,14 +54,14 @@ class Leaving:
 
     Attributes:
         phases: of the contacts, in the mode.
-        ending: what ended it.
+        guard: that ended it; None for a jerk of a support.
         time: s.
         state: by symbol.
         changes: of mode before.
     """
 
     phases: Phases
-    ending: Ending
+    guard: Guard | None
     time: float
     state: Mapping[Symbol, float]
     changes: int
@@ -94,7 +94,7 @@ class Company:
     def together(self, phases: Phases, group: Group) -> None:
         """Follow motions through one mode."""
         stay = self._stays(phases)
-        constants = self.sightings.constants_of(group.rows)
+        constants = self.sightings.constants_from(group.rows, group.begin)
         launch = stay.launch(group.begin, group.states, constants, group.scales)
         clear = stay.clear(launch)
         for i in np.flatnonzero(~clear).tolist():
@@ -113,27 +113,68 @@ class Company:
 
     def _abreast(self, phases: Phases, group: Group, launch: Launch, which: Rows) -> None:
         stay, rows, launch = self._stays(phases), group.rows[which], launch.some(which)
-        found = _landed(stay, launch, stay.follow(launch, self.sightings.times[1:]))
+        found = self._landed(stay, rows, launch, stay.follow(launch, self.sightings.times[1:]))
         self._note(stay, rows, launch, found)
         self.lost |= set(rows[~found.good].tolist())
-        self._finish(stay, rows, found, found.guard == NONE, "", stay.mode)
+        on = found.good & (found.guard == NONE)
+        over = found.end >= self.sightings.times[-1]
+        self._finish(stay, rows, found, on & over, "", stay.mode)
+        self._go_on(phases, group, which, found, on & ~over, None)
         for k, ending in enumerate(stay.endings):
             here = found.good & (found.guard == k)
             if ending.kind:
                 self._finish(stay, rows, found, here, ending.kind, ending.mode)
+            else:
+                self._go_on(phases, group, which, found, here, ending.guard)
+
+    def _go_on(
+        self,
+        phases: Phases,
+        group: Group,
+        which: Rows,
+        found: Arrivals,
+        here: NDArray[np.bool_],
+        guard: Guard | None,
+    ) -> None:
+        """Motions go on in another mode."""
+        symbols = self._stays(phases).states
+        for j in np.flatnonzero(here).tolist():
+            state = dict(zip(symbols, found.states[-1, :, j].tolist(), strict=True))
+            changes = group.changes[which[j]]
+            leaving = Leaving(phases, guard, float(found.end[j]), state, changes)
+            self._leave(int(group.rows[which[j]]), leaving)
+
+    def _landed(self, stay: Stay, rows: Rows, launch: Launch, found: Arrivals) -> Arrivals:
+        """The arrivals, moved on to where slips vanish that nearly have.
+
+        What is left of the way is so short that it takes no time to speak of.
+        """
+        states, end, good = found.states.copy(), found.end.copy(), found.good.copy()
+        good &= found.guard != stay.doubtful
+        for k, ending in enumerate(stay.endings):
+            here = np.flatnonzero(found.guard == k)
+            if ending.slips is None or not len(here):
                 continue
-            for j in np.flatnonzero(here):
-                state = dict(zip(stay.states, found.states[-1, :, j].tolist(), strict=True))
-                changes = group.changes[which[j]]
-                leaving = Leaving(phases, ending, float(found.end[j]), state, changes)
-                self._leave(int(rows[j]), leaving)
+            constants = self.sightings.constants_until(rows[here], end[here])
+            there = launch.some(here).moved(
+                end[here], states[-1][:, here], stay.ordered(constants, len(here))
+            )
+            rates = stay.rates(there)
+            places = [stay.states.index(s) for s in ending.slips]
+            slip, change = there.states[places], rates[places]
+            left = -np.sum(slip * change, axis=0) / np.sum(change * change, axis=0)
+            states[-1][:, here] += left * rates
+            end[here] += left
+            miss = np.hypot(*(slip + left * change))
+            good[here] &= miss <= _LANDED / STILL * launch.least[k, here]
+        return replace(found, states=states, end=end, good=good)
 
     def _note(self, stay: Stay, rows: Rows, launch: Launch, found: Arrivals) -> None:
         """States at the looks before the last."""
         starts = np.flatnonzero(launch.begin == 0.0)
         self.sightings.note(0, stay, rows[starts], launch.states[:, starts])
         for look, time in enumerate(self.sightings.times[1:-1]):
-            there = np.flatnonzero((launch.begin <= time) & (time <= found.end))
+            there = np.flatnonzero((launch.begin <= time) & (time < found.end))
             self.sightings.note(look + 1, stay, rows[there], found.states[look][:, there])
 
     def _finish(
@@ -146,32 +187,9 @@ class Company:
         mode: str,
     ) -> None:
         """The end of motions, by an event or not."""
-        which = np.flatnonzero(here & found.good)
+        which = np.flatnonzero(here)
         self.sightings.note(LAST, stay, rows[which], found.states[-1][:, which])
         for row, time in zip(rows[which].tolist(), found.end[which].tolist(), strict=True):
             self.sightings.finish(row, time, mode)
             if kind:
                 self.sightings.happened(row, time, kind)
-
-
-def _landed(stay: Stay, launch: Launch, found: Arrivals) -> Arrivals:
-    """The arrivals, moved on to where slips vanish that nearly have.
-
-    What is left of the way is so short that it takes no time to speak of.
-    """
-    states, end, good = found.states.copy(), found.end.copy(), found.good.copy()
-    good &= found.guard != stay.doubtful
-    for k, ending in enumerate(stay.endings):
-        here = np.flatnonzero(found.guard == k)
-        if ending.slips is None or not len(here):
-            continue
-        there = replace(launch.some(here), begin=end[here], states=states[-1][:, here])
-        rates = stay.rates(there)
-        places = [stay.states.index(s) for s in ending.slips]
-        slip, change = there.states[places], rates[places]
-        left = -np.sum(slip * change, axis=0) / np.sum(change * change, axis=0)
-        states[-1][:, here] += left * rates
-        end[here] += left
-        miss = np.hypot(*(slip + left * change))
-        good[here] &= miss <= _LANDED / STILL * launch.least[k, here]
-    return replace(found, states=states, end=end, good=good)

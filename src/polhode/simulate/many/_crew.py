@@ -5,7 +5,7 @@ A motion knows nothing of those beside it: its bits are the same in whatever com
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.many._launch import Arrivals, Launch
+from polhode.simulate.many._stretches import Timetable
 
 _BURST = 128  # steps between two looks at who has arrived: fewer cost looks, more cost waiting
 _MOST_STEPS = 1_000_000  # between two times: a motion that needs more is at a singular position
@@ -64,15 +65,19 @@ class Work:
     Attributes:
         launch: the motions.
         constants: all parameters of the integrator, shape (parameters, motions).
-        times: at which states are wanted, s.
-        looks: steps at least between two of them.
+        plan: when motions pause.
+        moving: places among the parameters of the coefficients in the plan.
+        fewest: steps between two pauses.
+        guarded: how far the guards of motions are above their least values.
         found: where what is found goes.
     """
 
     launch: Launch
     constants: Array
-    times: Array
-    looks: int
+    plan: Timetable
+    moving: NDArray[np.intp]
+    fewest: int
+    guarded: Callable[[Launch], Array]
     found: Arrivals
 
     @cached_property
@@ -96,6 +101,9 @@ class Crew:
         self._state, self._constants = integrator.state, integrator.pars
         self._time, self._dtime = integrator.time, integrator.dtime
         width = len(self._time)
+        known = work.moving < len(self._constants)
+        self._moving = work.moving[known]
+        self._held = work.plan.held[known]
         self._rows: list[int | None] = [None] * width
         self._next = [0] * width
         self._bursts = np.zeros(width, dtype=np.intp)
@@ -131,12 +139,35 @@ class Crew:
         row, place = self._rows[lane], self._next[lane]
         if row is None:
             self._bursts[lane] = 0
-        elif self._is_stopped(lane) or place == len(self._work.times) - 1:
+        elif self._is_stopped(lane) or self._target[lane] >= self._work.launch.end[row]:
             self._finish(lane, row)
             self._take_up(lane, queue)
         else:
-            self._work.found.states[place, :, row] = self._state[:, lane]
+            self._note(lane, row, place)
             self._head_for(lane, place + 1)
+            if self._work.plan.abrupt[place]:
+                self._look_again(lane, row, queue)
+
+    def _note(self, lane: int, row: int, place: int) -> None:
+        """Keep where a motion is, if that was asked for."""
+        look = self._work.plan.looks[place]
+        if look >= 0:
+            self._work.found.states[look, :, row] = self._state[:, lane]
+
+    def _look_again(self, lane: int, row: int, queue: Iterator[int]) -> None:
+        """Where forces jump, a guard may fall unseen by the integrator."""
+        found, places = self._work.found, self._work.places
+        if not places.guards:
+            return
+        here = self._work.launch.some(np.array([row])).moved(
+            self._time[[lane]], self._state[:, [lane]], self._constants[: places.own, [lane]]
+        )
+        fallen = self._work.guarded(here)[:, 0] < 0
+        if np.any(fallen):
+            found.states[-1, :, row] = self._state[:, lane]
+            found.guard[row] = np.argmax(fallen)
+            found.end[row] = self._time[lane]
+            self._take_up(lane, queue)
 
     def _is_stopped(self, lane: int) -> bool:
         """Whether a guard has ended the motion: it rests, and is quickly through."""
@@ -168,12 +199,15 @@ class Crew:
         if row is None:
             self._target[lane] = late[lane]
         else:
-            self._head_for(lane, int(self._work.times.searchsorted(late[lane])))
+            self._head_for(lane, int(self._work.plan.times.searchsorted(late[lane])))
 
     def _head_for(self, lane: int, place: int) -> None:
-        """Let a motion go on to a time, by its place."""
-        span = self._work.times[place] - self._time[lane]
-        self._next[lane], self._target[lane] = place, self._work.times[place]
+        """Let a motion go on to a pause."""
+        work = self._work
+        span = work.plan.times[place] - self._time[lane]
+        self._next[lane], self._target[lane] = place, work.plan.times[place]
         self._bursts[lane] = 0
-        few = span > 0 and self._work.looks > 1
-        self._longest[lane] = span / self._work.looks if few else np.inf
+        few = span > 0 and work.fewest > 1
+        self._longest[lane] = span / work.fewest if few else np.inf
+        if len(self._moving):
+            self._constants[self._moving, lane] = self._held[:, place]

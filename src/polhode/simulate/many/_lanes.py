@@ -17,6 +17,7 @@ from polhode.simulate.integrate._heyoka import library
 from polhode.simulate.integrate._integrators import LOOKS, Array
 from polhode.simulate.many._crew import Crew, Ended, Places, Work
 from polhode.simulate.many._launch import Arrivals, Launch
+from polhode.simulate.many._stretches import Stretches, Timetable
 
 _VECTORS = 2  # that are worked on at once: while one waits for its memory the other goes on
 
@@ -31,6 +32,7 @@ class Lanes:
         guards: fall through a least value where a motion ends.
         square: a matrix whose determinant is one more guard, the last.
         tolerance: relative, of one step.
+        stretches: of prescribed motions.
         driven: whether the time itself occurs.
     """
 
@@ -42,6 +44,7 @@ class Lanes:
         guards: Sequence[Expr],
         square: Matrix | None,
         tolerance: float | None,
+        stretches: Stretches,
         *,
         driven: bool,
     ) -> None:
@@ -54,7 +57,8 @@ class Lanes:
         self._sides = tuple(guards)
         self._square = square
         self._tolerance = np.finfo(float).eps if tolerance is None else tolerance
-        self._looks = LOOKS if driven else 1
+        self._stretches = stretches
+        self._fewest = LOOKS if driven else 1
 
     @property
     def width(self) -> int:
@@ -92,8 +96,12 @@ class Lanes:
         Args:
             times: s, increasing, the last of them after every beginning.
         """
-        found = Arrivals.none_yet(times, len(self.states), launch.count)
-        work = Work(launch, self._constants(launch), times, self._looks, found)
+        found = Arrivals.none_yet(times, launch)
+        plan = Timetable.of(times, self._stretches)
+        symbols = self._stretches.symbols
+        moving = np.array([self._dynamics.parameters.index(s) for s in symbols], dtype=np.intp)
+        constants = self._constants(launch)
+        work = Work(launch, constants, plan, moving, self._fewest, self.guarded, found)
         queue = iter(np.argsort(launch.begin, kind="stable").tolist())
         threads = min(os.cpu_count() or 1, -(-launch.count // self.width))
         if threads:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,17 +22,23 @@ class Launch:
         states: shape (states, motions).
         parameters: shape (parameters, motions).
         least: value at which a guard has fallen, shape (guards, motions).
+        end: until when they are followed, s, shape (motions,).
     """
 
     begin: Array
     states: Array
     parameters: Array
     least: Array
+    end: Array
 
     @property
     def count(self) -> int:
         """How many motions there are."""
         return len(self.begin)
+
+    def moved(self, begin: Array, states: Array, parameters: Array) -> Launch:
+        """The same motions, taken up elsewhere."""
+        return replace(self, begin=begin, states=states, parameters=parameters)
 
     def some(self, which: NDArray[np.intp]) -> Launch:
         """Some of the motions."""
@@ -41,6 +47,7 @@ class Launch:
             self.states[:, which],
             self.parameters[:, which],
             self.least[:, which],
+            self.end[which],
         )
 
 
@@ -49,8 +56,8 @@ class Arrivals:
     """Where motions are at some times, or at the guard that ended them.
 
     Attributes:
-        states: shape (times, states, motions); not-a-number before a motion is taken up and after
-            its end, but for the last time, which stands for the end.
+        states: shape (times, states, motions); not-a-number before a motion is taken up and from
+            its end on, but for the last time, which stands for the end.
         end: how far each went, s.
         guard: which guard ended it, or NONE.
         good: whether the result can be relied on.
@@ -62,11 +69,12 @@ class Arrivals:
     good: NDArray[np.bool_]
 
     @classmethod
-    def none_yet(cls, times: Array, states: int, count: int) -> Arrivals:
+    def none_yet(cls, times: Array, launch: Launch) -> Arrivals:
         """Of motions that have yet to be followed."""
+        count = launch.count
         return cls(
-            np.full((len(times), states, count), np.nan),
-            np.full(count, float(times[-1])),
+            np.full((len(times), len(launch.states), count), np.nan),
+            launch.end.copy(),
             np.full(count, NONE, dtype=np.intp),
             np.ones(count, dtype=bool),
         )

@@ -13,18 +13,18 @@ from polhode.base import SilentProgress
 from polhode.derive import Guard
 from polhode.model import Phase
 from polhode.simulate._dynamics import WORK
+from polhode.simulate._follow import Task, first_entry
 from polhode.simulate._names import Name
 from polhode.simulate._segment import Part, state_at
-from polhode.simulate._task import Task
 from polhode.simulate.contact._checks import check_numbers
 from polhode.simulate.contact._course import Course, Walk
 from polhode.simulate.contact._lookout import Lookout
 from polhode.simulate.contact._machine import Machine
 from polhode.simulate.contact._onset import onset
 from polhode.simulate.contact._settle import Entry
-from polhode.simulate.contact._through import first_entry
 from polhode.simulate.contact._transition import Leaving as Left
 from polhode.simulate.many._company import Leaving
+from polhode.simulate.many._stretches import Stretches
 
 _LARGE = 6  # a matrix whose determinant has too many terms to be watched
 
@@ -54,11 +54,13 @@ class Pilot(Walk):
     Args:
         machine: the modes.
         task: what is asked for of every motion.
+        stretches: of prescribed motions.
     """
 
-    def __init__(self, machine: Machine, task: Task) -> None:
+    def __init__(self, machine: Machine, task: Task, stretches: Stretches) -> None:
         super().__init__(machine, task.near_flat, SilentProgress(), task.until)
         self._task = task
+        self._stretches = stretches
 
     def first(self, start: Mapping[Name, Any]) -> Entry:
         """How a motion enters its first mode."""
@@ -80,13 +82,14 @@ class Pilot(Walk):
         return self._machine.automaton.named(mode)
 
     def leave(self, leaving: Leaving) -> tuple[str, Entry]:
-        """What happens where a guard ends a mode, and how the motion enters the next."""
+        """What happens where a mode ends, and how the motion enters the next."""
+        self._machine.move_on(self._stretches.begun_before(leaving.time))
         mode = self._machine.mode(leaving.phases)
         state = leaving.state
         own = {s: state[s] for s in mode.dynamics.states if s not in mode.dynamics.carried}
         place = mode.lifted(leaving.time, own, state.get(WORK, 0.0))
         before = Entry(leaving.phases, place, np.empty(0), np.empty(0))
-        return self._transitions.next(before, Left(leaving.ending.guard, place, {}))
+        return self._transitions.next(before, Left(leaving.guard, place, {}))
 
     def enter(self, entry: Entry, end: float) -> Entered:
         """The beginning of a mode: a slip that sets in, for which vectors are no use."""
@@ -96,7 +99,8 @@ class Pilot(Walk):
             return Entered(entry, begin, state)
         contacts = self._machine.automaton.contacts
         lookout = Lookout(self._machine, self._near_flat, mode, entry)
-        part, guard = lookout.cut(onset(mode, entry, state, (begin, end), contacts))
+        span = (begin, self._machine.drive.until(begin, end))
+        part, guard = lookout.cut(onset(mode, entry, state, span, contacts))
         return Entered(entry, part.end, state_at(part, part.end), part, guard)
 
     def speed_scale(self, entry: Entry) -> float:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from polhode.algebra import Symbol
 from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.many._stay import Quantity, Stay
+from polhode.simulate.many._stretches import Stretches
 
 LAST = -1
 """The look at the end of a motion, whenever that is."""
@@ -40,6 +41,7 @@ class Sightings:
     Attributes:
         times: of the looks, s; the last of them is the time at which every motion has ended.
         constants: of all parameters, shape (motions,).
+        stretches: of prescribed motions.
         end: of every motion, s.
         first: modes that they start in.
         last: modes that they end in.
@@ -47,6 +49,7 @@ class Sightings:
 
     times: Array
     constants: Mapping[Symbol, Array]
+    stretches: Stretches
     end: Array
     first: list[str]
     last: list[str]
@@ -55,13 +58,26 @@ class Sightings:
 
     @classmethod
     def of(
-        cls, count: int, times: Array, constants: Mapping[Symbol, Array], mode: str
+        cls,
+        count: int,
+        times: Array,
+        constants: Mapping[Symbol, Array],
+        stretches: Stretches,
+        mode: str,
     ) -> Sightings:
         """Of motions that nothing has happened to so far."""
-        return cls(times, constants, np.full(count, times[-1]), [mode] * count, [mode] * count)
+        end = np.full(count, times[-1])
+        return cls(times, constants, stretches, end, [mode] * count, [mode] * count)
 
-    def constants_of(self, rows: Rows) -> dict[Symbol, Array]:
-        """All parameters of some motions."""
+    def constants_from(self, rows: Rows, times: Array) -> dict[Symbol, Array]:
+        """All constants of some motions, as they are from some times on."""
+        return self._constants_of(rows) | self.stretches.from_then(times)
+
+    def constants_until(self, rows: Rows, times: Array) -> dict[Symbol, Array]:
+        """The same as they are up to some times."""
+        return self._constants_of(rows) | self.stretches.until_then(times)
+
+    def _constants_of(self, rows: Rows) -> dict[Symbol, Array]:
         return {symbol: values[rows] for symbol, values in self.constants.items()}
 
     def note(self, look: int, stay: Stay, rows: Rows, states: Array) -> None:
@@ -87,9 +103,11 @@ class Sightings:
         """A quantity at a look, shape (motions,); not-a-number where a motion was not seen."""
         found = np.full(len(self.end), np.nan)
         clock = self.end if look == LAST else np.full(len(self.end), self.times[look])
+        constants = self.constants_until if look == LAST else self.constants_from
         for stay, rows, states in self._by_mode(look):
             seen = dict(zip(stay.states, states, strict=True))
-            found[rows] = stay.values(quantity, clock[rows], seen, self.constants_of(rows))
+            known = constants(rows, clock[rows])
+            found[rows] = stay.values(quantity, clock[rows], seen, known)
         return found
 
     def _by_mode(self, look: int) -> Iterator[tuple[Stay, Rows, Array]]:

@@ -16,6 +16,7 @@ from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.many._endings import Ending
 from polhode.simulate.many._lanes import Lanes, table
 from polhode.simulate.many._launch import Arrivals, Launch
+from polhode.simulate.many._stretches import Stretches
 
 _CLEAR = 1e-9  # of a guard, relative to the largest: further above its least value is no doubt
 #: Slip speed, relative to the velocities around, that is as good as none. Not sooner: where the
@@ -36,6 +37,7 @@ class Stay:
         quantities: that are to be read.
         names: of all quantities of the system: those that this mode does not have are zero in it.
         tolerance: relative, of one step.
+        stretches: of prescribed motions.
         whole: whether other modes follow, that need all states, or only what is read counts.
         square: a matrix that must stay regular.
     """
@@ -48,6 +50,7 @@ class Stay:
         quantities: Collection[Quantity],
         names: Collection[str],
         tolerance: float | None,
+        stretches: Stretches,
         *,
         whole: bool = False,
         square: Matrix | None = None,
@@ -58,6 +61,7 @@ class Stay:
         self._square = square
         self._names = names
         self._tolerance = tolerance
+        self._stretches = stretches
         self._whole = whole
         self.states = self._needed(quantities)
 
@@ -78,7 +82,7 @@ class Stay:
         Args:
             begin: s.
             states: of all motions; zero where there is none.
-            constants: likewise, of all parameters.
+            constants: likewise, of all parameters, and coefficients of prescribed motions.
             scales: size of the velocities that slips are the difference of, m/s.
         """
         rest = np.zeros(len(begin))
@@ -87,12 +91,17 @@ class Stay:
         found = Launch(
             begin,
             table([states.get(s, rest) for s in self.states], len(begin)),
-            table([constants[s] for s in self.dynamics.parameters], len(begin)),
+            self.ordered(constants, len(begin)),
             table([*least, *jams], len(begin)),
+            self._stretches.until_jerk(begin),
         )
         if jams:
             found.least[-1] = _NEARLY * np.abs(self.lanes.guarded(found)[-1])
         return found
+
+    def ordered(self, constants: Mapping[Symbol, Array], count: int) -> Array:
+        """Constants of so many motions as the equations take them, shape (parameters, motions)."""
+        return table([constants[s] for s in self.dynamics.parameters], count)
 
     def clear(self, launch: Launch) -> NDArray[np.bool_]:
         """Motions that are taken up where all is finite, and no guard is anywhere near its fall."""
@@ -170,5 +179,13 @@ class Stay:
             [ending.positive for ending in self.endings],
             self._square,
             self._tolerance,
-            driven=bool(self.dynamics.prescribed),
+            self._stretches,
+            driven=self._is_driven,
         )
+
+    @property
+    def _is_driven(self) -> bool:
+        """Whether the time itself occurs, and not only that since a knot."""
+        dynamics = self.dynamics
+        motions = (dynamics.prescribed.get(f, ZERO) for f in dynamics.equations.functions)
+        return any(CLOCK in motion.symbols() for motion in motions)

@@ -11,19 +11,20 @@ from polhode.algebra import Symbol
 from polhode.derive import Automaton
 from polhode.model import Contact, Coulomb
 from polhode.simulate._dynamics import Dynamics, EquationsOfMotion
+from polhode.simulate._follow import AS_DECLARED, Task
 from polhode.simulate._names import Name
 from polhode.simulate._readable import readable
-from polhode.simulate._task import AS_DECLARED, Task
 from polhode.simulate._values import idle_parameters, read_parameters
 from polhode.simulate.contact._checks import check_numbers
 from polhode.simulate.contact._machine import Machine
-from polhode.simulate.forcing._drive import Drive, drive_of
+from polhode.simulate.forcing._drive import drive_of
 from polhode.simulate.integrate._integrators import Integrator
 from polhode.simulate.many._company import Company, Phases, Starts
 from polhode.simulate.many._endings import endings_of, sides_of
 from polhode.simulate.many._pilot import Pilot
 from polhode.simulate.many._sightings import Sightings
 from polhode.simulate.many._stay import Quantity, Stay
+from polhode.simulate.many._stretches import Stretches
 from polhode.simulate.many._wave import Wave
 
 
@@ -70,6 +71,11 @@ class Subject(Protocol):
     """What is followed many times over."""
 
     @property
+    def stretches(self) -> Stretches:
+        """Of its prescribed motions."""
+        ...
+
+    @property
     def phases(self) -> Phases:
         """Of the contacts in the mode that motions are expected to start in."""
         ...
@@ -105,6 +111,7 @@ class OneMode:
     dynamics: Dynamics
     numbers: Mapping[Symbol, float]
     plan: Plan
+    stretches: Stretches
     phases: Phases = ()
     contacts: tuple[Contact, ...] = ()
 
@@ -115,7 +122,13 @@ class OneMode:
     def _stay(self) -> Stay:
         plan, sides = self.plan, self.dynamics.equations.assumed_positive
         return Stay(
-            self.dynamics, AS_DECLARED, sides_of(sides), plan.quantities, (), plan.tolerance
+            self.dynamics,
+            AS_DECLARED,
+            sides_of(sides),
+            plan.quantities,
+            (),
+            plan.tolerance,
+            self.stretches,
         )
 
     def company(self, sightings: Sightings, starts: Starts) -> Company:
@@ -129,6 +142,7 @@ class AllModes:
     machine: Machine
     plan: Plan
     numbers: Mapping[Symbol, float]
+    stretches: Stretches
     _known: dict[Phases, Stay] = field(default_factory=dict)
 
     @property
@@ -147,8 +161,10 @@ class AllModes:
     def goes_on(self) -> bool:
         """Whether motions are followed beyond their first mode.
 
-        Where nothing rubs they hardly ever leave it, and need not be known in full.
+        Where nothing rubs or jerks they hardly ever leave it, and need not be known in full.
         """
+        if len(self.stretches.jerks):
+            return True
         rubs = any(isinstance(contact, Coulomb) for contact in self.contacts)
         endings = endings_of(self.machine.mode(self.phases), 0.0, self.plan.until)
         return rubs and not all(ending.kind for ending in endings)
@@ -167,6 +183,7 @@ class AllModes:
             plan.quantities,
             readable(self.dynamics, {}),
             plan.tolerance,
+            self.stretches,
             whole=self.goes_on,
             square=mode.mode.equations.mass if mode.can_jam else None,
         )
@@ -174,28 +191,28 @@ class AllModes:
     def company(self, sightings: Sightings, starts: Starts) -> Company:
         if not self.goes_on:
             return Company(self.stay, sightings)
-        pilot = Pilot(self.machine, self.plan.task(self.machine.integrator))
+        pilot = Pilot(self.machine, self.plan.task(self.machine.integrator), self.stretches)
         return Wave(self.stay, sightings, pilot, starts)
 
 
 def one_mode(equations: EquationsOfMotion, plan: Plan) -> OneMode | None:
-    """Equations that are kept to; None where they change on the way, or close loops."""
-    drive: Drive = drive_of(equations.functions, plan.forcing, plan.duration)
-    if drive.pieces or equations.closures:
+    """Equations that are kept to; None where their supports jerk on the way, or loops close."""
+    drive = drive_of(equations.functions, plan.forcing, plan.duration)
+    stretches = Stretches(drive, plan.duration)
+    if len(stretches.jerks) or equations.closures:
         return None
     dynamics = Dynamics(equations, drive.expressions, idle_parameters(equations, plan.parameters))
-    return OneMode(dynamics, read_parameters(dynamics, plan.parameters), plan)
+    numbers = read_parameters(dynamics, plan.parameters, drive.constants(0.0))
+    return OneMode(dynamics, numbers, plan, stretches)
 
 
-def all_modes(modes: Automaton, plan: Plan, integrator: Integrator) -> AllModes | None:
-    """A system with its modes; None where its supports move by pieces."""
+def all_modes(modes: Automaton, plan: Plan, integrator: Integrator) -> AllModes:
+    """A system with its modes."""
     drive = drive_of(modes.functions, plan.forcing, plan.duration)
-    if drive.pieces:
-        return None
     equations = modes.together.equations
     idle = idle_parameters(equations, plan.parameters)
     common = Dynamics(equations, drive.expressions, (*modes.parameters, *idle))
-    numbers = read_parameters(common, plan.parameters)
+    numbers = read_parameters(common, plan.parameters, drive.constants(0.0))
     machine = Machine(modes, drive, numbers, integrator, plan.tolerance)
     check_numbers(machine)
-    return AllModes(machine, plan, numbers)
+    return AllModes(machine, plan, numbers, Stretches(drive, plan.duration))

@@ -110,7 +110,7 @@ class Wave(Company):
     def _note_stretch(self, row: int, stay: Stay, part: Part) -> None:
         """States at the looks within a stretch of time."""
         times = self.sightings.times[:-1]
-        for look in np.flatnonzero((part.begin <= times) & (times <= part.end)):
+        for look in np.flatnonzero((part.begin <= times) & (times < part.end)):
             self.sightings.note_one(int(look), stay, row, state_at(part, float(times[look])))
 
 
