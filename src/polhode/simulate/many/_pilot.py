@@ -13,15 +13,16 @@ from polhode.base import SilentProgress
 from polhode.derive import Guard
 from polhode.model import Phase
 from polhode.simulate._dynamics import WORK
-from polhode.simulate._follow import Task, first_entry
 from polhode.simulate._names import Name
 from polhode.simulate._segment import Part, state_at
+from polhode.simulate._task import Task
 from polhode.simulate.contact._checks import check_numbers
 from polhode.simulate.contact._course import Course, Walk
 from polhode.simulate.contact._lookout import Lookout
 from polhode.simulate.contact._machine import Machine
 from polhode.simulate.contact._onset import onset
 from polhode.simulate.contact._settle import Entry
+from polhode.simulate.contact._through import first_entry
 from polhode.simulate.contact._transition import Leaving as Left
 from polhode.simulate.many._company import Leaving
 from polhode.simulate.many._stretches import Stretches

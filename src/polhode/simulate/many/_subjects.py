@@ -11,9 +11,9 @@ from polhode.algebra import Symbol
 from polhode.derive import Automaton
 from polhode.model import Contact, Coulomb
 from polhode.simulate._dynamics import Dynamics, EquationsOfMotion
-from polhode.simulate._follow import AS_DECLARED, Task
 from polhode.simulate._names import Name
 from polhode.simulate._readable import readable
+from polhode.simulate._task import AS_DECLARED, Task
 from polhode.simulate._values import idle_parameters, read_parameters
 from polhode.simulate.contact._checks import check_numbers
 from polhode.simulate.contact._machine import Machine
