@@ -170,7 +170,9 @@ def _try(original: Original, oracle: Oracle, mutant: Mutant, counts: Counts) -> 
 
 def _undetermined(asked: Asked) -> bool:
     """Whether the claim speaks of reactions that Newton's laws leave open."""
-    open_ = {Symbol(n) for n, e in asked.equations.components.items() if e.symbol == Symbol(n)}
+    forces = asked.equations.components.items()
+    free = {Symbol(name) for name, value in forces if value.symbol == Symbol(name)}
+    open_ = {Symbol(name) for name, value in forces if free & value.symbols()}
     sides = (side for c in asked.components() for side in (c.left, c.right))
     return any(open_ & side.symbols() for side in sides)
 

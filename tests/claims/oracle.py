@@ -61,11 +61,11 @@ MOTIONS: dict[str, Motion] = {
         gyroscopes.gyroscope_in_vertical_plane, f"{_TOP} theta_dot"
     ),
 }
-#: In steady motion: what is at rest, and the spin that lets it stay so.
+#: In steady motion: what is at rest, and the speeds one of which lets it stay so.
 _STEADY = {
-    "spinning-coin": ("theta", "omega_3"),
-    "rolling-disk": ("theta", "omega_3"),
-    "gyroscope": ("theta", "omega_1"),
+    "spinning-coin": ("theta", ("omega_3", "phi_dot")),
+    "rolling-disk": ("theta", ("omega_3", "phi_dot")),
+    "gyroscope": ("theta", ("omega_1", "phi_dot")),
 }
 #: Numbers an oracle asks for on which the motion does not depend.
 _ALSO = {"gyroscope/held": ("I_2",)}
@@ -121,7 +121,7 @@ class _State:
     """One draw of everything that is free."""
 
     def __init__(self, asked: Asked, context: str, seed: int, letters: Collection[Symbol]) -> None:
-        self.asked, self.context = asked, context
+        self.asked, self.context, self.seed = asked, context, seed
         self.system = asked.equations.system
         every = {*_symbols(asked), *letters}
         self.symbols = {s.published: s for s in every if s.order < 3 or not s.kind.varies}
@@ -188,13 +188,14 @@ class _State:
         return {n: v for n, v in found.items() if n in self.symbols}
 
     def _steady(self, state: Values) -> Values:
-        rest, spin = _STEADY[self.system.name]
+        rest, turning = _STEADY[self.system.name]
+        speed = turning[self.seed % len(turning)]  # a relation between both has several branches
 
         def excess(rate: float) -> float:
-            still = {**state, f"{rest}_dot": 0.0, spin: rate}
+            still = {**state, f"{rest}_dot": 0.0, speed: rate}
             return MOTIONS[self.system.name](still)[f"{rest}_ddot"]
 
-        return {**state, f"{rest}_dot": 0.0, spin: float(newton(excess, state[spin]))}
+        return {**state, f"{rest}_dot": 0.0, speed: float(newton(excess, state[speed]))}
 
 
 def _prescribed(asked: Asked) -> set[Symbol]:

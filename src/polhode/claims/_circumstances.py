@@ -68,8 +68,9 @@ class Circumstances(ABC):
 
     @cached_property
     def signs(self) -> tuple[Expr, ...]:
-        """All that is positive on these states."""
-        return (*self.equations.assumed_positive, *self.positive)
+        """All that is positive on these states; what a restriction makes vanish is not."""
+        told = (*self.equations.assumed_positive, *self.positive)
+        return tuple(e for e in told if self.on(e))
 
     @cached_property
     def _known_signs(self) -> tuple[Expr, ...]:

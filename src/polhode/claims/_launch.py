@@ -85,15 +85,15 @@ def _conserved(the: The) -> tuple[Expr, ...]:
 
 def _followed(asked: Asked, event: Mapping[Symbol, Expr]) -> Verdict:
     """By numbers, on several motions: all along them, or when something comes to pass."""
-    followed = list(_along_motions(asked, event))
-    if not followed:
-        raise NumericError(
-            "no motion could be followed from the start", expected="a start that fixes the motion"
-        )
-    for relation in followed:
+    relation = None
+    for relation in _along_motions(asked, event):
         sample = relation.exception(asked.when)
         if sample is not None:
             return _refuted(relation, sample, asked)
+    if relation is None:
+        raise NumericError(
+            "no motion could be followed from the start", expected="a start that fixes the motion"
+        )
     remark = f"by numbers, along {_MOTIONS} motions"
     return Verdict(Answer.HOLDS, "launch", reason=remark)
 

@@ -25,6 +25,12 @@ def scaled(expression: Expr, small: Sequence[Small]) -> Expr:
     return expression.subs(_images(tuple(each.quantity for each in small)))
 
 
+def vanished(small: Sequence[Small]) -> dict[Symbol, Expr]:
+    """The values that symbols have where every small quantity is zero."""
+    images = _images(tuple(each.quantity for each in small))
+    return {symbol: value.subs({SMALLNESS: ZERO}) for symbol, value in images.items()}
+
+
 def restored(expression: Expr, small: Sequence[Small]) -> Expr:
     """A coefficient with departures written as the small quantities they are."""
     return expression.subs({_formed_of(each.quantity)[0]: each.quantity for each in small})

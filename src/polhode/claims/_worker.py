@@ -6,8 +6,7 @@ import os
 import signal
 import sys
 from contextlib import suppress
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection
 
 from polhode.claims._audit import Desk
@@ -61,13 +60,21 @@ def work(requests: Connection, replies: Connection) -> None:
 
 
 def _verdict(desk: Desk, request: Request, replies: Connection) -> Verdict:
-    unread = partial(Verdict, Answer.UNREAD, request.claim.context)
+    failures: list[Verdict] = []
+
+    def tell(failure: Verdict) -> None:
+        failures.append(failure)
+        replies.send((failure, False))
+
     try:
-        return desk.verdict(request.part, request.claim, lambda v: replies.send((v, False)))
+        return desk.verdict(request.part, request.claim, tell)
     except MemoryError:
-        return unread(reason="not decided: it needs more memory than a claim is allowed")
+        why = "not decided: it needs more memory than a claim is allowed"
     except Exception as error:  # a fault of the program's is told, and the others go on
-        return unread(reason=f"unexpected {type(error).__name__}: {error}"[:500])
+        why = f"unexpected {type(error).__name__}: {error}"[:500]
+    if failures:
+        return replace(failures[-1], remarks=(*failures[-1].remarks, why))
+    return Verdict(Answer.UNREAD, request.claim.context, reason=why)
 
 
 def _alarm(seconds: float) -> None:

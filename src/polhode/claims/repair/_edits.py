@@ -46,7 +46,7 @@ class Edit:
     @property
     def inserts(self) -> bool:
         """Whether it brings letters in, which may just be those of the other side."""
-        return self.what in ("missing factor", "missing term", "wrong symbol")
+        return self.what in ("missing factor", "missing term", "wrong symbol", "wrong expression")
 
 
 def edits(place: Place, match: Match) -> Iterator[Edit]:
@@ -73,7 +73,7 @@ def _by_number(place: Place, number: Fraction) -> Iterator[Edit]:
             changed, size = negated(changed), size + 1
         yield Edit("wrong factor", place.path, changed, size)
     if number == 0 and isinstance(place.parent, Sum):
-        yield Edit("extra term", place.path, Number("0"), 1.0)
+        yield Edit("extra term", place.path, Number("0"), 1.0 + len([*letters(node)]) / 20)
 
 
 def _has_number(node: Node) -> bool:

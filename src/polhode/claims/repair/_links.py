@@ -32,7 +32,9 @@ class Links:
     def _pairs(self) -> list[Side]:
         """Relation and left side of every member."""
         claims = ((i, r) for i, r in enumerate(self._statement.relations) if r.is_claim)
-        pairs = ((i, k, r.sides[0]) for i, r in claims for k in range(len(r.signs)))
+        pairs = (
+            (i, k, r.sides[0]) for i, r in claims for k, sign in enumerate(r.signs) if sign != "↔"
+        )
         return [(i, k) for i, k, first in pairs if k or first not in self._defined]
 
     @cached_property

@@ -55,6 +55,13 @@ class Response:
         rows = tuple(kept.index(self.rows[k]) for k in places)
         return Response(lambda at: self.changing(at)[places], rows, self.before[kept])
 
+    @cached_property
+    def moved(self) -> tuple[int, ...]:
+        """Which of all rows do change."""
+        away = np.abs(self.probed - self.probed[:, :1])
+        still = np.asarray((away <= _CLOSE * (1 + np.abs(self.probed))).all(axis=(1, 2)))
+        return tuple(row for row, stays in zip(self.rows, still, strict=True) if not stays)
+
     @property
     def here(self) -> Array:
         """The changing rows for a factor one: (rows, states)."""

@@ -126,6 +126,8 @@ def tidied(piece: Piece) -> Piece:
             return over(above, below)
         case Negative(of) if of == ZERO:
             return ZERO
+        case Power(base, exponent) if exponent == ONE:
+            return base
         case Sum(terms):
             kept = tuple(term for term in terms if term != ZERO)
             return (*kept, ZERO)[0] if len(kept) < 2 else Sum(kept)

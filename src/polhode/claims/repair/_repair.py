@@ -2,58 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from dataclasses import replace
-from functools import cached_property
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 
-import numpy as np
-
-from polhode.algebra import ZERO, Expr, Symbol
 from polhode.base import PolhodeError
 from polhode.claims._asked import Asked
-from polhode.claims._numeric import Array
-from polhode.claims.latex._tree import (
-    Call,
-    Dots,
-    Name,
-    Piece,
-    Power,
-    Product,
-    Quotient,
-    Statement,
-)
-from polhode.claims.repair._edits import Edit, dotted, edits, replaced, replaced_by
-from polhode.claims.repair._figures import scalar
+from polhode.claims.latex._tree import Statement
+from polhode.claims.repair._at_limit import AtLimit
 from polhode.claims.repair._formal import is_empty, says_nothing
-from polhode.claims.repair._links import Links
-from polhode.claims.repair._missing import missing_terms
-from polhode.claims.repair._multiplier import (
-    Match,
-    Response,
-    multiplier,
-    simple_numbers,
-)
 from polhode.claims.repair._one_by_one import JUDGED_WHOLE, one_by_one
-from polhode.claims.repair._own_terms import fitted
-from polhode.claims.repair._places import Place, places, put, tidied, times
 from polhode.claims.repair._reading import Reading
 from polhode.claims.repair._repaired import Repaired, smallest
-from polhode.claims.repair._tally import UNKNOWN, Tally
-from polhode.claims.repair._trials import FITTED, Trials, trials
-from polhode.claims.repair._workpiece import Workpiece
+from polhode.claims.repair._trials import FITTED
+from polhode.claims.repair._workshop import ENOUGH, STAGES, Workshop
 
 Holds = Callable[[Asked], bool]
-Changing = Callable[[Array], Array]
 
-_FACTOR = Symbol("multiplier")
-_LETTER = "multiplier"
-
-_CLOSE = 1e-8
-_ONE_EDIT = 1.9  # what is larger may be undercut by a missing term
-_TRIED = 12
 _MOST_EDITS = 4
-_MOST_INNER = 8
 
 
 def repaired(
@@ -67,20 +32,32 @@ def repaired(
         context: where the claim is to hold.
         holds: exact judgement of a corrected claim.
     """
-    if context in JUDGED_WHOLE:
-        return one_by_one(statement, reading, holds)
-    if context not in FITTED:
+    if context in FITTED:
+        return _fitted(statement, reading, context, holds)
+    if context not in JUDGED_WHOLE:
         return ()
+    asked = reading.asked(statement, {})
+    if asked.small and all(small.order == 0 for small in asked.small):
+        limit = AtLimit(reading, asked)
+        found = _fitted(statement, limit, "motion", lambda changed: holds(limit.near(changed)))
+        if found:
+            return found
+    return one_by_one(statement, reading, holds)
+
+
+def _fitted(
+    statement: Statement, reading: Reading, context: str, holds: Holds
+) -> tuple[Repaired, ...]:
     repair = Repaired(statement, ())
     for _ in range(_MOST_EDITS):
-        workshop = _Workshop(repair, reading, context)
+        workshop = Workshop(repair, reading, context)
         if not workshop.failing:
             return ()
         whole: list[Repaired] = []
-        for found in workshop.corrected(workshop.failing):
+        for found, enough in zip(workshop.corrected(workshop.failing), ENOUGH, strict=True):
             whole += [r for r in found if _sound(r, workshop.failing, reading, holds)]
             telling = [r for r in whole if _tells(r, reading)]
-            if any(r.size - repair.size < _ONE_EDIT for r in telling):
+            if any(r.size - repair.size < enough for r in telling):
                 break
         if whole:
             return smallest(telling or whole)
@@ -91,12 +68,12 @@ def repaired(
     return ()
 
 
-def _begun(workshop: _Workshop) -> Repaired | None:
+def _begun(workshop: Workshop) -> Repaired | None:
     """Some of the members corrected: with one place changed if that can be, else with more."""
     pairs = [pair for pair in pairwise(workshop.failing) if pair[1] == pair[0] + 1]
     groups = [*pairs, *((member,) for member in workshop.failing)]
     stages = [workshop.corrected(group) for group in groups]
-    found = (repairs for _ in range(2) for stage in stages if (repairs := next(stage)))
+    found = (repairs for _ in range(STAGES) for stage in stages if (repairs := next(stage)))
     return next((repairs[0] for repairs in found), None)
 
 
@@ -122,169 +99,3 @@ def _vanishes(asked: Asked, member: int) -> bool:
     """Whether both sides of a member vanish by themselves."""
     sides = (c for c in asked.components() if c.member == member)
     return not any(c.left or c.right for c in sides)
-
-
-class _Workshop:
-    """One statement that fails, tried at many states."""
-
-    def __init__(self, repair: Repaired, reading: Reading, context: str) -> None:
-        self._repair = repair
-        self._statement = repair.statement
-        self._reading = reading
-        self._asked = reading.asked(self._statement, {})
-        self._tried: Trials = trials(self._asked, context)
-        self._links = Links(self._statement, self._asked)
-        bench = self._tried.bench
-        self._tally = Tally(self._statement, self._asked, self._links, reading, bench)
-        self._responses: dict[Place, Response | None] = {}
-        self._work = Workpiece(self._statement, reading, self._tried, self._tally)
-
-    @cached_property
-    def _members(self) -> list[int]:
-        """The member that each residual belongs to."""
-        return [member for member, _ in self._residuals]
-
-    @cached_property
-    def _residuals(self) -> list[tuple[int, Expr]]:
-        return self._tried.residuals(self._asked)
-
-    @cached_property
-    def _values(self) -> Array:
-        return self._tried.bench.values([e for _, e in self._residuals])
-
-    @cached_property
-    def failing(self) -> tuple[int, ...]:
-        """Members that do not hold at the states of the bench."""
-        size = 1 + np.abs(self._values).max(initial=0.0)
-        bad = np.abs(self._values).max(axis=1, initial=0.0) > _CLOSE * size
-        return tuple(dict.fromkeys(m for m, off in zip(self._members, bad, strict=True) if off))
-
-    def corrected(self, targets: Sequence[int]) -> Iterator[list[Repaired]]:
-        """Statements in which these members hold, and those that held before still do.
-
-        First those with one place changed, then those with several, or with a term more.
-        """
-        kept = (frozenset(self._members) - set(self.failing)) | set(targets)
-        open_ = [p for p in places(self._statement) if self._links.cost(p, targets) is not None]
-        able = [p for p in open_ if self._links.members(p).issuperset(targets)]
-        responses = {p: r for p in able if (r := self._response(p, kept)) is not None}
-        costs = {p: self._links.cost(p, targets) or 0.0 for p in able}
-        yield self._ranked(
-            (replace(edit, size=edit.size + costs[place]),)
-            for place in able
-            for edit in self._at(place, responses.get(place), kept)
-        )
-        inner = [p for p in able if p in responses and self._can_take_terms(p, responses[p])]
-        missing = (
-            (replace(edit, size=edit.size + costs[place]),)
-            for place in able
-            for edit in self._missing(place, kept, inner[:_MOST_INNER])
-        )
-        chains = {side[0] for target in targets for side in self._links.sides(target)}
-        others = [p for p in places(self._statement) if p.relation in chains and p not in able]
-        whole = responses | {p: r for p in others if (r := self._response(p, kept)) is not None}
-        throughout = self._throughout(kept)
-        yield self._ranked([*throughout, *map(self._late, fitted(whole)), *missing])
-
-    def _late(self, changes: tuple[Edit, ...]) -> tuple[Edit, ...]:
-        """Changes of earlier sides of a chain are the dearer ones."""
-        last = [len(self._statement.relations[change.path[0]].sides) for change in changes]
-        extra = [0.02 * (n - change.path[1]) for n, change in zip(last, changes, strict=True)]
-        return tuple(replace(c, size=c.size + e) for c, e in zip(changes, extra, strict=True))
-
-    def _throughout(self, kept: Collection[int]) -> Iterator[tuple[Edit, ...]]:
-        """One slip made everywhere: what is differentiated by has lost its dot."""
-        found = [p for p in places(self._statement) if p.is_variable]
-        for letter in dict.fromkeys(p.node for p in found):
-            alike = [p for p in found if p.node == letter]
-            changes = tuple(replaced(p, dotted(p.node), 1 / len(alike)) for p in alike)
-            if self._hold(self._repair.with_changes(changes).statement, kept):
-                yield changes
-
-    def _hold(self, changed: Statement, kept: Collection[int]) -> bool:
-        try:
-            left = self._tried.left(self._reading.asked(changed, {}), kept)
-            return bool(np.abs(self._tried.bench.values(left)).max(initial=0.0) < _CLOSE * 1e2)
-        except UNKNOWN:
-            return False
-
-    def _ranked(self, found: Iterable[tuple[Edit, ...]]) -> list[Repaired]:
-        different: dict[Piece, Repaired] = {}
-        for changes in sorted(found, key=lambda changes: sum(c.size for c in changes)):
-            repair = self._repair.with_changes(changes)
-            different.setdefault(tidied(repair.statement), repair)
-            if len(different) == _TRIED:
-                break
-        return list(different.values())
-
-    def _response(self, place: Place, kept: Collection[int]) -> Response | None:
-        """How the residuals of these members change with a factor at a place."""
-        if place not in self._responses:
-            self._responses[place] = self._found_response(place)
-        found = self._responses[place]
-        return found and found.among([i for i, m in enumerate(self._members) if m in kept])
-
-    def _found_response(self, place: Place) -> Response | None:
-        members = sorted(self._links.members(place))
-        rows = tuple(i for i, m in enumerate(self._members) if m in members)
-        if not rows:
-            return None
-        for changing in (self._by_numbers, self._exactly):
-            try:
-                found = Response(changing(place, members), rows, self._values)
-                if found.is_faithful:
-                    return found
-            except UNKNOWN:
-                continue
-        return None
-
-    def _by_numbers(self, place: Place, members: Sequence[int]) -> Changing:
-        known = self._tally.of(place.node)
-        return lambda factors: self._tally.rows(place, scalar(factors) * known, members)
-
-    def _exactly(self, place: Place, members: Collection[int]) -> Changing:
-        changed = put(self._statement, place.path, times(Name(_LETTER), place.node))
-        asked = self._reading.asked(changed, {_LETTER: Expr.generator(_FACTOR)})
-        return self._tried.bench.function(self._tried.left(asked, members), _FACTOR)
-
-    def _at(self, place: Place, response: Response | None, kept: Collection[int]) -> Iterator[Edit]:
-        node = place.node
-        if isinstance(node, Name | Dots) and self._work.vocabulary.get(node, ZERO) is None:
-            yield from self._vectors(place, kept)
-        if response is None:
-            return
-        for number in simple_numbers(response):
-            yield from edits(place, Match(number))
-        factor = multiplier(response)
-        if factor is not None:
-            for match in self._work.products.short(factor):
-                yield from edits(place, match)
-            yield from self._exchanged(place, factor)
-
-    def _missing(
-        self, place: Place, kept: Collection[int], inner: Collection[Place]
-    ) -> Iterator[Edit]:
-        members = sorted(self._links.members(place) & set(kept))
-        return missing_terms(self._work, place, members, inner)
-
-    def _can_take_terms(self, place: Place, response: Response) -> bool:
-        """Whether it is a factor or the like, and could be made right by another value."""
-        if not isinstance(place.parent, Product | Quotient | Power | Call):
-            return False
-        return multiplier(response) is not None
-
-    def _exchanged(self, place: Place, factor: Array) -> Iterator[Edit]:
-        """Other letters whose value is what the place would have to be."""
-        known = dict(self._work.known)
-        if place.node in known:
-            wanted = factor * known[place.node]
-            close = np.abs(self._work.figures - wanted) <= _CLOSE * (1 + np.abs(wanted))
-            fitting = [self._work.known[i][0] for i in np.flatnonzero(close.all(axis=1))]
-            yield from replaced_by(place, dict.fromkeys(fitting, True))
-
-    def _vectors(self, place: Place, kept: Collection[int]) -> Iterator[Edit]:
-        """Other vectors put in the place of one."""
-        others = [n for n in self._work.other_vectors if n != place.node]
-        members = sorted(self._links.members(place) & set(kept))
-        fitting = self._work.fitting(place, others, members)
-        yield from replaced_by(place, dict.fromkeys(fitting, True))

@@ -49,9 +49,18 @@ class Workpiece:
             return None
 
     def _vanishes(self, node: Node) -> bool:
-        """Whether a vector is zero in these circumstances, so that it can stand for anything."""
+        """Whether a vector is zero in these circumstances, or has no value there."""
         value = self.value(node)
-        return isinstance(value, Vector) and not any(map(self.tried.states.on, value.components))
+        if not isinstance(value, Vector):
+            return False
+        return not any(map(self._settled, value.components))
+
+    def _settled(self, value: Expr) -> Expr | None:
+        """A scalar as it is in these circumstances; None where it has no value there."""
+        try:
+            return self.tried.states.on(value)
+        except UNKNOWN:
+            return None
 
     def fitting(self, place: Place, others: Sequence[Node], members: Sequence[int]) -> list[Node]:
         """Those of some nodes of one rank that make all members hold when put at a place."""
@@ -137,7 +146,7 @@ class Workpiece:
     def settled(self) -> dict[Node, Expr]:
         """The scalars as they are in these circumstances."""
         known = {node: e for node, e in self.vocabulary.items() if e is not None}
-        return {node: self.tried.states.on(e) for node, e in known.items()}
+        return {n: value for n, e in known.items() if (value := self._settled(e)) is not None}
 
     @cached_property
     def vectors(self) -> Terms:

@@ -1,0 +1,133 @@
+"""Exact quantities that a formula needs at a place, written in the letters of its text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
+from itertools import islice
+
+from polhode.algebra import ONE, Expr, Symbol, factors
+from polhode.base import PolhodeError
+from polhode.claims.latex._tree import (
+    Call,
+    Cross,
+    Derivative,
+    Dots,
+    Name,
+    Node,
+    Number,
+    Power,
+    Quotient,
+    Statement,
+    Sum,
+)
+from polhode.claims.repair._edits import number_node
+from polhode.claims.repair._places import ONE as ONE_NODE
+from polhode.claims.repair._places import negated, over, raised, times
+from polhode.claims.repair._workpiece import Workpiece
+
+_UNKNOWN = Symbol("missing")
+_LARGEST_SIZE = 12
+_LONGEST_SUM = 4
+_MOST = 16
+
+#: Stands in a statement where something is to be found.
+UNKNOWN_TERM = Name("missing")
+
+
+def solved(work: Workpiece, changed: Statement, members: Sequence[int]) -> Expr | None:
+    """What the unknown term of a changed statement has to be for some members to hold, exactly."""
+    found = None
+    try:
+        extra = {UNKNOWN_TERM.letter: Expr.generator(_UNKNOWN)}
+        for residual in work.left(changed, members, extra):
+            settled = work.tried.states.on(residual).numerator
+            slope = settled.diff(_UNKNOWN)
+            if _UNKNOWN in slope.symbols():
+                return None
+            rest = settled - slope * Expr.generator(_UNKNOWN)
+            if slope and found is None:
+                found = -rest / slope
+            if settled and (found is None or settled.subs({_UNKNOWN: found})):
+                return None
+    except (PolhodeError, ArithmeticError):
+        return None
+    return found
+
+
+def length(node: Node) -> int:
+    """How much a term says: letters with their powers, and how they are put together."""
+    match node:
+        case Power(base, Number(text)) if text.isdigit():
+            return length(base) * int(text)
+        case Name(decoration="hat"):
+            return 0
+        case Number("1"):
+            return 0
+        case Call() | Name() | Dots() | Number():
+            return 1
+    rate = isinstance(node, Derivative | Cross)
+    nested = 2 * (isinstance(node, Sum) or (isinstance(node, Quotient) and not _is_number(node)))
+    return rate + nested + sum(length(part) for part in node.parts if isinstance(part, Node))
+
+
+def _is_number(quotient: Quotient) -> bool:
+    return isinstance(quotient.below, Number)
+
+
+def written(work: Workpiece, value: Expr, tail: Sequence[Node]) -> Iterator[Node]:
+    """A quantity times vectors in the letters of the text, at most one of them of the motion."""
+    settled = work.settled
+    plain = {e: n for n in reversed(settled) if (e := work.vocabulary[n]) is not None}
+    moving = [(node, v) for node, v in settled.items() if v and v != work.vocabulary[node]]
+    for factor, moved in [(ONE_NODE, ONE), *moving]:
+        product = _product(value / moved, plain)
+        if product is not None and len(product[1]) + len(product[2]) < _LARGEST_SIZE:
+            number, above, below = product
+            term = times(_fraction(abs(number), (*above, factor), below), *tail)
+            yield negated(term) if number < 0 else term
+
+
+def _product(
+    expression: Expr, plain: Mapping[Expr, Node]
+) -> tuple[Fraction, list[Node], list[Node]] | None:
+    """An expression as a number times letters over letters, if it is that simple."""
+    if _is_longer(expression.numerator, _MOST) or _is_longer(expression.denominator, _MOST):
+        return None
+    number, powers = factors(expression)
+    above: list[Node] = []
+    below: list[Node] = []
+    for factor, power in powers.items():
+        node = plain.get(factor)
+        if node is None and -factor in plain:
+            node, number = plain[-factor], number * (-1) ** (power % 2)
+        node = node or _sum(factor, plain)
+        if node is None:
+            return None
+        (above if power > 0 else below).append(raised(node, abs(power)))
+    return number, above, below
+
+
+def _sum(factor: Expr, plain: Mapping[Expr, Node]) -> Node | None:
+    """A short sum of products of letters."""
+    terms: list[Node] = []
+    if _is_longer(factor, _LONGEST_SUM) or not _is_longer(factor, 1):
+        return None
+    for powers, coefficient in factor.terms():
+        nodes = [(plain.get(Expr.generator(g)), power) for g, power in powers.items()]
+        if any(node is None for node, _ in nodes):
+            return None
+        above = [raised(node, power) for node, power in nodes if node is not None]
+        term = _fraction(abs(Fraction(coefficient)), above, ())
+        terms.append(negated(term) if coefficient < 0 else term)
+    return Sum(tuple(terms))
+
+
+def _is_longer(polynomial: Expr, most: int) -> bool:
+    """Whether it has more than so many terms."""
+    return any(islice(polynomial.terms(), most, None))
+
+
+def _fraction(number: Fraction, above: Iterable[Node], below: Iterable[Node]) -> Node:
+    top = times(number_node(Fraction(number.numerator)), *above)
+    return over(top, times(number_node(Fraction(number.denominator)), *below))
