@@ -138,10 +138,12 @@ if TYPE_CHECKING:
     from polhode.study import Fit as Fit
     from polhode.study import Largest as Largest
     from polhode.study import Least as Least
+    from polhode.study import Linearised as Linearised
     from polhode.study import Sensitivities as Sensitivities
     from polhode.study import Series as Series
     from polhode.study import ensemble as ensemble
     from polhode.study import fit as fit
+    from polhode.study import linearised as linearised
     from polhode.study import refined_map as refined_map
     from polhode.study import sensitivities as sensitivities
     from polhode.study import sweep as sweep
@@ -169,11 +171,13 @@ _ROOMS = {
         "Final",
         "Largest",
         "Least",
+        "Linearised",
         "Series",
         "ensemble",
         "Fit",
         "Sensitivities",
         "fit",
+        "linearised",
         "refined_map",
         "sensitivities",
         "sweep",

@@ -8,7 +8,10 @@ from polhode.simulate._experiment import NEAR_FLAT as NEAR_FLAT
 from polhode.simulate._experiment import Experiment as Experiment
 from polhode.simulate._readable import quantity_names as quantity_names
 from polhode.simulate._simulate import simulate as simulate
+from polhode.simulate._start import read_start as read_start
 from polhode.simulate._trajectory import Trajectory as Trajectory
+from polhode.simulate._values import idle_parameters as idle_parameters
+from polhode.simulate._values import read_parameters as read_parameters
 from polhode.simulate._values import refuse_missing as refuse_missing
 from polhode.simulate.contact._machine import slip_symbols as slip_symbols
 from polhode.simulate.files._saved import load as load

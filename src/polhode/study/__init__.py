@@ -18,6 +18,8 @@ from polhode.study._happenings import EventKinds as EventKinds
 from polhode.study._happenings import EventTime as EventTime
 from polhode.study._happenings import EventTimes as EventTimes
 from polhode.study._happenings import Fate as Fate
+from polhode.study._linearised import Linearised as Linearised
+from polhode.study._linearised import linearised as linearised
 from polhode.study._output import Output as Output
 from polhode.study._outputs import Final as Final
 from polhode.study._outputs import Largest as Largest

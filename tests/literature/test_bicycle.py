@@ -1,0 +1,72 @@
+"""The benchmark bicycle: J. P. Meijaard, J. M. Papadopoulos, A. Ruina and A. L. Schwab,
+Linearized dynamics equations for the balance and steer of a bicycle: a benchmark and review,
+Proc. R. Soc. A 463 (2007) 1955-1982; Table 2, and the speeds at which stability changes.
+"""
+
+import numpy as np
+import pytest
+
+import polhode as ph
+from derive.bicycles import BENCHMARK, bicycle
+
+AT_REST = (3.13164324790656, 5.53094371765393, -3.13164324790656, -5.53094371765393)
+#: By forward speed, m/s: real and imaginary part.
+WEAVE = {
+    1: (3.52696170990070, 0.80774027519930),
+    2: (2.68234517512745, 1.68066296590675),
+    3: (1.70675605663975, 2.31582447384325),
+    4: (0.41325331521125, 3.07910818603206),
+    5: (-0.77534188219585, 4.46486771378823),
+    6: (-1.52644486584142, 5.87673060598709),
+    7: (-2.13875644258362, 7.19525913329805),
+    8: (-2.69348683581097, 8.46037971396931),
+    9: (-3.21675402252485, 9.69377351531791),
+    10: (-3.72016840437287, 10.90681139476287),
+}
+CAPSIZE_AND_CASTER = {
+    1: (-3.13423125066578, -7.11008014637442),
+    2: (-3.07158645641514, -8.67387984831735),
+    3: (-2.63366137253667, -10.35101467245920),
+    4: (-1.42944427361326, -12.15861426576447),
+    5: (-0.32286642900409, -14.07838969279822),
+    6: (-0.00406690076970, -16.08537123098026),
+    7: (0.10268170574766, -18.15788466125262),
+    8: (0.14327879765713, -20.27940894394569),
+    9: (0.15790184030917, -22.43788559040858),
+    10: (0.16105338653172, -24.62459635017404),
+}
+WEAVE_SPEED = 4.29238253634111
+CAPSIZE_SPEED = 6.02426201538837
+
+
+def eigenvalues(speed: float) -> np.ndarray:
+    """Of upright straight running, without the zero of the forward speed itself."""
+    running = {"phi": 0, "delta": 0, "omega_y_R": speed / BENCHMARK["r_R"]}
+    found = ph.linearised(bicycle(), BENCHMARK, running)
+    assert found.states == ("phi", "delta", "phi_dot", "delta_dot", "omega_y_R")
+    assert not np.any(found.matrix[-1])
+    assert not np.any(found.matrix[:, -1])
+    return np.linalg.eigvals(found.matrix[:-1, :-1])
+
+
+def test_at_rest_it_falls_over_in_two_ways():
+    found = np.sort(eigenvalues(0.0))
+    assert found == pytest.approx(sorted(AT_REST), rel=1e-12)
+
+
+@pytest.mark.parametrize("speed", WEAVE)
+def test_the_published_eigenvalues_follow(speed):
+    found = eigenvalues(float(speed))
+    oscillating = found[found.imag > 0]
+    assert oscillating == pytest.approx([complex(*WEAVE[speed])], rel=1e-12)
+    real = np.sort(found[found.imag == 0].real)
+    assert real == pytest.approx(sorted(CAPSIZE_AND_CASTER[speed]), rel=1e-11)
+
+
+def test_it_is_stable_by_itself_between_the_weave_and_the_capsize_speed():
+    weave, capsize = eigenvalues(WEAVE_SPEED), eigenvalues(CAPSIZE_SPEED)
+    assert weave[weave.imag > 0].real == pytest.approx(0, abs=1e-12)
+    assert capsize[np.argmin(np.abs(capsize))] == pytest.approx(0, abs=1e-12)
+    assert max(eigenvalues(WEAVE_SPEED - 0.01).real) > 1e-3
+    assert max(eigenvalues((WEAVE_SPEED + CAPSIZE_SPEED) / 2).real) < -1e-3
+    assert max(eigenvalues(CAPSIZE_SPEED + 0.01).real) > 1e-5
