@@ -90,6 +90,24 @@ def test_a_worker_that_is_ended_from_outside_is_replaced():
     with_worker(act)
 
 
+def test_a_worker_that_cannot_be_replaced_is_told_as_broken(monkeypatch):
+    """As when the whole server is ended with a request on its way."""
+
+    def no_more_processes():
+        raise EOFError("unexpected EOF")
+
+    async def act(worker):
+        await answers(worker)
+        monkeypatch.setattr(worker, "_start", no_more_processes)
+        os.kill(worker.pid, signal.SIGKILL)
+        with pytest.raises(BrokenError):
+            await worker.ask(QUICK, PATIENCE, asyncio.Event())
+        with pytest.raises(BrokenError):
+            await worker.ask(QUICK, PATIENCE, asyncio.Event())
+
+    with_worker(act)
+
+
 def test_one_who_left_while_waiting_is_not_worked_for():
     async def act(worker):
         gone = asyncio.Event()

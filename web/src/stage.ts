@@ -1,9 +1,6 @@
 // The picture in three dimensions.
 
 import {
-  DirectionalLight,
-  Group,
-  HemisphereLight,
   LineSegments,
   type Material,
   Mesh,
@@ -21,10 +18,13 @@ import {
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Arrow } from "./arrows";
+import { extent } from "./extent";
+import { Lights } from "./lights";
 import { Link } from "./links";
 import { Pose } from "./pose";
+import { posts } from "./posts";
 import { type ArrowKind, Rows, type SceneData, type SupportData, type Triple } from "./scene";
-import { bodyObject, bracket, post, reach } from "./shapes";
+import { bodyObject, reach } from "./shapes";
 import { Grounds } from "./supports";
 import { Trace } from "./traces";
 import { Triad } from "./triad";
@@ -44,7 +44,7 @@ export class Stage {
   private readonly world = new Scene();
   private readonly camera: PerspectiveCamera;
   private readonly controls: OrbitControls;
-  private readonly light = new DirectionalLight("#fff6e8", 1.9);
+  private readonly lights: Lights;
   private readonly grounds = new Grounds();
   private readonly links: Link[];
   private readonly triad: Triad;
@@ -80,7 +80,7 @@ export class Stage {
     this.poses = scene.bodies.map((body) => new Pose(body.pose));
     this.reach = Math.max(...scene.bodies.map(reach));
     this.links = scene.links.map((data) => new Link(data));
-    [this.middle, this.radius] = this.extent();
+    [this.middle, this.radius] = extent(this.poses, this.fixed(), this.scene.frames, this.reach);
     this.follow = this.radius > 1.4 * FAR * this.reach && !this.isTied();
     this.addBodies();
     this.addGrounds();
@@ -90,7 +90,8 @@ export class Stage {
     this.world.add(...this.arrows.map((arrow) => arrow.group), ...this.links.map((link) => link.object));
     this.camera = new PerspectiveCamera(32, 1, this.reach / 8, 300 * Math.max(this.radius, this.reach));
     this.camera.up.copy(this.up);
-    this.addLights();
+    this.lights = new Lights(this.world, this.camera, this.reach);
+    this.aim();
     holder.append(this.renderer.domElement, this.triad.element);
     this.controls = new OrbitControls(this.camera, holder);
     this.controls.maxDistance = 40 * Math.max(this.radius, this.reach);
@@ -110,6 +111,7 @@ export class Stage {
       this.camera.position.copy(before.camera.position).add(moved);
     }
     this.controls.enabled = before.controls.enabled;
+    this.renderer.compile(this.world, this.camera); // or the shaders they share would go with the old
     before.release();
     this.controls.update();
   }
@@ -119,7 +121,7 @@ export class Stage {
     this.fitting.disconnect();
     this.triad.element.remove();
     this.controls.dispose();
-    this.light.dispose();
+    this.lights.dispose();
     this.world.traverse((object) => {
       if (!(object instanceof Mesh || object instanceof LineSegments)) return;
       object.geometry.dispose();
@@ -289,28 +291,11 @@ export class Stage {
     this.draw();
   }
 
-  /** Middle and radius of everything the bodies pass through. */
-  private extent(): [Vector3, number] {
-    const low = new Vector3(Infinity, Infinity, Infinity);
-    const high = low.clone().negate();
-    const steps = 200;
-    for (const pose of this.poses) {
-      for (let i = 0; i <= steps; i++) {
-        pose.placeAt((i / steps) * (this.scene.frames - 1), this.place);
-        low.min(this.place);
-        high.max(this.place);
-      }
-    }
+  /** Points in space that hold something. */
+  private fixed(): Vector3[] {
     const feet = this.scene.arrows.map((arrow) => new Rows(arrow.foot));
-    for (const fixed of [...feet, ...this.links.flatMap((link) => link.ends)]) {
-      if (fixed.count === 1) {
-        this.place.fromArray(fixed.at(0, []));
-        low.min(this.place);
-        high.max(this.place);
-      }
-    }
-    const middle = low.clone().add(high).multiplyScalar(0.5);
-    return [middle, high.distanceTo(low) / 2 + this.reach];
+    const ends = [...feet, ...this.links.flatMap((link) => link.ends)];
+    return ends.filter(({ count }) => count === 1).map((end) => new Vector3().fromArray(end.at(0, [])));
   }
 
   /** Two level directions, to the right and away. */
@@ -346,9 +331,10 @@ export class Stage {
       const pose = new Pose(support.pose);
       this.moving.push({ pose, object });
       if (support.kind === "sheet") this.sheets.push({ pose, object, support });
-      if (support.kind === "sheet") this.addTable(pose, Math.max(...support.reach) + this.radius, grid);
+      if (support.kind === "sheet") this.world.add(this.table(pose, Math.max(...support.reach) + this.radius, grid));
     }
-    if (this.scene.floor !== null) this.addFloor(this.scene.floor, grid);
+    const { floor } = this.scene;
+    if (floor !== null) this.world.add(this.floor(floor, grid), ...posts(this.held(), floor, { up: this.up, middle: this.middle, reach: this.reach }));
   }
 
   /** About how far the lines on the ground are apart, m. */
@@ -356,38 +342,28 @@ export class Stage {
     return 1.2 * Math.max(this.reach, this.follow ? 0 : 0.35 * this.radius);
   }
 
-  private addTable(pose: Pose, width: number, grid: number): void {
+  private table(pose: Pose, width: number, grid: number): Object3D {
     const table = this.grounds.boundless([0, 0], 2.5 * width, grid);
     pose.apply(0, table);
     table.position.addScaledVector(this.up, -LIFT * this.reach);
-    this.world.add(table);
+    return table;
   }
 
-  private addFloor(height: number, grid: number): void {
-    const frame = new Group();
-    frame.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), this.up);
-    frame.position.copy(this.up).multiplyScalar(height);
-    const level = this.middle.clone().addScaledVector(this.up, -this.middle.dot(this.up));
-    frame.position.add(level);
-    frame.add(this.grounds.boundless([0, 0], 7 * this.radius, grid));
-    this.world.add(frame);
-    this.addPosts(height);
+  private floor(height: number, grid: number): Object3D {
+    const floor = this.grounds.boundless([0, 0], 7 * this.radius, grid);
+    floor.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), this.up);
+    floor.position.copy(this.middle).addScaledVector(this.up, height - this.middle.dot(this.up));
+    return floor;
   }
 
-  /** Points of bodies that are held in space stand on posts, or hang. */
-  private addPosts(floor: number): void {
-    const thick = 0.1 * this.reach;
-    for (const arrow of this.scene.arrows) {
-      const foot = new Rows(arrow.foot);
-      if (foot.count !== 1) continue;
-      const point = new Vector3(...foot.at(0, []));
-      if (point.distanceTo(this.poses[arrow.body].placeAt(0, this.place)) < 1e-6 * this.reach) continue;
-      const hangs = point.dot(this.up) > this.middle.dot(this.up) + 0.4 * this.reach;
-      const holder = hangs ? bracket(0.5 * thick) : post(point.dot(this.up) - floor, thick);
-      holder.position.copy(point);
-      holder.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), this.up);
-      this.world.add(holder);
-    }
+  /** Points in space that hold a body away from its middle. */
+  private held(): Vector3[] {
+    return this.scene.arrows
+      .map(({ foot, body }) => ({ foot: new Rows(foot), middle: this.poses[body].placeAt(0, new Vector3()) }))
+      .filter(({ foot }) => foot.count === 1)
+      .map(({ foot, middle }) => ({ point: new Vector3().fromArray(foot.at(0, [])), middle }))
+      .filter(({ point, middle }) => point.distanceTo(middle) >= 1e-6 * this.reach)
+      .map(({ point }) => point);
   }
 
   private makeArrows(): Arrow[] {
@@ -402,33 +378,8 @@ export class Stage {
     });
   }
 
-  private addLights(): void {
-    this.world.add(new HemisphereLight("#ffffff", "#b9b2a4", 1.5));
-    this.camera.add(new DirectionalLight("#ffffff", 0.7));
-    this.world.add(this.camera);
-    this.light.castShadow = true;
-    this.light.shadow.mapSize.set(1024, 1024);
-    this.light.shadow.radius = 4;
-    this.light.shadow.normalBias = 0.01 * this.reach;
-    this.world.add(this.light, this.light.target);
-    this.aim();
-  }
-
   private aim(): void {
-    const range = 1.2 * this.seen();
-    this.target(this.light.target.position);
-    const [side, ahead] = this.horizontal();
-    this.light.position
-      .copy(this.light.target.position)
-      .addScaledVector(this.up, 3 * range)
-      .addScaledVector(side, -1.4 * range)
-      .addScaledVector(ahead, -0.8 * range);
-    const { camera } = this.light.shadow;
-    camera.left = camera.bottom = -range;
-    camera.right = camera.top = range;
-    camera.near = 0.1 * range;
-    camera.far = 8 * range;
-    camera.updateProjectionMatrix();
+    this.lights.aim(this.target(this.place), 1.2 * this.seen(), this.up, this.horizontal());
   }
 }
 

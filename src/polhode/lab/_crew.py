@@ -100,7 +100,8 @@ class Worker:
 
     def _replace(self) -> None:
         self.end()
-        self._start()
+        with suppress(EOFError, OSError):  # no new process while the server itself is ending
+            self._start()
 
     def _start(self) -> None:
         self._connection, other = self._context.Pipe()
