@@ -5,7 +5,7 @@ import pytest
 import scipy.stats as st
 
 from polhode.algebra import symbol
-from polhode.base import DeclarationError, NumericError, StoreError
+from polhode.base import DeclarationError, NumericError, StoreError, UnitError
 from polhode.derive import automaton, derive
 from polhode.study import (
     EventTime,
@@ -31,6 +31,13 @@ MISTAKES = [
     ({"near_flat": np.nan}, NumericError, "near_flat = nan"),
     ({"near_flat": -1.0}, NumericError, "near_flat = -1"),
     ({"forcing": {"X": 1}}, DeclarationError, "'X' is no prescribed function"),
+    ({"start": {"theta": "1 kg"}}, UnitError, "theta = '1 kg' is a quantity in kg"),
+    ({"start": {"theta": "much"}}, UnitError, "'much' is not a value"),
+    ({"start": {"theta": symbol("q")}}, DeclarationError, "theta = q, and no value for q"),
+    ({"parameters": {**NUMBERS, "a": "3 s"}}, UnitError, "a quantity in s; expected .* in m"),
+    ({"parameters": {**NUMBERS, "a": -0.03}}, DeclarationError, "a = -0.03 for every member"),
+    ({"parameters": {**NUMBERS, "a": np.nan}}, UnitError, "nan is not a value"),
+    ({"outputs": {"q": symbol("q") + 1}}, DeclarationError, "'q' is no parameter"),
     ({"workers": "2"}, DeclarationError, "'2' workers"),
     ({"workers": 0}, DeclarationError, "0 workers"),
 ]
@@ -70,6 +77,28 @@ def test_by_sweeps(rolling, tmp_path, change, error, words):
 def test_by_refined_maps(rolling):
     with pytest.raises(DeclarationError, match="'nope' is no coordinate"):
         refined_map(rolling, {"theta": (0.6, 1.5), "nope": (0.0, 16.0)}, NUMBERS, {}, 0.3)
+
+
+@pytest.mark.parametrize(
+    "angles", [(np.ones(9), "kg"), ["1 rad", "2 s"]], ids=["a column", "one of its texts"]
+)
+def test_units_that_members_have_in_common(rolling, angles):
+    with pytest.raises(UnitError, match="theta"):
+        ensemble(rolling, NUMBERS, {"theta": angles, "omega_3": 20.0}, 0.1)
+
+
+@pytest.mark.parametrize(
+    ("sheet", "error", "words"),
+    [
+        ({"X": 0}, DeclarationError, "no motion for Y, chi"),
+        ({"X": 0, "Y": 0, "chi": lambda t: 1 / (t - 0.05)}, NumericError, "prescribed motion"),
+        ({"X": 0, "Y": 0, "chi": "sin(t)"}, NumericError, "no expression"),
+    ],
+)
+def test_motions_of_supports_that_nobody_can_be_followed_on(sheet, error, words):
+    case = rough_balls()
+    with pytest.raises(error, match=words):
+        ensemble(case.modes, case.parameters, {}, 0.1, count=9, forcing=sheet)
 
 
 @pytest.mark.parametrize("count", [-1, 0, 2.5, 10**12, True])

@@ -24,6 +24,7 @@ class AsDeclared:
     def __init__(self, equations: EquationsOfMotion, task: Task) -> None:
         with timed(task, "derive"):
             self._drive = drive_of(equations.functions, task.forcing, task.end)
+            _refuse_jerks(self._drive, task.end)
             idle = idle_parameters(equations, task.given)
             self._dynamics = Dynamics(equations, self._drive.expressions, idle)
         self._integrator = task.integrator
@@ -40,7 +41,6 @@ class AsDeclared:
     def follow(self, task: Task, progress: Progress) -> Motion:
         dynamics, drive = self._dynamics, self._drive
         numbers = read_parameters(dynamics, task.given, drive.constants(0.0))
-        _refuse_jerks(drive, task.end)
         at_start = {s: (numbers | drive.constants(0.0))[s] for s in dynamics.parameters}
         begin = read_start(dynamics, task.start, at_start)
         with timed(task, "compile"):

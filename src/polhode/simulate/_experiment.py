@@ -85,6 +85,20 @@ class Experiment:
             until=frozenset(until),
         )
 
+    def prepare(self, parameters: Mapping[Name, Any]) -> None:
+        """Do what does not depend on numbers, as the first run does it otherwise.
+
+        Args:
+            parameters: those that will be given.
+
+        Raises:
+            DeclarationError: for a prescribed motion that is missing or cannot be.
+            NumericError: for one that is not smooth, or contacts that cannot be followed.
+        """
+        if self._prepared is None:
+            task = replace(self._plan, given=parameters, seconds={})
+            self._prepared = prepared(self.subject, task)
+
     def run(
         self,
         parameters: Mapping[Name, Any],

@@ -88,7 +88,11 @@ def refined_map(
     spans = {name: np.linspace(low, high, side) for name, (low, high) in ends.items()}
     fixed = (published_names(parameters), published_names(start))
     own, others = split_axes(list(spans), parameter_names(order))
-    refuse_mistakes(order, [*fixed[0], *own], [*fixed[1], *others])
+    refuse_mistakes(
+        order,
+        {**fixed[0], **{name: Column(spans[name]) for name in own}},
+        {**fixed[1], **{name: Column(spans[name]) for name in others}},
+    )
     shown = progress or SilentProgress()
     shown.begin("members")
     try:

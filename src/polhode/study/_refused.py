@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from itertools import chain, product
+from typing import Any
 
-from polhode.algebra import Expr, Kind
+from polhode.algebra import Expr, Kind, Symbol
 from polhode.base import NumericError, look_up
 from polhode.derive import Automaton, Equations
 from polhode.model import Contact
@@ -13,19 +14,28 @@ from polhode.simulate import quantity_names, refuse_missing, slip_symbols
 from polhode.study._block import Order
 from polhode.study._columns import published_names
 from polhode.study._happenings import EventCount, EventTime
+from polhode.study._refused_values import refuse_values
 
 
-def refuse_mistakes(order: Order, parameters: Collection[str], start: Collection[str]) -> None:
+def refuse_mistakes(order: Order, parameters: Mapping[str, Any], start: Mapping[str, Any]) -> None:
     """Refuse what cannot be asked of any member.
+
+    Args:
+        parameters: a `Column` where members differ, else the one value of all.
+        start: likewise.
 
     Raises:
         DeclarationError: for names that are not known, and parameters without a value.
-        NumericError: for a limit of flatness that is no sine.
+        NumericError: for a limit of flatness that is no sine, or a motion of a support that is
+            not smooth.
+        UnitError: for a unit of another dimension, or a common value that cannot be read.
     """
     _refuse_names(order, parameters, start)
+    refuse_values(_modes(order.derived), parameters, start)
     _refuse_quantities(order)
     _refuse_events(order)
     _refuse_options(order)
+    order.experiment().prepare(dict[Any, Any](parameters))
 
 
 def _refuse_names(order: Order, parameters: Collection[str], start: Collection[str]) -> None:
@@ -45,12 +55,21 @@ def _refuse_quantities(order: Order) -> None:
     asked = [getattr(output, "quantity", None) for output in order.outputs.values()]
     wanted = {quantity for quantity in asked if isinstance(quantity, str)}
     known = dict.fromkeys(sorted(parameter_names(order)))
+    _refuse_constants([*asked, *(order.options.get("events") or {}).values()], known)
     for names in _quantities(order.derived):
         known |= dict.fromkeys(sorted(names))
         if wanted <= known.keys():
             return
     for quantity in wanted:
         look_up(quantity, known, "quantity of this system")
+
+
+def _refuse_constants(asked: Collection[Any], known: Mapping[str, Any]) -> None:
+    """Expressions of parameters that the system does not have."""
+    for quantity in asked:
+        for symbol in Expr.of(quantity).symbols() if isinstance(quantity, Expr | Symbol) else ():
+            if symbol.kind is Kind.PARAMETER and symbol.name != "pi":
+                look_up(symbol.published, known, "parameter of this system")
 
 
 def _quantities(derived: Automaton | Equations) -> Iterator[set[str]]:

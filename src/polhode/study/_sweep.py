@@ -108,7 +108,12 @@ def sweep(
     fixed = (published_names(parameters), published_names(start))
     own, others = split_axes(list(grid.columns), parameter_names(order))
     constants = {**fixed[0], **dict.fromkeys(own)}
-    refuse_mistakes(order, constants, {**fixed[1], **dict.fromkeys(others)})
+    columns = grid.columns
+    refuse_mistakes(
+        order,
+        {**fixed[0], **{name: columns[name] for name in own}},
+        {**fixed[1], **{name: columns[name] for name in others}},
+    )
     origin = _origin(order, grid, fixed, drawn)
     with _computing(whole(workers, "workers"), client, address) as compute:
         if begun is None:
