@@ -8,6 +8,7 @@ the block that remains is made symmetric, AᵀA x = Aᵀb, which is regular wher
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import lru_cache
 
 from polhode.algebra._balls import Ball, value
 from polhode.algebra._expression import ONE, ZERO, Expr
@@ -81,7 +82,7 @@ class _Elimination:
         for i, row in enumerate(self._table):
             for j in columns if i not in used else ():
                 entry = row[j]
-                if entry.rational or is_plainly_positive(entry) or is_plainly_positive(-entry):
+                if _cannot_vanish(entry):
                     yield len(entry.num) + len(entry.den), j, i
 
     def _clear(self, i: int, j: int) -> None:
@@ -114,6 +115,12 @@ class _Elimination:
             self._named(row[k] - dot((row[j] for j in values), (v[side] for v in values.values())))
             for side, k in enumerate((*free, self._width))
         )
+
+
+@lru_cache(maxsize=4096)
+def _cannot_vanish(entry: Expr) -> bool:
+    plain = entry.rational is not None or is_plainly_positive(entry) or is_plainly_positive(-entry)
+    return plain and not entry.is_zero
 
 
 def solve_definite(matrix: Sequence[Row], right: Row) -> Row:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import reduce
+from functools import lru_cache, reduce
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeAlias
 
@@ -108,14 +108,34 @@ class _Writer:
             symbol: self.tape.argument(i) for i, symbol in enumerate(arguments)
         }
 
+    def know(self, values: Mapping[Generator, Value]) -> None:
+        """Take the values of generators as given."""
+        self._values.update(values)
+
     def expression(self, expression: Expr) -> Value:
         """Write an expression in the form that adds fewest steps."""
+        if expression.ring.has_parts:
+            return self._replayed(expression)
+        return self.write(expression)
+
+    def _replayed(self, expression: Expr) -> Value:
+        """By steps that are worked out once for all programs."""
+        trimmed = expression.trimmed()
+        for generator in trimmed.ring.generators:
+            self._prepare(generator)
+        values = [self._values[generator] for generator in trimmed.ring.generators]
+        return self.tape.replay(_steps_of(trimmed), values)
+
+    def write(self, expression: Expr) -> Value:
+        """The same, step by step."""
         merged = exponentials(expression)
         if merged is not None:
             return reduce(self.tape.add, [self._exponential(*part) for part in merged])
         forms = list(_forms(expression))
         for form in forms:
-            self._prepare(form)
+            for position, generator in enumerate(form.ring.generators):
+                if form.degree(position) > 0:
+                    self._prepare(generator)
         return self._fraction(min(forms, key=self._cost) if len(forms) > 1 else forms[0])
 
     def _exponential(self, factor: Expr, exponent: Expr) -> Value:
@@ -134,10 +154,9 @@ class _Writer:
 
     # -- symbols and functions ------------------------------------------------------------------
 
-    def _prepare(self, form: _Fraction) -> None:
-        for position, generator in enumerate(form.ring.generators):
-            if generator not in self._values and form.degree(position) > 0:
-                self._values[generator] = self._generator(generator)
+    def _prepare(self, generator: Generator) -> None:
+        if generator not in self._values:
+            self._values[generator] = self._generator(generator)
 
     def _generator(self, generator: Generator) -> Value:
         match generator:
@@ -148,7 +167,7 @@ class _Writer:
             case Elementary():
                 return self.tape.call(Op(generator.name), self._argument(generator))
             case Part():
-                return self.expression(generator.meaning)
+                return self._replayed(generator.meaning)
             case _:
                 raise NumericError(
                     f"the function {generator.key}", expected="one with a numeric value"
@@ -236,6 +255,15 @@ class _Writer:
         if coefficient == 1:
             return product
         return self.tape.multiply(self.tape.constant(_rational(coefficient)), product)
+
+
+@lru_cache(maxsize=16384)
+def _steps_of(expression: Expr) -> Program:
+    """The steps to an expression from the generators of its ring."""
+    writer = _Writer((), lambda symbol: None, (), {})
+    generators = expression.ring.generators
+    writer.know({g: writer.tape.argument(i) for i, g in enumerate(generators)})
+    return writer.tape.program((), [writer.write(expression)])
 
 
 def _divided(solve: LinearSolve) -> tuple[Matrix, Row]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -108,6 +108,31 @@ class Tape:
         if op in _ODD:
             return Value(self._record(op, (x.step,)), x.sign)
         return Value(self._record(op, (x.step if op in _EVEN else self._signed(x),)))
+
+    def replay(self, program: Program, values: Sequence[Value]) -> Value:
+        """The one output of a program, its arguments having these values."""
+        results: list[Value] = []
+        for step in program.instructions:
+            results.append(self._replayed(step, [results[i] for i in step.operands], values))
+        return results[program.outputs[0]]
+
+    def _replayed(self, step: Instruction, operands: list[Value], values: Sequence[Value]) -> Value:
+        match step:
+            case (Op.CONST, _, number):
+                return self.constant(number or 0)
+            case (Op.ARG, _, position):
+                return values[int(position or 0)]
+            case (Op.ADD, _, _):
+                return self.add(*operands)
+            case (Op.SUB, _, _):
+                return self.add(operands[0], -operands[1])
+            case (Op.MUL, _, _):
+                return self.multiply(*operands)
+            case (Op.DIV, _, _):
+                return self.divide(*operands)
+            case (Op.NEG, _, _):
+                return -operands[0]
+        return self.call(step.op, operands[0])
 
     def program(self, arguments: tuple[Symbol, ...], outputs: Iterable[Value]) -> Program:
         """The steps that the outputs need, and no others."""
