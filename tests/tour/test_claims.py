@@ -7,6 +7,7 @@ import pytest
 from polhode.tour import TourReport
 from polhode.tour._claims import Told, judged
 from polhode.tour._verdicts import counted, formula, verdicts
+from polhode.view import Judgement
 
 
 def told(answer="holds", **changed):
@@ -18,6 +19,7 @@ def told(answer="holds", **changed):
         "answer": answer,
         "reason": "",
         "correction": "",
+        "judgement": Judgement("(12) a < b", answer),
     }
     return Told(**{**values, **changed})
 

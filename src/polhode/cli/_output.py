@@ -7,6 +7,7 @@ from pathlib import Path
 
 from polhode.base import StoreError
 from polhode.catalogue import Entry
+from polhode.cli._verdicts import judgements_on
 from polhode.simulate import Trajectory
 from polhode.view import figure_of_run, origin_of, page, save_figure
 
@@ -30,10 +31,11 @@ def write_run(folder: Path, entry: Entry, trajectory: Trajectory) -> list[Path]:
     return [table, picture]
 
 
-def write_page(path: Path, entry: Entry, trajectory: Trajectory) -> Path:
-    """Write a page that plays a run.
+def write_page(path: Path, entry: Entry, trajectory: Trajectory, *, judged: bool) -> Path:
+    """Write a page that plays a run, with the problem set's claims judged if that is wanted.
 
     Raises:
+        DeclarationError: where there are no claims about the system.
         StoreError: where the file cannot be written.
     """
     page(
@@ -43,6 +45,7 @@ def write_page(path: Path, entry: Entry, trajectory: Trajectory) -> Path:
         about=entry.about,
         plots=entry.plots,
         meanings={parameter.name: parameter.meaning for parameter in entry.parameters},
+        judgements=judgements_on(entry) if judged else (),
     )
     return path
 

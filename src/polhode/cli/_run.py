@@ -14,7 +14,7 @@ from typing import Any
 
 from polhode.algebra import Expr
 from polhode.analyse import Ansatz, invariants
-from polhode.base import Exit, NumericError, StoreError, terminal_progress
+from polhode.base import DeclarationError, Exit, NumericError, StoreError, terminal_progress
 from polhode.catalogue import Entry, exactly, numbers_of
 from polhode.cli._contact_options import declared, sheet_of, watched_for
 from polhode.cli._document import print_document
@@ -78,6 +78,9 @@ def configure(parser: Parser) -> None:
     )
     parser.add_argument("--save", metavar="F", type=Path, help="keep the whole motion, F.h5")
     parser.add_argument("--page", metavar="F", type=Path, help="write a page that plays it, F.html")
+    parser.add_argument(
+        "--verdicts", action="store_true", help="on the page, what the problem set claims, judged"
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 
@@ -91,6 +94,7 @@ def run(options: Namespace) -> int:
     seconds = time.perf_counter() - began
     sheet = sheet_of(options, equations)
     _check_precision(options)
+    _check_verdicts(options, entry)
     asked = (settings, assignments(options.start), options.duration)
     numbers = numbers_of(entry, equations, *asked)
     given = exactly(entry, equations, numbers, *asked) if _is_finer(options) else numbers
@@ -140,6 +144,21 @@ def _check_precision(options: Namespace) -> None:
         )
 
 
+def _check_verdicts(options: Namespace, entry: Entry) -> None:
+    """Refuse them before the run where there is no page for them, or nothing to judge."""
+    if not options.verdicts:
+        return
+    if options.page is None:
+        raise DeclarationError(
+            "--verdicts without a page",
+            expected="--page F.html, which shows them",
+            advice="polhode audit prints verdicts in a table",
+        )
+    from polhode.cli._verdicts import claims_about
+
+    claims_about(entry)
+
+
 def _watched(equations: Equations) -> dict[str, Expr]:
     """Energy, momenta and speeds that stay constant."""
     with suppress(NumericError):  # systems too large to be solved for their accelerations
@@ -175,7 +194,8 @@ def _written(options: Namespace, entry: Entry, trajectory: Trajectory) -> list[P
     if options.out:
         files += write_run(options.out, entry, trajectory)
     if options.page:
-        files.append(write_page(options.page, entry, trajectory.rounded()))
+        shown = trajectory.rounded()
+        files.append(write_page(options.page, entry, shown, judged=options.verdicts))
     return files
 
 

@@ -12,6 +12,7 @@ import polhode as ph
 from polhode.catalogue import CATALOGUE, document_of
 from polhode.claims import Judged, audit
 from polhode.derive import Equations
+from polhode.view import Judgement
 
 
 @dataclass(frozen=True)
@@ -26,6 +27,7 @@ class Told:
         answer: holds, approximate, definition, fails or unread.
         reason: in words.
         correction: LaTeX of the least change that makes it hold; empty for none.
+        judgement: the same for a page in three dimensions.
     """
 
     id: str
@@ -35,6 +37,7 @@ class Told:
     answer: str
     reason: str
     correction: str
+    judgement: Judgement
 
     @property
     def problem(self) -> str:
@@ -69,4 +72,5 @@ def _told(judged: Judged) -> Told:
         answer=verdict.answer.value,
         reason=verdict.reason,
         correction=verdict.correction.latex if verdict.correction is not None else "",
+        judgement=Judgement.on(judged),
     )

@@ -12,7 +12,6 @@ from polhode.tour._claims import Told, judging
 from polhode.tour._page import CARD, FIGURES, Problem, front_page, problem_page, problems
 from polhode.tour._report import TourReport, row_of, text_of
 from polhode.tour._sections import stem
-from polhode.tour._verdicts import judgement
 from polhode.tour._work import Drawing, Worked, work_through
 from polhode.view import page_of, still, telling_time
 from polhode.view.figures import for_dark_pages
@@ -83,7 +82,7 @@ def _written(directory: Path, found: Sequence[Problem]) -> Path:
 def _write_motion(directory: Path, worked: Worked, claims: Iterable[Told]) -> None:
     """The page of a system in three dimensions, with the verdicts on what is claimed of it."""
     name = worked.entry.name
-    own = tuple(judgement(claim) for claim in claims if claim.system == name)
+    own = tuple(claim.judgement for claim in claims if claim.system == name)
     text = page_of(replace(worked.scene, judgements=own))
     write_whole(directory / f"{stem(name)}-3d.html", text.encode())
 

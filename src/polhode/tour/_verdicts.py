@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 
 from polhode.tour._claims import Told
 from polhode.tour._html import Markup, joined, tag
-from polhode.view import Judgement, typeset
+from polhode.view import typeset
 
 _KINDS = {"holds": "good", "fails": "bad"}
 _WORDS = {
@@ -31,14 +31,6 @@ def verdicts(claims: Sequence[Told]) -> Markup:
         *map(_claim, claims),
         id="claims",
     )
-
-
-def judgement(claim: Told) -> Judgement:
-    """A claim and its verdict as a page in three dimensions shows them."""
-    stated = typeset(claim.stated) if claim.is_formula else ""
-    reason = "" if claim.answer == "holds" else claim.reason
-    text = f"({claim.id}) {claim.stated}"
-    return Judgement(text, claim.answer, reason, stated, typeset(claim.correction))
 
 
 def counted(claims: Iterable[Told]) -> str:

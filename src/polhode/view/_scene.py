@@ -11,14 +11,17 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, is_dataclass
-from typing import Any
+from dataclasses import dataclass, field, fields, is_dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from polhode.claims import Verdict
+from polhode.claims import Answer, Verdict
 from polhode.view._quantities import Array
 from polhode.view._typeset import typeset
+
+if TYPE_CHECKING:
+    from polhode.claims import Judged
 
 Triple = tuple[float, float, float]
 
@@ -268,6 +271,16 @@ class Judgement:
         """What `polhode.check` said of an equation."""
         put_right = typeset(verdict.correction.latex) if verdict.correction else ""
         return cls(latex, verdict.answer.value, verdict.reason, typeset(latex), put_right)
+
+    @classmethod
+    def on(cls, judged: Judged) -> Judgement:
+        """What `polhode.audit` said of a claim of a document."""
+        claim, verdict = judged.claim, judged.verdict
+        return replace(
+            cls.of(claim.latex, verdict),
+            claim=f"({claim.id}) {claim.printed}",
+            reason="" if verdict.answer is Answer.HOLDS else verdict.reason,
+        )
 
 
 @dataclass(frozen=True)
