@@ -36,8 +36,14 @@ class Reduced:
 def reduced(equations: Equations) -> Reduced:
     """Drop the coordinates that nothing depends on.
 
-    Raises `NumericError` for equations that depend on time explicitly.
+    Raises `NumericError` for equations that depend on time explicitly, or are in named parts.
     """
+    if equations.in_parts:
+        raise NumericError(
+            f"equations of {equations.system.name!r} in named parts",
+            expected="equations in closed form, short enough to be written out",
+            advice="see how a motion at numbers behaves with linearised, or simulate",
+        )
     entries = [e for row in equations.mass.rows for e in row] + list(equations.forcing)
     driven = [s for s in variables(entries) if s.kind in (Kind.FUNCTION, Kind.TIME)]
     if driven:
