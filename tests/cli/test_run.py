@@ -92,3 +92,29 @@ def test_a_sheet_may_begin_before_the_motion_or_end_after_it(document, tmp_path,
     )
     assert [e["time"] for e in found["events"] if e["kind"] == "jerk"] == pytest.approx(jerks)
     assert found["drift"]["energy"] < 1e-13
+
+
+def test_a_ball_that_is_dropped_on_the_paper(document):
+    found = document(
+        *("run", "ball-on-paper", "--duration", "0.2s", "--set", "X=0", "--set", "Y=0"),
+        *("--start", "z=0.12m", "--start", "v_x=0.3m/s"),
+    )
+    assert found["start"] == {"z": 0.12, "v_x": 0.3}
+    start, landing, _ = found["events"]
+    assert (start["to"], landing["kind"]) == ("flight", "touches down")
+    assert landing["time"] == pytest.approx(math.sqrt(2 * 0.1 / 9.81), abs=1e-14)
+    assert found["final"]["z"] == 0.02
+
+
+def test_paper_without_friction_leaves_the_ball_where_it_is(document):
+    """It slips from the start, and nothing but its spin and its velocity tells of before."""
+    found = document(
+        *("run", "ball-on-paper", "--mu", "0", "--duration", "1s", "--set", "X=t^2"),
+        *("--set", "Y=sin(9*t)/9", "--start", "v_x=0.2m/s", "--start", "omega_z=3rad/s"),
+    )
+    final = found["final"]
+    assert final["x"] == pytest.approx(0.2, abs=1e-15)
+    assert final["v_x"] == pytest.approx(0.2, abs=1e-15)
+    assert abs(final["y"]) < 1e-15
+    assert final["omega_z"] == pytest.approx(3.0, abs=1e-14)
+    assert found["drift"]["energy"] < 1e-15

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from graphlib import CycleError, TopologicalSorter
 from types import MappingProxyType
@@ -49,6 +49,7 @@ def numbers_of(
     settings: Mapping[str, str] = _NOTHING,
     start: Mapping[str, str] = _NOTHING,
     duration: str = "",
+    flight: Equations | None = None,
 ) -> Numbers:
     """The numbers of a run.
 
@@ -62,6 +63,7 @@ def numbers_of(
         settings: parameters and prescribed functions in place of the defaults.
         start: coordinates and speeds in place of the defaults.
         duration: in place of the default.
+        flight: equations of the mode in which nothing touches: a start may name heights of theirs.
 
     Raises:
         DeclarationError: for a name the system does not have, and for values that are missing or
@@ -85,7 +87,13 @@ def numbers_of(
     return Numbers(
         parameters={s.published: value for s, value in values.items() if s in wanted},
         forcing=forcing,
-        start=_start(equations, _asked(entry, equations, start), constants, dimensions, values),
+        start=_start(
+            (equations, flight or equations),
+            _asked(entry, equations, start),
+            constants,
+            dimensions,
+            values,
+        ),
         duration=_duration(duration or entry.duration),
     )
 
@@ -206,17 +214,21 @@ def _asked(entry: Entry, equations: Equations, start: Mapping[str, str]) -> dict
 
 
 def _start(
-    equations: Equations,
+    modes: Sequence[Equations],
     texts: Mapping[str, str],
     constants: Mapping[str, Symbol],
     dimensions: Mapping[Symbol, Dimension],
     values: Mapping[Symbol, float],
 ) -> dict[str, float]:
-    states = (*equations.coordinates, *equations.speeds)
-    known = {s.published: s for s in (*states, *equations.kinematics, *equations.dependent)}
+    known = {
+        s.published: (s, e)
+        for e in reversed(modes)
+        for s in (*e.coordinates, *e.speeds, *e.kinematics, *e.dependent)
+    }
     found = {}
     for name, text in texts.items():
-        symbol = look_up(name, known, f"coordinate or speed of {equations.system.name}")
+        system = modes[0].system.name
+        symbol, equations = look_up(name, known, f"coordinate or speed of {system}")
         value = read_value(name, text, constants)
         _refuse_unvalued(name, value, values)
         dimension = _dimension_of_state(symbol, equations, dimensions)
@@ -227,8 +239,9 @@ def _start(
 def _dimension_of_state(
     symbol: Symbol, equations: Equations, dimensions: Mapping[Symbol, Dimension]
 ) -> Dimension | None:
-    if symbol.base() in dimensions:
-        return dimensions[symbol.base()] / TIME**symbol.order
+    stated = {**equations.dimensions, **dimensions}
+    if symbol.base() in stated:
+        return stated[symbol.base()] / TIME**symbol.order
     meaning = equations.dependent.get(symbol)
     return None if meaning is None else dimension_of(meaning, dimensions)
 

@@ -96,7 +96,7 @@ def run(options: Namespace) -> int:
     _check_precision(options)
     _check_verdicts(options, entry)
     asked = (settings, assignments(options.start), options.duration)
-    numbers = numbers_of(entry, equations, *asked)
+    numbers = numbers_of(entry, equations, *asked, flight=modes.apart.equations)
     given = exactly(entry, equations, numbers, *asked) if _is_finer(options) else numbers
     trajectory = _kept(
         simulate(

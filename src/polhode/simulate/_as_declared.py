@@ -8,7 +8,7 @@ import numpy as np
 
 from polhode.base import DeclarationError, Progress
 from polhode.simulate._dynamics import WORK, Dynamics, EquationsOfMotion
-from polhode.simulate._segment import Part, Segment, state_at
+from polhode.simulate._segment import Part, Segment
 from polhode.simulate._start import read_start
 from polhode.simulate._task import AS_DECLARED, Begun, Motion, Task, timed
 from polhode.simulate._values import idle_parameters, read_parameters
@@ -41,25 +41,26 @@ class AsDeclared:
     def follow(self, task: Task, progress: Progress) -> Motion:
         dynamics, drive = self._dynamics, self._drive
         numbers = read_parameters(dynamics, task.given, drive.constants(0.0))
-        at_start = {s: (numbers | drive.constants(0.0))[s] for s in dynamics.parameters}
+        first = {**numbers, **drive.constants(0.0)}
+        at_start = {s: first[s] for s in dynamics.parameters}
         begin = read_start(dynamics, task.start, at_start)
         with timed(task, "compile"):
             flow, stepper = self._flow, self._stepper
         state = {**dict(zip(dynamics.states, begin.state, strict=True)), WORK: 0.0}
+        rest = flow.rest(state, np.array(list(at_start.values())), 0.0)
         parts = []
         with timed(task, "integrate"):
             for span in drive.stretches(task.end):
-                known = numbers | drive.constants(span[0])
+                known = {**numbers, **drive.constants(span[0])}
                 constants = np.array([known[s] for s in dynamics.parameters])
-                start = np.array([state[s] for s in flow.states], dtype=float)
-                solution = integrate(flow, stepper, constants, start, span, progress)
+                solution = integrate(flow, stepper, constants, rest, span, progress)
                 if solution.stop is Stop.STUCK:
                     raise stuck(solution)
                 if solution.stop is Stop.INTERRUPTED:
                     parts.append(Part(span[0], float(solution.steps[-1]), solution, constants))
                     break
                 parts.append(Part(*span, solution, constants))
-                state = state_at(parts[-1], span[1])
+                rest = solution.rest(span[1])
         segment = Segment(AS_DECLARED, 0.0, parts[-1].end, dynamics, tuple(parts))
         return Motion(
             (segment,),

@@ -16,6 +16,7 @@ from polhode.simulate.integrate._ascending import ascending, occurring
 from polhode.simulate.integrate._driver import Solution
 from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
+from polhode.simulate.integrate._rows import rows
 
 _RECENT = 4  # sets of times whose states are remembered
 _FEW = 10_000  # times in one of them, at most
@@ -114,7 +115,8 @@ def values_of(dynamics: Dynamics, part: Part, expressions: Sequence[Expr], times
             values = function(*part.states(times), *part.constants, times)
     except ArithmeticError as error:
         raise _undefined(times) from error
-    return np.array([np.broadcast_to(v, times.shape) for v in values], dtype=numbers.dtype)
+    found: Array = rows(values, len(times), numbers.dtype)
+    return found
 
 
 def _undefined(times: Array) -> NumericError:

@@ -152,5 +152,6 @@ def _check_bodies(dynamics: Dynamics, values: Numbers) -> None:
         entries = tuple(entry for row in body.inertia.rows for entry in row)
         if values.keys() >= set(constants(entries)):
             inertia = _function(entries, tuple(values))(*values.values())
-            moments = np.linalg.eigvalsh(np.reshape(inertia, (3, 3)))
-            check_inertia(body.name, [float(moment) for moment in moments])
+            moments = np.linalg.eigvalsh(np.reshape(inertia, (3, 3))).tolist()
+            if moments[0] < 0 or moments[2] > moments[0] + moments[1]:
+                check_inertia(body.name, moments)

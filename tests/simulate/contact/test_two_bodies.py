@@ -82,3 +82,26 @@ def test_a_shock_that_another_contact_feels_is_refused_by_name() -> None:
     start = {"theta": -0.3, "z_1": 0.2, "z_2": 0.2 + 0.5 * np.sin(0.3)}
     with pytest.raises(ph.NumericError, match=r"second lands .* while first, which feels it"):
         ph.simulate(system, numbers, start, 1.0)
+
+
+def test_two_balls_on_one_sheet_begin_to_slip_at_once() -> None:
+    lab = ph.Frame("lab")
+    sheet = ph.Sheet(lab, motion=ph.functions("X Y"))
+    touches = []
+    for tag in ("1", "2"):
+        ball = ph.sphere(tag, mass=M, radius=A, inertia=K * M * A**2, axes=lab, tag=tag)
+        touches.append(ph.Coulomb(ball, on=sheet, mu=MU))
+    forcing = {"X": ph.sin(6 * ph.time) / 4, "Y": ph.time**3}
+    numbers = NUMBERS | {"mu": 0.2}
+    one, two = (
+        ph.simulate(ph.System(*balls, ph.Gravity(G)), numbers, {}, 1.2, forcing=forcing, samples=2)
+        for balls in (touches[:1], touches)
+    )
+    alone = [(e.kind, float(e.time)) for e in one.events]
+    assert [kind for kind, _ in alone[1:-1]] == ["slips", "sticks", "slips"]
+    for kind, time in alone[1:-1]:
+        assert any(e.kind == kind and abs(e.time - time) < 1e-14 for e in two.events)
+    for name in ("x", "y", "v_x", "v_y", "omega_x", "omega_y"):
+        for tag in ("_1", "_2"):
+            assert abs(two.final[name + tag] - one.final[name + "_1"]) < 1e-13
+    assert two.drift.energy < 1e-13

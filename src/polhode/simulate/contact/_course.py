@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,12 +12,14 @@ from polhode.base import NumericError, Progress
 from polhode.derive import Guard
 from polhode.simulate._dynamics import WORK
 from polhode.simulate._segment import Part, Segment, state_at
-from polhode.simulate.contact._lookout import Lookout, meetings_of
+from polhode.simulate.contact._lookout import Lookout
 from polhode.simulate.contact._machine import Machine, ModeMachine, gap_symbol, slip_symbols
 from polhode.simulate.contact._onset import onset
+from polhode.simulate.contact._place import Place
 from polhode.simulate.contact._rise import fall_of
 from polhode.simulate.contact._settle import Entry
-from polhode.simulate.contact._transition import Leaving, Transitions
+from polhode.simulate.contact._touching import Meeting
+from polhode.simulate.contact._transition import Leaving, Transitions, beyond
 from polhode.simulate.forcing._drive import Drive
 from polhode.simulate.integrate._driver import Stop, Watched, integrate
 from polhode.simulate.integrate._integrators import Array
@@ -143,6 +145,7 @@ class Walk:
         lookout = Lookout(machine, self._near_flat, mode, entry)
         state = self._start(mode, entry)
         guard: Guard | None = None
+        scale = 0.0
         while guard is None and now < end:
             machine.move_on(now)
             limit = drive.until(now, end)
@@ -152,7 +155,11 @@ class Walk:
             if entry.onset and not parts:
                 part = onset(mode, entry, state, span, machine.automaton.contacts)
             else:
-                part = self._stretch(mode, entry, state, span)
+                rest = parts[-1].solution.rest(now) if parts else mode.rest(state, now)
+                if entry.slips:
+                    scale = max(scale, self._scale_at(_place(mode, state, now), entry))
+                watched = self._watched(mode, entry, scale or 1.0)
+                part = self._stretch(mode, rest, span, watched)
             part, guard = lookout.cut(part)
             parts.append(part)
             now, state = part.end, state_at(part, part.end)
@@ -160,8 +167,7 @@ class Walk:
                 guard = None
             if part.solution.stop is Stop.INTERRUPTED or now in drive.jerks:
                 break
-        own = {s: state[s] for s in mode.dynamics.states if s not in mode.dynamics.carried}
-        place = mode.lifted(now, own, state.get(WORK, entry.place.work))
+        place = _place(mode, state, now, entry.place.work)
         gaps = {
             i: state[gap_symbol(touch.contact)]
             for i, touch in enumerate(mode.mode.touches)
@@ -179,7 +185,7 @@ class Walk:
             return np.inf
         state = np.concatenate([entry.coordinates, entry.speeds])
         falls = mode.closing_rates(state, entry.place.time)
-        rises = [meeting.velocity[2] for meeting in meetings_of(self._machine, entry)]
+        rises = [meeting.velocity[2] for meeting in self._meetings(entry)]
         hops = [fall_of(gap, rises[i], falls[i]) for i, gap in entry.gaps.items() if falls[i] < 0]
         return 1.5 * min((hop for hop in hops if hop > 0), default=np.inf)
 
@@ -187,10 +193,11 @@ class Walk:
         equations = mode.mode.equations
         values = (*entry.coordinates, *entry.speeds)
         state = dict(zip((*equations.coordinates, *equations.speeds), values, strict=True))
-        meetings = meetings_of(self._machine, entry)
         for i, touch in enumerate(mode.mode.touches):
             if gap_symbol(touch.contact) in mode.dynamics.carried:
-                state[gap_symbol(touch.contact)] = entry.gaps.get(i, meetings[i].gap)
+                known = entry.gaps.get(i)
+                gap = self._meetings(entry)[i].gap if known is None else known
+                state[gap_symbol(touch.contact)] = gap
             for k, symbol in enumerate(slip_symbols(touch.contact)):
                 if symbol in mode.dynamics.carried:
                     state[symbol] = float(entry.slips[i][k])
@@ -199,18 +206,16 @@ class Walk:
     def _stretch(
         self,
         mode: ModeMachine,
-        entry: Entry,
-        state: dict[Symbol, float],
+        start: Array,
         span: tuple[float, float],
+        watched: Watched,
     ) -> Part:
         flow = mode.flow
-        start = np.array([state[s] for s in flow.states])
         constants = mode.parameters
-        watched = self._watched(mode, entry)
         solution = integrate(flow, mode.stepper, constants, start, span, self._progress, watched)
         return Part(span[0], float(solution.steps[-1]), solution, constants)
 
-    def _watched(self, mode: ModeMachine, entry: Entry) -> Watched:
+    def _watched(self, mode: ModeMachine, entry: Entry, scale: float) -> Watched:
         if not mode.mode.guards:
             return Watched()
         core = mode.flow.core.symbols
@@ -218,11 +223,10 @@ class Walk:
         places = tuple(
             tuple(core.index(s) for s in pair) for pair in vectors if set(pair) <= set(core)
         )
-        scale = self._speed_scale(entry)
         over = self._is_flat(mode)
         return Watched(_LOOK, places, _VANISHED * scale, _LANDED * scale, over)
 
-    def _is_flat(self, mode: ModeMachine) -> Callable[[float, Array], bool]:
+    def _is_flat(self, mode: ModeMachine) -> Callable[[float, list[float]], bool]:
         """Whether a state of the core is beyond the side on which the equations hold.
 
         What follows there may take any number of steps, and does not count.
@@ -230,11 +234,27 @@ class Walk:
         if not any(guard.kind == "near-flat" for guard in mode.mode.guards):
             return lambda time, state: False
         values, constants, least = mode.sides, mode.parameters.tolist(), self._near_flat
-        return lambda time, state: min(values(*state.tolist(), *constants, time)) < least
+        return lambda time, state: min(values(*state, *constants, time)) < least
 
     def _speed_scale(self, entry: Entry) -> float:
-        meetings = meetings_of(self._machine, entry)
-        return max((meeting.scale for meeting in meetings), default=0.0) or 1.0
+        return self._scale_at(entry.place, entry) or 1.0
+
+    def _scale_at(self, place: Place, entry: Entry) -> float:
+        """Size of the velocities that slips are the difference of, m/s."""
+        meetings = self._machine.touching.at(place, beyond(entry.phases))
+        return max((meeting.scale for meeting in meetings), default=0.0)
+
+    def _meetings(self, entry: Entry) -> list[Meeting]:
+        """What meets where a mode is entered."""
+        return self._machine.touching.at(entry.place, beyond(entry.phases))
+
+
+def _place(
+    mode: ModeMachine, state: Mapping[Symbol, float], time: float, work: float = 0.0
+) -> Place:
+    """A state of a mode as all modes have it; the work as it was before where none is done."""
+    own = {s: state[s] for s in mode.dynamics.states if s not in mode.dynamics.carried}
+    return mode.lifted(time, own, state.get(WORK, work))
 
 
 @dataclass(frozen=True)

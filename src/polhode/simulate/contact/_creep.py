@@ -13,6 +13,7 @@ from functools import cache as once
 
 import numpy as np
 from numpy.polynomial import legendre
+from numpy.typing import NDArray
 from threadpoolctl import ThreadpoolController
 
 from polhode.base import NumericError
@@ -59,13 +60,13 @@ class Creep:
         times: ends of the steps, s.
         series: Legendre coefficients of the states, shape (steps, orders, states).
         end: how far it goes; within the last step if the slip vanishes there, s.
-        ends: whether the slip vanishes at the end.
+        vanished: which slip vanishes at the end, if one does.
     """
 
     times: Array
     series: Array
     end: float
-    ends: bool
+    vanished: int | None
 
     def at(self, times: Array) -> Array:
         """States, shape (states, times)."""
@@ -82,7 +83,8 @@ def _values(place: Array, series: Array) -> Array:
     )
 
 
-#: Rates of all states, the last of them ρ ψ̇: states (n, m) and times (m,) to (n, m).
+Indices = NDArray[np.intp]
+#: Rates of all states, of angles ρ ψ̇: states (n, m) and times (m,) to (n, m).
 Rates = Callable[[Array, Array], Array]
 
 
@@ -93,19 +95,22 @@ def creep(
     end: float,
     pull: float,
     enough: Callable[[float, Array], bool],
+    slips: int = 1,
 ) -> Creep:
     """Integrate from the instant at which slip begins.
 
     Args:
-        start: states, the last but one ρ = 0 and the last ψ.
+        start: states, the last of them ρ = 0 and ψ of every slip.
         pull: size of what ρ̇ is the difference of, m/s².
         enough: whether an explicit method can go on, given the time since the beginning.
+        slips: how many begin.
 
     Raises:
         NumericError: where the slip has no beginning that could be found.
     """
     with _pools().limit(limits=1):  # on matrices this small, threads only wait for one another
-        return _followed(rates, start, begin, end, pull, enough)
+        angles = np.arange(len(start) - 2 * slips + 1, len(start), 2)
+        return _followed(rates, start, begin, end, pull, enough, angles)
 
 
 @once
@@ -121,14 +126,16 @@ def _followed(
     end: float,
     pull: float,
     enough: Callable[[float, Array], bool],
+    angles: Indices,
 ) -> Creep:
     now, state = begin, start
     times, series = [begin], list[Array]()
-    length, unresolved, ends = min(end - begin, 1e-3), np.inf, False
+    length, unresolved = min(end - begin, 1e-3), np.inf
+    vanished: int | None = None
     shortest = _SHORTEST * max(end - begin, abs(begin))
-    while now < end and not ends:
+    while now < end and vanished is None:
         length = min(length, end - now)
-        step = _step(rates, now, length, state, pull)
+        step = _step(rates, now, length, state, pull, angles)
         if length < shortest and series:
             break
         if length < shortest:
@@ -141,19 +148,19 @@ def _followed(
             length /= 4
             continue
         unresolved = np.inf
-        last = step.vanishing
-        if last is not None and last < _WELL_INSIDE and length > 4 * shortest:
+        last, which = step.vanishing
+        if which is not None and last < _WELL_INSIDE and length > 4 * shortest:
             length *= max(last, _CLOSER)
             continue
-        ends = last is not None
+        vanished = which
         state = step.end
         times.append(min(now + length, end))
         series.append(step.series)
-        now = now + length * last if last is not None else times[-1]
+        now = now + length * last if which is not None else times[-1]
         if enough(now - begin, state):
             break
         length *= 2
-    return Creep(np.array(times), np.array(series), now, ends)
+    return Creep(np.array(times), np.array(series), now, vanished)
 
 
 @dataclass(frozen=True)
@@ -163,15 +170,22 @@ class _Step:
     series: Array
     end: Array
     tail: float
+    sizes: Indices
 
     def is_resolved(self, before: float) -> bool:
         """Whether the series ends, or ends no sooner than over a step four times as long did."""
         return self.tail <= _RESOLVED or before / 4 <= self.tail <= _ROUNDED
 
     @property
-    def vanishing(self) -> float | None:
-        """The part of the step after which ρ vanishes (not where it begins to grow), if it does."""
-        series = self.series[:, -2]
+    def vanishing(self) -> tuple[float, int | None]:
+        """The part of the step after which the first ρ vanishes, and which, if any does."""
+        found = [(self._vanishes(row), k) for k, row in enumerate(self.sizes.tolist())]
+        parts = [(part, k) for part, k in found if part is not None]
+        return min(parts, default=(np.inf, None))
+
+    def _vanishes(self, row: int) -> float | None:
+        """The part of the step after which a ρ vanishes (not where it begins to grow)."""
+        series = self.series[:, row]
 
         def size(part: float) -> float:
             return float(legendre.legval(2 * part - 1, series))
@@ -186,16 +200,18 @@ class _Step:
         return bisected(size, before, float(_PARTS[after]))
 
 
-def _step(rates: Rates, begin: float, length: float, start: Array, pull: float) -> _Step | None:
+def _step(
+    rates: Rates, begin: float, length: float, start: Array, pull: float, angles: Indices
+) -> _Step | None:
     """One step; None if it is too long for its equations to be solved."""
     least = np.full(len(start), pull * length)
-    least[-1] = _TURN
+    least[angles] = _TURN
     times = begin + length * _POINTS[1:]
     stages = np.repeat(start[:, None], _STAGES, axis=1)
-    stages[-2] = np.maximum(stages[-2], 0.0)
+    stages[angles - 1] = np.maximum(stages[angles - 1], 0.0)
     last = np.inf
     for _ in range(_NEWTON):
-        residual, slope = _system(rates, times, length, start, stages)
+        residual, slope = _system(rates, times, length, start, stages, angles)
         try:
             change = np.linalg.solve(slope, -residual.ravel()).reshape(stages.shape)
         except np.linalg.LinAlgError:
@@ -215,26 +231,27 @@ def _step(rates: Rates, begin: float, length: float, start: Array, pull: float) 
     tails = np.max(np.abs(coefficients[-2:]), axis=0)
     sizes = np.maximum(least, np.max(np.abs(coefficients), axis=0))
     end = np.asarray(stages[:, -1], dtype=float)
-    return _Step(np.asarray(coefficients, dtype=float), end, float(np.max(tails / sizes)))
+    tail = float(np.max(tails / sizes))
+    return _Step(np.asarray(coefficients, dtype=float), end, tail, angles - 1)
 
 
 def _system(
-    rates: Rates, times: Array, length: float, start: Array, stages: Array
+    rates: Rates, times: Array, length: float, start: Array, stages: Array, angles: Indices
 ) -> tuple[Array, Array]:
     """Residual of the collocation, and its derivative by all stages (by complex steps)."""
     states, count = stages.shape
     whole = np.hstack([start[:, None], stages])
     slopes = whole @ _SLOPES[1:].T / length
     leading = np.ones_like(stages)
-    leading[-1] = stages[-2]
-    residual = leading * slopes - rates(stages, times)
+    leading[angles] = stages[angles - 1]
     tiny = 1e-30
     moved = np.repeat(stages[:, None, :].astype(complex), states, axis=1)
     each = np.arange(states)
     moved[each, each] += 1j * tiny
     found = rates(moved.reshape(states, -1), np.tile(times, states))
+    residual = leading * slopes - np.real(found).reshape(moved.shape)[:, 0]
     inner = -np.imag(found).reshape(moved.shape) / tiny
-    inner[-1, -2] += slopes[-1]
+    inner[angles, angles - 1] += slopes[angles]
     full = np.zeros((states, count, states, count))
     spread = _SLOPES[1:, 1:] / length
     for k in range(states):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -20,13 +21,9 @@ from polhode.simulate.contact._transition import beyond, index_of
 from polhode.simulate.integrate._crossing import first_fall
 from polhode.simulate.integrate._driver import Stop, stuck
 from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._rows import rows
 
 _JAMMED = 1e-6  # of what sliding has in reserve before it jams: as good as none
-
-
-def meetings_of(machine: Machine, entry: Entry) -> list[Meeting]:
-    """What meets where a mode is entered."""
-    return machine.touching.at(entry.place, beyond(entry.phases))
 
 
 @dataclass(frozen=True)
@@ -44,6 +41,11 @@ class Lookout:
     near_flat: float
     mode: ModeMachine
     entry: Entry
+
+    @cached_property
+    def meetings(self) -> list[Meeting]:
+        """What meets where the mode is entered."""
+        return self.machine.touching.at(self.entry.place, beyond(self.entry.phases))
 
     def cut(self, part: Part) -> tuple[Part, Guard | None]:
         """The part up to the first guard that falls, and that guard."""
@@ -82,19 +84,19 @@ class Lookout:
         function = mode.dynamics.function(wanted, arguments, part.solution.turned)
         leaving = self._leaving(watched)
 
-        def values(times: Array) -> Array:
+        def looked(times: Array) -> Array:
             with np.errstate(all="ignore"):
                 found = function(*part.solution.at(times), *part.constants, times)
-            rows = np.array([np.broadcast_to(v, times.shape) for v in found], dtype=float)
+            values: Array = rows(found, len(times))
             for k, rise in leaving.items():
-                rows[k] = rise.mean(rows[k], times)
-            own = rows[: len(expressions)]
+                values[k] = rise.mean(values[k], times)
+            own = values[: len(expressions)]
             if not mode.can_jam:
                 return own
-            matrices = rows[len(expressions) :].T.reshape(-1, size, size)
+            matrices = values[len(expressions) :].T.reshape(-1, size, size)
             return np.vstack([own, np.linalg.det(matrices)])
 
-        return values
+        return looked
 
     def _leaving(self, watched: list[Guard]) -> dict[int, Rise]:
         """The guards of contacts that have just opened, and how these rise."""
@@ -102,7 +104,7 @@ class Lookout:
         for k, guard in enumerate(watched):
             i = index_of(guard, self.machine)
             if guard.kind == "touches down" and entry.gaps.get(i) == 0.0:
-                meeting = meetings_of(self.machine, entry)[i]
+                meeting = self.meetings[i]
                 found[k] = Rise(entry.place.time, float(meeting.velocity[2]), meeting.scale)
         return found
 

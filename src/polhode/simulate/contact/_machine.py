@@ -43,7 +43,7 @@ class Machine:
     ) -> None:
         self.automaton = automaton
         self.drive = drive
-        self.constants = dict(constants) | drive.constants(0.0)
+        self.take(constants)
         self.integrator = integrator
         self.tolerance = tolerance
         self._modes: dict[tuple[Phase, ...], ModeMachine] = {}
@@ -51,11 +51,15 @@ class Machine:
 
     def take(self, constants: Constants) -> None:
         """Take other values of the same parameters, for another motion from the beginning."""
-        self.constants = dict(constants) | self.drive.constants(0.0)
+        self._held = self.drive.constants(0.0)
+        self.constants: Constants = dict(constants) | dict(self._held)
 
     def move_on(self, now: float) -> None:
         """Take the coefficients of the prescribed motions that hold from an instant on."""
-        self.constants |= self.drive.constants(now)
+        held = self.drive.constants(now)
+        if held is not self._held:
+            self._held = held
+            self.constants = {**self.constants, **held}
 
     def mode(self, phases: tuple[Phase, ...]) -> ModeMachine:
         """The machinery of a mode, made when it is first needed."""
@@ -88,6 +92,7 @@ class ModeMachine:
     def __init__(self, machine: Machine, mode: Mode) -> None:
         self.mode = mode
         self._machine = machine
+        self._last: tuple[Constants, Array, list[float]] = ({}, np.empty(0), [])
         carried, meanings = _carried(mode)
         idle = tuple(machine.constants)
         known = {**mode.lifted, **_silent(machine.automaton, mode), **_slips(mode, carried)}
@@ -98,7 +103,16 @@ class ModeMachine:
     @property
     def parameters(self) -> Array:
         """The constants, in the order of the programs; those of prescribed motions change."""
-        return np.array([self._machine.constants[s] for s in self.dynamics.parameters])
+        return self._taken[1]
+
+    @property
+    def _taken(self) -> tuple[Constants, Array, list[float]]:
+        """What the constants were read from; the constants as an array, and as a list."""
+        if self._last[0] is not self._machine.constants:
+            known = self._machine.constants
+            values = [float(known[s]) for s in self.dynamics.parameters]
+            self._last = (known, np.array(values), values)
+        return self._last
 
     @cached_property
     def flow(self) -> Flow:
@@ -109,6 +123,10 @@ class ModeMachine:
     def stepper(self) -> Stepper:
         """The compiled flow."""
         return self._machine.integrator.prepare(self.flow, self._machine.tolerance)
+
+    def rest(self, state: Mapping[Symbol, float], time: float) -> Array:
+        """A state as the flow takes it: less what is known of it as functions of time."""
+        return self.flow.rest(state, self.parameters, time)
 
     @cached_property
     def sides(self) -> Compiled:
@@ -124,7 +142,7 @@ class ModeMachine:
         compiled = self.dynamics.program(expressions, known).function()
 
         def values(state: Array, time: float, more: Sequence[float] = ()) -> Array:
-            constants = self.parameters.tolist()
+            constants = self._taken[2]
             try:
                 found = compiled(*state[: len(states)].tolist(), *more, *constants, time)
             except (ArithmeticError, ValueError) as error:
@@ -202,6 +220,10 @@ class ModeMachine:
     def sliding(self) -> tuple[Sliding, ...]:
         """The contacts that slide with friction."""
         return tuple(e for e in self.mode.equations.system.elements if isinstance(e, Sliding))
+
+    def sliding_at(self, contact: Contact) -> Sliding:
+        """A contact as it slides with friction."""
+        return next(e for e in self.sliding if e.name == contact.name)
 
     @cached_property
     def _contact_forces(self) -> Function:

@@ -1,4 +1,4 @@
-"""The first stretch of a slip, from the instant at which its speed is still zero."""
+"""The first stretch of slips, from the instant at which their speeds are still zero."""
 
 from __future__ import annotations
 
@@ -12,9 +12,10 @@ from polhode.simulate._dynamics import CLOCK, WORK
 from polhode.simulate._segment import Part
 from polhode.simulate.contact._creep import creep
 from polhode.simulate.contact._machine import ModeMachine, slip_symbols
-from polhode.simulate.contact._settle import Entry
+from polhode.simulate.contact._settle import Entry, rates_along
 from polhode.simulate.integrate._driver import Solution, Stop
 from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._rows import rows
 
 _STIFF = 30.0  # ratio of the times of slipping and of turning the slip that explicit steps bear
 
@@ -26,64 +27,72 @@ def onset(
     span: tuple[float, float],
     contacts: Sequence[Contact],
 ) -> Part:
-    """As far as the slip velocity has to be followed as a size and a direction.
+    """As far as the slip velocities have to be followed as sizes and directions.
 
     Args:
         mode: sliding.
-        entry: with the direction in which the slip begins.
+        entry: with the directions in which slips begin.
         state: at the beginning.
         span: from when, and until when at most, s.
         contacts: of the automaton.
     """
-    ((i, angle),) = entry.onset.items()
-    contact = contacts[i]
-    element = mode.mode.element(contact)
-    polars = slip_symbols(contact)
+    starting = sorted(entry.onset)
+    touching = [contacts[i] for i in starting]
+    polars = tuple(symbol for contact in touching for symbol in slip_symbols(contact))
     own = tuple(s for s in mode.dynamics.states if s not in polars and s != WORK)
     symbols = (*own, WORK)
-    slips = mode.slip_changes[2 * i : 2 * i + 2]
+    slips = [slip for i in starting for slip in mode.slip_changes[2 * i : 2 * i + 2]]
     rates = dict(zip(mode.dynamics.states, mode.dynamics.rates, strict=True))
     wanted = [*(rates[s] for s in own), mode.mode.equations.power, *slips]
-    turning = (*element.direction, element.slip_speed)  # type: ignore[attr-defined]
-    arguments = (*symbols, *turning, *mode.dynamics.parameters, CLOCK)
-    function = mode.dynamics.function(wanted, arguments)
+    turning = [mode.sliding_at(contact) for contact in touching]
+    given = tuple(s for e in turning for s in (*e.direction, e.slip_speed))
+    function = mode.dynamics.function(wanted, (*symbols, *given, *mode.dynamics.parameters, CLOCK))
     constants = mode.parameters
+    first = len(symbols)
 
     def polar(states: Array, times: Array) -> Array:
-        size, psi = states[-2], states[-1]
-        c, s = np.cos(psi), np.sin(psi)
-        found = function(*states[:-2], c, s, size, *constants, times)
-        values = np.array([np.broadcast_to(v, states[0].shape) for v in found])
-        along, across = values[-2], values[-1]
-        return np.vstack([values[:-2], [along * c + across * s], [across * c - along * s]]).reshape(
-            states.shape
-        )
+        sizes, psis = states[first::2], states[first + 1 :: 2]
+        c, s = np.cos(psis), np.sin(psis)
+        directions = np.stack([c, s, sizes], axis=1).reshape(-1, len(times))
+        found = function(*states[:first], *directions, *constants, times)
+        values: Array = rows(found, len(times), states.dtype)
+        along, across = values[first::2].copy(), values[first + 1 :: 2].copy()
+        values[first::2] = along * c + across * s
+        values[first + 1 :: 2] = across * c - along * s
+        return values
 
-    start = np.array([*(state[s] for s in symbols), 0.0, angle])
-
-    grip, pull = _pulls(mode, start[: len(own)], entry.place.time, i)
+    angles = [entry.onset[i] for i in starting]
+    start = np.array([*(state[s] for s in symbols), *(x for psi in angles for x in (0.0, psi))])
+    pulls = [_pulls(mode, entry, i) for i in starting]
+    grips = np.array([grip for grip, _ in pulls])
 
     def enough(elapsed: float, reached: Array) -> bool:
-        return grip * elapsed < _STIFF * float(reached[-2])
+        return bool(np.all(grips * elapsed < _STIFF * reached[first::2]))
 
-    found = creep(polar, start, *span, pull, enough)
+    pull = max(pull for _, pull in pulls)
+    found = creep(polar, start, *span, pull, enough, len(starting))
+    all_symbols = (*symbols, *polars)
 
     def at(times: Array) -> Array:
         values = found.at(times)
-        size, psi = values[-2], values[-1]
-        return np.vstack([values[:-2], size * np.cos(psi), size * np.sin(psi)])
+        sizes, psis = values[first::2].copy(), values[first + 1 :: 2].copy()
+        values[first::2], values[first + 1 :: 2] = sizes * np.cos(psis), sizes * np.sin(psis)
+        return values
 
-    stop, vanished = (
-        (Stop.VANISHED, sorted(entry.slips).index(i)) if found.ends else (Stop.PAUSE, None)
-    )
+    def rest_at(time: float) -> Array:
+        values = dict(zip(all_symbols, at(np.array([time]))[:, 0].tolist(), strict=True))
+        return mode.flow.rest(values, constants, time)
+
+    stop, vanished = Stop.PAUSE, None
+    if found.vanished is not None:
+        stop, vanished = Stop.VANISHED, sorted(entry.slips).index(starting[found.vanished])
     times = np.append(found.times[:-1], found.end)
-    solution = Solution((*symbols, *slip_symbols(contact)), {}, times, stop, vanished, at)
+    solution = Solution(all_symbols, {}, times, stop, vanished, at, _rest_at=rest_at)
     return Part(entry.place.time, found.end, solution, constants)
 
 
-def _pulls(mode: ModeMachine, state: Array, time: float, i: int) -> tuple[float, float]:
-    """How strongly friction pulls at the slip velocity, and that or what else does so, m/s²."""
-    along = mode.slip_rates(state, time, [1.0, 0.0, 0.0])[i]
-    against = mode.slip_rates(state, time, [-1.0, 0.0, 0.0])[i]
+def _pulls(mode: ModeMachine, entry: Entry, i: int) -> tuple[float, float]:
+    """How strongly friction pulls at a slip velocity, and that or what else does so, m/s²."""
+    along, against = rates_along(mode, entry, i, i, np.array([0.0, np.pi])).T
     grip, rest = (float(np.hypot(*change)) / 2 for change in (along - against, along + against))
     return grip, max(grip, rest)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import product
+from itertools import permutations, product
 from typing import Any
 
 import numpy as np
@@ -133,16 +133,31 @@ def _entry(
     starting = [i for i in sliding if _is_still(i, meetings[i], known)]
     slips = {i: meetings[i].velocity[:2] for i in sliding if i not in starting}
     entry = Entry(phases, after, coordinates, speeds, {}, slips)
-    if len(starting) > 1:
-        names = ", ".join(machine.automaton.contacts[i].name for i in starting)
-        raise NumericError(
-            f"slipping begins at several contacts at once at t = {place.time:.9g} s: {names}",
-            expected="one contact at a time: otherwise the directions of slip are not determined",
-        )
     for i in starting:
         slips[i] = np.zeros(2)
+        entry.onset[i] = 0.0
+    _refuse_shared(machine, entry)
+    for i in starting:
         entry.onset[i] = onset_angle(machine, entry, i)
     return entry
+
+
+def _refuse_shared(machine: Machine, entry: Entry) -> None:
+    """Refuse slips that begin at once where each has its say in the direction of the other.
+
+    Raises:
+        NumericError: with the contacts.
+    """
+    mode, angles = machine.mode(entry.phases), np.linspace(0.0, 2 * np.pi, 8)
+    for i, j in permutations(entry.onset, 2):
+        rates = rates_along(mode, entry, j, i, angles)
+        if np.max(np.ptp(rates, axis=1)) > STILL * np.max(np.abs(rates)):
+            names = ", ".join(machine.automaton.contacts[k].name for k in entry.onset)
+            raise NumericError(
+                f"slipping begins at several contacts at once at t = {entry.place.time:.9g} s: "
+                f"{names}",
+                expected="contacts that do not feel each other: else no direction is determined",
+            )
 
 
 def _after(
@@ -249,7 +264,7 @@ def onset_angle(machine: Machine, entry: Entry, i: int) -> float:
     from scipy.optimize import brentq  # slow to import, and needed only where slip begins
 
     grid = np.linspace(-np.pi, np.pi, _ANGLES + 1) + 0.0123
-    rates = _rates_along(mode, entry, i, grid)
+    rates = rates_along(mode, entry, i, i, grid)
     values = rates[1] * np.cos(grid) - rates[0] * np.sin(grid)
     found = [
         float(brentq(across, a, b, xtol=1e-15, rtol=1e-15))
@@ -269,10 +284,15 @@ def onset_angle(machine: Machine, entry: Entry, i: int) -> float:
     )
 
 
-def _rates_along(mode: ModeMachine, entry: Entry, i: int, angles: Array) -> Array:
-    """Rates of the slip velocity that begins in some directions, m/s², shape (2, angles)."""
+def rates_along(mode: ModeMachine, entry: Entry, i: int, seen: int, angles: Array) -> Array:
+    """Rates of a slip velocity if slip begins in some directions, m/s², shape (2, angles).
+
+    Args:
+        i: the contact at which it begins.
+        seen: the one whose slip is looked at.
+    """
     given: list[Any] = list(directions_of(replace(entry, onset={**entry.onset, i: 0.0})))
     place = 3 * sorted(entry.slips).index(i)
     given[place : place + 3] = [np.cos(angles), np.sin(angles), np.zeros_like(angles)]
     state = np.concatenate([entry.coordinates, entry.speeds])
-    return np.asarray(mode.slip_rates_along(state, entry.place.time, given)[i])
+    return np.asarray(mode.slip_rates_along(state, entry.place.time, given)[seen])

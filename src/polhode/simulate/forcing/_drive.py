@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
+from math import inf
 from typing import Any
 
 from polhode.algebra import ZERO, Expr, Kind, Symbol, time
@@ -28,8 +29,17 @@ class Drive:
     expressions: Mapping[Symbol, Expr]
     pieces: Mapping[Symbol, Pieces]
 
-    def constants(self, now: float) -> dict[Symbol, float]:
-        """Coefficients that hold from an instant on."""
+    def constants(self, now: float) -> Mapping[Symbol, float]:
+        """Coefficients that hold from an instant on: the same object as long as they hold."""
+        return self._held(bisect_right(self._times, now))
+
+    @cached_property
+    def _held(self) -> Callable[[int], Mapping[Symbol, float]]:
+        return lru_cache(maxsize=4)(self._on_stretch)
+
+    def _on_stretch(self, stretch: int) -> Mapping[Symbol, float]:
+        """Coefficients on one of the stretches between changes, 0 being before the first."""
+        now = self._times[stretch - 1] if stretch else -inf
         found: dict[Symbol, float] = {}
         for symbol, pieces in self.pieces.items():
             begin, coefficients = pieces.polynomial(pieces.piece(now))

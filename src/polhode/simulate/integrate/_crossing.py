@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import count, pairwise
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -20,6 +20,7 @@ from polhode.simulate.integrate._quadrature import resolved
 NOISE = 1e-13
 _POLISHED = 6  # secant steps after the series has said where
 _DENSE = 65
+_INSIDE = 0.005  # share of an interval by which guesses keep from its ends
 
 
 @dataclass(frozen=True)
@@ -73,15 +74,26 @@ def roots(function: Callable[[Array], Array], knots: Array) -> list[float]:
 
 
 def bisected(function: Callable[[float], float], before: float, after: float) -> float:
-    """Where a function that is positive before and not after changes its sign, to the last bit."""
-    while True:
-        middle = (before + after) / 2
+    """Where a function that is positive before and not after changes its sign, to the last bit.
+
+    Guesses lie on the straight line between the ends, well inside; every third is in the middle.
+    """
+    first, last = function(before), function(after)
+    for guesses in count(1):
+        width = after - before
+        middle = before + width / 2
         if middle in (before, after):
-            return after
-        if function(middle) > 0:
-            before = middle
+            break
+        share = first / ((first - last) or 1.0)
+        guess = before + width * min(max(share, _INSIDE), 1 - _INSIDE)
+        if guesses % 3 == 0 or not before < guess < after:
+            guess = middle
+        value = function(guess)
+        if value > 0:
+            before, first = guess, value
         else:
-            after = middle
+            after, last = guess, value
+    return after
 
 
 def _fall(

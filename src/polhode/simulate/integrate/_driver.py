@@ -5,21 +5,24 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum
+from math import hypot, inf
+from operator import mul
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.algebra import Program, Symbol, arrays
+from polhode.algebra import Symbol
 from polhode.base import Enough, NumericError, Progress
 from polhode.simulate.integrate._ascending import ascending, occurring
 from polhode.simulate.integrate._crossing import bisected
-from polhode.simulate.integrate._flow import Flow
-from polhode.simulate.integrate._integrators import LOOKS, Array, Leg, Stepper, broken
+from polhode.simulate.integrate._flow import Flow, Stage
+from polhode.simulate.integrate._integrators import Array, Leg, Stepper, broken, looks_along
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
-from polhode.simulate.integrate._quadrature import Integral, integral
+from polhode.simulate.integrate._quadrature import integral
 
-_TURNS = 16  # periods after which an angle is counted from zero again
+_FEW = 10_000  # times for which states are remembered
+_TURNS = 4  # periods after which an angle is counted from zero again
 _MOST_STEPS = 4_000_000
 _SMALLEST = 1e-14  # length of a step, over the time and the longest, that means a singular position
 _GLANCE = 100  # steps after which it can be told that
@@ -54,7 +57,11 @@ class Watched:
     vectors: tuple[tuple[int, ...], ...] = ()
     least: float = 0.0
     passing: float = 0.0
-    over: Callable[[float, Array], bool] = lambda time, state: False
+    over: Callable[[float, list[float]], bool] = lambda time, state: False
+
+    def seen(self, state: list[float]) -> list[list[float]]:
+        """The vectors in a state of the core."""
+        return [[state[place] for place in places] for places in self.vectors]
 
 
 @dataclass(frozen=True)
@@ -78,10 +85,20 @@ class Solution:
     _at: States = field(repr=False)
     numbers: Numbers = DOUBLES
     _rounded_at: States | None = field(default=None, repr=False)
+    _rest_at: Callable[[float], Array] | None = field(default=None, repr=False)
 
     def at(self, times: Array) -> Array:
         """States, shape (states, times)."""
         return self._at(times)
+
+    def rest(self, time: float) -> Array:
+        """All states of the flow at an instant, less what is known of them as functions of time.
+
+        What goes on from these does not gather the rounding of what is known.
+        """
+        if self._rest_at is None:
+            return self._at(np.array([time]))[:, 0]
+        return self._rest_at(time)
 
     def rounded(self) -> Solution:
         """The same in doubles."""
@@ -103,7 +120,7 @@ def integrate(
     """Integrate a flow over a span of time, or as far as it goes.
 
     Args:
-        start: of all states, in the order of the flow.
+        start: of all states, in the order of the flow, less what is known of them.
         watched: what may stop it early.
 
     Raises:
@@ -117,17 +134,23 @@ def integrate(
     if path.stop is Stop.VANISHED:
         end, vanished = _vanishing(path, watched, (float(steps[-2]), float(steps[-1])))
         steps = np.append(steps[:-1], end)
-    if flow.is_driven:
-        steps = ascending([steps, np.linspace(steps[0], steps[-1], LOOKS + 1)])
-    at: States = path.at
+    if looks_along(flow) > 1:
+        looks = np.linspace(steps[0], steps[-1], looks_along(flow) + 1)
+        steps = ascending([steps, looks])
+    at: States = _Remembered(path.at)
+    rests: list[States] = [path.core_at]
     known = size
     for stage in flow.stages:
         own = start[known : known + len(stage.symbols)]
-        at = _with_stage(at, _values(flow, stage.program, parameters), own, steps)
-        if stage.known is not None:
-            at = _with_known(at, _of_time(flow, stage.known, parameters), span[0])
+        rest = _summed(stage, flow, at, own, parameters, steps)
+        at = _Remembered(_with_stage(stage, flow, at, rest, parameters))
+        rests.append(rest)
         known += len(stage.symbols)
-    return Solution(flow.symbols, flow.turned, steps, path.stop, vanished, at)
+
+    def rest_at(time: float) -> Array:
+        return np.concatenate([rest(np.array([time]))[:, 0] for rest in rests])
+
+    return Solution(flow.symbols, flow.turned, steps, path.stop, vanished, at, _rest_at=rest_at)
 
 
 def _vanishing(
@@ -167,12 +190,27 @@ class _Path:
     stop: Stop
 
     def at(self, times: Array) -> Array:
-        which = np.clip(np.searchsorted(self.begins, times, "right") - 1, 0, None)
+        which = self._legs_at(times)
+        states = self._states(which, times)
+        return np.vstack([states + self.turned[which].T, states[self.periodic]])
+
+    def core_at(self, times: Array) -> Array:
+        """The states of the core alone."""
+        which = self._legs_at(times)
+        return self._states(which, times) + self.turned[which].T
+
+    def _legs_at(self, times: Array) -> NDArray[np.intp]:
+        return np.clip(np.searchsorted(self.begins, times, "right") - 1, 0, None)
+
+    def _states(self, which: NDArray[np.intp], times: Array) -> Array:
+        """The states of the core, less the whole turns that each leg began with."""
+        if len(self.legs) == 1:
+            return self.legs[0].at(times)
         states = np.empty((len(self.periodic), len(times)))
         for i in occurring(which):
             here = which == i
             states[:, here] = self.legs[i].at(times[here])
-        return np.vstack([states + self.turned[which].T, states[self.periodic]])
+        return states
 
 
 def _legs(
@@ -217,16 +255,16 @@ class _Watch:
         watched: Watched,
     ) -> None:
         self.stop: Stop | None = None
-        self._limits = limits
+        self._limits = [(i, limit) for i, limit in enumerate(limits.tolist()) if limit < inf]
         self._begin, self._end = span
         self._longest = 0.0
         self._progress = progress
         self._watched = watched
         self._steps = 0
-        self._time = -np.inf
-        self._vectors = [state[list(places)] for places in watched.vectors]
+        self._time = -inf
+        self._vectors = watched.seen(state.tolist())
 
-    def __call__(self, time: float, state: Array) -> bool:
+    def __call__(self, time: float, state: list[float]) -> bool:
         self._steps += 1
         try:
             self._progress.advance()
@@ -237,19 +275,19 @@ class _Watch:
             raise endless(time)
         if self._is_hopeless(time):
             raise _hopeless(self._end, time - self._begin)
-        vanished = [self._vanishes(k, state) for k in range(len(self._vectors))]
-        if any(vanished):
+        before, self._vectors = self._vectors, self._watched.seen(state)
+        if any(map(self._vanishes, before, self._vectors)):
             self.stop = Stop.VANISHED
         elif self._is_stuck(time) and time < self._end:
-            self.stop = Stop.VANISHED if self._is_small(state) else Stop.STUCK
+            self.stop = Stop.VANISHED if self._is_small() else Stop.STUCK
         elif self._steps % self._watched.pause == 0 or self._watched.over(time, state):
             self.stop = Stop.PAUSE
         self._time = time
-        return self.stop is None and bool(np.all(np.abs(state) < self._limits))
+        return self.stop is None and all(abs(state[i]) < limit for i, limit in self._limits)
 
     def _is_stuck(self, time: float) -> bool:
         step = time - self._time
-        if step < np.inf:
+        if step < inf:
             self._longest = max(self._longest, step)
         return step < _SMALLEST * max(abs(time), self._longest)
 
@@ -257,15 +295,12 @@ class _Watch:
         passed = time - self._begin
         return self._steps == _GLANCE and self._end - time > _HOPELESS / _GLANCE * passed
 
-    def _is_small(self, state: Array) -> bool:
-        vectors = (state[list(places)] for places in self._watched.vectors)
-        return any(float(np.hypot(*vector)) <= self._watched.passing for vector in vectors)
+    def _is_small(self) -> bool:
+        return any(hypot(*vector) <= self._watched.passing for vector in self._vectors)
 
-    def _vanishes(self, k: int, state: Array) -> bool:
-        before, now = self._vectors[k], state[list(self._watched.vectors[k])]
-        self._vectors[k] = now
-        turned = float(before @ now) <= 0.0
-        return turned or float(np.hypot(*now)) <= self._watched.least
+    def _vanishes(self, before: list[float], now: list[float]) -> bool:
+        turned = sum(map(mul, before, now)) <= 0.0
+        return turned or hypot(*now) <= self._watched.least
 
 
 def endless(time: float) -> NumericError:
@@ -291,43 +326,40 @@ def stuck(solution: Solution) -> NumericError:
     return broken(float(solution.steps[-1]))
 
 
-def _with_stage(
-    inner: States, rates: Callable[[Array, Array], Array], start: Array, steps: Array
+def _summed(
+    stage: Stage, flow: Flow, inner: States, start: Array, parameters: Array, steps: Array
 ) -> States:
+    """The quadratures of a stage, less what is known of them."""
+
+    def rates(times: Array) -> Array:
+        return flow.values(stage.rates, inner(times), parameters, times)
+
+    found = integral(rates, steps)
+    return lambda times: start[:, None] + found.at(times)
+
+
+class _Remembered:
+    """States at the times at which they were last asked for: often they are asked for again."""
+
+    def __init__(self, at: States) -> None:
+        self._at = at
+        self._times = self._states = np.empty(0)
+
+    def __call__(self, times: Array) -> Array:
+        if len(times) > _FEW:
+            return self._at(times)
+        if not np.array_equal(times, self._times):
+            self._times, self._states = times.copy(), self._at(times)
+            self._states.flags.writeable = False
+        return self._states
+
+
+def _with_stage(stage: Stage, flow: Flow, inner: States, rest: States, parameters: Array) -> States:
     """The states known so far, and below them those of one more stage."""
-    found: Integral = integral(lambda times: rates(inner(times), times), steps)
-
-    def at(times: Array) -> Array:
-        return np.vstack([inner(times), start[:, None] + found.at(times)])
-
-    return at
-
-
-def _with_known(inner: States, known: States, begin: float) -> States:
-    """The same states, the last of them with what they have by themselves since the beginning."""
-    first = known(np.array([begin]))
-
-    def at(times: Array) -> Array:
-        states = inner(times)
-        states[-len(first) :] += known(times) - first
-        return states
-
-    return at
-
-
-def _values(flow: Flow, program: Program, parameters: Array) -> Callable[[Array, Array], Array]:
-    """Of a program of a stage, from the states before it and the times."""
-    function = program.function(arrays())
-
-    def values(states: Array, times: Array) -> Array:
-        later = np.zeros(len(flow.symbols) - len(states))
-        found = function(*states, *later, *parameters, times)
-        return np.array([np.broadcast_to(value, times.shape) for value in found])
-
-    return values
-
-
-def _of_time(flow: Flow, program: Program, parameters: Array) -> States:
-    """Of a program of a stage that reads no states."""
-    values = _values(flow, program, parameters)
-    return lambda times: values(np.empty((0, len(times))), times)
+    known = stage.known_values
+    if known is None:
+        return lambda times: np.vstack([inner(times), rest(times)])
+    nothing = np.empty((0,))
+    return lambda times: np.vstack(
+        [inner(times), rest(times) + flow.values(known, nothing, parameters, times)]
+    )

@@ -12,9 +12,16 @@ from fractions import Fraction
 from functools import cached_property
 from math import lcm, pi
 
-from polhode.algebra import Expr, Kind, Op, Program, Symbol
+import numpy as np
+from numpy.typing import NDArray
+
+from polhode.algebra import Compiled, Expr, Kind, Op, Program, Symbol, arrays
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
+from polhode.simulate.integrate._foresight import degree_in
 from polhode.simulate.integrate._primitives import primitive
+from polhode.simulate.integrate._rows import rows
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -33,6 +40,16 @@ class Stage:
     symbols: tuple[Symbol, ...]
     program: Program
     known: Program | None = None
+
+    @cached_property
+    def rates(self) -> Compiled:
+        """The program, on arrays."""
+        return self.program.function(arrays())
+
+    @cached_property
+    def known_values(self) -> Compiled | None:
+        """What is known, on arrays."""
+        return self.known.function(arrays()) if self.known is not None else None
 
 
 @dataclass(frozen=True)
@@ -55,9 +72,29 @@ class Flow:
     parameters: tuple[Symbol, ...]
 
     @cached_property
-    def is_driven(self) -> bool:
-        """Whether the time itself occurs: what it brings cannot be seen coming."""
-        return any(_reads_clock(stage.program) for stage in (self.core, *self.stages))
+    def degree(self) -> float:
+        """Of the polynomial in which the time itself occurs; infinite where it is none."""
+        return max(degree_in(stage.program, CLOCK) for stage in (self.core, *self.stages))
+
+    def values(self, function: Compiled, states: Array, parameters: Array, times: Array) -> Array:
+        """Of a function of a stage, from the rows of the states before it, which it may not read.
+
+        Shape (functions, times).
+        """
+        later = [0.0] * (len(self.symbols) - len(states))
+        found: Array = rows(function(*states, *later, *parameters, times), len(times))
+        return found
+
+    def rest(self, states: Mapping[Symbol, float], parameters: Array, time: float) -> Array:
+        """The states, in their order, less what is known of them as functions of time."""
+        rests = [np.array([states[symbol] for symbol in self.core.symbols])]
+        for stage in self.stages:
+            own = np.array([states[symbol] for symbol in stage.symbols])
+            if stage.known_values is not None:
+                nothing, now = np.empty(0), np.array([time])
+                own = own - self.values(stage.known_values, nothing, parameters, now)[:, 0]
+            rests.append(own)
+        return np.concatenate(rests)
 
     @property
     def states(self) -> tuple[Symbol, ...]:
@@ -95,11 +132,6 @@ def flow_of(dynamics: Dynamics, *, reduced: bool) -> Flow:
         known = dynamics.program([part.known for part in parts], arguments, turned)
         stages.append(Stage(layer, rests, known if any(p.known for p in parts) else None))
     return Flow(Stage(core, program), periods, turned, tuple(stages), dynamics.parameters)
-
-
-def _reads_clock(program: Program) -> bool:
-    clock = program.arguments.index(CLOCK)
-    return any((step.op, step.value) == (Op.ARG, clock) for step in program.instructions)
 
 
 def _less_turns(angle: Symbol) -> Symbol:

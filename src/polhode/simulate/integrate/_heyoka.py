@@ -21,7 +21,8 @@ import numpy as np
 from polhode.algebra import Arithmetic, Kind, Program
 from polhode.base import StoreError, cache
 from polhode.simulate.integrate._flow import Flow
-from polhode.simulate.integrate._integrators import LOOKS, Array, Leg, Stepper, Watch, broken
+from polhode.simulate.integrate._integrators import Array, Leg, Stepper, Watch, broken, looks_along
+from polhode.simulate.integrate._taylor import Steps
 
 _LONG = 3000  # operations
 
@@ -45,7 +46,7 @@ class Taylor:
         with _compiling:
             blank = _compiled(flow.core.program, len(flow.core.symbols), float(least))
             integrator = copy(blank)
-        return _TaylorStepper(integrator, LOOKS if flow.is_driven else 1)
+        return _TaylorStepper(integrator, looks_along(flow))
 
 
 @lru_cache(maxsize=64)
@@ -93,29 +94,21 @@ class _TaylorStepper:
         taylor.time = begin
         taylor.state[:] = state
         taylor.pars[:] = parameters[: len(taylor.pars)]
-        longest = (end - begin) / self.least_steps  # infinite where all series end
-        outcome, *_, output, _ = taylor.propagate_until(
+        steps = Steps(begin)
+
+        def looked(taylor: Any) -> bool:
+            steps.add(taylor.dtime, taylor.last_h, taylor.tc)
+            return watch(taylor.time, taylor.state.tolist())
+
+        outcome, *_ = taylor.propagate_until(
             end,
-            max_delta_t=longest,
-            c_output=True,
-            callback=lambda t: watch(t.time, t.state),
+            max_delta_t=(end - begin) / self.least_steps,  # infinite where all series end
+            write_tc=True,
+            callback=looked,
         )
-        if output is None:
+        if not steps.count:
             raise broken(taylor.time)
-        return _TaylorLeg(output, outcome.name not in ("time_limit", "cb_stop"))
-
-
-@dataclass(frozen=True)
-class _TaylorLeg:
-    output: Any
-    broken: bool
-
-    @property
-    def times(self) -> Array:
-        return np.asarray(self.output.times)
-
-    def at(self, times: Array) -> Array:
-        return np.array(self.output(times)).T
+        return steps.leg(broken=outcome.name not in ("time_limit", "cb_stop"))
 
 
 @once

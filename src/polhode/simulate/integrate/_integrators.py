@@ -18,14 +18,20 @@ CHOICE = "POLHODE_INTEGRATOR"
 """Environment variable that names the integrator to use."""
 
 
-#: Steps at least over a stretch in which the time itself occurs, so that no pulse is stepped over.
+#: Steps at least over a stretch that a pulse may drive, so that it is not stepped over.
 LOOKS = 64
+_FORESEEN = 12  # degree of a polynomial of time that a step sees whole
+
+
+def looks_along(flow: Flow) -> int:
+    """Steps at least over a stretch of a motion that is driven by the time itself."""
+    return int(min(LOOKS, 1 + flow.degree / _FORESEEN))
 
 
 class Watch(Protocol):
     """Looks on after every step."""
 
-    def __call__(self, time: float, state: Array) -> bool:
+    def __call__(self, time: float, state: list[float]) -> bool:
         """Whether to go on."""
         ...
 

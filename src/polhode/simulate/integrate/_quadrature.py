@@ -9,6 +9,8 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
+from polhode.simulate.integrate._polynomials import evaluated
+
 Array = NDArray[np.float64]
 
 _NODES, _WEIGHTS = legendre.leggauss(16)
@@ -17,6 +19,10 @@ _ORDERS = np.arange(len(_NODES))
 _ANALYSIS = (
     (2 * _ORDERS[:, None] + 1) / 2 * legendre.legvander(_NODES, len(_NODES) - 1).T * _WEIGHTS
 )
+#: From those to the coefficients of the powers of the integral from -1.
+_ANTIDERIVATIVES = np.zeros((len(_NODES), len(_NODES) + 1))
+for _k in range(len(_NODES)):
+    _ANTIDERIVATIVES[_k, : _k + 2] = legendre.leg2poly(legendre.legint(np.eye(_k + 1)[_k], lbnd=-1))
 _CONVERGED = 1e-14  # last coefficients, relative to the largest value anywhere
 _NOISE = 1e-8  # last coefficients below this that no longer fall are rounding
 _FALLING = 0.25  # what is left of them when a piece that is not yet resolved is halved
@@ -31,21 +37,20 @@ class Integral:
     Attributes:
         knots: ends of the pieces, s, shape (pieces + 1,).
         totals: integrals up to each knot, shape (functions, pieces + 1).
-        series: Legendre coefficients of the integral from the left end of each piece, shape
-            (functions, pieces, order).
+        powers: coefficients of the integral from the left end of each piece, in powers of the
+            place from -1 to 1 in it, shape (pieces, functions, order).
     """
 
     knots: Array
     totals: Array
-    series: Array
+    powers: Array
 
     def at(self, times: Array) -> Array:
         """The integrals at some times, shape (functions, times)."""
         piece = np.clip(np.searchsorted(self.knots, times, "right") - 1, 0, len(self.knots) - 2)
         left, right = self.knots[piece], self.knots[piece + 1]
         place = (2 * times - left - right) / (right - left)
-        inside = legendre.legval(place, np.moveaxis(self.series[:, piece], 2, 0), tensor=False)
-        return np.asarray(self.totals[:, piece] + inside)
+        return np.asarray(self.totals[:, piece] + evaluated(self.powers, piece, place))
 
 
 def integral(function: Callable[[Array], Array], knots: Array) -> Integral:
@@ -57,11 +62,12 @@ def integral(function: Callable[[Array], Array], knots: Array) -> Integral:
     """
     left, right, coefficients = resolved(function, knots)
     halves = (right - left) / 2
-    series = _antiderivatives(coefficients) * halves[None, :, None]
+    inside = (coefficients @ _ANTIDERIVATIVES) * halves[None, :, None]
     pieces = 2 * halves * coefficients[:, :, 0]
     totals = np.cumsum(pieces.astype(np.longdouble), axis=1).astype(float)
     start = np.zeros((len(totals), 1))
-    return Integral(np.append(left, right[-1:]), np.hstack([start, totals]), series)
+    knots = np.append(left, right[-1:])
+    return Integral(knots, np.hstack([start, totals]), np.ascontiguousarray(inside.swapaxes(0, 1)))
 
 
 def resolved(function: Callable[[Array], Array], knots: Array) -> tuple[Array, Array, Array]:
@@ -93,9 +99,3 @@ def _coefficients(function: Callable[[Array], Array], left: Array, right: Array)
     times = (left[:, None] + right[:, None] + (right - left)[:, None] * _NODES) / 2
     values = function(times.ravel())
     return np.asarray(values.reshape(len(values), len(left), len(_NODES)) @ _ANALYSIS.T)
-
-
-def _antiderivatives(coefficients: Array) -> Array:
-    """Legendre coefficients of the integral from -1."""
-    by_order = np.moveaxis(coefficients, 2, 0)
-    return np.moveaxis(np.asarray(legendre.legint(by_order, lbnd=-1)), 0, 2)

@@ -10,7 +10,7 @@ from scipy.integrate import DOP853, OdeSolution
 
 from polhode.algebra import Compiled
 from polhode.simulate.integrate._flow import Flow
-from polhode.simulate.integrate._integrators import LOOKS, Array, Leg, Stepper, Watch, broken
+from polhode.simulate.integrate._integrators import Array, Leg, Stepper, Watch, broken, looks_along
 
 _TIGHTEST = 1e-13  # relative; below it rounding rules the choice of steps
 _ABSOLUTE = 1e-15
@@ -24,9 +24,8 @@ class DormandPrince:
 
     def prepare(self, flow: Flow, tolerance: float | None) -> Stepper:
         """The core as a function of floats."""
-        steps = LOOKS if flow.is_driven else 1
         rates = flow.core.program.function()
-        return _RungeKuttaStepper(rates, max(tolerance or 0.0, _TIGHTEST), steps)
+        return _RungeKuttaStepper(rates, max(tolerance or 0.0, _TIGHTEST), looks_along(flow))
 
 
 @dataclass(frozen=True)
@@ -61,7 +60,7 @@ class _RungeKuttaStepper:
                 break
             times.append(method.t)
             pieces.append(method.dense_output())
-            going = watch(method.t, method.y)
+            going = watch(method.t, method.y.tolist())
         if not pieces:
             raise broken(begin)
         return _RungeKuttaLeg(OdeSolution(times, pieces), going and times[-1] < end)
