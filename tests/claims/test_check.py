@@ -118,3 +118,40 @@ def test_a_known_symbol_cannot_be_defined_anew():
 def test_an_unknown_context_is_refused():
     with pytest.raises(ph.ParseError, match="context"):
         ph.check(r"F_z = Mg", equations("gyroscope"), context="always")
+
+
+@pytest.mark.parametrize(
+    ("latex", "told"),
+    [
+        (r"L_z = I_1\omega_1 cos\theta", r"\cos"),
+        ("I_1*omega_1 = 0", r"\omega"),
+        (r"\theta'' = 0", r"\ddot"),
+        (r"\left.\dot\theta\right|_{\theta=0} = 0", "--given"),
+        (r"\mathbf{L} = M", "two scalars or two vectors"),
+    ],
+)
+def test_what_cannot_be_read_says_what_to_do(latex, told):
+    verdict = ph.check(latex, ph.derive(CATALOGUE["gyroscope"].build()))
+    assert verdict.answer is Answer.UNREAD
+    assert told in verdict.reason
+
+
+@pytest.mark.parametrize(
+    "latex",
+    [
+        r"\dv{\vb{L}}{t} = \vb*{\tau}",
+        r"\dv{t}(\vb L_p) = \vb*\tau_p",
+        r"p_\phi = \pdv{L}{\dot\phi}",
+        r"\boldsymbol\omega = \dot\phi\,\mathbf{e}_z + \dot\theta\,\mathbf{e}_\phi"
+        r" + \dot\psi\,\mathbf{e}_1",
+    ],
+)
+def test_other_ways_to_print_derivatives_and_vectors(latex):
+    verdict = ph.check(latex, ph.derive(CATALOGUE["gyroscope"].build()))
+    assert verdict.answer is Answer.HOLDS
+
+
+def test_a_verdict_is_shown_in_latex():
+    gyroscope = ph.derive(CATALOGUE["gyroscope"].build())
+    verdict = ph.check(r"F_z = Mg - Ma(\ddot\theta\sin\theta)", gyroscope)
+    assert verdict._repr_latex_().startswith(r"$\displaystyle \begin{array}{l} \text{fails}")

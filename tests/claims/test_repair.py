@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
-from polhode.claims import Answer, Verdict
+from polhode.catalogue import CATALOGUE, problem_set
+from polhode.claims import Answer, Verdict, read_document
+from polhode.claims._audit import Desk
 
 ORIGINAL = (
     r"I_1\omega_1\dot\phi\sin\theta - I_{2p}\dot\phi^2\sin\theta\cos\theta + I_{2p}\ddot\theta"
@@ -91,6 +93,42 @@ def test_a_dot_lost_throughout_is_one_slip():
     )
     assert verdict.correction is not None
     assert verdict.correction.what == "dot lost"
+
+
+def _of_the_problem_set(name: str, formula: str | None = None) -> Verdict:
+    document = read_document(problem_set())
+    claim = document.claim(name)
+    part = document.part_of(claim)
+    said = claim if formula is None else replace(claim, latex=formula, read_as="")
+    return Desk(lambda system: ph.derive(CATALOGUE[system].build())).verdict(part, said)
+
+
+def test_a_vector_is_mended_component_by_component():
+    verdict = _of_the_problem_set("118")
+    assert verdict.correction is not None
+    assert verdict.correction.what == "dot lost"
+    assert verdict.correction.latex.count(r"\ddot{\phi}") == 2
+
+
+def test_a_term_that_no_small_change_mends_is_written_anew():
+    verdict = _of_the_problem_set("67")
+    assert verdict.correction is not None
+    assert verdict.correction.what == "wrong expression"
+    assert r"+ \cos \lambda \hat{\mathbf{2}}" in verdict.correction.latex
+
+
+def test_a_quantity_that_a_restriction_makes_vanish_need_not_be_positive():
+    verdict = _of_the_problem_set("w61", r"\omega_p = 2Mga/I_1\omega_1")
+    assert verdict.counterexample is not None
+    assert verdict.correction is not None
+    assert verdict.correction.what == "wrong factor"
+
+
+def test_no_correction_brings_in_the_other_side():
+    gyroscope = ph.derive(CATALOGUE["gyroscope"].build())
+    verdict = ph.check(r"\dot\theta = \sqrt{2Mga/I_2}", gyroscope)
+    proposed = [c for c in (verdict.correction, *verdict.alternatives) if c is not None]
+    assert all(r"\dot{\theta}" not in c.latex.partition("=")[2] for c in proposed)
 
 
 def test_what_only_repeats_the_other_side_is_no_correction():

@@ -107,7 +107,20 @@ class _Binder:
 
     def _is_new(self, node: Node) -> bool:
         letter = isinstance(node, tree.Name | tree.Differential | tree.At)
+        self._refuse_primes(node)
         return letter and not self._evaluator.vocabulary.has(node) and not self._reads(node)
+
+    def _refuse_primes(self, node: Node) -> None:
+        """Two primes on a quantity of the system are no new letter but a rate."""
+        vocabulary = self._evaluator.vocabulary
+        if not isinstance(node, tree.Name) or node.primes < 2 or vocabulary.has(node):
+            return
+        if vocabulary.has(replace(node, primes=0)):
+            raise BindingError(
+                f"{node.primes} primes on {node.letter}",
+                expected="dots for time derivatives",
+                advice=r"write \ddot{...}, or define the letter with --let",
+            )
 
     def _reads(self, node: Node) -> bool:
         """Whether a node that is no known letter has a meaning by its parts."""

@@ -14,7 +14,7 @@ from polhode.claims._notation import Notation
 from polhode.claims._typed import with_given, with_let, with_small
 from polhode.claims._verdict import Answer, Correction, Verdict
 from polhode.claims._vocabulary import spelled
-from polhode.claims.latex import read_latex, write_latex
+from polhode.claims.latex import bare_names, read_latex, write_latex
 from polhode.claims.latex._tree import Node, Statement
 from polhode.derive import Equations
 
@@ -70,7 +70,7 @@ def judged_claim(
             return Verdict(Answer.DEFINITION, context, reason=_defined(bound.defined))
         asked = replace(notation.asked(statement, {}), when=when)
     except (PolhodeError, ZeroDivisionError) as error:
-        return Verdict(Answer.UNREAD, context, reason=str(error))
+        return Verdict(Answer.UNREAD, context, reason=f"{error}{_hint(latex)}")
     verdict = _judged(asked, context)
     if verdict.answer is not Answer.FAILS:
         return verdict
@@ -78,13 +78,21 @@ def judged_claim(
     return _corrected(verdict, statement, notation, context)
 
 
+def _hint(latex: str) -> str:
+    """What may be wrong with a formula that cannot be read or bound."""
+    bare = bare_names(latex)
+    if not bare:
+        return ""
+    return f"; LaTeX reads {', '.join(bare)} letter by letter, write \\{bare[0]}"
+
+
 def _judged(asked: Asked, context: str) -> Verdict:
     """The verdict, with terms of different dimensions named where it does not hold."""
     try:
         verdict = judge(asked, context).proved()
+        odd = "" if verdict.holds else dimensions_at_odds(asked)
     except (PolhodeError, ZeroDivisionError) as error:
-        verdict = Verdict(Answer.UNREAD, context, reason=str(error))
-    odd = "" if verdict.holds else dimensions_at_odds(asked)
+        return Verdict(Answer.UNREAD, context, reason=str(error))
     return replace(verdict, reason=f"{verdict.reason}; {odd}") if odd else verdict
 
 

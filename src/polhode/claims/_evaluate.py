@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import reduce, singledispatchmethod
 
@@ -16,6 +16,7 @@ from polhode.claims._vocabulary import Vocabulary, spelled
 from polhode.claims.latex import _tree as tree
 
 TIME = tree.Name("t")
+_LAGRANGIAN = tree.Name("L")  # where it is no angular momentum
 
 _FUNCTIONS: dict[str, Callable[[Expr], Expr]] = {
     "sin": sin,
@@ -112,6 +113,8 @@ class Evaluator:
             change = self._seen_from_axes if node.partial else meanings.rate
             return reduce(lambda value, _: change(value), range(node.order), found)
         variable = as_symbol(self.scalar(node.by))
+        if node.partial and node.of == _LAGRANGIAN and isinstance(found, Vector):
+            found = self.value(replace(_LAGRANGIAN, letter="cal L"))
         whole = as_scalar(found, "what is differentiated")
         if node.partial:
             whole = self.vocabulary.mechanics.in_rates(whole)
@@ -208,6 +211,14 @@ class Evaluator:
         if isinstance(inside, Vector):
             return self._root(inside.dot(inside))
         return meanings.positive_size(as_scalar(inside, "a magnitude"), self.vocabulary.positive)
+
+    @_value.register
+    def _(self, node: tree.Evaluated) -> Meaning:
+        raise BindingError(
+            f"a quantity taken at {node.subscript}",
+            expected="one at the state that the claim is about",
+            advice=f"leave the bar out and say --given {node.subscript!r}",
+        )
 
     @_value.register
     def _(self, node: tree.Component) -> Meaning:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
 from enum import Enum
 
 from polhode.algebra import Expr
 from polhode.base import Shown
+
+_TAG = re.compile(r"\\tag\{[^{}]*\}")
 
 
 class Answer(Enum):
@@ -129,6 +132,18 @@ class Verdict(Shown):
     def proved(self) -> Verdict:
         """With all evidence for it."""
         return self
+
+    def _repr_latex_(self) -> str:
+        """The answer with the correction, or else with what is left of each component."""
+        rows = [rf"\text{{{self.answer.value}}}"]
+        if self.correction is not None:
+            what = rf"\text{{{self.correction.what}; it holds as}}"
+            rows += [what, _TAG.sub("", self.correction.latex)]
+        elif self.residuals:
+            left = (rf"\text{{left less right: }} {r.expression.latex()}" for r in self.residuals)
+            rows += left
+        table = r" \\ ".join(rows)
+        return rf"$\displaystyle \begin{{array}}{{l}} {table} \end{{array}}$"
 
     def __str__(self) -> str:
         said = self.answer.value

@@ -11,7 +11,7 @@ from polhode.algebra import Expr, Kind, Symbol, Vector, pi, time
 from polhode.claims._meaning import BindingError, Meaning, dot, positive_root
 from polhode.claims._mechanics import Mechanics
 from polhode.claims._phrases import quantity
-from polhode.claims.latex._tree import At, Call, Component, Differential, Dots, Name, Node
+from polhode.claims.latex._tree import At, Call, Component, Differential, Dots, Name, Node, Number
 from polhode.derive import Equations
 from polhode.model import Contact, Element, Gravity, Pivot
 
@@ -102,6 +102,8 @@ class Vocabulary:
             found = self._exactly(replace(name, decoration=form))
             yield self._unit(found) if name.decoration == _HAT else found
         yield self._component(name, self._exactly)
+        if name.letter == "e":  # e_z for a unit vector
+            yield self._exactly(Name(name.subscript, decoration=_HAT))
 
     def _exactly(self, name: Name) -> Meaning | None:
         if name in self.told:
@@ -282,6 +284,8 @@ def spelled(node: Node) -> str:
             below = f"_{subscript}" if subscript else ""
             prefix = f"{decoration} " if decoration else ""
             return f"{prefix}{letter}{'prime' * primes}{below}"
+        case Number(text):
+            return text
         case Dots(of, count):
             return f"{spelled(of)}_{'d' * (count > 1) * (count - 1)}dot"
         case Differential(of, sign):

@@ -25,7 +25,7 @@ CLOSERS = {
 }
 _SHOWN = {"bar(": "\\left|", "bar)": "\\right|", "null(": "\\left.", "null)": "\\right."}
 _ENDS = frozenset(CLOSERS.values())
-_WANTED = {"dots": 1, "decoration": 1, "alphabet": 1, "root": 1, "fraction": 2}
+_WANTED = {"dots": 1, "decoration": 1, "alphabet": 1, "root": 1, "fraction": 2, "derivative": 2}
 
 
 @dataclass(frozen=True)

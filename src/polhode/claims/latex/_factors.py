@@ -30,6 +30,7 @@ _OVER = ("decoration", "dots")
 _OPENERS = ("(", "[", "\\{", "bar(", "null(")
 _KINDS = {"letter", "number", "function", "decoration", "dots", "alphabet"} | {
     "fraction",
+    "derivative",
     "root",
     "integral",
     "begin",
@@ -142,6 +143,16 @@ class FactorReader(CallReader):
             above = self._argument()
             below = self._argument()
         return self._over(above, below, start)
+
+    def _derivative(self) -> Node:
+        r"""What the package physics writes as ``\dv{x}{t}``, or ``\dv{t}`` before a bracket."""
+        token = self._take()
+        with self._deeper():
+            of, by = None, self._argument()
+            if self._at("{"):
+                of, by = by, self._argument()
+        operator = Operator(((by, 1),), token.text == "partial", span=self._since(token.span[0]))
+        return operator if of is None else operator.applied(of, operator.span)
 
     def _over(self, above: Node, below: Node, start: int) -> Node:
         span = self._since(start)
@@ -275,6 +286,7 @@ _READERS: dict[str, Callable[[FactorReader], Node]] = {
     "words": FactorReader._word,
     "function": FactorReader._call,
     "fraction": FactorReader._fraction,
+    "derivative": FactorReader._derivative,
     "root": FactorReader._root,
     "integral": FactorReader._integral,
     "begin": lambda reader: reader._environment(),

@@ -67,10 +67,12 @@ DECORATIONS = _pairs(
     hat hat widehat hat bar bar overline bar tilde tilde widetilde tilde
     mathbf vector boldsymbol vector mathbfit vector bm vector pmb vector bf vector
     bfseries vector vec arrow overrightarrow arrow underline arrow
+    vb vector vectorbold vector va arrow vectorarrow arrow vu hat vectorunit hat
     """
 )
 ALPHABETS = _pairs("mathcal cal cal cal mathscr cal mathbb bb mathfrak frak")
 FRACTIONS = _words("frac dfrac tfrac cfrac")
+DERIVATIVES = _pairs("dv d derivative d pdv partial partialderivative partial")
 
 WORDS = _words("text textrm textnormal textit textbf textsf mbox hbox")
 UPRIGHT = _words("mathrm operatorname mathop mathsf mathit")
@@ -80,7 +82,7 @@ SILENT = _words(
     displaystyle textstyle scriptstyle scriptscriptstyle limits nolimits nonumber notag
     thinspace medspace thickspace negthinspace boxed left right big Big bigg Bigg bigl Bigl biggl
     Biggl bigr Bigr biggr Biggr bigm Bigm normalsize small noindent hfill ensuremath boldmath
-    unboldmath normalfont strut centering
+    unboldmath normalfont strut centering qty
     """
 )
 SILENT_WITH_ARGUMENT = _words("label hspace vspace phantom hphantom vphantom")

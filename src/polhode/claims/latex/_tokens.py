@@ -49,8 +49,9 @@ class Token:
 
     Args:
         kind: "number", "letter", "function", "sign" (of a relation), "mark", "words", "dots",
-            "decoration", "alphabet", "fraction", "root", "integral", "label" (only in scripts),
-            "begin", "end" (of an environment), "row", "gap", "arrow", "tag" or "close" (the end).
+            "decoration", "alphabet", "fraction", "derivative", "root", "integral",
+            "label" (only in scripts), "begin", "end" (of an environment), "row", "gap", "arrow",
+            "tag" or "close" (the end).
         text: what it is, by the name the tree uses.
         span: where it stands in the source.
     """
@@ -263,6 +264,7 @@ def _macros() -> dict[str, tuple[str, str]]:
         "decoration": lexicon.DECORATIONS,
         "alphabet": lexicon.ALPHABETS,
         "fraction": dict.fromkeys(lexicon.FRACTIONS, "frac"),
+        "derivative": lexicon.DERIVATIVES,
         "integral": {"int": "int", "oint": "int"},
         "gap": dict.fromkeys(lexicon.GAPS, "gap"),
         "row": dict.fromkeys(lexicon.ROWS, "row"),

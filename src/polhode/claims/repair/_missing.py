@@ -19,11 +19,11 @@ from polhode.claims.latex._tree import (
 )
 from polhode.claims.repair._edits import Edit, times_match
 from polhode.claims.repair._figures import scalar
-from polhode.claims.repair._places import Place, added, put, times
+from polhode.claims.repair._places import Place, added, negated, put, times
 from polhode.claims.repair._tally import UNKNOWN
 from polhode.claims.repair._vector_terms import vector_terms
 from polhode.claims.repair._workpiece import Workpiece
-from polhode.claims.repair._written import UNKNOWN_TERM, length, solved, written
+from polhode.claims.repair._written import UNKNOWN_TERM, length, repeats, solved, written
 
 _MOST_MATCHES = 5
 
@@ -36,8 +36,15 @@ def missing_terms(
         return
     deep = 0.05 if isinstance(place.parent, Node) else 0.0
     for term in _terms(work, place, members):
+        if _takes_away(place.node, term) or repeats(work, place, term):
+            continue
         size = 2.0 + deep + length(term) / 20
         yield Edit("missing term", place.path, added(place.node, term), size)
+
+
+def _takes_away(node: Node, term: Node) -> bool:
+    """Whether all that a term does is to put something else in the place of what is there."""
+    return negated(node) in (term.terms if isinstance(term, Sum) else (term,))
 
 
 def _terms(work: Workpiece, place: Place, members: Sequence[int]) -> Iterator[Node]:

@@ -2,14 +2,26 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from polhode.algebra import Expr, Vector
-from polhode.claims.latex._tree import Negative, Node, Product, Sum
+from polhode.claims.latex._tree import (
+    Call,
+    Dots,
+    Name,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Product,
+    Sum,
+    walk,
+)
 from polhode.claims.repair._edits import Edit
 from polhode.claims.repair._places import Place, put, times
 from polhode.claims.repair._workpiece import Workpiece
-from polhode.claims.repair._written import UNKNOWN_TERM, length, solved, written
+from polhode.claims.repair._written import UNKNOWN_TERM, plainly_written, repeats, solved
 
 
 def may_be_rewritten(place: Place) -> bool:
@@ -25,9 +37,47 @@ def rewritten(work: Workpiece, place: Place, members: Sequence[int]) -> Iterator
     changed = put(work.statement, place.path, times(UNKNOWN_TERM, *tail))
     wanted = solved(work, changed, members)
     if wanted:
-        for node in written(work, wanted, tail):
-            size = 2.1 + length(node) / 20
-            yield Edit("wrong expression", place.path, node, size)
+        for node in plainly_written(work, wanted, tail):
+            if not repeats(work, place, node):
+                size = 2.1 + _apart(place.node, node) / 20
+                yield Edit("wrong expression", place.path, _in_order(node, place.node), size)
+
+
+def _apart(old: Node, new: Node) -> int:
+    """How many letters two expressions do not share."""
+    one, other = _letters(old), _letters(new)
+    return (one - other).total() + (other - one).total()
+
+
+def _in_order(node: Node, old: Node) -> Node:
+    """A product with its factors in the order in which they stood before, and vectors last."""
+    before = [*walk(old)]
+
+    def place(factor: Node) -> int:
+        if isinstance(factor, Name) and factor.is_marked_vector:
+            return len(before) + 1
+        return before.index(_base(factor)) if _base(factor) in before else len(before)
+
+    match node:
+        case Negative(of):
+            return Negative(_in_order(of, old))
+        case Product(factors):
+            return Product(tuple(sorted(factors, key=place)))
+    return node
+
+
+def _base(node: Node) -> Node:
+    return node.base if isinstance(node, Power) else node
+
+
+def _letters(node: Node) -> Counter[Node]:
+    """The letters and functions of an expression, as often as they are multiplied."""
+    match node:
+        case Power(base, Number(text)) if text.isdigit():
+            return Counter({letter: n * int(text) for letter, n in _letters(base).items()})
+        case Call() | Name() | Dots():
+            return Counter([node])
+    return sum((_letters(part) for part in node.parts if isinstance(part, Node)), Counter())
 
 
 def _tail(work: Workpiece, node: Node) -> list[Node] | None:

@@ -149,6 +149,12 @@ class Workpiece:
         return {n: value for n, e in known.items() if (value := self._settled(e)) is not None}
 
     @cached_property
+    def plain(self) -> dict[Expr, Node]:
+        """How scalars are written, the first of several letters for one."""
+        known = reversed(self.settled)
+        return {e: node for node in known if (e := self.vocabulary[node]) is not None}
+
+    @cached_property
     def vectors(self) -> Terms:
         """Different vectors a missing term may be formed of, and then their rates."""
         found: dict[Node, Figure] = {}

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import islice
 
-from polhode.algebra import ONE, Expr, Symbol, factors
+from polhode.algebra import Expr, Symbol, factors
 from polhode.base import PolhodeError
 from polhode.claims.latex._tree import (
     Call,
@@ -20,10 +20,10 @@ from polhode.claims.latex._tree import (
     Quotient,
     Statement,
     Sum,
+    walk,
 )
 from polhode.claims.repair._edits import number_node
-from polhode.claims.repair._places import ONE as ONE_NODE
-from polhode.claims.repair._places import negated, over, raised, times
+from polhode.claims.repair._places import ZERO, Place, negated, over, raised, times
 from polhode.claims.repair._workpiece import Workpiece
 
 _UNKNOWN = Symbol("missing")
@@ -67,25 +67,27 @@ def length(node: Node) -> int:
         case Call() | Name() | Dots() | Number():
             return 1
     rate = isinstance(node, Derivative | Cross)
-    nested = 2 * (isinstance(node, Sum) or (isinstance(node, Quotient) and not _is_number(node)))
+    nested = 2 * isinstance(node, Sum)
+    if isinstance(node, Quotient) and not isinstance(node.below, Number):
+        nested = 4
     return rate + nested + sum(length(part) for part in node.parts if isinstance(part, Node))
-
-
-def _is_number(quotient: Quotient) -> bool:
-    return isinstance(quotient.below, Number)
 
 
 def written(work: Workpiece, value: Expr, tail: Sequence[Node]) -> Iterator[Node]:
     """A quantity times vectors in the letters of the text, at most one of them of the motion."""
-    settled = work.settled
-    plain = {e: n for n in reversed(settled) if (e := work.vocabulary[n]) is not None}
-    moving = [(node, v) for node, v in settled.items() if v and v != work.vocabulary[node]]
-    for factor, moved in [(ONE_NODE, ONE), *moving]:
-        product = _product(value / moved, plain)
-        if product is not None and len(product[1]) + len(product[2]) < _LARGEST_SIZE:
-            number, above, below = product
-            term = times(_fraction(abs(number), (*above, factor), below), *tail)
-            yield negated(term) if number < 0 else term
+    yield from plainly_written(work, value, tail)
+    for node, moved in work.settled.items():
+        if moved and moved != work.vocabulary[node]:
+            yield from plainly_written(work, value / moved, [node, *tail])
+
+
+def plainly_written(work: Workpiece, value: Expr, tail: Sequence[Node]) -> Iterator[Node]:
+    """The same in letters that are free on the states of the claim, if it is that simple."""
+    product = _product(value, work.plain)
+    if product is not None and len(product[1]) + len(product[2]) < _LARGEST_SIZE:
+        number, above, below = product
+        term = times(_fraction(abs(number), above, below), *tail)
+        yield negated(term) if number < 0 else term
 
 
 def _product(
@@ -131,3 +133,10 @@ def _is_longer(polynomial: Expr, most: int) -> bool:
 def _fraction(number: Fraction, above: Iterable[Node], below: Iterable[Node]) -> Node:
     top = times(number_node(Fraction(number.numerator)), *above)
     return over(top, times(number_node(Fraction(number.denominator)), *below))
+
+
+def repeats(work: Workpiece, place: Place, node: Node) -> bool:
+    """Whether something new at a place brings in a whole side of the same chain."""
+    sides = work.statement.relations[place.relation].sides
+    others = {side for i, side in enumerate(sides) if i != place.path[1]} - {ZERO}
+    return any(piece in others for piece in walk(node))
