@@ -58,11 +58,18 @@ def test_it_prints_in_a_few_lines_whatever_it_takes() -> None:
 
 
 def test_what_needs_a_closed_form_is_refused_by_name() -> None:
-    for analysis in (ph.steady, ph.linear_integrals):
+    for analysis in (ph.invariants, ph.steady, ph.linear_integrals):
         with pytest.raises(ph.NumericError, match=r"named parts; .*linearised"):
             analysis(bicycle())
     with pytest.raises(ph.NumericError, match="written out"):
         ph.to_sympy(bicycle().motion[0])
+
+
+def test_its_energy_is_constant_whatever_the_state() -> None:
+    equations = bicycle()
+    assert equations.rate(equations.energy).is_zero
+    assert equations.on_shell(equations.power).is_zero
+    assert not equations.rate(equations.kinetic_energy).is_zero
 
 
 def test_uncontrolled_it_steers_itself_upright_and_keeps_its_energy() -> None:

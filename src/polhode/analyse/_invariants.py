@@ -9,6 +9,7 @@ from polhode.algebra import Expr, Symbol, Vector, dot, pi, time
 from polhode.analyse._ansatz import Ansatz, search
 from polhode.analyse._independence import Independent
 from polhode.analyse._linear_integrals import LinearIntegrals, linear_integrals
+from polhode.analyse._reduced import refuse_parts
 from polhode.base import NumericError
 from polhode.derive import Equations
 from polhode.model import Body, Contact
@@ -75,7 +76,10 @@ def invariants(equations: Equations, ansatz: Ansatz | None = None) -> Invariants
     Args:
         equations: derived equations.
         ansatz: what to search besides energy and momenta; a modest default otherwise.
+
+    Raises `NumericError` for equations in named parts.
     """
+    refuse_parts(equations)
     chosen = ansatz or Ansatz()
     found: list[Invariant] = []
     independent = Independent(*_symbols(equations))

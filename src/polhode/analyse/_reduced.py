@@ -38,12 +38,7 @@ def reduced(equations: Equations) -> Reduced:
 
     Raises `NumericError` for equations that depend on time explicitly, or are in named parts.
     """
-    if equations.in_parts:
-        raise NumericError(
-            f"equations of {equations.system.name!r} in named parts",
-            expected="equations in closed form, short enough to be written out",
-            advice="see how a motion at numbers behaves with linearised, or simulate",
-        )
+    refuse_parts(equations)
     entries = [e for row in equations.mass.rows for e in row] + list(equations.forcing)
     driven = [s for s in variables(entries) if s.kind in (Kind.FUNCTION, Kind.TIME)]
     if driven:
@@ -61,6 +56,16 @@ def reduced(equations: Equations) -> Reduced:
         equations.speeds,
         tuple(equations.kinematics[q.derivative()] for q in essential),
     )
+
+
+def refuse_parts(equations: Equations) -> None:
+    """Refuse equations that are too long to be written out, with `NumericError`."""
+    if equations.in_parts:
+        raise NumericError(
+            f"equations of {equations.system.name!r} in named parts",
+            expected="equations in closed form, short enough to be written out",
+            advice="see how a motion at numbers behaves with linearised, or simulate",
+        )
 
 
 def _closure(equations: Equations, used: frozenset[Symbol]) -> tuple[Symbol, ...]:

@@ -6,7 +6,7 @@ from polhode.algebra import ZERO, Expr, Kind, Vector
 from polhode.derive._balance import applied
 from polhode.derive._motion import Motion
 from polhode.derive._reactions import Line
-from polhode.model import Body, Load
+from polhode.model import Body, Frame, Load
 
 
 def kinetic_energy(motion: Motion) -> Expr:
@@ -78,7 +78,7 @@ def linear_momentum(motion: Motion) -> Vector:
     """Linear momentum in inertial space, kg m/s, along the root frame."""
     root = motion.system.root
     parts = (motion.velocities[b][0] * b.mass for b in motion.system.bodies)
-    return sum((p.express(root) for p in parts), root.zero)
+    return sum((_along(motion, p, root) for p in parts), root.zero)
 
 
 def angular_momentum(motion: Motion, about: Vector) -> Vector:
@@ -87,10 +87,13 @@ def angular_momentum(motion: Motion, about: Vector) -> Vector:
     total = root.zero
     for body in motion.system.bodies:
         velocity, _ = motion.velocities[body]
-        arm = motion.places[body] - about
-        total = total + motion.spin(body)
-        total = total + arm.cross(velocity) * body.mass
+        orbital = (motion.places[body] - about).cross(_along(motion, velocity, root)) * body.mass
+        total = total + _along(motion, motion.spin(body), root) + _along(motion, orbital, root)
     return total
+
+
+def _along(motion: Motion, vector: Vector, frame: Frame) -> Vector:
+    return motion.form.kept(motion.form.express(vector, frame), motion.speeds)
 
 
 def work_rate_of_loads(motion: Motion) -> Expr:
