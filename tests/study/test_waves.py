@@ -95,3 +95,27 @@ def test_a_coefficient_that_no_contact_has_is_recorded():
     )
     assert np.array_equal(found.reason == Reason.DECLARATION, friction < 0)
     assert "mu = -0.1" in found.failures[0]
+
+
+#: Slips that turn round within a few of the shortest steps, alone as among others.
+TURNS = {
+    "theta": [0.6296978156520171, 0.8161852831688498],
+    "phi_dot": [-0.9008231900323654, -2.5613704836114413],
+    "omega_3": [14.633594164788322, 5.356721251729089],
+}
+
+
+@pytest.mark.parametrize("member", [0, 1])
+def test_a_slip_that_all_but_vanishes_sticks(member: int):
+    case = rough_disks()
+    start = {name: values[member] for name, values in TURNS.items()}
+    run = simulate(case.modes, case.parameters, start, case.duration, **case.options)
+    starts = {name: [*values] * 4 for name, values in TURNS.items()}
+    outputs = {**case.outputs, "times": EventTimes(4)}
+    found = ensemble(
+        case.modes, case.parameters, starts, case.duration, outputs=outputs, **case.options
+    )
+    times = [event.time for event in run.events[1:-1]]
+    assert found["times"][member, : len(times)] == pytest.approx(times, abs=1e-11)
+    for name in case.outputs:
+        assert found[name][member] == pytest.approx(run.final[name], rel=1e-10)

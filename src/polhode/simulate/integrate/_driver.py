@@ -263,6 +263,7 @@ class _Watch:
         self._steps = 0
         self._time = -inf
         self._vectors = watched.seen(state.tolist())
+        self._shrinks = [False for _ in self._vectors]
 
     def __call__(self, time: float, state: list[float]) -> bool:
         self._steps += 1
@@ -273,10 +274,11 @@ class _Watch:
             return False
         if self._steps > _MOST_STEPS:
             raise endless(time)
-        if self._is_hopeless(time):
+        if self._is_hopeless(time) and not self._is_small():
             raise _hopeless(self._end, time - self._begin)
         before, self._vectors = self._vectors, self._watched.seen(state)
-        if any(map(self._vanishes, before, self._vectors)):
+        shrank, self._shrinks = self._shrinks, list(map(_is_shorter, self._vectors, before))
+        if any(map(self._vanishes, before, self._vectors, shrank)):
             self.stop = Stop.VANISHED
         elif self._is_stuck(time) and time < self._end:
             self.stop = Stop.VANISHED if self._is_small() else Stop.STUCK
@@ -298,9 +300,16 @@ class _Watch:
     def _is_small(self) -> bool:
         return any(hypot(*vector) <= self._watched.passing for vector in self._vectors)
 
-    def _vanishes(self, before: list[float], now: list[float]) -> bool:
+    def _vanishes(self, before: list[float], now: list[float], shrank: bool) -> bool:
         turned = sum(map(mul, before, now)) <= 0.0
-        return turned or hypot(*now) <= self._watched.least
+        size = hypot(*now)
+        # Where it turns round within a few steps, none of them need be half a turn.
+        grows = shrank and size <= self._watched.passing and not _is_shorter(now, before)
+        return turned or grows or size <= self._watched.least
+
+
+def _is_shorter(one: list[float], other: list[float]) -> bool:
+    return hypot(*one) < hypot(*other)
 
 
 def endless(time: float) -> NumericError:
