@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.base import PolhodeError
+from polhode.base import DeclarationError, PolhodeError
 from polhode.derive import Automaton, Equations, automaton, derive
 from polhode.model import System
 from polhode.simulate import NEAR_FLAT, Experiment
@@ -46,6 +46,13 @@ class Order:
     outputs: Outputs
     options: Mapping[str, Any] = field(default_factory=dict)
 
+    def __post_init__(self) -> None:
+        if not isinstance(self.subject, System | Automaton | Equations):
+            raise DeclarationError(
+                f"{self.subject!r} to be followed"[:200],
+                expected="a System, its automaton, or equations derived from it",
+            )
+
     def __reduce__(self) -> tuple[Any, ...]:
         # Worker processes derive again: declarations are small, equations are not.
         kept = isinstance(self.subject, Equations)
@@ -65,6 +72,13 @@ class Order:
     def experiment(self) -> Experiment:
         """The system, set up to be run."""
         return Experiment(self.derived, self.duration, samples=2, **self.options)
+
+
+def options_of(**given: Any) -> dict[str, Any]:
+    """Options of `simulate` that are given; one event alone stands for itself."""
+    until = given.get("until")
+    named = {**given, "until": (until,) if isinstance(until, str) else until}
+    return {name: value for name, value in named.items() if value is not None}
 
 
 def _received(

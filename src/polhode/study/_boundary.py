@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from polhode.algebra import Expr
 from polhode.base import DeclarationError, Progress, SilentProgress
 from polhode.derive import Automaton, Equations
-from polhode.study._block import Crew, Order, Subject
+from polhode.study._block import Crew, Order, Subject, options_of
 from polhode.study._columns import Array, Column, Members, Name, published_names
 from polhode.study._found import Found, plain_numbers
 from polhode.study._grid import split_axes
@@ -78,14 +78,13 @@ def refined_map(
     Raises:
         DeclarationError: for other than two axes, or an outcome that is no code.
     """
-    given = {"forcing": forcing, "near_flat": near_flat, "until": until}
-    options = {name: value for name, value in given.items() if value is not None}
+    options = options_of(forcing=forcing, near_flat=near_flat, until=until)
     chosen = outcome or Fate()
     order = Order(subject, duration, {"outcome": chosen}, options)
     _check(axes, chosen, order, coarse, levels)
     side = (coarse - 1) * 2**levels + 1
     ends = published_names(axes)
-    spans = {name: np.linspace(low, high, side) for name, (low, high) in ends.items()}
+    spans = {name: np.linspace(*_ends(name, span), side) for name, span in ends.items()}
     fixed = (published_names(parameters), published_names(start))
     own, others = split_axes(list(spans), parameter_names(order))
     refuse_mistakes(
@@ -102,6 +101,15 @@ def refined_map(
         shown.finish()
     numbers = plain_numbers({**fixed[0], **fixed[1]})
     return Refined(_found(order, spans, points.codes, numbers), computed)
+
+
+def _ends(name: str, span: Any) -> tuple[float, float]:
+    ends = np.asarray(span)
+    if ends.shape != (2,) or ends.dtype.kind not in "fiu" or not np.all(np.isfinite(ends)):
+        raise DeclarationError(
+            f"the axis {name} = {span!r}"[:200], expected="its least and greatest value, SI"
+        )
+    return float(ends[0]), float(ends[1])
 
 
 def _check(

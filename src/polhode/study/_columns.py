@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Protocol, TypeAlias, runtime_checkable
 
@@ -14,6 +14,18 @@ from polhode.base import DeclarationError, read_quantity
 
 Array: TypeAlias = NDArray[np.float64]
 Name: TypeAlias = str | Symbol | Expr
+
+
+def several(names: Sequence[Name] | Name, what: str) -> tuple[Name, ...]:
+    """Some names, or one alone.
+
+    Raises:
+        DeclarationError: for none at all.
+    """
+    found = (names,) if isinstance(names, Name) else tuple(names)
+    if not found:
+        raise DeclarationError(f"nothing {what}", expected="at least one name")
+    return found
 
 
 @runtime_checkable

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from polhode.algebra import Expr
 from polhode.base import DeclarationError, Progress, SilentProgress, look_up
-from polhode.study._block import Block, Order, Subject
+from polhode.study._block import Block, Order, Subject, options_of
 from polhode.study._columns import Array, Column, Members, Name, members_of
 from polhode.study._counts import whole
 from polhode.study._extremes import Quantity
@@ -141,14 +141,9 @@ def ensemble(
     chosen = np.random.SeedSequence().entropy % 2**62 if seed is None else seed  # type: ignore[operator]
     known = None if count is None else whole(count, "members")
     members = members_of(parameters, start, known, _seed(chosen))
-    given = {
-        "forcing": forcing,
-        "tolerance": tolerance,
-        "near_flat": near_flat,
-        "until": until,
-        "events": events,
-    }
-    options = {name: value for name, value in given.items() if value is not None}
+    options = options_of(
+        forcing=forcing, tolerance=tolerance, near_flat=near_flat, until=until, events=events
+    )
     order = Order(subject, duration, outputs_of(outputs), options)
     refuse_mistakes(order, members.parameters, members.start)
     whole(workers, "workers")

@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from polhode.base import DeclarationError, NumericError
 from polhode.simulate import Experiment
 from polhode.study._block import Subject
-from polhode.study._columns import Array, Name, published_names
-from polhode.study._sensitivity import Varied
+from polhode.study._columns import Array, Name, published_names, several
+from polhode.study._sensitivity import Varied, refuse_samples
 
 _TOLERANCE = 1e-12  # relative, of the last step
 
@@ -71,9 +71,16 @@ def fit(
     when = np.asarray(times, dtype=float)
     data = {name: np.asarray(values, dtype=float) for name, values in measured.items()}
     _check(when, data)
-    names = [published_names({name: 0}).popitem()[0] for name in vary]
+    names = list(published_names(dict.fromkeys(several(vary, "to vary"), 0)))
+    known = sum(int(np.sum(np.isfinite(values))) for values in data.values())
+    if known < len(names):
+        raise NumericError(
+            f"{known} measurements for {len(names)} values",
+            expected="at least as many measurements",
+        )
     numbers = (published_names(parameters), published_names(start))
     weights = np.array([[1 / (deviation or {}).get(name, 1.0)] for name in data])
+    refuse_samples(forcing or {})
     experiment = Experiment(subject, float(when[-1]), samples=2, forcing=forcing)
     problem = _Problem(Varied(experiment, names, list(data)), names, numbers, when, data, weights)
     return problem.solved(scaled=deviation is None)
@@ -122,11 +129,6 @@ class _Problem:
                 advice="fit a shorter stretch first",
             )
         count = len(found.fun) - len(self.names)
-        if count < 0:
-            raise NumericError(
-                f"{len(found.fun)} measurements for {len(self.names)} values",
-                expected="at least as many measurements",
-            )
         scatter = float(np.sqrt(found.fun @ found.fun / count)) if count else 0.0
         covariance = self._covariance(found.jac) * (scatter**2 if scaled else 1.0)
         fitted, _ = self._at(found.x)

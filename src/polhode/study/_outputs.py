@@ -120,7 +120,8 @@ def outputs_of(asked: Mapping[str, Output | Quantity] | Sequence[Output | Quanti
     Raises:
         DeclarationError: for none at all, or an output that needs a name.
     """
-    given = asked if isinstance(asked, Mapping) else {_name(one): one for one in asked}
+    several = (asked,) if isinstance(asked, str) else asked
+    given = several if isinstance(several, Mapping) else {_name(one): one for one in several}
     if not given:
         raise DeclarationError(
             "no outputs", expected="what to keep of every motion, such as ['theta', 'mode']"

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from polhode.algebra import Expr, Symbol, as_symbol
-from polhode.base import NumericError, look_up
-from polhode.simulate import Dynamics, Experiment, Trajectory
+from polhode.base import DeclarationError, NumericError, look_up
+from polhode.simulate import Dynamics, Experiment, Pieces, Trajectory
 from polhode.simulate.many import Tangents
 from polhode.study._block import Subject
-from polhode.study._columns import Array, Name, published_names
+from polhode.study._columns import Array, Name, published_names, several
 from polhode.study._extremes import Quantity
 
 
@@ -63,12 +63,14 @@ def sensitivities(
         DeclarationError: for a name that is no quantity, parameter or state.
         NumericError: where the motion changes its contact mode: the derivatives jump there.
     """
+    refuse_samples(forcing or {})
     experiment = Experiment(subject, duration, samples=2, forcing=forcing)
     when = np.asarray([experiment.duration] if times is None else times, dtype=float)
-    names = [published_names({name: 0}).popitem()[0] for name in by]
-    varied = Varied(experiment, names, list(of))
+    names = list(published_names(dict.fromkeys(several(by, "to differentiate by"), 0)))
+    quantities = several(of, "to differentiate")
+    varied = Varied(experiment, names, quantities)
     values, slopes = varied.along(published_names(parameters), published_names(start), when)
-    told = [_told(quantity) for quantity in of]
+    told = [_told(quantity) for quantity in quantities]
     return Sensitivities(
         times=when,
         values=dict(zip(told, values, strict=True)),
@@ -105,6 +107,21 @@ class Varied:
         known = {s.published: s for s in (*dynamics.parameters, *dynamics.states)}
         by = [look_up(name, known, "parameter or state at the start") for name in self._by]
         return Tangents(dynamics, by, [_expression(run, quantity) for quantity in self._of])
+
+
+def refuse_samples(forcing: Mapping[Name, Any]) -> None:
+    """Refuse prescribed motions that change from stretch to stretch.
+
+    Raises:
+        DeclarationError: with the first of them.
+    """
+    for name, motion in published_names(forcing).items():
+        if isinstance(motion, Pieces) or (callable(motion) and not isinstance(motion, Expr)):
+            raise DeclarationError(
+                f"derivatives with a prescribed {name}(t) that is sampled or a Python function",
+                expected="expressions of time",
+                advice="write it as an expression, or difference two runs",
+            )
 
 
 def refuse_switching(run: Trajectory, end: float) -> None:

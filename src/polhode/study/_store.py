@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from shutil import rmtree
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -108,7 +109,7 @@ def created(
             expected="a name that is still free, or the store of the same sweep to go on with",
             advice="say --resume (resume=True) to go on, or choose another name",
         )
-    with written(path):
+    with written(path), _whole_or_gone(path):
         group = zarr().create_group(path, zarr_format=3)
         for name, column in grid.columns.items():
             group.create_array(
@@ -187,6 +188,16 @@ def dataset(path: Path) -> xarray.Dataset:
     )
     axes = store.origin["axes"]
     return found.set_coords([axis["coordinate"] for axis in axes.values()])
+
+
+@contextmanager
+def _whole_or_gone(path: Path) -> Iterator[None]:
+    """Leave nothing of a store that could not be begun: it would be in the way of the next."""
+    try:
+        yield
+    except BaseException:
+        rmtree(path, ignore_errors=True)
+        raise
 
 
 @contextmanager

@@ -23,7 +23,7 @@ from polhode.base import (
 from polhode.derive import Equations
 from polhode.model import System, write_declaration
 from polhode.simulate import Pieces
-from polhode.study._block import Order, Subject
+from polhode.study._block import Order, Subject, options_of
 from polhode.study._cluster import Compute, on_cluster, one_after_the_other, processes, scheduler
 from polhode.study._columns import Name, published_names
 from polhode.study._counts import whole
@@ -100,8 +100,7 @@ def sweep(
     path = Path(out)
     begun = _begun(path) if resume else None
     drawn = _seed(seed, begun)
-    given = {"forcing": forcing, "tolerance": tolerance, "near_flat": near_flat, "until": until}
-    options = {name: value for name, value in given.items() if value is not None}
+    options = options_of(forcing=forcing, tolerance=tolerance, near_flat=near_flat, until=until)
     order = Order(subject, duration, outputs_of(outputs), options)
     grid = grid_of(axes, samples, drawn, chunk, order.outputs)
     order.experiment()  # refuses what cannot be asked of any member
