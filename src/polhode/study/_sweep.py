@@ -120,7 +120,8 @@ def sweep(
         else:
             _refuse_other(begun, origin)
             store = begun
-        left = [place for place in grid.places() if not store.done[place]]
+        done = store.done
+        left = [place for place in grid.places() if not done[place]]
         chunks = ((place, grid.members(place, constants, fixed[1])) for place in left)
         with _shown(progress, store, grid) as tick:
             for place, block in compute(tick)(order, chunks):
