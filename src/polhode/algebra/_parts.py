@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from hashlib import blake2b
 from math import prod
+from typing import Any
 
 from polhode.algebra._expression import ONE, ZERO, Expr, total
 from polhode.algebra._generators import Generator, Rate, Symbol
@@ -36,6 +37,9 @@ class Part(Generator):
 
     def __hash__(self) -> int:
         return hash(self.key)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Part, (self.meaning,)
 
     def symbols(self) -> frozenset[Symbol]:
         return self._symbols
@@ -102,8 +106,9 @@ def _named(expression: Expr) -> Expr:
 
 def _reciprocal(denominator: Expr) -> Expr:
     """One over it, each of its factors under a name."""
-    _, powers = factors(denominator)
-    return prod((_part(1 / factor) ** power for factor, power in powers.items()), start=ONE)
+    number, powers = factors(denominator)
+    inverses = (_part(1 / factor) ** power for factor, power in powers.items())
+    return prod(inverses, start=Expr.constant(1 / number))
 
 
 def _part(meaning: Expr) -> Expr:
