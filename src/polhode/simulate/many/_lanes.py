@@ -102,7 +102,7 @@ class Lanes:
         moving = np.array([self._dynamics.parameters.index(s) for s in symbols], dtype=np.intp)
         constants = self._constants(launch)
         work = Work(launch, constants, plan, moving, self._fewest, self.guarded, found)
-        queue = iter(np.argsort(launch.begin, kind="stable").tolist())
+        queue = iter(range(launch.count))
         threads = min(os.cpu_count() or 1, -(-launch.count // self.width))
         if threads:
             crews = [Crew(copy(self._compiled), work) for _ in range(threads)]
