@@ -155,3 +155,8 @@ def test_a_verdict_is_shown_in_latex():
     gyroscope = ph.derive(CATALOGUE["gyroscope"].build())
     verdict = ph.check(r"F_z = Mg - Ma(\ddot\theta\sin\theta)", gyroscope)
     assert verdict._repr_latex_().startswith(r"$\displaystyle \begin{array}{l} \text{fails}")
+
+
+def test_a_failure_tells_how_letters_were_read():
+    verdict = ph.check(r"L_z = I_1\omega_1", ph.derive(CATALOGUE["gyroscope"].build()))
+    assert any("L_z as angular momentum about cm" in remark for remark in verdict.remarks)

@@ -11,6 +11,7 @@ from polhode.claims._asked import Asked
 from polhode.claims._contexts import CONTEXTS, judge
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims._notation import Notation
+from polhode.claims._read_as import read_as
 from polhode.claims._typed import with_given, with_let, with_small
 from polhode.claims._verdict import Answer, Correction, Verdict
 from polhode.claims._vocabulary import spelled
@@ -74,6 +75,8 @@ def judged_claim(
     verdict = _judged(asked, context)
     if verdict.answer is not Answer.FAILS:
         return verdict
+    if understood := read_as(statement, notation.vocabulary):
+        verdict = replace(verdict, remarks=(*verdict.remarks, f"read {understood}"))
     tell(verdict)
     return _corrected(verdict, statement, notation, context)
 

@@ -16,7 +16,8 @@ _CLOSE = 1e-8
 _STEPS = 25
 _LARGEST = 60
 _SETTLED = 1e-14
-_TRIED = (Fraction(-1), *{Fraction(n, d): 0 for n in range(1, 5) for d in range(1, 5) if n != d})
+_QUOTIENTS = (Fraction(n, d) for n in range(1, 5) for d in range(1, 5) if n != d)
+_TRIED = (Fraction(-1), Fraction(0), *dict.fromkeys(_QUOTIENTS))
 _PROBES = (1.0, 1.25, *map(float, _TRIED))
 
 
