@@ -31,7 +31,7 @@ def to_sympy(expression: Expr, names: Mapping[str, Any] | None = None) -> Any:
     """
     if expression.ring.has_parts:
         raise NumericError(
-            f"{expression} for SymPy, where z_1, z_2, ... are long expressions under names",
+            f"{expression} for SymPy, where numbered letters are long expressions under names",
             expected="an expression that is written out",
             advice="evaluate it with compile_program",
         )

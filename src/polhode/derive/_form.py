@@ -37,6 +37,7 @@ class Form:
     """What is done with expressions as they grow.
 
     Attributes:
+        name: what the form is called.
         keep: an expression as it is worked on; polynomials in some symbols stay such.
         eliminate: how linear equations are solved.
     """
