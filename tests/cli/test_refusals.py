@@ -43,6 +43,7 @@ REFUSALS = [
     ("run rolling-disk --duration inf", "expected a finite number"),
     ("run rolling-disk --duration 1e300", "a duration of 1e+300 s; expected at most 1e+18 s"),
     ("run rolling-disk --duration 1e16", "expected a duration that 4000000 steps can cover"),
+    ("run rolling-disk --duration 0.01 --start omega_3=1e15", "4000 steps cover"),
     ("run rolling-disk --mu 1e300", "mu = 1e+300 of contact 'ground'; expected zero, or a number"),
     ("run rolling-disk --mu 1e-300", "mu = 1e-300 of contact 'ground'; expected zero, or"),
     ("run rolling-disk --duration 0.1s --save /dev/full", "it is a device or a pipe"),

@@ -23,6 +23,7 @@ from polhode.simulate.contact._transition import Leaving, Transitions, beyond
 from polhode.simulate.forcing._drive import Drive
 from polhode.simulate.integrate._driver import Stop, Watched, integrate
 from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._tally import Tally
 
 _LOOK = 400  # steps after which the guards are looked at
 _VANISHED = 1e-14  # slip speed, relative to the velocities around, that is none
@@ -83,6 +84,7 @@ class Walk:
         self._segments: list[Segment] = []
         self._changes: list[Change] = []
         self._transitions = Transitions(machine)
+        self._tally = Tally()
 
     def along(self, entry: Entry, end: float) -> Course:
         """Follow the motion up to a time, or to where it goes flat.
@@ -217,14 +219,15 @@ class Walk:
 
     def _watched(self, mode: ModeMachine, entry: Entry, scale: float) -> Watched:
         if not mode.mode.guards:
-            return Watched()
+            return Watched(tally=self._tally)
         core = mode.flow.core.symbols
         vectors = [slip_symbols(self._machine.automaton.contacts[i]) for i in sorted(entry.slips)]
         places = tuple(
             tuple(core.index(s) for s in pair) for pair in vectors if set(pair) <= set(core)
         )
         over = self._is_flat(mode)
-        return Watched(_LOOK, places, _VANISHED * scale, _LANDED * scale, over)
+        least, passing = _VANISHED * scale, _LANDED * scale
+        return Watched(_LOOK, places, least, passing, over, self._tally)
 
     def _is_flat(self, mode: ModeMachine) -> Callable[[float, list[float]], bool]:
         """Whether a state of the core is beyond the side on which the equations hold.

@@ -20,13 +20,11 @@ from polhode.simulate.integrate._flow import Flow, Stage
 from polhode.simulate.integrate._integrators import Array, Leg, Stepper, broken, looks_along
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
 from polhode.simulate.integrate._quadrature import integral
+from polhode.simulate.integrate._tally import MOST_STEPS, Tally
 
 _FEW = 10_000  # times for which states are remembered
 _TURNS = 4  # periods after which an angle is counted from zero again
-_MOST_STEPS = 4_000_000
 _SMALLEST = 1e-14  # length of a step, over the time and the longest, that means a singular position
-_GLANCE = 100  # steps after which it can be told that
-_HOPELESS = 4e12  # times as many would be too many
 
 States: TypeAlias = Callable[[Array], Array]
 
@@ -51,13 +49,15 @@ class Watched:
         least: length, m/s, at which such a vector has vanished.
         passing: the same at an instant at which it turns round, or where steps become too short.
         over: whether the motion is certainly over at a state, so that there is reason for a look.
+        tally: of the steps of the whole motion.
     """
 
-    pause: int = _MOST_STEPS
+    pause: int = MOST_STEPS
     vectors: tuple[tuple[int, ...], ...] = ()
     least: float = 0.0
     passing: float = 0.0
     over: Callable[[float, list[float]], bool] = lambda time, state: False
+    tally: Tally = field(default_factory=Tally)
 
     def seen(self, state: list[float]) -> list[list[float]]:
         """The vectors in a state of the core."""
@@ -256,7 +256,7 @@ class _Watch:
     ) -> None:
         self.stop: Stop | None = None
         self._limits = [(i, limit) for i, limit in enumerate(limits.tolist()) if limit < inf]
-        self._begin, self._end = span
+        self._span = span
         self._longest = 0.0
         self._progress = progress
         self._watched = watched
@@ -272,15 +272,12 @@ class _Watch:
         except Enough:
             self.stop = Stop.INTERRUPTED
             return False
-        if self._steps > _MOST_STEPS:
-            raise endless(time)
-        if self._is_hopeless(time) and not self._is_small():
-            raise _hopeless(self._end, time - self._begin)
+        self._watched.tally.count(self._span, time, hurries=not self._is_small())
         before, self._vectors = self._vectors, self._watched.seen(state)
         shrank, self._shrinks = self._shrinks, list(map(_is_shorter, self._vectors, before))
         if any(map(self._vanishes, before, self._vectors, shrank)):
             self.stop = Stop.VANISHED
-        elif self._is_stuck(time) and time < self._end:
+        elif self._is_stuck(time) and time < self._span[1]:
             self.stop = Stop.VANISHED if self._is_small() else Stop.STUCK
         elif self._steps % self._watched.pause == 0 or self._watched.over(time, state):
             self.stop = Stop.PAUSE
@@ -292,10 +289,6 @@ class _Watch:
         if step < inf:
             self._longest = max(self._longest, step)
         return step < _SMALLEST * max(abs(time), self._longest)
-
-    def _is_hopeless(self, time: float) -> bool:
-        passed = time - self._begin
-        return self._steps == _GLANCE and self._end - time > _HOPELESS / _GLANCE * passed
 
     def _is_small(self) -> bool:
         return any(hypot(*vector) <= self._watched.passing for vector in self._vectors)
@@ -310,24 +303,6 @@ class _Watch:
 
 def _is_shorter(one: list[float], other: list[float]) -> bool:
     return hypot(*one) < hypot(*other)
-
-
-def endless(time: float) -> NumericError:
-    """The motion takes more steps than can be kept."""
-    return NumericError(
-        f"{_MOST_STEPS} steps are not enough to go beyond t = {time:.9g} s",
-        expected="a motion without singular positions, over a duration that can be kept in memory",
-        advice="end before that time, or start elsewhere",
-    )
-
-
-def _hopeless(end: float, passed: float) -> NumericError:
-    """The end is out of reach."""
-    return NumericError(
-        f"a motion up to t = {end:g} s, of which {_GLANCE} steps cover {passed:.3g} s",
-        expected=f"a duration that {_MOST_STEPS} steps can cover",
-        advice=f"try {_MOST_STEPS / _GLANCE * passed / 100:.0e} s",
-    )
 
 
 def stuck(solution: Solution) -> NumericError:
