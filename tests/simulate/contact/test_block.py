@@ -116,3 +116,23 @@ def test_pushed_it_comes_to_rest() -> None:
     assert [event.kind for event in still.events] == ["start", "sticks", "end"]
     assert abs(still.events[1].time - stops) < 1e-13
     assert abs(np.hypot(still.final["x"], still.final["y"]) - 2.5 * stops) < 1e-12
+
+
+def test_a_ball_that_rolls_on_a_shaken_sheet_keeps_its_share_of_the_velocity() -> None:
+    """k/(1 + k) of the sheet's, with no rounding gathered over thousands of periods."""
+    lab = ph.Frame("lab")
+    m, a, g = ph.symbols("m a g", positive=True)
+    paper = ph.Sheet(lab, motion=(*ph.functions("X"), 0))
+    touch = ph.Coulomb(ph.sphere("ball", mass=m, radius=a, axes=lab), on=paper, mu=0.3)
+    run = ph.simulate(
+        ph.System(touch, ph.Gravity(g)),
+        {"m": 0.05, "a": 0.02, "g": G},
+        {"v_x": 0.1},
+        8192.0,
+        forcing={"X": ph.sin(3 * ph.time) / 20},
+        samples=1025,  # at times, and angles, without rounding
+    )
+    assert run.mode == "rolling"
+    expected = 0.1 + 2 / 7 * 3 / 20 * (np.cos(3 * run.t) - 1)
+    assert np.abs(run["v_x"] - expected).max() < 1e-15
+    assert run.drift.energy < 1e-13

@@ -200,7 +200,7 @@ class _Path:
         return self._states(which, times) + self.turned[which].T
 
     def _legs_at(self, times: Array) -> NDArray[np.intp]:
-        return np.clip(np.searchsorted(self.begins, times, "right") - 1, 0, None)
+        return np.searchsorted(self.begins[1:], times, "right")
 
     def _states(self, which: NDArray[np.intp], times: Array) -> Array:
         """The states of the core, less the whole turns that each leg began with."""

@@ -32,8 +32,12 @@ def evaluated(coefficients: Array, which: NDArray[np.intp], places: Array) -> Ar
 
 def powers_of(values: Array, count: int) -> Array:
     """The first, second, … power of each, shape (values, count)."""
-    repeated = np.broadcast_to(values[:, None], (len(values), count))
-    return np.asarray(np.multiply.accumulate(repeated, axis=1))
+    return np.asarray(np.multiply.accumulate(np.repeat(values[:, None], count, axis=1), axis=1))
+
+
+def pieces_at(knots: Array, times: Array) -> NDArray[np.intp]:
+    """Between which knots, by the place of the left one; beyond the ends the outermost."""
+    return np.searchsorted(knots[1:-1], times, "right")
 
 
 def _portions(count: int) -> Iterator[slice]:

@@ -1,4 +1,4 @@
-"""What of a coordinate is a function of time alone, and need not be integrated.
+"""What of a coordinate or a speed is a function of time alone, and need not be integrated.
 
 A body that keeps to a shaken support goes where the support goes: summed up over many periods, its
 velocity would carry it away by rounding.
@@ -27,11 +27,9 @@ class Primitive:
 
 def primitive(dynamics: Dynamics, state: Symbol, rate: Expr) -> Primitive:
     """The part of a state's rate that is a constant times the rates of prescribed functions."""
-    equations = dynamics.equations
-    own = state.derivative()
-    if own not in equations.kinematics:
+    full = _written_out(dynamics, state)
+    if full is None:
         return Primitive(ZERO, rate)
-    full = equations.kinematics[own].subs(equations.dependent)
     driving = [s for s in full.generators if isinstance(s, Symbol) and _is_rate(s)]
     known = ZERO
     for symbol in driving:
@@ -40,6 +38,19 @@ def primitive(dynamics: Dynamics, state: Symbol, rate: Expr) -> Primitive:
             known = known + coefficient * Expr.generator(_integrated(symbol))
             full = full - coefficient * Expr.generator(symbol)
     return Primitive(known, full) if known else Primitive(ZERO, rate)
+
+
+def _written_out(dynamics: Dynamics, state: Symbol) -> Expr | None:
+    """The rate of a coordinate, or of a speed that has a row of the equations to itself."""
+    equations, own = dynamics.equations, state.derivative()
+    if own in equations.kinematics:
+        return equations.kinematics[own].subs(equations.dependent)
+    if own not in dynamics.accelerations.unknowns:
+        return None
+    row = dynamics.accelerations.unknowns.index(own)
+    masses = equations.mass.rows[row]
+    alone = not any(mass for k, mass in enumerate(masses) if k != row)
+    return equations.forcing[row] / masses[row] if alone else None
 
 
 def _is_rate(symbol: Symbol) -> bool:

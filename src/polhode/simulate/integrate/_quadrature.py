@@ -9,7 +9,7 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-from polhode.simulate.integrate._polynomials import evaluated
+from polhode.simulate.integrate._polynomials import evaluated, pieces_at
 
 Array = NDArray[np.float64]
 
@@ -47,7 +47,7 @@ class Integral:
 
     def at(self, times: Array) -> Array:
         """The integrals at some times, shape (functions, times)."""
-        piece = np.clip(np.searchsorted(self.knots, times, "right") - 1, 0, len(self.knots) - 2)
+        piece = pieces_at(self.knots, times)
         left, right = self.knots[piece], self.knots[piece + 1]
         place = (2 * times - left - right) / (right - left)
         return np.asarray(self.totals[:, piece] + evaluated(self.powers, piece, place))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from polhode.simulate.integrate._integrators import Array
-from polhode.simulate.integrate._polynomials import evaluated, powers_of
+from polhode.simulate.integrate._polynomials import evaluated, pieces_at, powers_of
 
 
 class Steps:
@@ -72,6 +72,6 @@ class TaylorLeg:
 
     def at(self, times: Array) -> Array:
         """States, shape (states, times)."""
-        which = np.clip(np.searchsorted(self.times, times, "right") - 1, 0, len(self.lengths) - 1)
+        which = pieces_at(self.times, times)
         passed = (times - self.times[which]) - self.rests[which]
         return evaluated(self.shares, which, passed / self.lengths[which])
