@@ -1,6 +1,12 @@
 """What grows beyond use is kept under names, rather than worked at for hours."""
 
+from collections.abc import Callable
+
+import pytest
+
 import polhode as ph
+from derive import linkages
+from polhode.derive import Equations
 
 
 def test_a_loop_through_two_wheels_and_a_head_is_derived_in_parts() -> None:
@@ -38,3 +44,20 @@ def test_a_loop_through_two_wheels_and_a_head_is_derived_in_parts() -> None:
         ph.Pivot(front, to=head.point(fork["x"] * p + fork["z"] * q), name="front hub", force="J"),
     )
     assert ph.derive(bicycle).in_parts
+
+
+@pytest.mark.parametrize("declared", [linkages.four_bar, linkages.wheels_on_axle])
+def test_what_elimination_outgrows_is_derived_in_parts(
+    declared: Callable[[], Equations], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    written = declared()
+    undetermined = written.undetermined
+    monkeypatch.setattr("polhode.algebra._linear.LONGEST", 1)
+    equations = declared.__wrapped__()  # type: ignore[attr-defined]
+    assert equations.in_parts
+    assert not written.in_parts
+    assert equations.speeds == written.speeds
+    assert equations.undetermined == undetermined
+    assert equations.rate(equations.energy).is_zero
+    for found, expected in zip(equations.mass.rows, written.mass.rows, strict=True):
+        assert all((f - e).is_zero for f, e in zip(found, expected, strict=True))

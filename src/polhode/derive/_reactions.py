@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from polhode.algebra import (
@@ -15,13 +15,14 @@ from polhode.algebra import (
     Symbol,
     Vector,
     dot,
-    solve,
 )
 from polhode.base import ConstraintError
 from polhode.derive._balance import Wrench
-from polhode.derive._form import IN_PARTS
+from polhode.derive._form import IN_PARTS, Form
 from polhode.derive._motion import Motion
 from polhode.model import Body, Friction, Restraint
+
+Solve = Callable[[Sequence[Row], Sequence[Expr]], Elimination]
 
 
 @dataclass(frozen=True)
@@ -119,13 +120,22 @@ def solve_reactions(
         for i in range(3):
             rows.append(tuple(_part(w.couple, body.axes, i) if w else ZERO for w in unit))
             right.append(demand.couple.components[i])
-    equations = (rows, right, [0] * len(columns), motion.accelerations)
     try:
-        outcome = motion.form.eliminate(*equations)
+        return _solved(motion, motion.form, rows, right, columns)
     except OutgrownError:
-        outcome = IN_PARTS.eliminate(*equations)
-    _refuse_unheld(motion, outcome, bodies)
-    return _named(outcome, [line.name for line in columns])
+        return _solved(motion, IN_PARTS, rows, right, columns)
+
+
+def _solved(
+    motion: Motion, form: Form, rows: list[Row], right: list[Expr], columns: tuple[Line, ...]
+) -> Reactions:
+    def eliminated(table: Sequence[Row], values: Sequence[Expr]) -> Elimination:
+        ranks = [0] * (len(table[0]) if table else len(columns))
+        return form.eliminate(table, values, ranks, motion.accelerations)
+
+    outcome = eliminated(rows, right)
+    _refuse_unheld(motion, outcome, tuple(motion.system.bodies)[::-1])
+    return _named(outcome, [line.name for line in columns], eliminated)
 
 
 def _part(vector: Vector, triad: object, index: int) -> Expr:
@@ -147,13 +157,13 @@ def _refuse_unheld(motion: Motion, outcome: Elimination, bodies: tuple[Body, ...
     )
 
 
-def _named(outcome: Elimination, names: list[str]) -> Reactions:
+def _named(outcome: Elimination, names: list[str], eliminated: Solve) -> Reactions:
     if not outcome.free:
         values = {names[j]: constant for j, (_, constant) in outcome.solved.items()}
         ordered = {name: values[name] for name in names}
         return Reactions(ordered, (), ordered)
     open_ = tuple(Expr.generator(Symbol(names[j])) for j in outcome.free)
-    least_open = _least(outcome)
+    least_open = _least(outcome, eliminated)
     values = dict(zip((names[j] for j in outcome.free), open_, strict=True))
     least = dict(zip((names[j] for j in outcome.free), least_open, strict=True))
     loose = [names[j] for j in outcome.free]
@@ -168,13 +178,13 @@ def _named(outcome: Elimination, names: list[str]) -> Reactions:
     )
 
 
-def _least(outcome: Elimination) -> Row:
+def _least(outcome: Elimination, eliminated: Solve) -> Row:
     """Open components that make the sum of squares of all components smallest."""
     pairs = list(outcome.solved.values())
     size = range(len(outcome.free))
     normal = [
-        [sum((row[i] * row[j] for row, _ in pairs), ONE if i == j else ZERO) for j in size]
+        tuple(sum((row[i] * row[j] for row, _ in pairs), ONE if i == j else ZERO) for j in size)
         for i in size
     ]
     right = [-sum((row[i] * constant for row, constant in pairs), ZERO) for i in size]
-    return solve(normal, right)
+    return tuple(value for _, value in eliminated(normal, right).solved.values())
