@@ -65,6 +65,19 @@ def test_an_unforeseen_failure_is_shown_to_those_who_ask(polhode, monkeypatch):
     assert 'raise RuntimeError("something' in err
 
 
+def test_a_full_disk_under_the_output_is_named():
+    with open("/dev/full", "w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "polhode", "list", "--json"],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+    assert done.returncode == 2
+    assert "no space left" in done.stderr
+    assert "unexpected" not in done.stderr
+
+
 def test_warnings_of_libraries_are_not_shown(polhode):
     code, _, err = polhode("run", "rolling-disk", "--set", "m=1e308", "--duration", "0.1s")
     assert code == 2

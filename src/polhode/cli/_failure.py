@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
 import traceback
@@ -29,6 +30,8 @@ def _told(error: BaseException) -> str:
             return " ".join(str(error).split())
         case KeyboardInterrupt():
             return "; ".join(["interrupted", *getattr(error, "__notes__", ())])
+        case OSError(errno=errno.ENOSPC):
+            return "the output cannot be written: no space left where it goes; make room there"
         case _:
             what = " ".join(f"{type(error).__name__}: {error}".split())
             return f"unexpected {what} (POLHODE_DEBUG=1 shows where; please report it)"
