@@ -24,6 +24,7 @@ from polhode.simulate.integrate._tally import MOST_STEPS, Tally
 
 _FEW = 10_000  # times for which states are remembered
 _TURNS = 4  # periods after which an angle is counted from zero again
+_ALMOST = 100.0  # times the length at which a vector has vanished: there it turns round
 _SMALLEST = 1e-14  # length of a step, over the time and the longest, that means a singular position
 
 States: TypeAlias = Callable[[Array], Array]
@@ -297,7 +298,7 @@ class _Watch:
         turned = sum(map(mul, before, now)) <= 0.0
         size = hypot(*now)
         # Where it turns round within a few steps, none of them need be half a turn.
-        grows = shrank and size <= self._watched.passing and not _is_shorter(now, before)
+        grows = shrank and size <= _ALMOST * self._watched.least and not _is_shorter(now, before)
         return turned or grows or size <= self._watched.least
 
 
