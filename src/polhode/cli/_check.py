@@ -9,9 +9,11 @@ from typing import Any
 from polhode.claims import Answer, Verdict, check
 from polhode.cli._document import print_document, printed
 from polhode.cli._parser import Parser
+from polhode.cli._patience import within
 from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.derive import derive
 
+_LONGEST = 60.0  # s of computing
 _CODES = {Answer.FAILS: 1, Answer.UNREAD: 2}
 
 
@@ -37,14 +39,15 @@ def configure(parser: Parser) -> None:
 def run(options: Namespace) -> int:
     """Judge one equation and print the verdict; 0 where it holds, 1 where it fails, 2 unread."""
     equations = derive(entry_of(options.name).build())
-    verdict = check(
-        options.latex,
-        equations,
-        context=options.context,
-        let=options.let,
-        given=options.given,
-        small=options.small,
-    )
+    with within(_LONGEST, advice="judge its members one by one, or restrict it with --given"):
+        verdict = check(
+            options.latex,
+            equations,
+            context=options.context,
+            let=options.let,
+            given=options.given,
+            small=options.small,
+        )
     if options.json:
         print_document(_document(verdict))
     else:
