@@ -12,6 +12,7 @@ from polhode.base import (
     UnitError,
 )
 from polhode.simulate import simulate
+from polhode.study import linearised
 from simulate.examples import ByHand, four_bar, oscillator, pendulum, wheel
 
 UNITS = {"m": 1, "l": 1, "g": 1}
@@ -185,3 +186,12 @@ def test_a_singular_start_and_a_singular_end_are_told(integrator):
         simulate(falling, {"m": 1, "k": 1}, {}, 1)
     with pytest.raises(NumericError, match=r"cannot be continued|steps become too short"):
         simulate(falling, {"m": 1, "k": 1}, {"x": 1}, 2)
+
+
+def test_what_has_no_equations_of_motion_is_refused_by_name():
+    for attempt in (
+        lambda: simulate("rolling-disk", {}, {}, 1),
+        lambda: linearised("rolling-disk", {}, at={}),
+    ):
+        with pytest.raises(DeclarationError, match="'rolling-disk'"):
+            attempt()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 
+from polhode.base import DeclarationError
 from polhode.derive import Automaton, automaton
 from polhode.model import System
 from polhode.simulate._as_declared import AsDeclared
@@ -13,7 +14,11 @@ from polhode.simulate._task import Prepared, Task, timed
 
 
 def prepared(subject: System | Automaton | EquationsOfMotion, task: Task) -> Prepared:
-    """All that does not depend on the numbers, done once for every motion of a kind."""
+    """All that does not depend on the numbers, done once for every motion of a kind.
+
+    Raises:
+        DeclarationError: for what has no equations of motion.
+    """
     if isinstance(subject, System):
         subject = _modes(Same(subject))
     if isinstance(subject, Automaton):
@@ -25,6 +30,12 @@ def prepared(subject: System | Automaton | EquationsOfMotion, task: Task) -> Pre
                 return ThroughModes(subject, task)
         with timed(task, "derive"):
             return AsDeclared(subject.together.equations, task)
+    if not hasattr(subject, "kinematics"):
+        raise DeclarationError(
+            f"a motion of {subject!r}",
+            expected="a System, its automaton, or equations derived from it",
+            advice="put bodies, contacts and loads together in a System(...) first",
+        )
     return AsDeclared(subject, task)
 
 

@@ -60,7 +60,7 @@ def linearised(
         NumericError: for a motion that is not steady.
         UnitError: for a value that cannot be read.
     """
-    equations = derive(subject) if isinstance(subject, System) else subject
+    equations = subject if isinstance(subject, Equations) else derive(subject)
     dynamics = Dynamics(equations, {}, idle_parameters(equations, parameters))
     numbers = read_parameters(dynamics, parameters)
     state = read_start(dynamics, at, numbers).state
