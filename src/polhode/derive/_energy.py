@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from polhode.algebra import ZERO, Expr, Kind, Vector
-from polhode.derive._balance import applied
 from polhode.derive._motion import Motion
 from polhode.derive._reactions import Line
 from polhode.model import Body, Frame, Load
@@ -94,8 +93,3 @@ def angular_momentum(motion: Motion, about: Vector) -> Vector:
 
 def _along(motion: Motion, vector: Vector, frame: Frame) -> Vector:
     return motion.form.kept(motion.form.express(vector, frame), motion.speeds)
-
-
-def work_rate_of_loads(motion: Motion) -> Expr:
-    """Rate of work of all loads, W."""
-    return sum((action.power(motion.velocities) for action in applied(motion)), ZERO)

@@ -87,11 +87,6 @@ class Motion:
         spin = Vector(inertia.times(angular.components), angular.triad)
         return self.form.kept(spin, self.speeds)
 
-    def point_velocity(self, body: Body, arm: Vector) -> Vector:
-        """Velocity of the point of a body at `arm` from its centre of mass, m/s."""
-        velocity, angular = self.velocities[body]
-        return velocity + angular.cross(arm.express(body.axes))
-
     def slip(self, restraint: Restraint) -> Vector:
         """Velocity of the restrained point (or of the body's rotation) against its support."""
         own = against(restraint, self.velocities, self.form, self.speeds)

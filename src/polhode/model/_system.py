@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
-from polhode.algebra import Expr, Kind, Symbol, as_symbol
+from polhode.algebra import Expr, Symbol, as_symbol
 from polhode.base import DeclarationError, Shown
 from polhode.model._body import Body
 from polhode.model._element import Element
@@ -142,8 +142,3 @@ def _root(bodies: Iterable[Body]) -> None:
             expected="frames turned out of one root",
             advice="build all axes from the same Frame",
         )
-
-
-def is_configuration(symbol: Symbol) -> bool:
-    """Whether a symbol is a coordinate (and not its rate)."""
-    return symbol.kind is Kind.COORDINATE and symbol.order == 0
