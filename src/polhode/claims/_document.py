@@ -142,6 +142,10 @@ class Document:
         """The part that a claim stands in."""
         return self.part(claim.part)
 
+    def about(self, system: str) -> tuple[Claim, ...]:
+        """The claims about a system, in order."""
+        return tuple(claim for claim in self.claims if self.part_of(claim).system == system)
+
     def consequences(self, id: str) -> tuple[str, ...]:
         """Ids of all claims drawn from this one, directly or through others, in order."""
         reached = {id}

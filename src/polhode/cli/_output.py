@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 
 from polhode.base import StoreError
@@ -31,11 +31,10 @@ def write_run(folder: Path, entry: Entry, trajectory: Trajectory) -> list[Path]:
     return [table, picture]
 
 
-def write_page(path: Path, entry: Entry, trajectory: Trajectory, *, judged: bool) -> Path:
-    """Write a page that plays a run, with the problem set's claims judged if that is wanted.
+def write_page(path: Path, entry: Entry, trajectory: Trajectory, claims: Collection[str]) -> Path:
+    """Write a page that plays a run, with claims of the problem set judged, told by their ids.
 
     Raises:
-        DeclarationError: where there are no claims about the system.
         StoreError: where the file cannot be written.
     """
     page(
@@ -45,7 +44,7 @@ def write_page(path: Path, entry: Entry, trajectory: Trajectory, *, judged: bool
         about=entry.about,
         plots=entry.plots,
         meanings={parameter.name: parameter.meaning for parameter in entry.parameters},
-        judgements=judgements_on(entry) if judged else (),
+        judgements=judgements_on(claims),
     )
     return path
 

@@ -94,7 +94,7 @@ def run(options: Namespace) -> int:
     seconds = time.perf_counter() - began
     sheet = sheet_of(options, equations)
     _check_precision(options)
-    _check_verdicts(options, entry)
+    claims = _claims(options, entry)
     asked = (settings, assignments(options.start), options.duration)
     numbers = numbers_of(entry, equations, *asked, flight=modes.apart.equations)
     given = exactly(entry, equations, numbers, *asked) if _is_finer(options) else numbers
@@ -114,7 +114,7 @@ def run(options: Namespace) -> int:
     )
     document = _document(entry, trajectory, numbers.start, seconds)
     _refuse_overflow(document["final"] | document["drift"])
-    files = _written(options, entry, trajectory)
+    files = _written(options, entry, trajectory, claims)
     if options.json:
         print_document(document | {"files": [str(path) for path in files]})
     else:
@@ -144,10 +144,10 @@ def _check_precision(options: Namespace) -> None:
         )
 
 
-def _check_verdicts(options: Namespace, entry: Entry) -> None:
-    """Refuse them before the run where there is no page for them, or nothing to judge."""
+def _claims(options: Namespace, entry: Entry) -> tuple[str, ...]:
+    """What is to be judged; refused before the run where there is no page, or nothing to judge."""
     if not options.verdicts:
-        return
+        return ()
     if options.page is None:
         raise DeclarationError(
             "--verdicts without a page",
@@ -156,7 +156,7 @@ def _check_verdicts(options: Namespace, entry: Entry) -> None:
         )
     from polhode.cli._verdicts import claims_about
 
-    claims_about(entry)
+    return claims_about(entry)
 
 
 def _watched(equations: Equations) -> dict[str, Expr]:
@@ -182,7 +182,9 @@ def _is_constant(expression: Expr, equations: EquationsOfMotion) -> bool:
     return isinstance(equations, Equations) and equations.rate(expression).is_zero
 
 
-def _written(options: Namespace, entry: Entry, trajectory: Trajectory) -> list[Path]:
+def _written(
+    options: Namespace, entry: Entry, trajectory: Trajectory, claims: tuple[str, ...]
+) -> list[Path]:
     files = []
     if options.save:
         trajectory.save(options.save)
@@ -194,8 +196,7 @@ def _written(options: Namespace, entry: Entry, trajectory: Trajectory) -> list[P
     if options.out:
         files += write_run(options.out, entry, trajectory)
     if options.page:
-        shown = trajectory.rounded()
-        files.append(write_page(options.page, entry, shown, judged=options.verdicts))
+        files.append(write_page(options.page, entry, trajectory.rounded(), claims))
     return files
 
 

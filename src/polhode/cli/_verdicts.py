@@ -2,19 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from polhode.base import DeclarationError
 from polhode.catalogue import Entry, audit, document_of
 from polhode.view import Judgement
-
-
-def judgements_on(entry: Entry) -> tuple[Judgement, ...]:
-    """The verdicts on every claim about a system, in the order of the text.
-
-    Raises:
-        DeclarationError: where there are none.
-    """
-    claims = claims_about(entry)
-    return tuple(Judgement.on(judged) for judged in audit(only=claims).judged)
 
 
 def claims_about(entry: Entry) -> tuple[str, ...]:
@@ -23,8 +15,7 @@ def claims_about(entry: Entry) -> tuple[str, ...]:
     Raises:
         DeclarationError: where there are none.
     """
-    document = document_of(None)
-    found = tuple(c.id for c in document.claims if document.part_of(c).system == entry.name)
+    found = tuple(claim.id for claim in document_of(None).about(entry.name))
     if not found:
         raise DeclarationError(
             f"--verdicts for {entry.name}, about which the problem set says nothing",
@@ -32,3 +23,8 @@ def claims_about(entry: Entry) -> tuple[str, ...]:
             advice="judge your own with ph.check and give them to ph.page as judgements",
         )
     return found
+
+
+def judgements_on(claims: Collection[str]) -> tuple[Judgement, ...]:
+    """The verdicts on claims of the problem set with these ids, in the order of the text."""
+    return tuple(map(Judgement.on, audit(only=claims).judged)) if claims else ()

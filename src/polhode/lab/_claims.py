@@ -26,8 +26,7 @@ def _equations(system: str) -> Equations:
 
 def claims_about(system: str) -> list[dict[str, Any]]:
     """What the problem set states about a system, in its order, without verdicts."""
-    document = _document()
-    return [_stated(c) for c in document.claims if document.part_of(c).system == system]
+    return [_stated(claim) for claim in _document().about(system)]
 
 
 def judged(id: str) -> dict[str, Any]:

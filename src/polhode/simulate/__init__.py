@@ -3,6 +3,7 @@
 from polhode.simulate._drift import Drift as Drift
 from polhode.simulate._dynamics import Dynamics as Dynamics
 from polhode.simulate._dynamics import EquationsOfMotion as EquationsOfMotion
+from polhode.simulate._dynamics import constants as constants
 from polhode.simulate._event import Event as Event
 from polhode.simulate._experiment import NEAR_FLAT as NEAR_FLAT
 from polhode.simulate._experiment import Experiment as Experiment

@@ -95,9 +95,7 @@ class Experiment:
             DeclarationError: for a prescribed motion that is missing or cannot be.
             NumericError: for one that is not smooth, or contacts that cannot be followed.
         """
-        if self._prepared is None:
-            task = replace(self._plan, given=parameters, seconds={})
-            self._prepared = prepared(self.subject, task)
+        self._ready(replace(self._plan, given=parameters, seconds={}))
 
     def run(
         self,
@@ -112,13 +110,16 @@ class Experiment:
         """
         task = replace(self._plan, given=parameters, start=start, seconds={})
         with _shown(progress or SilentProgress()) as shown:
-            if self._prepared is None:
-                self._prepared = prepared(self.subject, task)
-            motion = self._prepared.follow(task, shown)
+            motion = self._ready(task).follow(task, shown)
             run = self._trajectory(motion, task)
             if self._wanted.numbers is DOUBLES:
                 return with_events(run, self._events)
             return precisely(run, motion, task, self._wanted, shown)
+
+    def _ready(self, task: Task) -> Prepared:
+        if self._prepared is None:
+            self._prepared = prepared(self.subject, task)
+        return self._prepared
 
     def _trajectory(self, motion: Motion, task: Task) -> Trajectory:
         end = motion.segments[-1].end

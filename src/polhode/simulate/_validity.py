@@ -14,7 +14,7 @@ from polhode.model import Contact
 if TYPE_CHECKING:
     from polhode.simulate._trajectory import Trajectory
 
-#: How finely a motion is looked at between its ends.
+#: How finely a motion is looked at between its ends: no finer than parts remember their states for.
 _LOOKS = 10_000
 
 

@@ -10,7 +10,7 @@ from polhode.algebra import Expr, Kind, Symbol
 from polhode.base import NumericError, look_up
 from polhode.derive import Automaton, Equations
 from polhode.model import Contact
-from polhode.simulate import quantity_names, refuse_missing, slip_symbols
+from polhode.simulate import constants, quantity_names, refuse_missing, slip_symbols
 from polhode.study._block import Order
 from polhode.study._columns import published_names
 from polhode.study._happenings import EventCount, EventTime
@@ -66,10 +66,8 @@ def _refuse_quantities(order: Order) -> None:
 
 def _refuse_constants(asked: Collection[Any], known: Mapping[str, Any]) -> None:
     """Expressions of parameters that the system does not have."""
-    for quantity in asked:
-        for symbol in Expr.of(quantity).symbols() if isinstance(quantity, Expr | Symbol) else ():
-            if symbol.kind is Kind.PARAMETER and symbol.name != "pi":
-                look_up(symbol.published, known, "parameter of this system")
+    for symbol in constants(Expr.of(q) for q in asked if isinstance(q, Expr | Symbol)):
+        look_up(symbol.published, known, "parameter of this system")
 
 
 def _quantities(derived: Automaton | Equations) -> Iterator[set[str]]:

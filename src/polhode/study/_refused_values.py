@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import Any
 
-from polhode.algebra import Expr, Kind
+from polhode.algebra import Expr
 from polhode.base import TIME, DeclarationError, Dimension, to_si
 from polhode.derive import Equations
+from polhode.simulate import constants
 from polhode.study._columns import Column
 
 
@@ -69,9 +70,8 @@ def _told(value: Any) -> Iterator[Any]:
 def _refuse_unknown(values: Mapping[str, Any], known: Collection[str]) -> None:
     """Expressions of what has no value."""
     for name, value in values.items():
-        for symbol in value.symbols() if isinstance(value, Expr) else ():
-            constant = symbol.kind is Kind.PARAMETER and symbol.name != "pi"
-            if constant and symbol.published not in known:
+        for symbol in constants([value]) if isinstance(value, Expr) else ():
+            if symbol.published not in known:
                 raise DeclarationError(
                     f"{name} = {value}, and no value for {symbol.published}",
                     expected="a number, or an expression of parameters for a start value",

@@ -18,6 +18,7 @@ from polhode.simulate.contact._touching import Touching
 from polhode.simulate.forcing._drive import Drive
 from polhode.simulate.integrate._flow import Flow, flow_of
 from polhode.simulate.integrate._integrators import Array, Integrator, Stepper
+from polhode.simulate.integrate._rows import rows
 
 Constants = Mapping[Symbol, float]
 
@@ -293,8 +294,8 @@ class ModeMachine:
         with np.errstate(all="ignore"):
             found = function(*state[: len(states)], *directions, *self.parameters, time)
         count = max(np.size(direction) for direction in directions)
-        rows = [np.broadcast_to(rate, (count,)) for rate in found]
-        return np.array(rows, dtype=float).reshape(-1, 2, count)
+        rates: Array = rows(found, count)
+        return rates.reshape(-1, 2, count)
 
     def slip_rates(self, state: Array, time: float, directions: Sequence[float]) -> Array:
         """Rate of the slip velocity of every contact, m/s², shape (contacts, 2)."""

@@ -12,6 +12,7 @@ import numpy as np
 from polhode.algebra import Program
 from polhode.simulate.integrate._ascending import occurring
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
+from polhode.simulate.integrate._polynomials import pieces_at
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +55,7 @@ class Series:
     def _evaluated(
         self, numbers: Numbers, starts: Any, times: Any, piece: Callable[[int], Any]
     ) -> Any:
-        which = np.clip(np.searchsorted(starts, times, "right") - 1, 0, len(starts) - 2)
+        which = pieces_at(starts, times)
         found = np.empty((self.limbs.shape[3], len(times)), dtype=numbers.dtype)
         for i in occurring(which):
             here = which == i

@@ -15,6 +15,7 @@ from polhode.algebra import Arithmetic, Expr, Matrix, Symbol
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate.integrate._heyoka import library
 from polhode.simulate.integrate._integrators import LOOKS, Array
+from polhode.simulate.integrate._rows import rows
 from polhode.simulate.many._crew import Crew, Ended, Places, Work
 from polhode.simulate.many._launch import Arrivals, Launch
 from polhode.simulate.many._stretches import Stretches, Timetable
@@ -75,7 +76,8 @@ class Lanes:
         function = self._dynamics.function(expressions, self.arguments)
         with np.errstate(all="ignore"):
             found = function(*launch.states, *self._rest, *launch.parameters, launch.begin)
-        return table([np.broadcast_to(v, launch.begin.shape) for v in found], launch.count)
+        values: Array = rows(found, launch.count)
+        return values
 
     def guarded(self, launch: Launch) -> Array:
         """How far the guards are above their least values, shape (guards, motions)."""
@@ -156,11 +158,6 @@ class Lanes:
         start = np.zeros((len(self.states), self.width))
         settings = {"t_events": events} if events else {}
         return library().taylor_adaptive_batch(system, start, tol=self._tolerance, **settings)
-
-
-def table(rows: Sequence[Any], count: int) -> Array:
-    """Rows of so many values, however few of them there are; shape (rows, count)."""
-    return np.array(rows, dtype=float).reshape(len(rows), count)
 
 
 def determinant(rows: Sequence[Sequence[Any]]) -> Any:

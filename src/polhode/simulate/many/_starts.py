@@ -12,6 +12,7 @@ from polhode.algebra import Expr, Matrix, Symbol
 from polhode.model import Contact, Coulomb
 from polhode.simulate._dynamics import Dynamics
 from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._rows import rows
 
 _ROUNDING = 1e-9  # relative, of principal moments that a flat body is at the limit of
 
@@ -89,8 +90,8 @@ class Beginning:
         constants = [self.constants[s] for s in self.dynamics.parameters]
         with np.errstate(all="ignore"):
             found = self.dynamics.function(expressions)(*states, *constants, 0.0)
-        rows = [np.broadcast_to(v, (self._count,)) for v in found]
-        return np.array(rows, dtype=float).reshape(len(rows), self._count)
+        values: Array = rows(found, self._count)
+        return values
 
 
 def _unit(size: int) -> Array:

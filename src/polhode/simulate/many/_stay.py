@@ -13,8 +13,9 @@ from polhode.base import look_up
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
 from polhode.simulate._readable import readable
 from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._rows import rows
 from polhode.simulate.many._endings import Ending
-from polhode.simulate.many._lanes import Lanes, table
+from polhode.simulate.many._lanes import Lanes
 from polhode.simulate.many._launch import Arrivals, Launch
 from polhode.simulate.many._stretches import Stretches
 
@@ -90,9 +91,9 @@ class Stay:
         least = [e.least + (STILL if e.slips else 0.0) * scales for e in self.endings]
         found = Launch(
             begin,
-            table([states.get(s, rest) for s in self.states], len(begin)),
+            rows([states.get(s, rest) for s in self.states], len(begin)),
             self.ordered(constants, len(begin)),
-            table([*least, *jams], len(begin)),
+            rows([*least, *jams], len(begin)),
             self._stretches.until_jerk(begin),
         )
         if jams:
@@ -101,7 +102,8 @@ class Stay:
 
     def ordered(self, constants: Mapping[Symbol, Array], count: int) -> Array:
         """Constants of so many motions as the equations take them, shape (parameters, motions)."""
-        return table([constants[s] for s in self.dynamics.parameters], count)
+        values: Array = rows([constants[s] for s in self.dynamics.parameters], count)
+        return values
 
     def clear(self, launch: Launch) -> NDArray[np.bool_]:
         """Motions that are taken up where all is finite, and no guard is anywhere near its fall."""
