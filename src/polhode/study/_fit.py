@@ -13,7 +13,7 @@ from polhode.base import DeclarationError, NumericError
 from polhode.simulate import Experiment
 from polhode.study._block import Subject
 from polhode.study._columns import Array, Name, published_names, several
-from polhode.study._sensitivity import Varied, refuse_samples
+from polhode.study._sensitivity import Varied
 
 _TOLERANCE = 1e-12  # relative, of the last step
 
@@ -62,7 +62,7 @@ def fit(
         vary: what is fitted: parameters, and coordinates or independent speeds at the start.
         deviation: standard deviation of the measurements of each quantity, SI. Without it, all
             are taken to have the same, which their scatter tells.
-        forcing: prescribed motions, as expressions of time.
+        forcing: prescribed motions: expressions of time, samples, or Python functions.
 
     Raises:
         DeclarationError: for measurements that do not fit together, or names that are not known.
@@ -80,7 +80,6 @@ def fit(
         )
     numbers = (published_names(parameters), published_names(start))
     weights = np.array([[1 / (deviation or {}).get(name, 1.0)] for name in data])
-    refuse_samples(forcing or {})
     experiment = Experiment(subject, float(when[-1]), samples=2, forcing=forcing)
     problem = _Problem(Varied(experiment, names, list(data)), names, numbers, when, data, weights)
     return problem.solved(scaled=deviation is None)

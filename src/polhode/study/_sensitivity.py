@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from polhode.algebra import Expr, Symbol, as_symbol
-from polhode.base import DeclarationError, NumericError, look_up
-from polhode.simulate import Dynamics, Experiment, Pieces, Trajectory
-from polhode.simulate.many import Tangents
+from polhode.base import NumericError, look_up
+from polhode.simulate import Dynamics, Experiment, Trajectory
+from polhode.simulate.many import Stretch, Tangents
 from polhode.study._block import Subject
 from polhode.study._columns import Array, Name, published_names, several
 from polhode.study._extremes import Quantity
@@ -57,13 +57,12 @@ def sensitivities(
         of: quantities, by published name or as expressions.
         by: parameters, and coordinates or independent speeds at the start.
         times: s; by default the end.
-        forcing: prescribed motions, as expressions of time.
+        forcing: prescribed motions: expressions of time, samples, or Python functions.
 
     Raises:
         DeclarationError: for a name that is no quantity, parameter or state.
         NumericError: where the motion changes its contact mode: the derivatives jump there.
     """
-    refuse_samples(forcing or {})
     experiment = Experiment(subject, duration, samples=2, forcing=forcing)
     when = np.asarray([experiment.duration] if times is None else times, dtype=float)
     names = list(published_names(dict.fromkeys(several(by, "to differentiate by"), 0)))
@@ -100,8 +99,7 @@ class Varied:
             self._tangents = self._compiled(run, dynamics)
         states = [Expr.generator(symbol) for symbol in dynamics.states]
         begin = run.segments[0].values(states, np.zeros(1))[:, 0]
-        constants = np.array([run.parameters[s.published] for s in dynamics.parameters])
-        return self._tangents.follow(begin, constants, times)
+        return self._tangents.follow(begin, list(_stretches(run)), times)
 
     def _compiled(self, run: Trajectory, dynamics: Dynamics) -> Tangents:
         known = {s.published: s for s in (*dynamics.parameters, *dynamics.states)}
@@ -109,19 +107,11 @@ class Varied:
         return Tangents(dynamics, by, [_expression(run, quantity) for quantity in self._of])
 
 
-def refuse_samples(forcing: Mapping[Name, Any]) -> None:
-    """Refuse prescribed motions that change from stretch to stretch.
-
-    Raises:
-        DeclarationError: with the first of them.
-    """
-    for name, motion in published_names(forcing).items():
-        if isinstance(motion, Pieces) or (callable(motion) and not isinstance(motion, Expr)):
-            raise DeclarationError(
-                f"derivatives with a prescribed {name}(t) that is sampled or a Python function",
-                expected="expressions of time",
-                advice="write it as an expression, or difference two runs",
-            )
+def _stretches(run: Trajectory) -> Iterator[Stretch]:
+    """As the motion was followed: sampled supports have other coefficients from knot to knot."""
+    for segment in run.segments:
+        for part in segment.parts:
+            yield Stretch(part.begin, part.end, part.constants)
 
 
 def refuse_switching(run: Trajectory, end: float) -> None:
@@ -131,8 +121,8 @@ def refuse_switching(run: Trajectory, end: float) -> None:
         NumericError: with what happens, and when.
     """
     changes = [e for e in run.events if e.before is not None and e.after is not None]
-    switches = [event for event in changes if event.before != event.after and event.time <= end]
-    told = [f"the contact {event.kind} at t = {event.time:.6g} s" for event in switches]
+    felt = [e for e in changes if (e.before != e.after or e.kind == "jerk") and e.time <= end]
+    told = [f"there is the event {e.kind!r} at t = {e.time:.6g} s" for e in felt]
     if any(symbol.published.startswith("slip_") for symbol in run.dynamics.carried):
         told = ["a contact slides"]
     if run.duration < end:

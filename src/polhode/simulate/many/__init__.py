@@ -7,5 +7,6 @@ from polhode.simulate.many._sightings import LAST as LAST
 from polhode.simulate.many._sightings import Sightings as Sightings
 from polhode.simulate.many._subjects import Plan as Plan
 from polhode.simulate.many._tangents import Dual as Dual
+from polhode.simulate.many._tangents import Stretch as Stretch
 from polhode.simulate.many._tangents import Tangents as Tangents
 from polhode.simulate.many._tangents import duals as duals

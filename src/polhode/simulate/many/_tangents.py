@@ -16,6 +16,7 @@ import numpy as np
 from polhode.algebra import Arithmetic, Expr, Op, Program, Symbol, arrays
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate.integrate._integrators import Array, broken, chosen
+from polhode.simulate.integrate._rows import rows
 
 _TOLERANCE = 1e-13  # of Runge-Kutta's steps
 _ABSOLUTE = 1e-14
@@ -97,6 +98,21 @@ def duals(plain: Arithmetic) -> Arithmetic:
     return Arithmetic(plain.number, plain.pi, {op: lifted(op) for op in slopes})
 
 
+@dataclass(frozen=True)
+class Stretch:
+    """A time in which the same constants hold.
+
+    Attributes:
+        begin: s.
+        end: s.
+        constants: parameters of the dynamics, in their order.
+    """
+
+    begin: float
+    end: float
+    constants: Array
+
+
 class Tangents:
     """The equations of one contact mode with their derivatives, compiled once.
 
@@ -115,13 +131,15 @@ class Tangents:
         self._rates = dynamics.program(dynamics.rates, arguments)
         self._quantities = dynamics.program(quantities, arguments)
 
-    def follow(self, start: Array, parameters: Array, times: Array) -> tuple[Array, Array]:
-        """Quantities and their derivatives along one motion from time 0.
+    def follow(
+        self, start: Array, stretches: Sequence[Stretch], times: Array
+    ) -> tuple[Array, Array]:
+        """Quantities and their derivatives along one motion.
 
         Args:
-            start: of all states.
-            parameters: in the order of the dynamics.
-            times: s, increasing.
+            start: of all states, where the first stretch begins.
+            stretches: one after the other, from the start on.
+            times: s, within them.
 
         Returns:
             Values, shape (quantities, times), and derivatives, shape (quantities, by, times).
@@ -129,14 +147,28 @@ class Tangents:
         Raises:
             NumericError: where the motion cannot be continued.
         """
-        states, slopes = self._path(start, parameters, times)
-        numbers = [Dual(x, s) for x, s in zip(states, slopes, strict=True)]
-        constants = [_constant(p, self._slopes(s)) for s, p in self._valued(parameters)]
+        whole = np.concatenate([start, self._at_start.ravel()])
+        values = np.empty((len(self._quantities.outputs), len(times)))
+        slopes = np.empty((len(values), len(self._by), len(times)))
+        begins = [stretch.begin for stretch in stretches]
+        which = np.clip(np.searchsorted(begins, times, "right") - 1, 0, None)
+        for i, stretch in enumerate(stretches):
+            here = which == i
+            path = self._path(whole, stretch, np.append(times[here], stretch.end))
+            whole = path[:, -1]
+            values[:, here], slopes[:, :, here] = self._read(path[:, :-1], stretch, times[here])
+        return values, slopes
+
+    def _read(self, path: Array, stretch: Stretch, times: Array) -> tuple[Array, Array]:
+        size = len(self._dynamics.states)
+        slopes = path[size:].reshape(size, len(self._by), len(times))
+        numbers = [Dual(x, s) for x, s in zip(path[:size], slopes, strict=True)]
+        constants = [_constant(p, self._slopes(s)) for s, p in self._valued(stretch.constants)]
         found = self._quantities.function(duals(arrays()))(*numbers, *constants, times)
-        values = [np.broadcast_to(_parts(q)[0], times.shape) for q in found]
+        values = rows([_parts(q)[0] for q in found], len(times))
         shape = (len(self._by), len(times))
         changes = [np.broadcast_to(_slopes_of(q, shape), shape) for q in found]
-        return np.array(values, dtype=float), np.array(changes, dtype=float)
+        return values, np.array(changes, dtype=float).reshape(len(found), *shape)
 
     def _valued(self, parameters: Array) -> list[tuple[Symbol, float]]:
         return list(zip(self._dynamics.parameters, parameters.tolist(), strict=True))
@@ -150,26 +182,24 @@ class Tangents:
         """Derivatives of the states at the start, shape (states, by)."""
         return np.array([self._slopes(s)[:, 0] for s in self._dynamics.states])
 
-    def _path(self, start: Array, parameters: Array, times: Array) -> tuple[Array, Array]:
-        """States, shape (states, times), and their derivatives, shape (states, by, times)."""
-        whole = np.concatenate([start, self._at_start.ravel()])
+    def _path(self, whole: Array, stretch: Stretch, times: Array) -> Array:
+        """States and then their derivatives, shape (states × (1 + by), times)."""
         solved = self._taylor if chosen().name == "heyoka" else self._runge_kutta
-        found = solved(whole, parameters, times)
+        grid = np.unique(np.append(stretch.begin, times))
+        found = solved(whole, stretch.constants, grid)
         if not np.all(np.isfinite(found)):
-            raise broken(float(times[-1]))
-        size = len(start)
-        return found[:size], found[size:].reshape(size, len(self._by), len(times))
+            raise broken(stretch.end)
+        return found[:, np.searchsorted(grid, times)]
 
-    def _taylor(self, whole: Array, parameters: Array, times: Array) -> Array:
+    def _taylor(self, whole: Array, parameters: Array, grid: Array) -> Array:
         taylor = self._compiled
-        taylor.time = 0.0
+        taylor.time = grid[0]
         taylor.state[:] = whole
         taylor.pars[:] = parameters[: len(taylor.pars)]
-        grid = np.unique(np.append(0.0, times))
         found = np.asarray(taylor.propagate_grid(grid)[-1], dtype=float)
         if len(found) < len(grid):
             raise broken(taylor.time)
-        return found[np.searchsorted(grid, times)].T
+        return found.T
 
     @cached_property
     def _compiled(self) -> Any:
@@ -204,7 +234,7 @@ class Tangents:
         numbers = [Dual(x, s) for x, s in zip(values, slopes, strict=True)]
         return program.function(duals(plain))(*numbers, *constants, time)
 
-    def _runge_kutta(self, whole: Array, parameters: Array, times: Array) -> Array:
+    def _runge_kutta(self, whole: Array, parameters: Array, grid: Array) -> Array:
         from scipy.integrate import solve_ivp
 
         size, count = len(self._dynamics.states), len(self._by)
@@ -219,10 +249,10 @@ class Tangents:
             changes = np.array([_slopes_of(r, (count,)) for r in found], dtype=float)
             return np.concatenate([values, changes.ravel()])
 
-        span = (0.0, float(times[-1]))
-        settings: dict[str, Any] = {"rtol": _TOLERANCE, "atol": _ABSOLUTE, "t_eval": times}
-        if span[1] == 0.0:
-            return np.repeat(whole[:, None], len(times), axis=1)
+        if len(grid) == 1:
+            return whole[:, None]
+        span = (float(grid[0]), float(grid[-1]))
+        settings: dict[str, Any] = {"rtol": _TOLERANCE, "atol": _ABSOLUTE, "t_eval": grid}
         solution = solve_ivp(rate, span, whole, method="DOP853", **settings)
         if solution.status != 0:
             raise broken(float(solution.t[-1]) if len(solution.t) else 0.0)
