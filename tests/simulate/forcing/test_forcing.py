@@ -231,6 +231,21 @@ def test_a_function_to_rounding(function, rate):
         assert curve.velocity(times) == pytest.approx([rate(t) for t in times], abs=1e-10)
 
 
+def test_large_terms_may_cancel():
+    """Where they do, the function's own rounding is larger than its values tell."""
+    random = np.random.default_rng(1)
+    for _ in range(60):
+        a, b, w, p = *random.normal(size=2), *random.uniform(0.1, 6.0, 2)
+        offset = 10 ** random.uniform(-2, 1)
+
+        def function(t, a=a, b=b, w=w, p=p, offset=offset):
+            return offset + a * math.sin(w * t + p) + b * math.exp(-t) * math.tanh(3 * (t - 1))
+
+        curve = approximated(function, 0.0, 6.0)
+        times = np.linspace(0, 5.999, 100)
+        assert curve.value(times) == pytest.approx([function(t) for t in times], abs=1e-12)
+
+
 def test_pieces_of_a_function_meet_with_equal_rates():
     curve = approximated(lambda t: math.sin(5 * t), 0.0, 4.0)
     reach = np.diff(curve.knots)[:-1]
@@ -255,6 +270,9 @@ def _fails(t):
     ("function", "told"),
     [
         (lambda t: abs(t - 1), r"not smooth near t = 1 s.*corner"),
+        (lambda t: abs(t - 1.5), r"not smooth near t = 1.5 s"),
+        (lambda t: t if t < 0.75 else 0.1 + t, r"not smooth near t = 0.75 s"),
+        (lambda t: math.sin(t) + (t >= 0.75) * 1e-9, r"not smooth near t = 0.75 s"),
         (math.sqrt, "not smooth near t = 0"),
         (lambda t: float(int(t * 1e6) % 7), "not smooth"),
         (lambda t: 1 / (t - 1), "not smooth near t = 1|not smooth near t = 0.99"),

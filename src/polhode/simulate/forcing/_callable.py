@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import pairwise
-from math import isfinite
+from math import inf, isfinite
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -19,6 +19,8 @@ Function = Callable[[float], float]
 _DEGREE = 11
 _ROUNDING = 6 * np.finfo(float).eps
 _NOTHING = np.finfo(float).eps / 2  # a coefficient that small is rounding
+_HELPED = 64  # by what halving a piece reduces its error at least, and in fact by 4096
+_AT_ENDS = 16  # roundings by which a piece may be off where it ends
 _SHORTEST = 1e-7  # length of a piece over the whole: shorter ones mean a corner
 _MOST = 100_000  # pieces
 
@@ -53,44 +55,67 @@ def approximated(
 
 @dataclass(frozen=True)
 class _Piece:
-    """A polynomial between two times, in powers of the time since the left one."""
+    """A polynomial between two times, in powers of the time since the left one.
+
+    Attributes:
+        size: of the function's values.
+        rounding: what the function's values are uncertain by, as far as they tell.
+        error: by how much they differ from it between the values that it was made of.
+    """
 
     left: float
     right: float
     powers: Array
+    size: float
+    rounding: float
+    error: float
 
 
 def _resolved(function: Function, left: float, right: float, shortest: float) -> list[_Piece]:
     """Pieces from left to right, halved until each agrees with the function."""
-    done, waiting = list[_Piece](), [(left, right)]
+    whole = _fitted(function, left, right)
+    done, waiting = list[_Piece](), [(whole, inf)]
     while waiting:
-        a, b = waiting.pop()
-        piece = _fitted(function, a, b)
-        if piece is not None:
+        piece, before = waiting.pop()
+        a, b = piece.left, piece.right
+        if _agrees(piece, before, _ROUNDING * whole.size):
             done.append(piece)
         elif b - a < shortest or len(done) > _MOST:
-            raise NumericError(
-                f"a prescribed motion that is not smooth near t = {a:.6g} s",
-                expected="a smooth function of time",
-                advice="name the times at which it jumps or has a corner",
-            )
+            raise _not_smooth(a)
         else:
-            waiting += [((a + b) / 2, b), (a, (a + b) / 2)]
+            halves = ((a + b) / 2, b), (a, (a + b) / 2)
+            waiting += [(_fitted(function, *half), piece.error) for half in halves]
     return done
 
 
-def _fitted(function: Function, left: float, right: float) -> _Piece | None:
-    """The polynomial through the function's values, if it also agrees with it in between."""
+def _agrees(piece: _Piece, before: float, noise: float) -> bool:
+    """Whether what is left of the error is rounding: of the values, or of what they are made of.
+
+    The latter shows, where large terms cancel, in that halving the piece has not helped.
+    """
+    return piece.error <= piece.rounding or before / _HELPED < piece.error <= noise
+
+
+def _fitted(function: Function, left: float, right: float) -> _Piece:
+    """The polynomial through the function's values, compared with it in between."""
     values = _values(function, left, right, _NODES)
     series = _SERIES @ (values - values[0])
-    series[np.abs(series) < _NOTHING * np.max(np.abs(values))] = 0.0
+    size = float(np.max(np.abs(values)))
+    series[np.abs(series) < _NOTHING * size] = 0.0
     series[0] += values[0]
     error = chebyshev.chebval(_BETWEEN, series) - _values(function, left, right, _BETWEEN)
-    rate = np.max(np.abs(np.diff(values) / np.diff(_NODES))) * 2 / (right - left)
-    rounded = np.max(np.abs(values)) + max(abs(left), abs(right)) * rate
-    if np.max(np.abs(error)) > _ROUNDING * rounded:
-        return None
-    return _Piece(left, right, _POWERS @ series / (right - left) ** np.arange(_DEGREE + 1))
+    rate = float(np.max(np.abs(np.diff(values) / np.diff(_NODES)))) * 2 / (right - left)
+    rounding = _ROUNDING * (size + max(abs(left), abs(right)) * rate)
+    powers = _POWERS @ series / (right - left) ** np.arange(_DEGREE + 1)
+    return _Piece(left, right, powers, size, rounding, float(np.max(np.abs(error))))
+
+
+def _not_smooth(time: float) -> NumericError:
+    return NumericError(
+        f"a prescribed motion that is not smooth near t = {time:.6g} s",
+        expected="a smooth function of time",
+        advice="name the times at which it jumps or has a corner",
+    )
 
 
 def _values(function: Function, left: float, right: float, places: Array) -> Array:
@@ -115,6 +140,9 @@ def _joined(pieces: list[_Piece]) -> tuple[Array, Array]:
     """Right ends and coefficients, with the last rounding between pieces taken out.
 
     Values and rates on both sides of a joint are brought to their mean by a cubic on either side.
+
+    Raises:
+        NumericError: where they differ by more: the function jumps, or has a corner, at a joint.
     """
     right = np.array([piece.right for piece in pieces])
     span = right - np.array([piece.left for piece in pieces])
@@ -126,7 +154,13 @@ def _joined(pieces: list[_Piece]) -> tuple[Array, Array]:
             np.sum((table * powers)[:, 1:] * span[:, None] ** powers[:-1], axis=1),
         ]
     )
-    gaps = np.pad(table.T[:2, 1:] - reached[:, :-1], ((0, 0), (1, 1))) / 2
+    apart = table.T[:2, 1:] - reached[:, :-1]
+    unsure = _AT_ENDS * np.array([max(piece.rounding, piece.error) for piece in pieces])
+    unsure = np.array([unsure, 2 * _DEGREE**2 / span * unsure])  # Markov's inequality
+    torn = np.flatnonzero(np.any(np.abs(apart) > unsure[:, 1:] + unsure[:, :-1], axis=0))
+    if len(torn):
+        raise _not_smooth(right[torn[0]])
+    gaps = np.pad(apart, ((0, 0), (1, 1))) / 2
     (d, v), (e, w) = -gaps[:, :-1], gaps[:, 1:]
     table[:, 0] += d
     table[:, 1] += v
