@@ -5,6 +5,7 @@ import random
 from fractions import Fraction
 from functools import reduce
 
+import mpmath
 import numpy as np
 import pytest
 from hypothesis import given
@@ -30,6 +31,7 @@ from polhode.algebra import (
     sinh,
     sqrt,
     symbols,
+    time,
 )
 from polhode.base import DeclarationError, NumericError
 
@@ -221,3 +223,38 @@ def test_sines_of_large_angles_are_taken_less_whole_turns():
     turn, within = as_symbol(u), as_symbol(Z)
     program = compile_program([sin(u) + u, cos(u / 2)], (turn, within), turned={turn: within})
     assert program.function()(1e9, 0.5) == (math.sin(0.5) + 1e9, math.cos(5e8))
+
+
+# -- bells ---------------------------------------------------------------------------------------
+
+
+def mpfs(numbers):
+    return [mpmath.mpf(n.numerator) / n.denominator for n in numbers]
+
+
+def bells(t, heights, middles, widths, exp):
+    return sum(
+        h * exp(-(((t - c) / w) ** 2)) for h, c, w in zip(heights, middles, widths, strict=True)
+    )
+
+
+@pytest.mark.parametrize("named", [True, False], ids=["symbols", "numbers"])
+@pytest.mark.parametrize("count", [1, 2])
+def test_derivatives_of_narrow_bells_keep_their_digits(named, count):
+    """Far from zero, 2(t − c)² − w² multiplied out would lose those of t²/w²."""
+    shapes = [[0.125, 0.25], [13.0, 13.5], [0.0625, 0.09375]]
+    given = [tuple(map(Fraction, row[:count])) for row in shapes]
+    names = [symbols(" ".join(f"{letter}{i}" for i in range(count))) for letter in "hcw"]
+    names = [name if isinstance(name, tuple) else (name,) for name in names]
+    moving = bells(time, *(names if named else given), exp)
+    rates = [moving, moving.dt(), moving.dt().dt()]
+    known = dict(zip(sum(names, ()), sum(given, ()), strict=True)) if named else {}
+    program = compile_program(rates, (as_symbol(time), *map(as_symbol, known)))
+    for t in np.linspace(12.8, 13.8, 41).tolist():
+        found = program.function()(t, *map(float, known.values()))
+        with mpmath.workdps(40):
+            for order, value in enumerate(found):
+                at = mpmath.mpf(t)
+                truth = mpmath.diff(lambda t: bells(t, *map(mpfs, given), mpmath.exp), at, order)
+                size = 0.5 / 0.0625**order
+                assert abs(value - truth) < 2e-15 * size, (t, order)

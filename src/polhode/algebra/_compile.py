@@ -11,6 +11,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 from flint import fmpq
 
+from polhode.algebra._centred import centred
 from polhode.algebra._elimination import solve_on
 from polhode.algebra._expression import ONE, ZERO, Expr
 from polhode.algebra._factored import extracted
@@ -140,9 +141,12 @@ class _Writer:
 
     def _exponential(self, factor: Expr, exponent: Expr) -> Value:
         """Factor times one exp; apart, exp(a) and exp(−b) may be infinite and nothing."""
-        value = self.expression(factor)
         if exponent.is_zero:
-            return value
+            return self.expression(factor)
+        near = centred(factor, exponent)
+        if near is not None:
+            self._values[near.distance] = self.expression(near.meaning)
+        value = self.expression(factor if near is None else near.expression)
         return self.tape.multiply(value, self.tape.call(Op.EXP, self.expression(exponent)))
 
     def _cost(self, form: _Fraction) -> int:

@@ -298,13 +298,13 @@ def _common_unit(first: Fraction, second: Fraction) -> Fraction:
 
 
 def exponentials(expression: Expr) -> list[tuple[Expr, Expr]] | None:
-    """An expression as a sum of factors times exp(exponent), where several exps occur in it.
+    """An expression as a sum of factors times exp(exponent), where exps occur in it.
 
     None where they do not, or where the denominator is a sum with exps in it.
     """
     occurring = [g for g in expression.ring.generators if isinstance(g, Exponential)]
     below = _exponent_of(expression.denominator)
-    if len(occurring) < 2 or below is None:
+    if not occurring or below is None:
         return None
     divisor, taken = below
     parts: dict[Expr, Expr] = {}
