@@ -5,12 +5,14 @@ from math import sin
 import numpy as np
 import pytest
 
+from polhode.algebra import symbol
 from polhode.base import DeclarationError, NumericError
 from polhode.catalogue import CATALOGUE
-from polhode.derive import derive
-from polhode.simulate import sampled, simulate
+from polhode.derive import automaton, derive
+from polhode.model import with_friction
+from polhode.simulate import Pieces, sampled, simulate
 from polhode.study import fit, sensitivities
-from study.examples import NUMBERS, disk, rough_disk
+from study.examples import NUMBERS, disk
 
 START = {"theta": 1.2, "phi_dot": 1.0, "omega_3": 20.0}
 TIMES = np.array([0.0, 0.1, 0.4])
@@ -55,10 +57,88 @@ def test_derivatives_are_those_of_the_motion(integrator):
     assert found.derivatives["theta"]["theta"][0] == 1.0
 
 
-def test_contact_modes_are_not_crossed():
+SLID = {"m": 0.05, "r": 0.02, "k": 0.4, "g": 9.81, "mu": 0.2}
+REST = {"X": 0, "Y": 0, "chi": 0}
+
+
+def rough_ball():
+    return with_friction(CATALOGUE["ball-on-paper"].build(), symbol("mu"))
+
+
+def test_a_ball_slides_and_then_rolls():
+    """Without spin it rolls from t = kv/((1 + k)μg) on, at v/(1 + k)."""
+    mu, g, k, v = SLID["mu"], SLID["g"], SLID["k"], 0.7
+    until = k * v / ((1 + k) * mu * g)
+    times, start = np.array([0.05, 0.2]), {"v_x": v, "omega_y": 0}
+    assert times[0] < until < times[1]
+    by = ["mu", "k", "v_x", "y"]
+    found = sensitivities(
+        rough_ball(), SLID, start, 0.2, of=["x", "v_x"], by=by, times=times, forcing=REST
+    )
+    t = times[0]
+    way = v * until - mu * g * until**2 / 2
+    along = way + v / (1 + k) * (times[1] - until)
+    assert found.values["x"] == pytest.approx([v * t - mu * g * t**2 / 2, along], rel=1e-12)
+    # x = v t/(1 + k) + k² v²/(2 (1 + k)² μ g), once it rolls
+    after = k**2 * v**2 / (2 * (1 + k) ** 2 * mu * g)
+    expected = {
+        ("x", "mu"): [-g * t**2 / 2, -after / mu],
+        ("x", "v_x"): [t, times[1] / (1 + k) + 2 * after / v],
+        ("x", "k"): [0, -v * times[1] / (1 + k) ** 2 + 2 * after / (k * (1 + k))],
+        ("x", "y"): [0, 0],
+        ("v_x", "mu"): [-g * t, 0],
+        ("v_x", "v_x"): [1, 1 / (1 + k)],
+        ("v_x", "k"): [0, -v / (1 + k) ** 2],
+    }
+    for (quantity, name), slopes in expected.items():
+        assert found.derivatives[quantity][name] == pytest.approx(slopes, rel=1e-9, abs=1e-10)
+        assert np.all(found.errors[quantity][name] < 1e-8)
+
+
+def test_the_instant_of_a_switch_shows_in_the_error():
+    mu, g, k, v = SLID["mu"], SLID["g"], SLID["k"], 0.7
+    until = k * v / ((1 + k) * mu * g)
+    found = sensitivities(
+        rough_ball(), SLID, {"v_x": v, "omega_y": 0}, 0.2,
+        of=["v_x"], by=["mu"], times=[until], forcing=REST,
+    )  # fmt: skip
+    assert found.derivatives["v_x"]["mu"][0] == pytest.approx(-g * until / 2, rel=1e-6)
+    assert found.errors["v_x"]["mu"][0] == pytest.approx(g * until / 2, rel=1e-6)
+
+
+def test_what_the_least_change_alters_has_no_derivative():
+    """The sheet jerks at the very instant at which the ball would stick."""
+    mu, g, k, v = SLID["mu"], SLID["g"], SLID["k"], 0.7
+    until = k * v / ((1 + k) * mu * g)
+    jerk = Pieces(np.array([until, until + 0.01]), np.array([[0.0, 0.01]]))
+    with pytest.raises(NumericError, match="order of events"):
+        sensitivities(
+            rough_ball(), SLID, {"v_x": v, "omega_y": 0}, 0.2,
+            of=["v_x"], by=["v_x"], forcing={**REST, "X": jerk},
+        )  # fmt: skip
+
+
+def test_a_disk_slips_and_sticks():
+    """By differences of fourth order, over steps of another size."""
+    mu = symbol("mu")
+    disk_on = automaton(with_friction(disk(), mu, 1.2 * mu))
     starts = {"theta": 1.0, "phi_dot": 3.0, "omega_3": 10.0}
-    with pytest.raises(NumericError, match="a contact slides"):
-        sensitivities(rough_disk(), NUMBERS, starts, 0.35, of=["theta"], by=["theta"])
+    runs = {
+        k: simulate(disk_on, {**NUMBERS, "mu": 0.25 + k * 1e-5}, starts, 0.35) for k in range(-2, 3)
+    }
+    assert len(runs[0].events) > 3
+    weights = {-2: 1 / 12, -1: -2 / 3, 1: 2 / 3, 2: -1 / 12}
+    found = sensitivities(
+        disk_on, {**NUMBERS, "mu": 0.25}, starts, 0.35, of=["theta", "x"], by=["mu"]
+    )
+    for name in ("theta", "x"):
+        expected = sum(w * runs[k].final[name] for k, w in weights.items()) / 1e-5
+        assert found.derivatives[name]["mu"][0] == pytest.approx(expected, rel=1e-6)
+
+
+def test_times_after_the_end_are_refused():
+    with pytest.raises(NumericError, match="ends at t"):
+        sensitivities(disk(), NUMBERS, {"theta": 0.3}, 5.0, of=["theta"], by=["theta"])
 
 
 def test_a_system_that_only_rolls_is_followed_through_its_modes():
@@ -104,11 +184,16 @@ def test_a_sheet_may_be_known_by_samples_or_as_a_function(integrator, sheet, by)
         assert found.derivatives[quantity][by] == pytest.approx(expected, rel=1e-5, abs=1e-7)
 
 
-def test_a_jerk_is_not_crossed():
+def test_a_jerk_is_crossed():
+    """The jump of the sheet's velocity moves the ball's by the same share whatever its start."""
     forcing = {"X": sampled(KNOTS, 0.05 * np.sin(8 * KNOTS) ** 2, starts=(3,)), "Y": 0, "chi": 0}
     ball = CATALOGUE["ball-on-paper"].build()
-    with pytest.raises(NumericError, match="jerk"):
-        sensitivities(ball, BALL, THROWN, 0.5, of=["x"], by=["k"], forcing=forcing)
+    found = sensitivities(
+        ball, BALL, THROWN, 0.6, of=["x", "v_x"], by=["k", "v_x"], forcing=forcing
+    )
+    assert found.derivatives["v_x"]["v_x"][0] == pytest.approx(1.0, rel=1e-9)
+    assert found.derivatives["x"]["v_x"][0] == pytest.approx(0.6, rel=1e-9)
+    assert found.derivatives["v_x"]["k"][0] == pytest.approx(0.0, abs=1e-9)
 
 
 # -- fits ------------------------------------------------------------------------------------------
@@ -170,3 +255,17 @@ def test_a_fit_with_a_sampled_sheet():
     guess = {**BALL, "k": 0.6}
     found = fit(ball, guess, THROWN, times, {"x": x}, vary=["k", "v_x"], forcing=forcing)
     assert found.values == pytest.approx({"k": 0.4, "v_x": 0.1}, rel=1e-8)
+
+
+def test_a_fit_of_friction():
+    """To a ball that slides and then rolls; the measurements are the closed form."""
+    k, v, mu, g, times = 0.4, 0.7, 0.2, 9.81, np.linspace(0.0, 0.3, 31)
+    until = k * v / ((1 + k) * mu * g)
+    slid = v * times - mu * g * times**2 / 2
+    rolled = v / (1 + k) * times + (k * v / (1 + k)) ** 2 / (2 * mu * g)
+    x = np.where(times < until, slid, rolled)
+    found = fit(
+        rough_ball(), {**SLID, "mu": 0.15}, {"v_x": 0.6, "omega_y": 0}, times, {"x": x},
+        vary=["mu", "v_x"], forcing=REST,
+    )  # fmt: skip
+    assert found.values == pytest.approx({"mu": mu, "v_x": v}, rel=1e-8)

@@ -66,7 +66,7 @@ def fit(
 
     Raises:
         DeclarationError: for measurements that do not fit together, or names that are not known.
-        NumericError: where the best fit is not found or not determined, or a contact switches.
+        NumericError: where the best fit is not found or not determined.
     """
     when = np.asarray(times, dtype=float)
     data = {name: np.asarray(values, dtype=float) for name, values in measured.items()}
@@ -168,7 +168,7 @@ class _Problem:
             parameters, start = self.numbers
             own = {name: given.pop(name) for name in list(given) if name in parameters}
             motion = self.varied.along({**parameters, **own}, {**start, **given}, self.times)
-            self._last = (values.copy(), *motion)
+            self._last = (values.copy(), motion.values, motion.slopes)
             self.evaluations += 1
         return self._last[1], self._last[2]
 

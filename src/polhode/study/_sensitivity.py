@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from polhode.algebra import Expr, Symbol, as_symbol
 from polhode.base import NumericError, look_up
-from polhode.simulate import Dynamics, Experiment, Trajectory
+from polhode.simulate import Dynamics, Event, Experiment, Trajectory
 from polhode.simulate.many import Stretch, Tangents
 from polhode.study._block import Subject
 from polhode.study._columns import Array, Name, published_names, several
+from polhode.study._differences import Slope, slope
 from polhode.study._extremes import Quantity
 
 
@@ -26,11 +27,14 @@ class Sensitivities:
         times: s.
         values: by quantity, shape (times,).
         derivatives: by quantity, and by what it is differentiated by, shape (times,).
+        errors: what they are uncertain by, likewise: nothing but rounding, told as 0, for motions
+            in one contact mode.
     """
 
     times: Array
     values: Mapping[str, Array]
     derivatives: Mapping[str, Mapping[str, Array]]
+    errors: Mapping[str, Mapping[str, Array]]
 
 
 def sensitivities(
@@ -44,10 +48,13 @@ def sensitivities(
     times: ArrayLike | None = None,
     forcing: Mapping[Name, Any] | None = None,
 ) -> Sensitivities:
-    """Derivatives of quantities along a motion, by the variational equations.
+    """Derivatives of quantities along a motion.
 
-    Derivatives by a start value hold all other start values and parameters; those by a parameter
-    hold the start values.
+    Derivatives by a start value hold all other coordinates and independent speeds at the start,
+    and the parameters; those by a parameter hold the start. Within one contact mode they obey the
+    variational equations. Where a contact slides or changes its mode, and where a support jerks,
+    they are extrapolated differences of motions to which the same happens in the same order; at
+    the instant of a switch they jump, and their error tells so.
 
     Args:
         subject: a declaration, its automaton, or equations derived from it.
@@ -61,22 +68,34 @@ def sensitivities(
 
     Raises:
         DeclarationError: for a name that is no quantity, parameter or state.
-        NumericError: where the motion changes its contact mode: the derivatives jump there.
+        NumericError: where the motion ends before, or the least change alters what happens to it.
     """
     experiment = Experiment(subject, duration, samples=2, forcing=forcing)
     when = np.asarray([experiment.duration] if times is None else times, dtype=float)
     names = list(published_names(dict.fromkeys(several(by, "to differentiate by"), 0)))
     quantities = several(of, "to differentiate")
     varied = Varied(experiment, names, quantities)
-    values, slopes = varied.along(published_names(parameters), published_names(start), when)
+    found = varied.along(published_names(parameters), published_names(start), when)
     told = [_told(quantity) for quantity in quantities]
-    return Sensitivities(
-        times=when,
-        values=dict(zip(told, values, strict=True)),
-        derivatives={
-            q: dict(zip(names, s, strict=True)) for q, s in zip(told, slopes, strict=True)
-        },
-    )
+    by_quantity = [
+        {q: dict(zip(names, rows, strict=True)) for q, rows in zip(told, table, strict=True)}
+        for table in (found.slopes, found.errors)
+    ]
+    return Sensitivities(when, dict(zip(told, found.values, strict=True)), *by_quantity)
+
+
+class Along(NamedTuple):
+    """Quantities along a motion.
+
+    Attributes:
+        values: shape (quantities, times).
+        slopes: their derivatives, shape (quantities, by, times).
+        errors: what those are uncertain by, shaped alike.
+    """
+
+    values: Array
+    slopes: Array
+    errors: Array
 
 
 class Varied:
@@ -88,23 +107,55 @@ class Varied:
         self._of = of
         self._tangents: Tangents | None = None
 
-    def along(
-        self, parameters: Mapping[Any, Any], start: Mapping[Any, Any], times: Array
-    ) -> tuple[Array, Array]:
-        """Values, shape (quantities, times), and derivatives, shape (quantities, by, times)."""
+    def along(self, parameters: Mapping[Any, Any], start: Mapping[Any, Any], times: Array) -> Along:
+        """One motion: by the variational equations, or by differences where modes change."""
         run = self._experiment.run({**parameters}, {**start})
-        refuse_switching(run, float(np.max(times)))
+        _refuse_end(run, float(np.max(times)))
         dynamics = run.segments[0].dynamics.without_carried
-        if self._tangents is None:
-            self._tangents = self._compiled(run, dynamics)
-        states = [Expr.generator(symbol) for symbol in dynamics.states]
-        begin = run.segments[0].values(states, np.zeros(1))[:, 0]
-        return self._tangents.follow(begin, list(_stretches(run)), times)
-
-    def _compiled(self, run: Trajectory, dynamics: Dynamics) -> Tangents:
         known = {s.published: s for s in (*dynamics.parameters, *dynamics.states)}
         by = [look_up(name, known, "parameter or state at the start") for name in self._by]
-        return Tangents(dynamics, by, [_expression(run, quantity) for quantity in self._of])
+        if _switches(run, float(np.max(times))):
+            return self._differenced(run, times)
+        if self._tangents is None:
+            of = [_expression(run, quantity) for quantity in self._of]
+            self._tangents = Tangents(dynamics, by, of)
+        begin = np.array(list(_begin(run, dynamics).values()))
+        values, slopes = self._tangents.follow(begin, list(_stretches(run)), times)
+        return Along(values, slopes, np.zeros_like(slopes))
+
+    def _differenced(self, run: Trajectory, times: Array) -> Along:
+        """Motions to which the same happens in the same order are known to rounding throughout."""
+        dynamics = run.segments[0].dynamics.without_carried
+        start: dict[Any, Any] = {s.published: x for s, x in _begin(run, dynamics).items()}
+        found = [self._slope(run, start, name, times) for name in self._by]
+        return Along(
+            self._read(run, times),
+            np.stack([one.value for one in found], axis=1),
+            np.stack([one.error for one in found], axis=1),
+        )
+
+    def _slope(self, run: Trajectory, start: dict[Any, Any], name: str, times: Array) -> Slope:
+        given = dict[Any, Any](run.parameters)
+        value = float(given[name] if name in given else start[name])
+
+        def values(departure: float) -> Array | None:
+            moved = {name: value + departure}
+            numbers = given | moved if name in given else given
+            begin = start if name in given else start | moved
+            other = self._experiment.run(numbers, begin)
+            return self._read(other, times) if _course(other) == _course(run) else None
+
+        found = slope(values, abs(value) or 1.0)
+        if found is None:
+            raise NumericError(
+                f"derivatives by {name} at {value:g}, where the order of events changes",
+                expected="a value on one side of such a change",
+                advice="differentiate a little above it, or below",
+            )
+        return found
+
+    def _read(self, run: Trajectory, times: Array) -> Array:
+        return np.array([run.evaluate(quantity, times) for quantity in self._of])
 
 
 def _stretches(run: Trajectory) -> Iterator[Stretch]:
@@ -114,24 +165,36 @@ def _stretches(run: Trajectory) -> Iterator[Stretch]:
             yield Stretch(part.begin, part.end, part.constants)
 
 
-def refuse_switching(run: Trajectory, end: float) -> None:
-    """Refuse a motion that changes its contact mode, or slides, up to a time.
+def _begin(run: Trajectory, dynamics: Dynamics) -> dict[Symbol, float]:
+    """States at the start."""
+    states = [Expr.generator(symbol) for symbol in dynamics.states]
+    values = run.segments[0].values(states, np.zeros(1))[:, 0]
+    return dict(zip(dynamics.states, values.tolist(), strict=True))
 
-    Raises:
-        NumericError: with what happens, and when.
-    """
-    changes = [e for e in run.events if e.before is not None and e.after is not None]
-    felt = [e for e in changes if (e.before != e.after or e.kind == "jerk") and e.time <= end]
-    told = [f"there is the event {e.kind!r} at t = {e.time:.6g} s" for e in felt]
-    if any(symbol.published.startswith("slip_") for symbol in run.dynamics.carried):
-        told = ["a contact slides"]
+
+def _switches(run: Trajectory, end: float) -> bool:
+    """Whether a contact slides, or changes its mode, or a support jerks, up to a time."""
+    slides = any(symbol.published.startswith("slip_") for symbol in run.dynamics.carried)
+    return slides or any(0 < event.time <= end for event in _felt(run))
+
+
+def _course(run: Trajectory) -> list[tuple[str, str | None]]:
+    """What happens, in order."""
+    return [(event.kind, event.after) for event in _felt(run)]
+
+
+def _felt(run: Trajectory) -> list[Event]:
+    """Events that change the equations or the speeds."""
+    inside = (event for event in run.events if event.after is not None)
+    return [event for event in inside if event.before != event.after or event.kind == "jerk"]
+
+
+def _refuse_end(run: Trajectory, end: float) -> None:
     if run.duration < end:
-        told = told or [f"the motion ends at t = {run.duration:.6g} s"]
-    if told:
         raise NumericError(
-            f"sensitivities where {told[0]}",
-            expected="a motion that stays in one contact mode, without sliding",
-            advice="end before that time, or difference the results of an ensemble",
+            f"derivatives up to {end:g} s of a motion that ends at t = {run.duration:.6g} s",
+            expected="times within the motion",
+            advice="ask for earlier ones",
         )
 
 

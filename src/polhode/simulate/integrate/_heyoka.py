@@ -107,7 +107,7 @@ class _TaylorStepper:
             callback=looked,
         )
         if not steps.count:
-            raise broken(taylor.time)
+            raise broken(begin)
         return steps.leg(broken=outcome.name not in ("time_limit", "cb_stop"))
 
 
