@@ -22,7 +22,7 @@ TIMES = np.linspace(0.0, 0.1, 5)
     [
         ({"vary": []}, DeclarationError, "nothing to vary"),
         ({"measured": {"theta": TIMES * np.nan}}, NumericError, "0 measurements for 1 values"),
-        ({"forcing": {"X": np.sin}}, DeclarationError, "Python function"),
+        ({"forcing": {"X": np.sin}}, DeclarationError, "prescribed function"),
     ],
 )
 def test_fits(asked, error, words):
@@ -36,7 +36,7 @@ def test_fits(asked, error, words):
     [
         ({"of": []}, "nothing to differentiate"),
         ({"by": []}, "nothing to differentiate by"),
-        ({"forcing": {"X": sampled([0.0, 0.1], [0.0, 1.0])}}, "sampled"),
+        ({"forcing": {"X": sampled([0.0, 0.1], [0.0, 1.0])}}, "prescribed function"),
     ],
 )
 def test_sensitivities(asked, words):

@@ -16,14 +16,12 @@ class Reduced:
     Attributes:
         equations: the whole.
         essential: coordinates that the accelerations depend on, directly or through one another.
-        ignorable: the other coordinates.
         speeds: all independent speeds.
         rates: of the essential coordinates.
     """
 
     equations: Equations
     essential: tuple[Symbol, ...]
-    ignorable: tuple[Symbol, ...]
     speeds: tuple[Symbol, ...]
     rates: Row
 
@@ -52,7 +50,6 @@ def reduced(equations: Equations) -> Reduced:
     return Reduced(
         equations,
         essential,
-        tuple(q for q in equations.coordinates if q not in essential),
         equations.speeds,
         tuple(equations.kinematics[q.derivative()] for q in essential),
     )

@@ -29,7 +29,7 @@ def prepared(subject: System | Automaton | EquationsOfMotion, task: Task) -> Pre
             if can_be_followed(subject):
                 return ThroughModes(subject, task)
         with timed(task, "derive"):
-            return AsDeclared(subject.together.equations, task)
+            subject = subject.together.equations
     if not hasattr(subject, "kinematics"):
         raise DeclarationError(
             f"a motion of {subject!r}",

@@ -49,7 +49,7 @@ class Group:
 
 
 @dataclass(frozen=True)
-class Leaving:
+class Departure:
     """Where a motion leaves a mode.
 
     Attributes:
@@ -103,7 +103,7 @@ class Company:
         for begin in range(0, len(which), _AT_ONCE):
             self._abreast(phases, group, launch, which[begin : begin + _AT_ONCE])
 
-    def _leave(self, row: int, leaving: Leaving) -> None:
+    def _leave(self, row: int, departure: Departure) -> None:
         """A motion leaves the mode, and does not end there."""
         self.lost.add(row)
 
@@ -141,8 +141,8 @@ class Company:
         for j in np.flatnonzero(here).tolist():
             state = dict(zip(symbols, found.states[-1, :, j].tolist(), strict=True))
             changes = group.changes[which[j]]
-            leaving = Leaving(phases, guard, float(found.end[j]), state, changes)
-            self._leave(int(group.rows[which[j]]), leaving)
+            departure = Departure(phases, guard, float(found.end[j]), state, changes)
+            self._leave(int(group.rows[which[j]]), departure)
 
     def _landed(self, stay: Stay, rows: Rows, launch: Launch, found: Arrivals) -> Arrivals:
         """The arrivals, moved on to where slips vanish that nearly have.

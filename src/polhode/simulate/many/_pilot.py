@@ -23,8 +23,8 @@ from polhode.simulate.contact._machine import Machine
 from polhode.simulate.contact._onset import onset
 from polhode.simulate.contact._settle import Entry
 from polhode.simulate.contact._through import first_entry
-from polhode.simulate.contact._transition import Leaving as Left
-from polhode.simulate.many._company import Leaving
+from polhode.simulate.contact._transition import Leaving
+from polhode.simulate.many._company import Departure
 from polhode.simulate.many._stretches import Stretches
 
 _LARGE = 6  # a matrix whose determinant has too many terms to be watched
@@ -82,15 +82,15 @@ class Pilot(Walk):
         """Of the contacts in a mode."""
         return self._machine.automaton.named(mode)
 
-    def leave(self, leaving: Leaving) -> tuple[str, Entry]:
+    def leave(self, departure: Departure) -> tuple[str, Entry]:
         """What happens where a mode ends, and how the motion enters the next."""
-        self._machine.move_on(self._stretches.begun_before(leaving.time))
-        mode = self._machine.mode(leaving.phases)
-        state = leaving.state
+        self._machine.move_on(self._stretches.begun_before(departure.time))
+        mode = self._machine.mode(departure.phases)
+        state = departure.state
         own = {s: state[s] for s in mode.dynamics.states if s not in mode.dynamics.carried}
-        place = mode.lifted(leaving.time, own, state.get(WORK, 0.0))
-        before = Entry(leaving.phases, place, np.empty(0), np.empty(0))
-        return self._transitions.next(before, Left(leaving.guard, place, {}))
+        place = mode.lifted(departure.time, own, state.get(WORK, 0.0))
+        before = Entry(departure.phases, place, np.empty(0), np.empty(0))
+        return self._transitions.next(before, Leaving(departure.guard, place, {}))
 
     def enter(self, entry: Entry, end: float) -> Entered:
         """The beginning of a mode: a slip that sets in, for which vectors are no use."""

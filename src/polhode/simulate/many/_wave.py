@@ -12,7 +12,7 @@ import numpy as np
 
 from polhode.simulate._segment import Part, state_at
 from polhode.simulate.contact._settle import Entry
-from polhode.simulate.many._company import Company, Group, Leaving, Phases, Starts, Stays
+from polhode.simulate.many._company import Company, Departure, Group, Phases, Starts, Stays
 from polhode.simulate.many._pilot import Entered, Pilot
 from polhode.simulate.many._sightings import LAST, Sightings
 from polhode.simulate.many._stay import Stay
@@ -57,11 +57,11 @@ class Wave(Company):
 
         self._attempt(row, begin)
 
-    def _leave(self, row: int, leaving: Leaving) -> None:
+    def _leave(self, row: int, departure: Departure) -> None:
         def go_on() -> None:
-            kind, entry = self._pilot.leave(leaving)
-            self.sightings.happened(row, leaving.time, kind)
-            self._enter(row, entry, leaving.changes + 1)
+            kind, entry = self._pilot.leave(departure)
+            self.sightings.happened(row, departure.time, kind)
+            self._enter(row, entry, departure.changes + 1)
 
         self._attempt(row, go_on)
 
