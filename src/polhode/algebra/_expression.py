@@ -44,6 +44,8 @@ class Expr(Printed):
         """The expression a number, an expression or a SymPy expression stands for."""
         if isinstance(value, Expr):
             return value
+        if type(value) is int:
+            return cls.constant(value)
         if isinstance(value, Rational):
             return cls.constant(Fraction(int(value.numerator), int(value.denominator)))
         if isinstance(value, float):
@@ -63,7 +65,9 @@ class Expr(Printed):
     @staticmethod
     def reads(value: object) -> bool:
         """Whether `of` takes values of this type."""
-        plain = isinstance(value, Expr | Rational | float) or is_numpy_scalar(value)
+        if isinstance(value, Expr) or type(value) is int:
+            return True
+        plain = isinstance(value, Rational | float) or is_numpy_scalar(value)
         return plain or type(value).__module__.startswith("sympy")
 
     @classmethod
@@ -105,7 +109,7 @@ class Expr(Printed):
     @property
     def is_polynomial(self) -> bool:
         """Whether the denominator is a number."""
-        return bool(self.den.is_constant())
+        return self.den is self.ring.one or bool(self.den.is_constant())
 
     @property
     def rational(self) -> Fraction | None:
@@ -138,6 +142,10 @@ class Expr(Printed):
 
     def symbols(self) -> frozenset[Symbol]:
         """Every symbol it depends on, also inside functions."""
+        return self._symbols
+
+    @cached_property
+    def _symbols(self) -> frozenset[Symbol]:
         return frozenset().union(*(g.symbols() for g in self.generators))
 
     def terms(self) -> Iterator[tuple[dict[Generator, int], Fraction]]:
@@ -207,7 +215,7 @@ class Expr(Printed):
         return Expr.fraction(self.ring, self.den, self.num)
 
     def __pow__(self, exponent: int | Fraction | Expr) -> Expr:
-        power = Expr.of(exponent).rational
+        power = exponent if type(exponent) is int else Expr.of(exponent).rational
         if power is None or power.denominator > 2:
             raise NumericError(
                 f"power {exponent!s}", expected="an integer or half-integer power", advice=""
@@ -220,6 +228,8 @@ class Expr(Printed):
         if times > _LARGEST_POWER:
             raise NumericError(f"power {power}", expected=f"at most the power {_LARGEST_POWER}")
         base = self if power >= 0 else self.reciprocal()
+        if times == 1:
+            return base
         return Expr(ring, *ring.cancel(ring.reduce(base.num**times), base.den**times))
 
     __radd__ = __add__
@@ -305,7 +315,12 @@ class Expr(Printed):
         table = {as_symbol(symbol): Expr.of(image) for symbol, image in images.items()}
         if not table.keys() & self.symbols():
             return self
-        return self.replaced(lambda s: table[s] if s in table else Expr.generator(s))
+
+        def image(symbol: Symbol) -> Expr:
+            return table[symbol] if symbol in table else Expr.generator(symbol)
+
+        changed = (g for g in self.generators if not table.keys().isdisjoint(g.symbols()))
+        return self.recast({g: g.replaced(image) for g in changed})
 
     def replaced(self, image: Rate) -> Expr:
         """With every symbol replaced by its image."""
@@ -313,9 +328,10 @@ class Expr(Printed):
 
     def recast(self, images: Mapping[Generator, Expr]) -> Expr:
         """With whole generators replaced by expressions."""
-        images = {g: images[g] if g in images else Expr.generator(g) for g in self.generators}
-        num = _compose(self.ring, self.num, images)
-        return num if self.is_polynomial else num / _compose(self.ring, self.den, images)
+        from polhode.algebra._substituted import substituted
+
+        num = substituted(self.numerator, images)
+        return num if self.is_polynomial else num / substituted(self.denominator, images)
 
 
 def total(expressions: Iterable[Expr]) -> Expr:
@@ -377,20 +393,6 @@ def _lifted(expression: Expr, ring: Ring) -> Expr:
     if expression.is_polynomial:
         return Expr(ring, num, ring.one)
     return Expr(ring, num, ring.lift(expression.ring, expression.den))
-
-
-def _compose(ring: Ring, polynomial: Polynomial, images: Mapping[Generator, Expr]) -> Expr:
-    result = ZERO
-    powers: dict[tuple[Generator, int], Expr] = {}
-    for monomial, coefficient in polynomial.terms():
-        term = Expr.constant(Fraction(int(coefficient.p), int(coefficient.q)))
-        for generator, power in zip(ring.generators, monomial, strict=True):
-            if power:
-                if (generator, power) not in powers:
-                    powers[generator, power] = images[generator] ** int(power)
-                term = term * powers[generator, power]
-        result = result + term
-    return result
 
 
 ZERO = Expr.constant(0)

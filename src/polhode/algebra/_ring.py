@@ -63,9 +63,13 @@ class Ring:
 
     def reduce(self, polynomial: Polynomial) -> Polynomial:
         """The same element with no algebraic generator squared."""
+        if not self.algebraic:
+            return polynomial
+        degrees = polynomial.degrees()
         for position, square in self.algebraic:
-            if polynomial.degrees()[position] > 1:
+            if degrees[position] > 1:
                 polynomial = self._fold(polynomial, position, square)
+                degrees = polynomial.degrees()
         return polynomial
 
     def _fold(self, polynomial: Polynomial, position: int, square: Polynomial) -> Polynomial:
@@ -97,6 +101,8 @@ class Ring:
 
     def rationalise(self, num: Polynomial, den: Polynomial) -> tuple[Polynomial, Polynomial]:
         """The same fraction with a denominator free of algebraic generators."""
+        if den.is_constant():
+            return num, den
         for position, _ in self.algebraic:
             if den.degrees()[position]:
                 even, odd = self.split(den, position)
