@@ -1,8 +1,8 @@
 """Look for text that makes the LaTeX reader fail, guided by the code it reaches (atheris).
 
 Whatever comes, it must be read or refused with a ParseError, in a few seconds of processor time;
-what is read must be written and read again as the same tree. The search starts from the displays of the problem set. It ends with
-libFuzzer's own account, and with exit code 0 if nothing was found.
+what is read must be written and read again as the same tree. The search starts from the displays of
+the problem set. It ends with libFuzzer's own account, and with exit code 0 if nothing was found.
 
     python benchmarks/fuzz_latex.py [SECONDS]
 """

@@ -141,6 +141,8 @@ def test_what_is_too_long_is_refused() -> None:
         ("x^1^2", "second", 4),
         ("2 3", "two numbers", 3),
         ("2_3", "number with an index", 1),
+        ("ma^.2 = I", r"\.2 without braces", 4),
+        (r"\frac 1.5", r"1\.5 without braces", 7),
         (r"\hat{x + y}", "hat over more", 1),
         (r"\mathcal{3}", "script letter", 1),
         (r"\frac{d}{dt} + a", "derivative of nothing", 1),

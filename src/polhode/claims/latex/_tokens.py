@@ -138,6 +138,8 @@ class _Scanner:
     def _number(self, text: str, start: int) -> Iterator[Token]:
         """A number; what wants a single token is given its first digit, as TeX does."""
         digits = self._single_digits()
+        if "." in text[:digits]:
+            raise self._refused(start, f"{text} without braces", "a decimal number in braces")
         for offset, digit in enumerate(text[:digits]):
             yield Token("number", digit, (start + offset, start + offset + 1))
         if text[digits:]:
