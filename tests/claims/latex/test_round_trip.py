@@ -60,6 +60,11 @@ def test_it_is_written_as_texts_print(latex: str, written: str) -> None:
     assert write_latex(read_latex(latex)) == written
 
 
+def test_a_word_of_any_length_comes_back() -> None:
+    word, _ = read_latex("S" * 122 + "$a = b$").relations
+    assert read_latex(write_latex(word)).relations == (word,)
+
+
 def test_what_is_no_part_of_a_tree_is_not_written() -> None:
     with pytest.raises(TypeError, match="str"):
         write_latex("x")

@@ -36,8 +36,8 @@ _PATTERN = re.compile(
     re.VERBOSE | re.DOTALL,
 )
 _RAW = re.compile(r"\s*\{([^{}]{0,400})\}")
-_PLAIN = re.compile(r"\s*(?:\{([\s~]*[A-Za-z][A-Za-z.~\s]{0,100})\}|([A-Za-z]))")
-_RUN = re.compile(r"\s*(?:\{([\s~]*[A-Za-z][A-Za-z.~\s]{0,100})\}|([A-Za-z]+))")
+_PLAIN = re.compile(r"\s*(?:\{([\s~]*[A-Za-z][A-Za-z.~\s]*)\}|([A-Za-z]))")
+_RUN = re.compile(r"\s*(?:\{([\s~]*[A-Za-z][A-Za-z.~\s]*)\}|([A-Za-z]+))")
 _ENVIRONMENT = re.compile(r"\s*\{([A-Za-z]{1,20})\*?\}(?:\s*\[[tbc]\])?")
 _COLUMNS = re.compile(r"\s*\{[lcrp@|\s]{0,40}\}|\s*\{[0-9]{1,2}\}")
 _INDEX = re.compile(r"\s*\[\s*([0-9]{1,2}|[a-z])\s*\]")
