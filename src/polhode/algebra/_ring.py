@@ -19,6 +19,7 @@ from flint import Ordering, fmpq_mpoly_ctx
 from polhode.algebra._generators import Generator
 from polhode.base import DeclarationError
 
+_FEW = 16  # terms up to which it is quicker to put the variables in one by one
 Polynomial = Any  # flint.fmpq_mpoly: python-flint ships no usable type information
 Monomial = tuple[int, ...]
 
@@ -59,7 +60,9 @@ class Ring:
         if not ring.generators:
             number = polynomial.leading_coefficient() if polynomial != 0 else 0
             return self.context.constant(number)
-        return polynomial.project_to_context(self.context)
+        if len(polynomial) > _FEW:
+            return polynomial.project_to_context(self.context)
+        return polynomial.compose(*_places(ring, self), ctx=self.context)
 
     def reduce(self, polynomial: Polynomial) -> Polynomial:
         """The same element with no algebraic generator squared."""
@@ -173,6 +176,12 @@ def union(*rings: Ring) -> Ring:
     generators = (generator for ring in rings for generator in ring.generators)
     known_first = sorted(generators, key=lambda g: not g.positive)
     return ring_of(frozenset(known_first))
+
+
+@lru_cache(maxsize=16384)
+def _places(ring: Ring, larger: Ring) -> tuple[Polynomial, ...]:
+    """The variables of one ring in another that holds them."""
+    return tuple(map(larger.variable, ring.generators))
 
 
 CONSTANTS = ring_of(frozenset())

@@ -14,6 +14,8 @@ from polhode.claims._meaning import with_signs
 from polhode.claims._rates import on_constraints, on_motion
 from polhode.derive import Equations
 
+_KEPT = 1024
+
 
 @dataclass(frozen=True)
 class Circumstances(ABC):
@@ -33,8 +35,18 @@ class Circumstances(ABC):
 
     def on(self, expression: Expr) -> Expr:
         """An expression on these states; zero exactly where it vanishes on all of them."""
-        found = self._on(expression)
-        return with_signs(found, self._known_signs) if self.positive else found
+        known = self._found
+        if expression not in known:
+            if len(known) >= _KEPT:
+                known.clear()
+            found = self._on(expression)
+            known[expression] = with_signs(found, self._known_signs) if self.positive else found
+        return known[expression]
+
+    @cached_property
+    def _found(self) -> dict[Expr, Expr]:
+        """What was found for expressions; the same ones are asked for again and again."""
+        return {}
 
     def of(self, symbol: Symbol) -> Expr:
         """One symbol on these states."""

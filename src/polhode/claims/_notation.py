@@ -75,6 +75,8 @@ class Notation:
 
     def binding(self, bindings: Mapping[str, str]) -> Notation:
         """With letters, as LaTeX, bound to quantities of the model."""
+        if not bindings:
+            return self
         mechanics = self.vocabulary.mechanics
         columns = bindings.get(COLUMNS, self.vocabulary.columns)
         mechanics.frame(columns)
@@ -127,18 +129,18 @@ class Notation:
 
     def under(self, given: Iterable[str]) -> Notation:
         """Restricted by relations, as LaTeX."""
-        bound = (
+        bound = [
             relation for latex in given for relation in self.bound(read_latex(latex)).relations
-        )
-        return replace(self, given=(*self.given, *bound))
+        ]
+        return replace(self, given=(*self.given, *bound)) if bound else self
 
     def with_small(self, small: Mapping[str, int | None]) -> Notation:
         """With small quantities, as LaTeX, and the order to which they are kept."""
-        found = (Small(self.scalar(latex), order) for latex, order in small.items())
-        return replace(self, small=(*self.small, *found))
+        found = [Small(self.scalar(latex), order) for latex, order in small.items()]
+        return replace(self, small=(*self.small, *found)) if found else self
 
     def _saying(self, told: Mapping[Node, Meaning]) -> Notation:
-        return replace(self, vocabulary=self.vocabulary.saying(told))
+        return replace(self, vocabulary=self.vocabulary.saying(told)) if told else self
 
     # -- reading --------------------------------------------------------------------------------
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 
 from polhode.algebra import Expr, Kind, Symbol, Vector, pi, time
+from polhode.claims._asked import The
 from polhode.claims._meaning import BindingError, Meaning, dot, positive_root
 from polhode.claims._mechanics import Mechanics
 from polhode.claims._phrases import quantity
@@ -16,6 +17,7 @@ from polhode.derive import Equations
 from polhode.model import Contact, Element, Gravity, Pivot
 
 _VECTOR, _HAT = "vector", "hat"
+_KEPT = 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,26 +44,20 @@ class Vocabulary:
     @classmethod
     def of(cls, equations: Equations) -> Vocabulary:
         """What is known from the declaration alone."""
-        return cls(Mechanics(equations))
+        return cls(_mechanics(The(equations)))
 
     def saying(self, told: Mapping[Node, Meaning]) -> Vocabulary:
         """With more letters, or with other meanings."""
         return replace(self, told={**self.told, **told})
 
-    @cached_property
+    @property
     def declared(self) -> dict[Node, Expr]:
         """Letters that the declaration itself uses, with their dots; they have their meaning."""
-        return {name_of(name): value for name, value in self.mechanics.scalars.items()}
+        return _declared(self.mechanics)
 
-    @cached_property
+    @property
     def _known(self) -> dict[Node, Callable[[], Meaning]]:
-        found: dict[Node, Callable[[], Meaning]] = {
-            node: partial(quantity, self.mechanics, phrase)
-            for node, phrase in automatic(self.mechanics)
-        }
-        fixed = {**self.declared, Name("pi"): pi, Name("t"): time}
-        plain = {node: value for node, value in fixed.items() if isinstance(node, Name)}
-        return found | {node: partial(Expr.of, value) for node, value in plain.items()}
+        return _known(self.mechanics)
 
     def has(self, node: Node) -> bool:
         """Whether a letter stands for something."""
@@ -159,6 +155,27 @@ class Vocabulary:
         for node in dict.fromkeys([*self.told, *named]):
             if isinstance(node, Name) and node.decoration != _HAT:
                 yield node
+
+
+@lru_cache(maxsize=_KEPT)
+def _mechanics(the: The) -> Mechanics:
+    """The same for all texts on one system, with all that was found out about it."""
+    return Mechanics(the.equations)
+
+
+@lru_cache(maxsize=_KEPT)
+def _declared(mechanics: Mechanics) -> dict[Node, Expr]:
+    return {name_of(name): value for name, value in mechanics.scalars.items()}
+
+
+@lru_cache(maxsize=_KEPT)
+def _known(mechanics: Mechanics) -> dict[Node, Callable[[], Meaning]]:
+    found: dict[Node, Callable[[], Meaning]] = {
+        node: partial(quantity, mechanics, phrase) for node, phrase in automatic(mechanics)
+    }
+    fixed = {**_declared(mechanics), Name("pi"): pi, Name("t"): time}
+    plain = {node: value for node, value in fixed.items() if isinstance(node, Name)}
+    return found | {node: partial(Expr.of, value) for node, value in plain.items()}
 
 
 #: How else a letter may have been printed, likeliest first.

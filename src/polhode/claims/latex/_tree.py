@@ -8,7 +8,7 @@ for the bindings to say. Letters go by their published names: ``theta``, ``Omega
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import Any, TypeVar
 
@@ -322,10 +322,12 @@ def walk(piece: Piece) -> Iterator[Piece]:
 
 
 def mapped(piece: PieceT, change: Callable[[Any], Piece]) -> PieceT:
-    """The same piece with each one directly inside it changed."""
-    values = {entry.name: getattr(piece, entry.name) for entry in fields(piece)}
-    changed: dict[str, Any] = {name: _changed(value, change) for name, value in values.items()}
-    return replace(piece, **changed)
+    """The same piece with each one directly inside it changed; itself where none is."""
+    said = piece._said
+    changed = tuple(_changed(value, change) for value in said)
+    if all(new is old for new, old in zip(changed, said, strict=True)):
+        return piece
+    return type(piece)(*changed, span=piece.span)
 
 
 def _pieces(value: object) -> Iterator[Piece]:
@@ -339,5 +341,7 @@ def _changed(value: object, change: Callable[[Any], Piece]) -> object:
     if isinstance(value, Piece):
         return change(value)
     if isinstance(value, tuple):
-        return tuple(_changed(item, change) for item in value)
+        changed = tuple(_changed(item, change) for item in value)
+        same = all(new is old for new, old in zip(changed, value, strict=True))
+        return value if same else changed
     return value

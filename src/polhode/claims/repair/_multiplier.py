@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from itertools import compress
 
 import numpy as np
 
@@ -138,11 +139,10 @@ def _by_secants(response: Response, row: int) -> Array:
 
 def simple_numbers(response: Response) -> Iterator[Fraction]:
     """The simple factors at which all vanishes; what is not linear may have several."""
-    size = np.abs(response.here).max(axis=1, keepdims=True)
-    for number in _TRIED:
-        rows = response.probed[:, _PROBES.index(float(number))]
-        if np.isfinite(rows).all() and (np.abs(rows) <= _CLOSE * (size + 1)).all():
-            yield number
+    size = np.abs(response.here).max(axis=1) + 1
+    tried = response.probed[:, -len(_TRIED) :]
+    vanishes = np.isfinite(tried) & (np.abs(tried) <= _CLOSE * size[:, None, None])
+    yield from compress(_TRIED, vanishes.all(axis=(0, 2)))
 
 
 @dataclass(frozen=True)

@@ -53,10 +53,13 @@ class Products:
         return np.array([values for _, values in self.known])
 
     def _singles(self, amount: Array) -> Iterator[Match]:
-        powers = np.array(_POWERS)[None, :, None]
-        left = amount / self._values[:, None] ** powers.astype(float)
-        for (i, j), number in _simple(left):
+        for (i, j), number in _simple(amount, self._powered):
             yield Match(number, ((self.known[i][0], _POWERS[j]),))
+
+    @cached_property
+    def _powered(self) -> Array:
+        """Powers of the letters."""
+        return np.asarray(self._values[:, None] ** np.array(_POWERS, dtype=float)[None, :, None])
 
     @cached_property
     def _signed(self) -> list[tuple[Node, int]]:
@@ -69,7 +72,7 @@ class Products:
         return np.asarray(table[:, None] * table[None])
 
     def _pairs(self, amount: Array) -> Iterator[Match]:
-        for (i, j), number in _simple(amount / self._table):
+        for (i, j), number in _simple(amount, self._table):
             (first, p), (second, q) = self._signed[i], self._signed[j]
             if i < j and first != second:
                 yield Match(number, ((first, p), (second, q)))
@@ -122,12 +125,14 @@ class _Few:
                     yield int(one), int(other)
 
 
-def _simple(left: Array) -> Iterator[tuple[tuple[int, int], Fraction]]:
-    """Where an array of quotients, (.., .., states), is one simple number at all states."""
-    constant = np.ptp(left, axis=2) <= _CLOSE * np.abs(left[:, :, 0])
-    for i, j in zip(*np.nonzero(constant), strict=True):
-        number = simple_number(left[i, j])
-        if number:
+def _simple(amount: Array, table: Array) -> Iterator[tuple[tuple[int, int], Fraction]]:
+    """Where an amount over a table of values, (.., .., states), is one simple number throughout."""
+    first, last = (amount[state] / table[:, :, state] for state in (0, -1))
+    likely = np.abs(last - first) <= _CLOSE * np.abs(first)
+    for i, j in zip(*np.nonzero(likely), strict=True):
+        left = amount / table[i, j]
+        constant = np.ptp(left) <= _CLOSE * abs(left[0])
+        if constant and (number := simple_number(left)):
             yield (int(i), int(j)), number
 
 
