@@ -20,7 +20,8 @@ function show(scene: SceneData): void {
   document.body.append(main, footer(scene));
 
   theatre.append(transport(clock));
-  const drawn = new Plots(scene.panels, clock, plots);
+  const drawn = new Plots(plots);
+  drawn.show(scene.panels, clock);
   const dark = matchMedia("(prefers-color-scheme: dark)");
   dark.addEventListener("change", () => drawn.theme());
 

@@ -13,61 +13,80 @@ const ROUNDING = 1e-9; // of the largest value: what is less is told as zero
 const dashes = (number: number): number[] => DASHES[(number + Math.floor(number / 4)) % DASHES.length];
 
 export class Plots {
-  private readonly plots: Plot[];
-  private readonly fitting: ResizeObserver;
+  private plots: Plot[] = [];
+  private kinds = "";
+  private readonly fitting = new ResizeObserver(() => {
+    for (const plot of this.plots) plot.fit();
+  });
 
-  constructor(panels: PanelData[], clock: Clock, holder: HTMLElement) {
-    this.plots = panels.map((panel) => new Plot(panel, clock, holder));
-    clock.onChange(({ time }) => {
-      for (const plot of this.plots) plot.seek(time);
-    });
-    this.fitting = new ResizeObserver(() => {
-      for (const plot of this.plots) plot.fit();
-    });
+  constructor(private readonly holder: HTMLElement) {
     this.fitting.observe(holder);
   }
 
-  /** Nothing is left of them. */
-  remove(): void {
-    this.fitting.disconnect();
+  /** Other quantities take the place of those that are there; of the same kinds, their lines alone change. */
+  show(panels: PanelData[], clock: Clock): void {
+    const kinds = panels.map(kindOf).join("\n");
+    if (kinds === this.kinds) this.plots.forEach((plot, i) => plot.renew(panels[i], clock));
+    else this.replace(panels, clock);
+    this.kinds = kinds;
+    clock.onChange(({ time }) => {
+      for (const plot of this.plots) plot.seek(time);
+    });
+  }
+
+  private replace(panels: PanelData[], clock: Clock): void {
     for (const plot of this.plots) plot.remove();
+    this.plots = panels.map((panel) => new Plot(panel, clock));
+    this.holder.append(...this.plots.map(({ figure }) => figure));
+    for (const plot of this.plots) plot.draw();
   }
 
   /** Colours are read again from the style of the page. */
   theme(): void {
-    for (const plot of this.plots) plot.theme();
+    for (const plot of this.plots) plot.draw();
   }
 }
 
+function kindOf({ unit, series }: PanelData): string {
+  return [unit, ...series.map(({ name, symbol }) => `${name} ${symbol}`)].join("\t");
+}
+
 class Plot {
-  private readonly figure: HTMLElement;
-  private readonly box: HTMLElement;
+  readonly figure: HTMLElement;
+  private readonly box = make("div", { class: "canvas", role: "img" });
   private readonly now = make("div", { class: "now" });
   private readonly values: HTMLElement[];
-  private readonly rows: Rows[];
-  private readonly least: number[];
-  private readonly data: uPlot.AlignedData;
-  private plot: uPlot;
+  private rows: Rows[] = [];
+  private least: number[] = [];
+  private data: uPlot.AlignedData = [[]];
+  private plot: uPlot | null = null;
   private time = 0;
 
   constructor(
-    private readonly panel: PanelData,
-    private readonly clock: Clock,
-    holder: HTMLElement,
+    private panel: PanelData,
+    private clock: Clock,
   ) {
-    this.rows = panel.series.map(({ values }) => new Rows(values));
-    this.least = this.rows.map(({ data }) => ROUNDING * data.reduce((a, b) => Math.max(a, Math.abs(b)), 0));
-    const times = Array.from({ length: this.rows[0].count }, (_, i) => (i / (this.rows[0].count - 1)) * clock.duration);
-    this.data = [times, ...this.rows.map(({ data }) => Array.from(data))];
     this.values = panel.series.map(() => make("span", { class: "value" }));
     const keys = panel.series.map(({ symbol }, i) =>
       make("span", { class: "key" }, swatch(i), formula(symbol), this.values[i]),
     );
     const unit = make("span", { class: "unit" }, panel.unit);
-    this.box = make("div", { class: "canvas", role: "img", "aria-label": this.described() });
     this.figure = make("figure", { class: "plot" }, make("figcaption", {}, ...keys, unit), this.box);
-    holder.append(this.figure);
+    this.read();
+  }
+
+  renew(panel: PanelData, clock: Clock): void {
+    this.panel = panel;
+    this.clock = clock;
+    this.read();
+    this.plot?.setData(this.data);
+  }
+
+  /** Draw it in place of what is there; its figure is on the page by now, and has its width. */
+  draw(): void {
+    this.plot?.destroy();
     this.plot = this.made();
+    this.mark();
   }
 
   seek(time: number): void {
@@ -81,19 +100,24 @@ class Plot {
   }
 
   fit(): void {
-    this.plot.setSize({ width: this.box.clientWidth, height: HEIGHT });
-    this.mark();
-  }
-
-  theme(): void {
-    this.plot.destroy();
-    this.plot = this.made();
+    const width = this.box.clientWidth;
+    if (!this.plot || this.plot.width === width) return;
+    this.plot.setSize({ width, height: HEIGHT });
     this.mark();
   }
 
   remove(): void {
-    this.plot.destroy();
+    this.plot?.destroy();
     this.figure.remove();
+  }
+
+  private read(): void {
+    this.rows = this.panel.series.map(({ values }) => new Rows(values));
+    this.least = this.rows.map(({ data }) => ROUNDING * data.reduce((a, b) => Math.max(a, Math.abs(b)), 0));
+    const { count } = this.rows[0];
+    const times = Float64Array.from({ length: count }, (_, i) => (i / (count - 1)) * this.clock.duration);
+    this.data = [times, ...this.rows.map(({ data }) => data)];
+    this.box.setAttribute("aria-label", this.described());
   }
 
   private described(): string {
@@ -107,7 +131,7 @@ class Plot {
   }
 
   private mark(): void {
-    const left = this.plot.valToPos(this.time, "x");
+    const left = this.plot?.valToPos(this.time, "x") ?? 0;
     this.now.style.transform = `translateX(${left}px)`;
   }
 

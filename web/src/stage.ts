@@ -287,6 +287,8 @@ export class Stage {
     this.camera.aspect = width / height;
     this.camera.fov = width < height ? 40 : 32;
     this.camera.updateProjectionMatrix();
+    const before = this.renderer.getSize(new Vector2());
+    if (before.x === width && before.y === height) return; // or what is drawn would be cleared
     this.renderer.setSize(width, height);
     this.draw();
   }

@@ -11,9 +11,9 @@ export class Player {
   readonly picture = make("div", { class: "picture", tabindex: 0, role: "application", "aria-label": "Picture in three dimensions. Arrow keys turn the view, plus and minus zoom, space plays." });
   readonly theatre = make("section", { class: "theatre", "aria-label": "Motion" }, this.picture);
   readonly plots = make("section", { class: "plots", "aria-label": "Plots against time" });
+  private readonly drawn = new Plots(this.plots);
   stage: Stage | null = null;
   clock: Clock | null = null;
-  private drawn: Plots | null = null;
   private system = "";
   private listening = new AbortController();
   private blind = false;
@@ -21,7 +21,7 @@ export class Player {
 
   constructor() {
     this.dark.addEventListener("change", () => {
-      this.drawn?.theme();
+      this.drawn.theme();
       this.stage?.theme(this.dark.matches);
     });
   }
@@ -32,8 +32,7 @@ export class Player {
     this.system = system;
     const clock = this.follower(scene, same);
     this.stage = this.staged(scene, same);
-    this.drawn?.remove();
-    this.drawn = new Plots(scene.panels, clock, this.plots);
+    this.drawn.show(scene.panels, clock);
     this.controls(scene, clock);
     this.listening.abort();
     this.listening = new AbortController();
