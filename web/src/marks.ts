@@ -11,6 +11,12 @@ export const PALETTE = {
   dark: "#5b636d",
 };
 
+/** Painted once, and shared by all that wear it from then on. */
+function kept(paint: () => Texture): () => Texture {
+  let texture: Texture | undefined;
+  return () => (texture ??= paint());
+}
+
 function painted(width: number, height: number, paint: (pen: CanvasRenderingContext2D) => void): Texture {
   const canvas = document.createElement("canvas");
   canvas.width = width;
@@ -24,7 +30,7 @@ function painted(width: number, height: number, paint: (pen: CanvasRenderingCont
 }
 
 /** A face with sectors, one of them marked. */
-export function sectors(): Texture {
+export const sectors = kept(() => {
   const size = 1024;
   const count = 12;
   return painted(size, size, (pen) => {
@@ -48,7 +54,7 @@ export function sectors(): Texture {
     pen.arc(middle, middle, middle * 0.04, 0, 7);
     pen.fill();
   });
-}
+});
 
 function ring(pen: CanvasRenderingContext2D, middle: number, at: number, colour: string, width: number): void {
   pen.strokeStyle = colour;
@@ -59,18 +65,18 @@ function ring(pen: CanvasRenderingContext2D, middle: number, at: number, colour:
 }
 
 /** An edge with as many blocks as the face has sectors. */
-export function edge(): Texture {
-  return painted(1200, 8, (pen) => {
+export const edge = kept(() =>
+  painted(1200, 8, (pen) => {
     for (let i = 0; i < 12; i++) {
       pen.fillStyle = i === 0 ? PALETTE.accent : i % 2 ? PALETTE.deep : PALETTE.metal;
       pen.fillRect(i * 100, 0, 100, 8);
     }
-  });
-}
+  }),
+);
 
 /** A ball in panels, with a marked cap. */
-export function panels(): Texture {
-  return painted(1024, 512, (pen) => {
+export const panels = kept(() =>
+  painted(1024, 512, (pen) => {
     for (let i = 0; i < 8; i++) {
       for (let j = 0; j < 4; j++) {
         pen.fillStyle = (i + j) % 2 ? PALETTE.blue : PALETTE.light;
@@ -83,8 +89,8 @@ export function panels(): Texture {
     pen.fillStyle = PALETTE.deep;
     pen.fillRect(0, 460, 1024, 52);
     pen.fillRect(0, 252, 1024, 8);
-  });
-}
+  }),
+);
 
 export function surface(colour: string): MeshLambertMaterial {
   return new MeshLambertMaterial({ color: colour });

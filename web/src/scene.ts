@@ -12,7 +12,9 @@ export class Rows {
   readonly width: number;
 
   constructor(packed: Packed) {
-    const bytes = Uint8Array.from(atob(packed.float32), (c) => c.charCodeAt(0));
+    const text = atob(packed.float32);
+    const bytes = new Uint8Array(text.length);
+    for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
     this.data = new Float32Array(bytes.buffer);
     this.count = packed.shape[0];
     this.width = packed.shape[1] ?? 1;

@@ -11,7 +11,6 @@ import {
   Quaternion,
   Raycaster,
   Scene,
-  type Texture,
   Vector2,
   Vector3,
   WebGLRenderer,
@@ -125,10 +124,7 @@ export class Stage {
     this.world.traverse((object) => {
       if (!(object instanceof Mesh || object instanceof LineSegments)) return;
       object.geometry.dispose();
-      for (const material of [object.material].flat() as (Material & { map?: Texture })[]) {
-        material.map?.dispose();
-        material.dispose();
-      }
+      for (const material of [object.material].flat() as Material[]) material.dispose();
     });
   }
 

@@ -1,9 +1,9 @@
 // What bodies stand on: planes, turntables, sheets, and a faint floor where there is none.
 
 import {
+  BufferAttribute,
   BufferGeometry,
   CircleGeometry,
-  Float32BufferAttribute,
   Group,
   LineBasicMaterial,
   LineSegments,
@@ -55,7 +55,7 @@ export class Grounds {
   /** A plane that fades out of sight. */
   boundless(middle: Point, radius: number, size: number): Object3D {
     const group = new Group();
-    const geometry = new RingGeometry(0, radius, 96, 24);
+    const geometry = new RingGeometry(0, radius, 64, 12);
     geometry.translate(middle[0], middle[1], 0);
     this.fill(group, geometry, "ground", (x, y) => fading(Math.hypot(x - middle[0], y - middle[1]) / radius));
     this.lines(group, gridLines(middle, [radius, radius], spacing(size)), "lines", (x, y) =>
@@ -115,9 +115,8 @@ export class Grounds {
 
   /** Straight lines, in pieces: a long one that passes the eye is not drawn by every machine. */
   private lines(group: Group, ends: Point[][], colour: Colour, alpha?: (x: number, y: number) => number, parts = PARTS): void {
-    const points = ends.flatMap(([from, to]) => pieces(from, to, parts));
     const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new Float32BufferAttribute(points.flatMap(([x, y]) => [x, y, 0]), 3));
+    geometry.setAttribute("position", new BufferAttribute(pieces(ends, parts), 3));
     const material = new LineBasicMaterial(alpha && { transparent: true, vertexColors: true });
     if (alpha) veil(geometry, alpha);
     this.painted.push({ material, colour });
@@ -130,8 +129,9 @@ export class Grounds {
 /** White, as far as can be seen through it. */
 function veil(geometry: BufferGeometry, alpha: (x: number, y: number) => number): void {
   const place = geometry.getAttribute("position");
-  const colours = Array.from({ length: place.count }, (_, i) => [1, 1, 1, alpha(place.getX(i), place.getY(i))]);
-  geometry.setAttribute("color", new Float32BufferAttribute(colours.flat(), 4));
+  const colours = new Float32Array(4 * place.count).fill(1);
+  for (let i = 0; i < place.count; i++) colours[4 * i + 3] = alpha(place.getX(i), place.getY(i));
+  geometry.setAttribute("color", new BufferAttribute(colours, 4));
 }
 
 function fading(share: number): number {
@@ -139,9 +139,18 @@ function fading(share: number): number {
   return (1 - t) ** 2 * (1 + 2 * t);
 }
 
-function pieces(from: Point, to: Point, count: number): Point[] {
-  const at = (share: number): Point => [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])];
-  return Array.from({ length: count }, (_, i) => [at(i / count), at((i + 1) / count)]).flat();
+/** Both ends of every piece of every line, in the plane z = 0. */
+function pieces(lines: Point[][], count: number): Float32Array {
+  const places = new Float32Array(6 * count * lines.length);
+  let at = 0;
+  for (const [[x, y], [u, v]] of lines) {
+    for (let i = 0; i < 2 * count; i++, at += 3) {
+      const share = Math.ceil(i / 2) / count;
+      places[at] = x + share * (u - x);
+      places[at + 1] = y + share * (v - y);
+    }
+  }
+  return places;
 }
 
 function circle(radius: number): Point[][] {

@@ -18,14 +18,17 @@ export class Trace {
 
   constructor(readonly data: TraceData) {
     const { data: points, count } = new Rows(data.points);
-    const pieces: number[] = [];
+    const pieces = new Float32Array(6 * Math.max(count - 1, 1));
+    let length = 0;
     for (let i = 1; i < count; i++) {
-      const piece = points.subarray(3 * i - 3, 3 * i + 3);
-      if (!piece.some(Number.isNaN)) pieces.push(...piece);
-      this.drawn.push(pieces.length / 6);
+      if (!Number.isNaN(points[3 * i - 3]) && !Number.isNaN(points[3 * i])) {
+        pieces.set(points.subarray(3 * i - 3, 3 * i + 3), length);
+        length += 6;
+      }
+      this.drawn.push(length / 6);
     }
     const geometry = new LineSegmentsGeometry();
-    geometry.setPositions(pieces.length ? pieces : [0, 0, 0, 0, 0, 0]);
+    geometry.setPositions(pieces.subarray(0, Math.max(length, 6)));
     this.material = new LineMaterial({
       linewidth: data.kind === "contact" ? 2.6 : 1.8,
       transparent: true,

@@ -1,4 +1,4 @@
-// Questions to the lab's server: the newest of a kind counts, older ones are called off.
+// Questions to the lab's server: the newest of a kind counts, and older ones hold it up only so long.
 
 export interface Refusal {
   given: string;
@@ -28,11 +28,13 @@ export async function post(task: string, question: object, signal?: AbortSignal)
   throw new RefusedError((await response.json()) as Refusal);
 }
 
-/** Asks a little after the last change, and hands on the newest answer alone. */
+const PATIENCE = 1000; // ms that a newer question waits for an older one's answer
+
+/** Asks one question at a time, and then the newest of those that came meanwhile. */
 export class Asker<T> {
-  private number = 0;
+  private next: object | null = null;
   private waiting = 0;
-  private under = new AbortController();
+  private under: AbortController | null = null;
 
   constructor(
     private readonly task: string,
@@ -43,24 +45,41 @@ export class Asker<T> {
   ) {}
 
   ask(question: object): void {
-    const number = ++this.number;
-    clearTimeout(this.waiting);
-    this.under.abort();
-    this.under = new AbortController();
-    const { signal } = this.under;
+    this.next = question;
     this.busy(true);
-    this.waiting = window.setTimeout(() => void this.send(number, question, signal), this.delay);
+    clearTimeout(this.waiting);
+    this.waiting = window.setTimeout(() => this.begin(), this.delay);
   }
 
-  private async send(number: number, question: object, signal: AbortSignal): Promise<void> {
+  /** What was asked is of no interest any more. */
+  forget(): void {
+    this.next = null;
+    this.under?.abort();
+  }
+
+  private begin(): void {
+    const { under } = this;
+    if (under) setTimeout(() => under.abort(), PATIENCE);
+    else void this.work();
+  }
+
+  private async work(): Promise<void> {
+    while (this.next) {
+      const question = this.next;
+      this.next = null;
+      this.under = new AbortController();
+      await this.send(question, this.under.signal);
+    }
+    this.under = null;
+    this.busy(false);
+  }
+
+  private async send(question: object, signal: AbortSignal): Promise<void> {
     try {
       const answer = await ask<T>(this.task, question, signal);
-      if (number === this.number) this.answer(answer);
+      if (!signal.aborted) this.answer(answer);
     } catch (error) {
-      if (number !== this.number || signal.aborted) return;
-      this.refused(error instanceof RefusedError ? error.message : "The lab's server does not answer; is polhode lab still running?");
-    } finally {
-      if (number === this.number) this.busy(false);
+      if (!signal.aborted) this.refused(error instanceof RefusedError ? error.message : "The lab's server does not answer; is polhode lab still running?");
     }
   }
 }

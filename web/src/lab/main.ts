@@ -16,8 +16,8 @@ import { empty, read, written } from "./state";
 import { tabs } from "./tabs";
 import type { Answer, Control, Description, Offer, Outcome, Row, Standing, State } from "./types";
 
-const MOTION_DELAY = 40; // ms after the last change
-const STUDY_DELAY = 250;
+const MOTION_DELAY = 0; // ms after the last change
+const STUDY_DELAY = 300; // when the picture is there
 const AFTER = 1.5; // s that a motion goes on once the sheet is let go
 const RETURNED = 1e-9; // relative difference of velocities that count as equal
 const CONTACTS: Record<string, string> = { rolling: "Rolling", smooth: "Smooth", friction: "Friction" };
@@ -77,6 +77,7 @@ class Lab {
   /** Another system, or another contact: what can be chosen is asked anew. */
   private async begin(state: State): Promise<void> {
     this.state = state;
+    this.forget();
     this.choice.value = state.system;
     this.drag.arm(false);
     try {
@@ -92,7 +93,14 @@ class Lab {
     }
   }
 
+  /** Answers to what was asked before are of something else. */
+  private forget(): void {
+    this.motion.forget();
+    this.study.forget();
+  }
+
   private describe(found: Description): void {
+    this.forget();
     document.title = `${found.title} · polhode lab`;
     this.title.textContent = found.title;
     this.about.textContent = found.about;
