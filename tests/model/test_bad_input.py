@@ -21,7 +21,7 @@ def body(**changed: object) -> ph.Body:
 
 
 def wheel(name: str = "wheel", **more: object) -> ph.Body:
-    return ph.disk(name, mass=m, radius=a, axes=AXES, **more)
+    return ph.disk(name, **{"mass": m, "radius": a, "axes": AXES, **more})
 
 
 def tilting(name: str, coordinate: str, **more: object) -> ph.Body:
@@ -62,6 +62,7 @@ def unheld() -> ph.Body:
 
 Refusal = tuple[Callable[[], object], type[ph.PolhodeError], tuple[str, ...]]
 DECLARATION, CONSTRAINT, NUMERIC = ph.DeclarationError, ph.ConstraintError, ph.NumericError
+UNIT = ph.UnitError
 
 REFUSALS: dict[str, Refusal] = {
     # -- mass and inertia
@@ -307,6 +308,17 @@ REFUSALS: dict[str, Refusal] = {
         system(wheel(), ph.Gravity(ph.symbol("omega_3"))),
         DECLARATION,
         ("both called 'omega_3'", "one meaning"),
+    ),
+    "a bare number for a mass": (
+        lambda: (
+            ph.derive(
+                ph.System(
+                    ph.Pivot(ph.rod("bar", mass=2, length=a, axes=AXES, axis="1"), at=AXES["1"] * a)
+                )
+            ).dimensions
+        ),
+        UNIT,
+        ("bare number as mass of wheel", "a symbol", "kg", "give its value where it is run"),
     ),
     # -- constraints
     "two motors at odds": (

@@ -47,6 +47,8 @@ class LinearSolve:
         return tuple(Expr.generator(unknown) for unknown in self.unknowns)
 
 
+_LONG = 100  # terms from which on an expression is written once for all programs
+
 Definitions: TypeAlias = Callable[[Symbol], Expr | None]
 
 
@@ -115,9 +117,12 @@ class _Writer:
 
     def expression(self, expression: Expr) -> Value:
         """Write an expression in the form that adds fewest steps."""
-        if expression.ring.has_parts:
+        merged = exponentials(expression)
+        if merged is not None:
+            return reduce(self.tape.add, [self._exponential(*part) for part in merged])
+        if expression.ring.has_parts or _size(expression) > _LONG:
             return self._replayed(expression)
-        return self.write(expression)
+        return self.written(expression)
 
     def _replayed(self, expression: Expr) -> Value:
         """By steps that are worked out once for all programs."""
@@ -127,11 +132,8 @@ class _Writer:
         values = [self._values[generator] for generator in trimmed.ring.generators]
         return self.tape.replay(_steps_of(trimmed), values)
 
-    def write(self, expression: Expr) -> Value:
-        """The same, step by step."""
-        merged = exponentials(expression)
-        if merged is not None:
-            return reduce(self.tape.add, [self._exponential(*part) for part in merged])
+    def written(self, expression: Expr) -> Value:
+        """The same, step by step, every exp being a value of its own."""
         forms = list(_forms(expression))
         for form in forms:
             for position, generator in enumerate(form.ring.generators):
@@ -267,7 +269,11 @@ def _steps_of(expression: Expr) -> Program:
     writer = _Writer((), lambda symbol: None, (), {})
     generators = expression.ring.generators
     writer.know({g: writer.tape.argument(i) for i, g in enumerate(generators)})
-    return writer.tape.program((), [writer.write(expression)])
+    return writer.tape.program((), [writer.written(expression)])
+
+
+def _size(expression: Expr) -> int:
+    return len(expression.num) + len(expression.den)
 
 
 def _divided(solve: LinearSolve) -> tuple[Matrix, Row]:
@@ -301,7 +307,7 @@ def _forms(expression: Expr) -> Iterator[_Fraction]:
 def _factored(ring: Ring, polynomial: Polynomial) -> tuple[Fraction, Factors]:
     if polynomial == 0:
         return Fraction(0), []
-    if ring.has_parts:
+    if ring.has_parts or len(polynomial) > _LONG:
         return _extracted(ring, polynomial)
     content, factors = polynomial.factor()
     return _rational(content), [(factor, int(exponent)) for factor, exponent in factors]

@@ -116,6 +116,8 @@ class _Exponents:
         if pivot is not None:
             self._rows[pivot] = _scaled(reduced, 1 / reduced.powers[pivot])
             self._roles[pivot] = role
+        elif not any(term.powers.values()) and term.dimension != PURE:
+            raise _number(role, term.dimension)
         elif reduced.dimension != PURE:
             raise self._conflict(term, role, reduced.dimension)
 
@@ -128,12 +130,12 @@ class _Exponents:
     def _conflict(self, term: _Term, role: str, excess: Dimension) -> UnitError:
         involved = [s for s, power in term.powers.items() if power]
         earlier = dict.fromkeys(self._roles[s] for s in involved if s in self._roles)
-        names = ", ".join(_told(s) for s in involved) or "a number"
+        names = ", ".join(_told(s) for s in involved)
         return UnitError(
             f"dimensions of {names}: as {role} they are off by {excess}",
             expected="one dimension for each quantity; before, it followed from "
             + (" and from ".join(earlier) or "the role alone"),
-            advice="check the declaration for a missing length, mass or time",
+            advice="look for a missing length, mass or time, or a bare number in place of one",
         )
 
     def dimensions(self) -> dict[Symbol, Dimension]:
@@ -143,6 +145,14 @@ class _Exponents:
             if isinstance(symbol, Symbol) and not any(solved.powers.values()):
                 found[symbol] = PURE / solved.dimension
         return found
+
+
+def _number(role: str, excess: Dimension) -> UnitError:
+    return UnitError(
+        f"a bare number as {role}",
+        expected=f"a symbol for it, since its unit is to be {excess}",
+        advice="write m = polhode.symbol('m') or the like, and give its value where it is run",
+    )
 
 
 def _told(generator: Generator) -> str:
