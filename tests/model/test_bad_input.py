@@ -318,7 +318,7 @@ REFUSALS: dict[str, Refusal] = {
             ).dimensions
         ),
         UNIT,
-        ("bare number as mass of wheel", "a symbol", "kg", "give its value where it is run"),
+        ("bare number as mass of bar", "a symbol", "kg", "give its value where it is run"),
     ),
     # -- constraints
     "two motors at odds": (
