@@ -7,7 +7,8 @@ from oracles.ball_on_paper import follow
 from simulate.contact.paper import LAST, RADIUS, Case, case
 
 GRID = np.linspace(0.31, LAST, 12)
-SEEDS = range(100_000, 100_100)
+#: A hundred, and one in which slip ends where no step from its beginning on is short enough.
+SEEDS = [*range(100_000, 100_100), 101_184]
 
 
 def switches(run) -> list[tuple[float, str]]:

@@ -25,6 +25,7 @@ _RESOLVED = 1e-14  # last coefficients of a step, relative to the largest
 _ROUNDED = 1e-11  # the same, of a series that a shorter step resolves no better: rounding
 _TURN = 10.0  # rad: what the rounding of an angle is relative to, as that of a small difference
 _NOISE = 1e-15  # of a slip speed, relative to its largest within a step
+_ENDED = 1e-12  # the same, beyond which no step is resolved
 _PARTS = np.concatenate([np.geomspace(1e-6, 0.02, 30), np.linspace(0.03, 1.0, 98)])
 _WELL_INSIDE, _CLOSER = (
     0.2,
@@ -137,6 +138,7 @@ def _followed(
         length = min(length, end - now)
         step = _step(rates, now, length, state, pull, angles)
         if length < shortest and series:
+            vanished = _ended(series, state, angles - 1)
             break
         if length < shortest:
             raise NumericError(
@@ -161,6 +163,13 @@ def _followed(
             break
         length *= 2
     return Creep(np.array(times), np.array(series), now, vanished)
+
+
+def _ended(series: list[Array], state: Array, sizes: Indices) -> int | None:
+    """Which ρ is as good as none where no step is short enough to go on, if one is."""
+    largest = np.max([np.max(np.abs(step[:, sizes]), axis=0) for step in series], axis=0)
+    left = np.abs(state[sizes]) / largest
+    return int(np.argmin(left)) if np.min(left) <= _ENDED else None
 
 
 @dataclass(frozen=True)
