@@ -5,6 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from claims.latex.drawn import differentials, relations, trees
+from polhode.base import ParseError
 from polhode.claims.latex import read_latex, write_latex
 from polhode.claims.latex._tree import (
     Name,
@@ -58,6 +59,17 @@ def test_a_tree_is_rebuilt_from_its_parts(relation: Relation) -> None:
 )
 def test_it_is_written_as_texts_print(latex: str, written: str) -> None:
     assert write_latex(read_latex(latex)) == written
+
+
+@pytest.mark.parametrize("count", range(1, 60))
+def test_signs_in_a_row_come_back_or_are_refused(count: int) -> None:
+    for latex in ("-" * count + "x", r"a \times " + "-" * count + "x"):
+        try:
+            (relation,) = read_latex(latex).relations
+        except ParseError:
+            assert count > 20
+        else:
+            assert read_latex(write_latex(relation)).relations == (relation,)
 
 
 def test_a_word_of_any_length_comes_back() -> None:

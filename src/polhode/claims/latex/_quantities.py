@@ -63,11 +63,18 @@ class QuantityReader(FactorReader):
         sign = self._take().text
         self._skip_breaks()
         with self._deeper():
-            of = self._term()
+            of = self._behind_sign(self._term)
         span = self._since(start)
         if sign == "+":
             return of
         return Negative(of, span=span) if sign == "-" else PlusMinus(of, sign, span=span)
+
+    def _behind_sign(self, read: Callable[[], Node]) -> Node:
+        """What stands behind a sign; a further sign counts as if it stood in a bracket."""
+        if not self._at(*_ADDING):
+            return read()
+        with self._deeper():
+            return read()
 
     def _cross(self) -> Node:
         r"""Products with ``\times`` or ``\cdot`` between them, from left to right."""
@@ -87,7 +94,7 @@ class QuantityReader(FactorReader):
         if not self._took("-"):
             return self._product()
         with self._deeper():
-            of = self._multiplied()
+            of = self._behind_sign(self._multiplied)
         return Negative(of, span=self._since(start))
 
     def _product(self) -> Node:
