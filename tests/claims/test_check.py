@@ -151,6 +151,18 @@ def test_other_ways_to_print_derivatives_and_vectors(latex):
     assert verdict.answer is Answer.HOLDS
 
 
+def test_a_failure_is_told_before_its_correction():
+    told = []
+    gyroscope = ph.derive(CATALOGUE["gyroscope"].build())
+    verdict = ph.check(r"F_z = Mg - Ma(\ddot\theta\sin\theta)", gyroscope, tell=told.append)
+    (failure,) = told
+    assert failure.answer is verdict.answer is Answer.FAILS
+    assert failure.correction is None
+    assert verdict.correction is not None
+    ph.check(r"\dot\omega_1 = 0", gyroscope, tell=told.append)
+    assert told == [failure]
+
+
 def test_a_verdict_is_shown_in_latex():
     gyroscope = ph.derive(CATALOGUE["gyroscope"].build())
     verdict = ph.check(r"F_z = Mg - Ma(\ddot\theta\sin\theta)", gyroscope)

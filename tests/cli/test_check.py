@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import json
+import os
 import signal
+from collections import deque
+from itertools import count
 
 import pytest
 
+from polhode.claims import Answer, Verdict
 from polhode.cli import _check
 from polhode.cli._main import main
 
@@ -29,12 +33,55 @@ def test_exit_codes_of_true_and_unread_claims(latex, code, capsys):
     assert capsys.readouterr().out
 
 
-def test_what_cannot_be_decided_in_time_is_given_up(capsys, monkeypatch):
-    def endless(*_, **__):
-        while True:
-            pass
+def python(*_, **__):
+    while True:
+        pass
 
+
+def compiled(*_, **__):
+    deque(count(), maxlen=0)  # never comes back to Python, and heeds no signal handler
+
+
+@pytest.mark.parametrize("endless", [python, compiled])
+def test_what_cannot_be_decided_in_time_is_given_up(endless, capsys, monkeypatch):
     monkeypatch.setattr(_check, "check", endless)
+    monkeypatch.setattr(_check, "_LONGEST", 0.1)
+    assert main(["check", "gyroscope", "F_z = M g"]) == 2
+    assert "more than 0.1 s of computing" in capsys.readouterr().err
+
+
+def test_a_failure_is_told_even_where_no_correction_is_found_in_time(capsys, monkeypatch):
+    def failing(*_, tell, **__):
+        tell(Verdict(Answer.FAILS, "motion", reason="for a reason"))
+        compiled()
+
+    monkeypatch.setattr(_check, "check", failing)
+    monkeypatch.setattr(_check, "_LONGEST", 2.0)
+    assert main(["check", "gyroscope", "F_z = M g"]) == 1
+    told = capsys.readouterr().out
+    assert "for a reason" in told
+    assert "looking for a correction took more than 2 s" in told
+
+
+def test_a_process_that_ends_unasked_is_told(capsys, monkeypatch):
+    monkeypatch.setattr(_check, "check", lambda *_, **__: os.kill(os.getpid(), signal.SIGKILL))
+    assert main(["check", "gyroscope", "F_z = M g"]) == 2
+    assert "less memory" in capsys.readouterr().err
+
+
+def test_an_interruption_ends_the_process_that_judges(capsys, monkeypatch):
+    def interrupting(*_, **__):
+        os.kill(os.getppid(), signal.SIGINT)
+        compiled()
+
+    monkeypatch.setattr(_check, "check", interrupting)
+    assert main(["check", "gyroscope", "F_z = M g"]) == 130
+    assert "interrupted" in capsys.readouterr().err
+
+
+def test_where_a_process_cannot_be_parted_it_is_interrupted(capsys, monkeypatch):
+    monkeypatch.setenv("POLHODE_DEBUG", "1")
+    monkeypatch.setattr(_check, "check", python)
     monkeypatch.setattr(_check, "_LONGEST", 0.1)
     assert main(["check", "gyroscope", "F_z = M g"]) == 2
     assert "more than 0.1 s of computing" in capsys.readouterr().err

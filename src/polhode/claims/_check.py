@@ -28,6 +28,7 @@ def check(
     let: Iterable[str] = (),
     given: Iterable[str] = (),
     small: Iterable[str] = (),
+    tell: Callable[[Verdict], object] = lambda verdict: None,
 ) -> Verdict:
     r"""Judge a published equation against a model.
 
@@ -38,6 +39,7 @@ def check(
         let: new symbols of the text, in published names or LaTeX: ``epsilon = theta - pi/2``.
         given: restrictions, such as ``theta = pi/2``.
         small: small quantities with the order to be kept, such as ``epsilon:1``.
+        tell: called with a failure as soon as it is found; a correction may take longer.
 
     Returns:
         The verdict with its evidence; ``unread`` for what cannot be read or bound.
@@ -50,7 +52,7 @@ def check(
     notation = Notation.of(equations)
     for say, texts in ((with_let, let), (with_given, given), (with_small, small)):
         notation = reduce(say, texts, notation)
-    return judged_claim(latex, notation, context)
+    return judged_claim(latex, notation, context, tell=tell)
 
 
 def judged_claim(

@@ -9,6 +9,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection
 
+from polhode.base import bound_memory, bound_time
 from polhode.claims._audit import Desk
 from polhode.claims._document import Claim, Part
 from polhode.claims._verdict import Answer, Verdict
@@ -54,9 +55,9 @@ def work(requests: Connection, replies: Connection) -> None:
         except EOFError:
             return
         systems[request.part.system] = request.system
-        _alarm(request.seconds)
+        bound_time(request.seconds)
         replies.send((_verdict(desk, request, replies), True))
-        _alarm(0)
+        bound_time(0)
 
 
 def _verdict(desk: Desk, request: Request, replies: Connection) -> Verdict:
@@ -77,19 +78,6 @@ def _verdict(desk: Desk, request: Request, replies: Connection) -> Verdict:
     return Verdict(Answer.UNREAD, request.claim.context, reason=why)
 
 
-def _alarm(seconds: float) -> None:
-    """Have the kernel end this process after some processor time; after none at all, do not."""
-    if hasattr(signal, "setitimer"):
-        signal.setitimer(signal.ITIMER_PROF, seconds)
-
-
-def _bound_memory(most: int) -> None:
-    with suppress(ImportError, ValueError, OSError):  # where there is no such bound
-        import resource
-
-        resource.setrlimit(resource.RLIMIT_AS, (most, most))
-
-
 def _own_output() -> int:
     """The pipe to whoever asks, out of reach of anything that prints."""
     pipe = os.dup(sys.stdout.fileno())
@@ -100,7 +88,7 @@ def _own_output() -> int:
 def main() -> None:
     """Work for the process at the other end of standard input and output."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # who asks ends us
-    _bound_memory(int(sys.argv[1]))
+    bound_memory(int(sys.argv[1]))
     replies = Connection(_own_output(), readable=False)
     with suppress(BrokenPipeError):
         work(Connection(os.dup(sys.stdin.fileno()), writable=False), replies)

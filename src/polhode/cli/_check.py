@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 from polhode.claims import Answer, Verdict, check
-from polhode.cli._document import print_document, printed
+from polhode.cli._document import document, printed
 from polhode.cli._parser import Parser
-from polhode.cli._patience import within
+from polhode.cli._patience import Said, Tell, within
 from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.derive import derive
 
 _LONGEST = 60.0  # s of computing
+_ADVICE = "judge its members one by one, or restrict it with --given"
 _CODES = {Answer.FAILS: 1, Answer.UNREAD: 2}
 
 
@@ -38,21 +40,37 @@ def configure(parser: Parser) -> None:
 
 def run(options: Namespace) -> int:
     """Judge one equation and print the verdict; 0 where it holds, 1 where it fails, 2 unread."""
-    equations = derive(entry_of(options.name).build())
-    with within(_LONGEST, advice="judge its members one by one, or restrict it with --given"):
+    system = entry_of(options.name).build()
+    said = _in_json if options.json else _in_words
+
+    def judged(tell: Tell) -> Said:
         verdict = check(
             options.latex,
-            equations,
+            derive(system),
             context=options.context,
             let=options.let,
             given=options.given,
             small=options.small,
+            tell=lambda failure: tell(said(_uncorrected(failure))),
         )
-    if options.json:
-        print_document(_document(verdict))
-    else:
-        print("\n".join(_told(verdict)))
-    return _CODES.get(verdict.answer, 0)
+        return said(verdict)
+
+    code, text = within(_LONGEST, judged, advice=_ADVICE)
+    print(text)
+    return code
+
+
+def _uncorrected(failure: Verdict) -> Verdict:
+    remark = f"looking for a correction took more than {_LONGEST:g} s of computing"
+    return replace(failure, remarks=(*failure.remarks, remark))
+
+
+def _in_json(verdict: Verdict) -> Said:
+    return _CODES.get(verdict.answer, 0), document(_document(verdict))
+
+
+def _in_words(verdict: Verdict) -> Said:
+    return _CODES.get(verdict.answer, 0), "\n".join(_told(verdict))
 
 
 def _document(verdict: Verdict) -> dict[str, Any]:

@@ -16,11 +16,19 @@ def print_document(content: Mapping[str, Any]) -> None:
     Raises:
         NumericError: for a number that is not finite.
     """
+    print(document(content))
+
+
+def document(content: Mapping[str, Any]) -> str:
+    """The text of a document, with what it was made with.
+
+    Raises:
+        NumericError: for a number that is not finite.
+    """
     try:
-        text = json.dumps({**provenance(), **content}, indent=2, allow_nan=False)
+        return json.dumps({**provenance(), **content}, indent=2, allow_nan=False)
     except ValueError as error:
         raise NumericError("a result that is not finite", expected="finite numbers") from error
-    print(text)
 
 
 def printed_all(expressions: Sequence[Expr]) -> str:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
 from importlib import import_module
+from types import ModuleType
 from warnings import catch_warnings, simplefilter
 
 from polhode.base import installed_version
@@ -63,11 +65,20 @@ def _parser(arguments: Sequence[str]) -> Parser:
     for name, summary in COMMANDS.items():
         command = commands.add_parser(name, help=summary)
         if name in arguments[:1]:
-            module = import_module(f"polhode.cli._{name}")
+            module = _loaded(name)
             command.description = module.__doc__
             module.configure(command)
             command.set_defaults(run=module.run)
     return parser
+
+
+def _loaded(command: str) -> ModuleType:
+    """The file of a command; nothing that it loads becomes garbage, so that none is looked for."""
+    gc.disable()
+    try:
+        return import_module(f"polhode.cli._{command}")
+    finally:
+        gc.enable()
 
 
 def _version() -> str:

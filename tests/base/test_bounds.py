@@ -1,0 +1,25 @@
+"""Bounds that the operating system keeps: of time and of memory."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+
+
+def ended(program):
+    words = [sys.executable, "-c", f"from polhode.base import *; {program}"]
+    return subprocess.run(words, capture_output=True, text=True, check=False)
+
+
+def test_a_process_ends_when_its_time_is_over_even_in_compiled_code():
+    endless = "from collections import deque; from itertools import count; deque(count(), maxlen=0)"
+    assert ended(f"bound_time(0.1); {endless}").returncode == -signal.SIGPROF
+
+
+def test_a_bound_of_no_time_is_none():
+    assert ended("bound_time(0.1); bound_time(0); sum(range(10**6))").returncode == 0
+
+
+def test_memory_beyond_the_bound_is_refused():
+    assert "MemoryError" in ended("bound_memory(1 << 30); bytes(2 << 30)").stderr
