@@ -151,6 +151,14 @@ def test_other_ways_to_print_derivatives_and_vectors(latex):
     assert verdict.answer is Answer.HOLDS
 
 
+def test_a_power_of_e_is_an_exponential_unless_e_is_a_letter():
+    gyroscope = equations("gyroscope")
+    latex = r"\cosh\theta = \frac{e^{\theta} + e^{-\theta}}{2}"
+    assert ph.check(latex, gyroscope).answer is Answer.HOLDS
+    assert ph.check(latex, gyroscope, let=["e = 2*a"]).answer is not Answer.HOLDS
+    assert ph.check(r"e^2 \dot\omega_1 = 0", gyroscope).answer is Answer.UNREAD
+
+
 def test_a_failure_is_told_before_its_correction():
     told = []
     gyroscope = ph.derive(CATALOGUE["gyroscope"].build())

@@ -136,3 +136,10 @@ def test_what_only_repeats_the_other_side_is_no_correction():
     verdict = ph.check(r"L_{z} = I_1\omega_1\cos\theta", gyroscope, context="identity")
     assert verdict.correction is not None
     assert verdict.correction.latex.count("L_{z}") == 1
+
+
+def test_an_angle_taken_from_the_wrong_axis_is_found_beside_another_slip():
+    correction = _of_the_problem_set("4").correction
+    assert correction is not None
+    assert correction.what == "sin where cos is right; cos where sin is right; wrong sign"
+    assert _of_the_problem_set("4", correction.latex).answer is Answer.HOLDS

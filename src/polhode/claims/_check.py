@@ -8,7 +8,7 @@ from functools import reduce
 
 from polhode.base import ParseError, PolhodeError
 from polhode.claims._asked import Asked
-from polhode.claims._contexts import CONTEXTS, judge
+from polhode.claims._contexts import CONTEXTS, holds, judge
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims._notation import Notation
 from polhode.claims._read_as import read_as
@@ -80,7 +80,7 @@ def judged_claim(
     if understood := read_as(statement, notation.vocabulary):
         verdict = replace(verdict, remarks=(*verdict.remarks, f"read {understood}"))
     tell(verdict)
-    return _corrected(verdict, statement, notation, context)
+    return _corrected(verdict, statement, notation, when)
 
 
 def _hint(latex: str) -> str:
@@ -106,18 +106,20 @@ def _defined(letters: Iterable[Node]) -> str:
     return f"defines {names}"
 
 
-def _corrected(verdict: Verdict, statement: Statement, notation: Notation, context: str) -> Verdict:
+def _corrected(verdict: Verdict, statement: Statement, notation: Notation, when: str) -> Verdict:
     from polhode.claims.repair import Repaired, repaired, tidied
 
-    def holds(asked: Asked) -> bool:
-        return judge(asked, context).holds
+    context = verdict.context
+
+    def right(asked: Asked) -> bool:
+        return holds(replace(asked, when=when), context)
 
     def correction(repair: Repaired) -> Correction:
         what = "; ".join(dict.fromkeys(change.what for change in repair.changes))
         return Correction(what, write_latex(tidied(repair.statement)))
 
     try:
-        found = repaired(statement, notation, context, holds)
+        found = repaired(statement, notation, context, right)
     except (PolhodeError, ArithmeticError):
         return verdict
     if not found:

@@ -37,6 +37,8 @@ _WHOLE: dict[str, Judge] = {
     "launch": _of("_launch", "judged_launch"),
     "number": _of("_number", "judged_number"),
 }
+#: How a corrected claim is judged where that can be quicker.
+_TRIED: dict[str, Judge] = {"launch": _of("_launch", "judged_along")}
 #: Where a claim may be asked to hold.
 CONTEXTS = (*_EQUATIONS, *_WHOLE)
 
@@ -63,6 +65,11 @@ def judge(asked: Asked, context: str) -> Verdict:
     approximate = next((v for v in found if v.answer is Answer.APPROXIMATE), None)
     remarks = tuple(dict.fromkeys(r for v in found for r in v.remarks))
     return replace(approximate or found[0], context=context, remarks=remarks)
+
+
+def holds(asked: Asked, context: str) -> bool:
+    """Whether a claim holds, and no more."""
+    return _TRIED[context](asked).holds if context in _TRIED else judge(asked, context).holds
 
 
 def _by_signs(asked: Asked, context: str) -> Iterator[Verdict]:

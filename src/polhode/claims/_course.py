@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TypeAlias
 
 import numpy as np
 
 from polhode.algebra import ZERO, Expr, Symbol, as_symbol, time
 from polhode.base import PolhodeError
-from polhode.claims._asked import SENSE, Asked
+from polhode.claims._asked import SENSE, Asked, The
 from polhode.claims._bench import real_states
 from polhode.claims._circumstances import TrueMotion
 from polhode.claims._components import Component
@@ -19,6 +19,7 @@ from polhode.claims._numeric import Array, number
 from polhode.simulate import Trajectory, simulate
 
 Name: TypeAlias = str | Symbol | Expr
+Numbers: TypeAlias = tuple[tuple[Symbol, float], ...]
 
 TIME = as_symbol(time)
 
@@ -28,6 +29,7 @@ _SETTLED = 1e-3
 _LASTING = _SAMPLES // 20
 _NARROWED = 8
 _PARTS = 64
+_KEPT = 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,14 +93,22 @@ def courses(
     equations = states.equations
     state = (*equations.coordinates, *equations.speeds)
     for start in real_states(states, used):
-        first: dict[Name, float] = {s: start[s] for s in state}
-        parameters: dict[Name, float] = {s: start[s] for s in equations.parameters}
+        first = tuple((s, start[s]) for s in state)
+        parameters = tuple((s, start[s]) for s in equations.parameters)
         try:
-            run = simulate(equations, parameters, first, duration)
+            run = _followed(The(equations), parameters, first, duration)
         except PolhodeError:
             continue
         begun = 0.0 if clock is None else start[clock]
         yield Course(run, start, begun, np.linspace(0.0, duration, _SAMPLES))
+
+
+@lru_cache(maxsize=_KEPT)
+def _followed(the: The, parameters: Numbers, first: Numbers, duration: float) -> Trajectory:
+    """One motion, which corrections of a claim are tried on as well."""
+    given: dict[Name, float] = dict(parameters)
+    start: dict[Name, float] = dict(first)
+    return simulate(the.equations, given, start, duration)
 
 
 @dataclass(frozen=True, eq=False)

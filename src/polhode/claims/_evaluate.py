@@ -16,6 +16,7 @@ from polhode.claims._vocabulary import Vocabulary, spelled
 from polhode.claims.latex import _tree as tree
 
 TIME = tree.Name("t")
+_EULER = tree.Name("e")
 _LAGRANGIAN = tree.Name("L")  # where it is no angular momentum
 
 _FUNCTIONS: dict[str, Callable[[Expr], Expr]] = {
@@ -176,7 +177,14 @@ class Evaluator:
 
     @_value.register
     def _(self, node: tree.Power) -> Meaning:
+        if self._is_exponential(node):
+            return exp(self.scalar(node.exponent))
         return meanings.power(self.value(node.base), self.value(node.exponent), self._root)
+
+    def _is_exponential(self, node: tree.Power) -> bool:
+        """Whether e is no letter of the text; e² would rather be one that it does not explain."""
+        plain = isinstance(node.exponent, tree.Number)
+        return node.base == _EULER and not plain and not self.vocabulary.has(_EULER)
 
     @_value.register
     def _(self, node: tree.Root) -> Meaning:

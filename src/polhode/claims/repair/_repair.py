@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from itertools import pairwise
+from collections.abc import Callable, Iterator, Sequence
+from itertools import chain, pairwise
 
 from polhode.base import PolhodeError
 from polhode.claims._asked import Asked
 from polhode.claims.latex._tree import Statement
 from polhode.claims.repair._at_limit import AtLimit
+from polhode.claims.repair._exchanged import exchanged
 from polhode.claims.repair._formal import is_empty, says_nothing
 from polhode.claims.repair._one_by_one import JUDGED_WHOLE, one_by_one
 from polhode.claims.repair._reading import Reading
@@ -48,7 +49,23 @@ def repaired(
 def _fitted(
     statement: Statement, reading: Reading, context: str, holds: Holds
 ) -> tuple[Repaired, ...]:
-    repair = Repaired(statement, ())
+    whole = Repaired(statement, ())
+    starts = chain([whole], _exchanged(whole, reading, context))
+    found = (_from(start, reading, context, holds) for start in starts)
+    return next(filter(None, found), ())
+
+
+def _exchanged(whole: Repaired, reading: Reading, context: str) -> Iterator[Repaired]:
+    """With sines and cosines of an angle exchanged, if less is wrong then."""
+    before = Workshop(whole, reading, context).wrong
+    for changes in exchanged(whole.statement):
+        repair = whole.with_changes(changes)
+        if Workshop(repair, reading, context).wrong < before:
+            yield repair
+
+
+def _from(repair: Repaired, reading: Reading, context: str, holds: Holds) -> tuple[Repaired, ...]:
+    """The smallest corrections that begin with some changes."""
     for _ in range(_MOST_EDITS):
         workshop = Workshop(repair, reading, context)
         if not workshop.failing:

@@ -85,6 +85,11 @@ class Workshop:
         bad = zip(self._members, self._is_wrong, strict=True)
         return tuple(dict.fromkeys(member for member, wrong in bad if wrong))
 
+    @property
+    def wrong(self) -> int:
+        """How many residuals differ from nothing."""
+        return sum(self._is_wrong)
+
     @cached_property
     def _is_wrong(self) -> list[bool]:
         """Whether each residual differs from nothing at the states of the bench."""
