@@ -34,6 +34,31 @@ def test_what_is_not_fails(id, old, new):
     assert verdict_on(id, old, new).answer is Answer.FAILS
 
 
+@pytest.mark.parametrize(
+    ("id", "old", "new", "slip"),
+    [
+        ("12", r"\operatorname{sech}[k", r"\operatorname{sech}[2k", "wrong factor"),
+        ("13", r"\tanh", r"\operatorname{sech}", "sech where tanh is right"),
+        ("14", r"\omega_3 =", r"\omega_2 =", "wrong index"),
+        ("84", r"I_3 - I_2", r"I_3 + I_2", "wrong sign"),
+    ],
+)
+def test_a_slip_in_a_closed_form_is_corrected(id, old, new, slip):
+    correction = verdict_on(id, old, new).correction
+    assert correction is not None
+    assert correction.what == slip
+    original = Original.of(document().claim(id))
+    assert judged_claim(correction.latex, original.notation, "launch").answer is Answer.HOLDS
+
+
+def test_letters_that_vanish_from_the_start_alone_have_a_number():
+    assert verdict_on("13", r"\omega_2 = ", r"\omega_2 + m \omega_2 = ").answer is Answer.FAILS
+
+
+def test_a_statement_on_moments_is_not_corrected():
+    assert verdict_on("w71", r"\ddot{\phi} > 0", r"\ddot{\phi} < 0").correction is None
+
+
 def test_a_motion_integrated_from_the_balance_of_every_body_says_the_same():
     verdict = verdict_on("12", r"\operatorname{sech}[k", r"\operatorname{sech}[2k")
     assert verdict.confirmation is not None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import islice
@@ -14,7 +14,7 @@ from polhode.algebra import Expr, Symbol, variables
 from polhode.base import PolhodeError
 from polhode.claims._circumstances import Circumstances
 from polhode.claims._numeric import Array, Rational, number, numbers, rationals
-from polhode.claims._points import Point, points
+from polhode.claims._points import points
 
 _STATES = 6
 _TRIES = 40
@@ -22,10 +22,15 @@ _PI = Symbol("pi")
 
 
 class Numbers(dict[Symbol, float]):
-    """The number of every symbol at one state, found when first asked for."""
+    """The number of every symbol at one state, found when first asked for.
 
-    def __init__(self, point: Point, states: Circumstances) -> None:
-        super().__init__(point.floats())
+    Args:
+        free: of those that the circumstances leave open.
+        states: the circumstances.
+    """
+
+    def __init__(self, free: Mapping[Symbol, float], states: Circumstances) -> None:
+        super().__init__(free)
         self._free = dict(self)
         self._states = states
 
@@ -88,8 +93,9 @@ def real_states(states: Circumstances, expressions: Iterable[Expr]) -> Iterator[
     equations = states.equations
     symbols = {s for e in used for s in e.symbols()}
     symbols |= {*equations.coordinates, *equations.speeds, *equations.parameters}
-    drawn = (Numbers(points(used, symbols, seed), states) for seed in range(1000, 1000 + _TRIES))
-    return (found for found in drawn if _is_real(found, states, symbols))
+    drawn = (points(used, symbols, seed) for seed in range(1000, 1000 + _TRIES))
+    every = (Numbers(point.floats(), states) for point in drawn)
+    return (found for found in every if _is_real(found, states, symbols))
 
 
 def _is_real(numbers: Numbers, states: Circumstances, symbols: Iterable[Symbol]) -> bool:

@@ -80,7 +80,7 @@ def judged_claim(
     if understood := read_as(statement, notation.vocabulary):
         verdict = replace(verdict, remarks=(*verdict.remarks, f"read {understood}"))
     tell(verdict)
-    return _corrected(verdict, statement, notation, when)
+    return verdict if when else _corrected(verdict, statement, notation)
 
 
 def _hint(latex: str) -> str:
@@ -106,13 +106,13 @@ def _defined(letters: Iterable[Node]) -> str:
     return f"defines {names}"
 
 
-def _corrected(verdict: Verdict, statement: Statement, notation: Notation, when: str) -> Verdict:
+def _corrected(verdict: Verdict, statement: Statement, notation: Notation) -> Verdict:
     from polhode.claims.repair import Repaired, repaired, tidied
 
     context = verdict.context
 
     def right(asked: Asked) -> bool:
-        return holds(replace(asked, when=when), context)
+        return holds(asked, context)
 
     def correction(repair: Repaired) -> Correction:
         what = "; ".join(dict.fromkeys(change.what for change in repair.changes))

@@ -70,6 +70,12 @@ class Course:
             times = np.linspace(times[first], times[first + 1], _PARTS)
         return times[:1]
 
+    def state(self, part: float) -> dict[Symbol, float]:
+        """The number of every symbol when some part of the motion is over, SI."""
+        moment = self.times[-1:] * part
+        found = replace(self, times=moment).states
+        return {s: float(np.ravel(values)[0]) for s, values in found.items()}
+
     @cached_property
     def states(self) -> dict[Symbol, Array | float]:
         """The number of every symbol at the sample times, SI."""
@@ -92,7 +98,9 @@ def courses(
     """
     equations = states.equations
     state = (*equations.coordinates, *equations.speeds)
+    letters = {s for e in used for s in e.symbols()} - {TIME}
     for start in real_states(states, used):
+        start.update({s: start[s] for s in letters})  # also those that vanish from the start alone
         first = tuple((s, start[s]) for s in state)
         parameters = tuple((s, start[s]) for s in equations.parameters)
         try:

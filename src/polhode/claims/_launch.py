@@ -11,8 +11,9 @@ from polhode.algebra import Expr, Symbol
 from polhode.analyse import invariants
 from polhode.base import NumericError, PolhodeError
 from polhode.claims._asked import EQUALITY, Asked, The
+from polhode.claims._bench import Bench, Numbers
 from polhode.claims._circumstances import TrueMotion
-from polhode.claims._course import TIME, Followed, courses
+from polhode.claims._course import TIME, Course, Followed, courses
 from polhode.claims._initially import judged_initially
 from polhode.claims._judge import failures
 from polhode.claims._verdict import (
@@ -26,6 +27,7 @@ from polhode.claims._verdict import (
 
 _MOTIONS = 3
 _SHORT, _LONG = 6.0, 24.0
+_PARTS = (0.2, 0.7)  # of a motion at which a correction is tried
 #: The letter of texts for the time at which a motion starts.
 _CLOCK = Symbol("t_0")
 
@@ -53,11 +55,16 @@ def judged_along(asked: Asked) -> Verdict:
     return _followed(replace(asked, given=fixed), event)
 
 
+def _is_equation(asked: Asked) -> bool:
+    """Whether it is an equation, said of the whole motion."""
+    whole = not asked.when and not any(s.kind.varies for s in asked.given)
+    return whole and all(relation.sign in EQUALITY for relation in asked.members)
+
+
 def _is_plain(asked: Asked) -> bool:
     """Whether it is an equation between states, said of the whole motion."""
-    whole = not asked.when and not any(s.kind.varies for s in asked.given)
-    equal = all(relation.sign in EQUALITY for relation in asked.members)
-    return whole and equal and not any(TIME in c.difference.symbols() for c in asked.components())
+    timeless = not any(TIME in c.difference.symbols() for c in asked.components())
+    return timeless and _is_equation(asked)
 
 
 def _started(asked: Asked) -> Asked:
@@ -108,16 +115,33 @@ def _followed(asked: Asked, event: Mapping[Symbol, Expr]) -> Verdict:
 
 
 def _along_motions(asked: Asked, event: Mapping[Symbol, Expr]) -> Iterator[Followed]:
-    components = asked.components()
-    starts = replace(asked, given={**asked.given, **asked.start}).states(TrueMotion)
     running = replace(asked, relations=()).states(TrueMotion)
-    used = [running.on(side) for c in components for side in (c.left, c.right)]
-    clock = next((s for e in used for s in e.symbols() if s == _CLOCK), None)
     duration = _LONG if event or asked.when == "finally" else _SHORT
-    found = (c.at(event) for c in courses(starts, used, clock, duration))
+    found = (course.at(event) for course in _courses(asked, running, duration))
     for course in islice(filter(None, found), _MOTIONS):
-        for component in components:
+        for component in asked.components():
             yield Followed.along(course, component, asked, running)
+
+
+def _courses(asked: Asked, running: TrueMotion, duration: float) -> Iterator[Course]:
+    starts = replace(asked, given={**asked.given, **asked.start}).states(TrueMotion)
+    used = [running.on(side) for c in asked.components() for side in (c.left, c.right)]
+    clock = next((s for e in used for s in e.symbols() if s == _CLOCK), None)
+    return courses(starts, used, clock, duration)
+
+
+def bench_along(asked: Asked) -> tuple[TrueMotion, Bench]:
+    """States at some moments of several motions from the start, to try an equation at.
+
+    Raises `NumericError` for what is no equation, or not said of the whole motion.
+    """
+    asked = _started(asked)
+    if not _is_equation(asked):
+        raise NumericError("a statement on moments", expected="an equation along a motion")
+    running = replace(asked, relations=()).states(TrueMotion)
+    found = islice(_courses(asked, running, _SHORT), _MOTIONS)
+    moments = (course.state(part) for course in found for part in _PARTS)
+    return running, Bench(tuple(Numbers(state, running) for state in moments))
 
 
 def _refuted(followed: Followed, sample: int, asked: Asked) -> Verdict:

@@ -24,7 +24,8 @@ from polhode.claims.repair._multiplier import Match
 from polhode.claims.repair._places import ONE, Place, negated, over, raised, times
 
 _AXES = (("1", "2", "3"), ("x", "y", "z"), ("rho", "phi", "z"))
-_TURNED = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh", "tan": "cot", "cot": "tan"}
+_PAIRS = (("sin", "cos"), ("sinh", "cosh"), ("tan", "cot"), ("sech", "tanh"))
+_TURNED = {one: other for pair in _PAIRS for one, other in (pair, pair[::-1])}
 
 
 @dataclass(frozen=True)

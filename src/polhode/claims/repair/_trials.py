@@ -72,10 +72,18 @@ def _steady(asked: Asked) -> Trials:
     return _on(states, asked, put_in)
 
 
+def _launch(asked: Asked) -> Trials:
+    from polhode.claims._launch import bench_along  # it needs the simulator
+
+    states, bench = bench_along(asked)
+    return Trials(states, bench, _differences)
+
+
 _TRIALS: dict[str, Callable[[Asked], Trials]] = {
     "identity": _identity,
     "motion": _motion,
     "steady": _steady,
+    "launch": _launch,
 }
 
 #: Contexts in which what is left can be fitted.
