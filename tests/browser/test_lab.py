@@ -113,6 +113,41 @@ def test_a_slider_changes_the_motion_and_the_picture(coin, tmp_path):
     assert "start=theta%3D36+deg" in coin.page.url
 
 
+WATCH_SIZES = """() => {
+  window.sized = 0;
+  const size = Object.getOwnPropertyDescriptor(HTMLCanvasElement.prototype, "width");
+  const set = function (width) { window.sized += 1; size.set.call(this, width); };
+  Object.defineProperty(HTMLCanvasElement.prototype, "width", { ...size, set });
+}"""
+
+
+def test_another_motion_is_drawn_on_the_same_canvases(coin):
+    """To give one a size clears it, and costs a picture more."""
+    canvases = coin.page.locator("canvas").element_handles()
+    coin.page.evaluate(WATCH_SIZES)
+    with answered(coin):
+        slider(coin, "theta").fill("300")
+    coin.page.wait_for_timeout(300)
+    assert coin.page.evaluate("window.sized") == 0
+    assert len(canvases) > 1
+    assert all(canvas.evaluate("c => c.isConnected") for canvas in canvases)
+
+
+def test_the_picture_follows_a_slider_that_does_not_rest(coin):
+    """Without waiting for it to come to rest, and it ends where the slider does."""
+    before = int(coin.page.locator("body").get_attribute("data-answers"))
+    for place in range(500, 700):
+        slider(coin, "theta").fill(str(place))
+        coin.page.wait_for_timeout(20)
+        if int(coin.page.locator("body").get_attribute("data-answers")) > before:
+            break
+    else:
+        raise AssertionError("no answer while the slider moved")
+    slider(coin, "theta").fill("200")
+    coin.page.wait_for_selector(".theatre[aria-busy=false]", timeout=PATIENCE)
+    assert float(coin.value()) == pytest.approx(36, abs=0.1)
+
+
 def test_the_old_motion_plays_on_while_the_new_one_is_computed(coin):
     coin.page.get_by_role("button", name="Play").click()
     coin.wait_until_past(0.02)
@@ -286,6 +321,25 @@ def test_the_sheet_is_dragged_shared_and_restored_on_a_phone(visit, tmp_path):
         assert shown.page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
         play = shown.page.get_by_role("button", name="Play").bounding_box()
         assert min(play["width"], play["height"]) >= 40
+
+
+def test_the_sheet_is_pushed_with_the_keyboard_alone(visit):
+    with visit("#system=ball-on-paper") as shown:
+        page = shown.page
+        page.get_by_role("button", name="Drag the sheet").press("Enter")
+        assert page.evaluate("document.activeElement.className").startswith("picture")
+        for key in ("ArrowRight", "ArrowUp"):
+            page.keyboard.down(key)
+            page.wait_for_timeout(1000)
+        page.keyboard.up("ArrowUp")
+        with answered(shown):
+            page.keyboard.press("Enter")
+        assert "the velocity has returned" in page.locator(".outcome").inner_text()
+        assert "sheet=" in page.url
+        armed = page.get_by_role("button", name="Drag the sheet")
+        armed.press("Enter")
+        page.keyboard.press("Escape")
+        assert armed.get_attribute("aria-pressed") == "false"
 
 
 def test_a_shared_state_is_restored(visit):

@@ -47,14 +47,15 @@ export class Plots {
   }
 }
 
-function kindOf({ unit, series }: PanelData): string {
-  return [unit, ...series.map(({ name, symbol }) => `${name} ${symbol}`)].join("\t");
+function kindOf({ series }: PanelData): string {
+  return series.map(({ name, symbol }) => `${name} ${symbol}`).join("\t");
 }
 
 class Plot {
   readonly figure: HTMLElement;
   private readonly box = make("div", { class: "canvas", role: "img" });
   private readonly now = make("div", { class: "now" });
+  private readonly unit = make("span", { class: "unit" });
   private readonly values: HTMLElement[];
   private rows: Rows[] = [];
   private least: number[] = [];
@@ -70,8 +71,7 @@ class Plot {
     const keys = panel.series.map(({ symbol }, i) =>
       make("span", { class: "key" }, swatch(i), formula(symbol), this.values[i]),
     );
-    const unit = make("span", { class: "unit" }, panel.unit);
-    this.figure = make("figure", { class: "plot" }, make("figcaption", {}, ...keys, unit), this.box);
+    this.figure = make("figure", { class: "plot" }, make("figcaption", {}, ...keys, this.unit), this.box);
     this.read();
   }
 
@@ -117,6 +117,7 @@ class Plot {
     const { count } = this.rows[0];
     const times = Float64Array.from({ length: count }, (_, i) => (i / (count - 1)) * this.clock.duration);
     this.data = [times, ...this.rows.map(({ data }) => data)];
+    this.unit.textContent = this.panel.unit;
     this.box.setAttribute("aria-label", this.described());
   }
 

@@ -145,7 +145,7 @@ class Lab {
       this.describe(found);
       this.changed();
     });
-    const words = make("p", { class: "long" }, "Press the button, then pull the sheet about in the picture. However it was pulled, the ball ends with the velocity it began with.");
+    const words = make("p", { class: "long" }, "Press the button, then pull the sheet about in the picture, or push it with the arrow keys; Enter lets go. However it was pulled, the ball ends with the velocity it began with.");
     return make("div", { class: "sheet" }, words, this.drag.button, forget);
   }
 

@@ -1,5 +1,6 @@
-// Dragging the sheet: the path of the pointer over the ground, while it is held down. Meanwhile the
-// ball is shown as the path so far, the sheet coming to rest after it, has it roll.
+// Dragging the sheet: the path of the pointer over the ground, while it is held down, or of a point
+// that arrow keys push. Meanwhile the ball is shown as the path so far, the sheet coming to rest
+// after it, has it roll.
 
 import { make } from "../dom";
 import { Pose } from "../pose";
@@ -11,6 +12,13 @@ import type { Row } from "./types";
 const LONGEST = 12; // s
 const STEP = 1 / 60; // s between rows
 const AHEAD = 2; // s that the ball is followed beyond the path so far
+const PUSH = 160; // pixels a second, by an arrow key
+const PUSHES: Record<string, [number, number]> = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, -1],
+  ArrowDown: [0, 1],
+};
 const STILL: Row[] = [[0, 0, 0], [0.1, 0, 0]];
 
 interface Followed {
@@ -33,7 +41,9 @@ export class SheetDrag {
   private hand = { x: 0, y: 0 };
   private gripped = { x: 0, y: 0 };
   private began = 0;
+  private last = 0;
   private pulling = false;
+  private readonly held = new Set<string>();
   private course: Course | null = null;
   private following = new AbortController();
 
@@ -46,8 +56,14 @@ export class SheetDrag {
     private readonly wish: (rows: Row[], duration: number) => object,
     private readonly done: (rows: Row[]) => void,
   ) {
-    this.button.addEventListener("click", () => this.arm(this.button.getAttribute("aria-pressed") !== "true"));
     const { picture } = player;
+    this.button.addEventListener("click", () => {
+      this.arm(!this.armed);
+      if (this.armed) picture.focus({ preventScroll: true });
+    });
+    picture.addEventListener("keydown", (event) => this.press(event));
+    picture.addEventListener("keyup", ({ key }) => this.held.delete(key));
+    picture.addEventListener("blur", () => this.held.clear());
     picture.addEventListener("pointerdown", (event) => this.grip(event), { capture: true });
     picture.addEventListener("pointermove", (event) => this.pull(event));
     picture.addEventListener("pointerup", () => this.release());
@@ -66,17 +82,40 @@ export class SheetDrag {
   }
 
   private grip(event: PointerEvent): void {
-    if (!this.armed || !this.player.stage?.groundAt(event.clientX, event.clientY)) return;
+    if (!this.armed || !this.take(event.clientX, event.clientY)) return;
     event.stopPropagation();
-    this.player.clock?.pause();
-    this.player.clock?.seek(0);
     this.player.picture.setPointerCapture(event.pointerId);
-    this.player.stage.bare();
+  }
+
+  /** Arrow keys push, Enter and space let go, Escape leaves the sheet as it was. */
+  private press(event: KeyboardEvent): void {
+    const { key } = event;
+    if (!this.armed || !(key in PUSHES || ["Enter", " ", "Escape"].includes(key))) return;
+    event.preventDefault();
+    event.stopPropagation();
+    if (key in PUSHES) {
+      const box = this.player.picture.getBoundingClientRect();
+      if (this.pulling || this.take(box.x + box.width / 2, box.y + box.height / 2)) this.held.add(key);
+      return;
+    }
+    if (key === "Escape") this.rows = [];
+    if (this.pulling) this.release();
+    else this.arm(false);
+  }
+
+  /** Begin to pull at a point of the screen, if the ground is there. */
+  private take(x: number, y: number): boolean {
+    const { stage, clock } = this.player;
+    if (!stage?.groundAt(x, y)) return false;
+    clock?.pause();
+    clock?.seek(0);
+    stage.bare();
     this.pulling = true;
-    this.hand = this.gripped = { x: event.clientX, y: event.clientY };
-    this.began = performance.now();
+    this.hand = this.gripped = { x, y };
+    this.began = this.last = performance.now();
     this.rows = [[0, 0, 0]];
     requestAnimationFrame(this.step);
+    return true;
   }
 
   private pull(event: PointerEvent): void {
@@ -93,13 +132,23 @@ export class SheetDrag {
 
   private readonly step = (): void => {
     if (!this.pulling) return;
-    const time = (performance.now() - this.began) / 1000;
+    const now = performance.now();
+    const time = (now - this.began) / 1000;
+    this.push((now - this.last) / 1000);
+    this.last = now;
     const by = this.moved();
     if (by && time - this.rows[this.rows.length - 1][0] >= STEP) this.rows.push([time, by[0], by[1]]);
     if (by) this.show(time, by);
     if (time > LONGEST) this.release();
     else requestAnimationFrame(this.step);
   };
+
+  private push(seconds: number): void {
+    for (const key of this.held) {
+      const [x, y] = PUSHES[key];
+      this.hand = { x: this.hand.x + PUSH * seconds * x, y: this.hand.y + PUSH * seconds * y };
+    }
+  }
 
   private show(time: number, by: Triple): void {
     const { stage } = this.player;
@@ -132,6 +181,7 @@ export class SheetDrag {
   private release(): void {
     if (!this.pulling) return;
     this.pulling = false;
+    this.held.clear();
     this.following.abort();
     this.course = null;
     this.done(this.rows);

@@ -22,11 +22,12 @@ export class Slider {
   ) {
     this.low = control.low;
     this.high = control.high;
-    const called = raised(control.meaning) || control.name;
-    this.range = make("input", { type: "range", min: 0, max: FINENESS, step: 1, "aria-label": `${control.name}, ${called}` });
+    const meant = raised(control.meaning);
+    const called = meant || control.name;
+    this.range = make("input", { type: "range", min: 0, max: FINENESS, step: 1, "aria-label": [control.name, meant].filter(Boolean).join(", ") });
     this.field = make("input", { type: "text", spellcheck: "false", autocomplete: "off", "aria-label": `${control.name}: value with unit` });
     const label = make("span", { class: "what", title: called }, formula(control.symbol));
-    const meaning = control.meaning ? [make("small", {}, raised(control.meaning))] : [];
+    const meaning = meant ? [make("small", {}, meant)] : [];
     this.row = make("div", { class: "slider", "data-name": control.name }, label, this.range, this.field, ...meaning);
     this.range.addEventListener("input", () => this.slid());
     this.field.addEventListener("change", () => this.typed());
