@@ -95,3 +95,39 @@ def test_without_a_renderer_there_is_text_alone(monkeypatch):
 
     monkeypatch.setattr(_display, "_RENDERERS", [])
     assert CATALOGUE["gyroscope"].build()._repr_html_() is None
+
+
+def test_what_holds_anyway_is_not_asked():
+    """The root of a rolling disk's steady motions is real at every spin."""
+    disk = ph.derive(CATALOGUE["rolling-disk"].build())
+    html = html_of(ph.steady(disk)[0])
+    assert "exists where" not in html
+    assert "stable when" in html
+    assert "sin" in html
+    assert 'width="0.17em"' in html  # a thin space around functions, in conditions too
+
+
+def test_stability_and_invariants_are_typeset():
+    disk = ph.derive(CATALOGUE["rolling-disk"].build())
+    upright = ph.steady(disk, {ph.coordinate("theta"): ph.pi / 2})[0]
+    found = ph.stability(upright)
+    assert "<math" in found._repr_html_()
+    assert repr(found).startswith("Stability: stable when ")
+    constants = ph.invariants(disk)
+    assert "energy" in constants._repr_html_()
+    assert "Searched: " in constants._repr_html_()
+    assert constants["E"].meaning == "energy"
+    with pytest.raises(ph.PolhodeError, match="no invariant that was found"):
+        constants["K"]
+
+
+def test_an_ensemble_is_summed_up():
+    numbers, starts = {"m": 0.2, "a": 0.03, "g": 9.81}, {"theta": [1.0, 0.0], "omega_3": 20.0}
+    outputs = {"theta": ph.Final("theta"), "fate": ph.Fate()}
+    disk = CATALOGUE["rolling-disk"].build()
+    found = ph.ensemble(disk, numbers, starts, 0.1, outputs=outputs)
+    assert repr(found) == "Ensemble of 2 members, 1 failed: theta, fate"
+    html = found._repr_html_()
+    assert "2 members, 1 failed" in html
+    assert "stays up: 1" in html
+    assert "member 1: sin(theta) = 0" in html

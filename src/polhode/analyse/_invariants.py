@@ -10,7 +10,7 @@ from polhode.analyse._ansatz import Ansatz, search
 from polhode.analyse._independence import Independent
 from polhode.analyse._linear_integrals import LinearIntegrals, linear_integrals
 from polhode.analyse._reduced import refuse_parts
-from polhode.base import NumericError
+from polhode.base import NumericError, Shown, look_up
 from polhode.derive import Equations
 from polhode.model import Body, Contact
 
@@ -30,8 +30,8 @@ class Invariant:
     meaning: str
 
 
-@dataclass(frozen=True)
-class Invariants:
+@dataclass(frozen=True, repr=False)
+class Invariants(Shown):
     """All that was found.
 
     Attributes:
@@ -50,6 +50,9 @@ class Invariants:
         limits = f"Searched: {self.ansatz}. Nothing outside it is excluded."
         return "\n".join([*found, *self._beyond(), limits])
 
+    def __repr__(self) -> str:
+        return str(self)
+
     def _beyond(self) -> list[str]:
         if self.linear is None:
             return []
@@ -67,7 +70,12 @@ class Invariants:
         return len(self.found)
 
     def __getitem__(self, name: str) -> Invariant:
-        return next(i for i in self.found if i.name == name)
+        """The invariant of that name.
+
+        Raises:
+            DeclarationError: where there is none.
+        """
+        return look_up(name, {i.name: i for i in self.found}, "invariant that was found")
 
 
 def invariants(equations: Equations, ansatz: Ansatz | None = None) -> Invariants:

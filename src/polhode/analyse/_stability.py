@@ -10,7 +10,7 @@ from typing import Any
 from polhode.algebra import ONE, ZERO, Expr, ExprLike, Row, Symbol, as_symbol, eliminate, sqrt
 from polhode.analyse._conditions import Condition, Truth, positive
 from polhode.analyse._steady import SteadyMotion
-from polhode.base import NumericError
+from polhode.base import NumericError, Shown
 
 _EXPONENT = Symbol("exponent")
 
@@ -21,8 +21,8 @@ PROVES = (
 )
 
 
-@dataclass(frozen=True)
-class Stability:
+@dataclass(frozen=True, repr=False)
+class Stability(Shown):
     """Exponents of small departures from a steady motion.
 
     Attributes:
@@ -116,6 +116,9 @@ class Stability:
         if self.truth is Truth.OPEN:
             return "stable when " + " and ".join(map(str, self.conditions))
         return "stable" if self.truth is Truth.ALWAYS else "unstable"
+
+    def __repr__(self) -> str:
+        return f"Stability: {self}"
 
 
 def stability(family: SteadyMotion, at: Mapping[Any, ExprLike] | None = None) -> Stability:

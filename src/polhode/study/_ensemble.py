@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polhode.algebra import Expr
-from polhode.base import DeclarationError, Progress, SilentProgress, look_up
+from polhode.base import DeclarationError, Progress, Shown, SilentProgress, look_up
 from polhode.study._block import Block, Order, Subject, options_of
 from polhode.study._columns import Array, Column, Members, Name, members_of
 from polhode.study._counts import whole
@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 USUAL = ("mode",)
 
 
-@dataclass(frozen=True)
-class Ensemble:
+@dataclass(frozen=True, repr=False)
+class Ensemble(Shown):
     """Results of many motions; `ensemble[name]` is one output of all members.
 
     Attributes:
@@ -53,6 +53,9 @@ class Ensemble:
 
     def __len__(self) -> int:
         return len(self.reason)
+
+    def __repr__(self) -> str:
+        return f"Ensemble of {len(self)} members, {self.failed} failed: {', '.join(self.values)}"
 
     def __getitem__(self, name: str) -> Array:
         """One output, or parameter or start value that differs, of all members.

@@ -12,6 +12,7 @@ from polhode.view._scene import Formula
 
 _NAMESPACE = ' xmlns="http://www.w3.org/1998/Math/MathML"'
 _SIGNS = ("+", "−", "-")
+_RELATIONS = ("=", ">")
 _FUNCTIONS = ("sin", "cos", "tan", "exp", "sinh", "cosh", "tanh")
 _THIN = "0.17em"
 _REMEMBERED = 512  # formulas: a system is looked at again and again
@@ -27,11 +28,20 @@ def symbol(expression: Expr) -> str:
 @lru_cache(_REMEMBERED)
 def equation(name: str, left: Expr, right: Expr) -> Formula:
     """left = right, which may break before every sign between two terms."""
-    spoken = f"{left.pretty()} = {right.pretty()}"
+    return _relation(name, left, "=", right)
+
+
+def positive(expression: Expr) -> Formula:
+    """expression > 0, which may break likewise."""
+    return _relation("", expression, ">", Expr.of(0))
+
+
+def _relation(name: str, left: Expr, sign: str, right: Expr) -> Formula:
+    spoken = f"{left.pretty()} {sign} {right.pretty()}"
     if len(spoken) > _LONGEST:
-        told = f"{left.pretty()} = … ({len(spoken):,} characters: too long to be read here)"
+        told = f"{left.pretty()} {sign} … ({len(spoken):,} characters: too long to be read here)"
         return Formula(name, (), told)
-    row = [*_row(left), _leaf("mo", "="), *_row(right)]
+    row = [*_row(left), _leaf("mo", sign), *_row(right)]
     return Formula(name, tuple(_written(piece) for piece in _pieces(row)), spoken)
 
 
@@ -58,12 +68,12 @@ def _is_function(element: Element) -> bool:
 
 
 def _pieces(row: Sequence[Element]) -> Iterator[list[Element]]:
-    """A row cut before the equals sign and before every sign between two terms."""
+    """A row cut before what relates its sides and before every sign between two terms."""
     piece: list[Element] = []
     for element in row:
         is_sign = element.tag == "mo" and element.text in _SIGNS
-        opens = not piece or (piece[-1].tag == "mo" and piece[-1].text in ("(", "="))
-        if element.text == "=" or (is_sign and not opens):
+        opens = not piece or (piece[-1].tag == "mo" and piece[-1].text in ("(", *_RELATIONS))
+        if element.text in _RELATIONS or (is_sign and not opens):
             yield piece
             piece = [_leaf("mo", element.text or "", form="infix")]
         else:

@@ -2,17 +2,28 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
 from functools import singledispatch
 from html import escape
 
+import numpy as np
+
 from polhode.algebra import Expr, Symbol
-from polhode.analyse import SteadyMotion, stability
+from polhode.analyse import (
+    Condition,
+    Invariants,
+    Stability,
+    SteadyMotion,
+    Truth,
+    stability,
+)
 from polhode.base import NumericError
 from polhode.derive import Equations
 from polhode.model import Body, System
 from polhode.simulate import Trajectory
-from polhode.view._mathml import equation, symbol
+from polhode.study import Ensemble
+from polhode.view._mathml import equation, positive, symbol
 from polhode.view._page import page_of
 from polhode.view._scene import Formula
 from polhode.view._scene_build import scene
@@ -24,11 +35,14 @@ _STYLE = (
     "font-family:'STIX Two Math','Cambria Math','Latin Modern Math',math}"
     ".polhode .row{margin:.45em 0 .45em 1.2em;line-height:1.9}"
     ".polhode table{border-collapse:collapse;margin:.3em 0}"
-    ".polhode td,.polhode th{text-align:left;padding:.15em .8em .15em 0;vertical-align:baseline}"
+    ".polhode table td,.polhode table th{text-align:left;vertical-align:baseline;"
+    "padding:.15em .8em .15em 0}"
     ".polhode summary{cursor:pointer;font-weight:600}"
-    ".polhode caption{text-align:left;white-space:nowrap;font-weight:600;padding:.2em 0}</style>"
+    ".polhode table caption{text-align:left;white-space:nowrap;font-weight:600;"
+    "padding:.2em 0}</style>"
 )
 _TALL = 640  # pixels of the picture of a motion with its plots
+_FAILURES = 10  # that are told
 _WIDE = "min(100%, 72rem)"
 
 
@@ -73,9 +87,37 @@ def _(thing: SteadyMotion) -> str:
         shown += "<p>Every state.</p>"
     for branch in thing.branches:
         shown += _rows([equation("", branch.quantity, branch.value)])
-        exists = ", ".join(f"{symbol(c.expression)} &gt; 0" for c in branch.exists)
-        shown += f"<p>exists where {exists}</p>" if exists else ""
-    return _framed(shown + _stability(thing))
+        shown += _where("exists where", branch.exists)
+    try:
+        return _framed(shown + _told(stability(thing)))
+    except NumericError:  # a family on which the coordinates are singular
+        return _framed(shown)
+
+
+@html_of.register
+def _(thing: Stability) -> str:
+    return _framed(_told(thing))
+
+
+@html_of.register
+def _(thing: Invariants) -> str:
+    rows = [
+        f"<p>{escape(i.meaning)}</p>"
+        f"{_rows([equation('', Expr.generator(Symbol(i.name)), i.expression)])}"
+        for i in thing
+    ]
+    beyond = f"<pre>{escape(str(thing.linear))}</pre>" if thing.linear else ""
+    limits = f"<p>Searched: {escape(thing.ansatz)}. Nothing outside it is excluded.</p>"
+    return _framed("<strong>Invariants</strong>" + "".join(rows) + beyond + limits)
+
+
+@html_of.register
+def _(thing: Ensemble) -> str:
+    rows = [(escape(name), _spread(thing, name)) for name in thing.values]
+    title = f"{len(thing)} members, {thing.failed} failed"
+    why = [f"<p>member {k}: {escape(v)}</p>" for k, v in list(thing.failures.items())[:_FAILURES]]
+    folded = f"<details><summary>why</summary>{''.join(why)}</details>" if why else ""
+    return _framed(_table(title, ("output", "of all members"), rows) + folded)
 
 
 @html_of.register
@@ -120,12 +162,22 @@ def _folded(title: str, formulas: list[Formula]) -> str:
     return f"<details><summary>{title}</summary>{_rows(formulas)}</details>"
 
 
-def _stability(family: SteadyMotion) -> str:
-    try:
-        found = stability(family)
-    except NumericError:  # a family on which the coordinates are singular
-        return ""
-    if not found.conditions:
-        return f"<p>{escape(str(found))}</p>"
-    conditions = " and ".join(f"{symbol(c.expression)} &gt; 0" for c in found.conditions)
-    return f"<p>stable when {conditions}</p>"
+def _told(found: Stability) -> str:
+    return _where("stable when", found.conditions) or f"<p>{escape(str(found))}</p>"
+
+
+def _where(words: str, conditions: Iterable[Condition]) -> str:
+    """Conditions of which something is left to ask."""
+    formulas = [positive(c.expression) for c in conditions if c.truth is Truth.OPEN]
+    return f"<p>{words}</p>{_rows(formulas)}" if formulas else ""
+
+
+def _spread(found: Ensemble, name: str) -> str:
+    """How often each word comes; or the least and the largest number."""
+    if name in found.labels:
+        words = Counter(filter(None, found.named(name)))
+        return escape(", ".join(f"{word}: {count}" for word, count in words.most_common()))
+    values = found.values[name][found.done]
+    if not values.size or not np.any(np.isfinite(values)):
+        return "none"
+    return f"from {np.nanmin(values):.6g} to {np.nanmax(values):.6g}"
