@@ -30,7 +30,7 @@ def test_a_variant_belongs_to_its_problem():
 
 def test_verdicts_are_counted():
     claims = [told(), told(), told("fails"), told("unread")]
-    assert counted(claims) == "4 claims: 2 hold, 1 fail as printed, 1 could not be read"
+    assert counted(claims) == "4 claims: 2 hold, 1 fails as printed, 1 could not be read"
 
 
 def test_a_failure_shows_its_correction_and_why():
@@ -66,6 +66,6 @@ def test_judging_gives_text(id, system):
 def test_the_closing_table_counts_by_problem_and_shows_what_fails():
     claims = (told(), told("fails", id="13", correction="a > b"), told("fails", reason="odd"))
     lines = TourReport(Path("page"), (), claims).audit_table().splitlines()
-    assert lines[0] == "gyroscope  3 claims: 1 hold, 2 fail as printed"
+    assert lines[0] == "gyroscope  3 claims: 1 holds, 2 fail as printed"
     assert lines[2].split() == ["13", "fails;", "holds", "as", "a", ">", "b"]
     assert lines[3].endswith("fails; odd")

@@ -37,16 +37,20 @@ def counted(claims: Iterable[Told]) -> str:
     """How many got each verdict, in words."""
     found = Counter(claim.answer for claim in claims)
     total = sum(found.values())
-    parts = [f"{found[answer]} {word}" for answer, word in _COUNTED.items() if found[answer]]
+    parts = [
+        f"{found[answer]} {one if found[answer] == 1 else many}"
+        for answer, (one, many) in _COUNTED.items()
+        if found[answer]
+    ]
     return f"{total} claims: {', '.join(parts)}"
 
 
 _COUNTED = {
-    "holds": "hold",
-    "approximate": "hold approximately",
-    "definition": "define",
-    "fails": "fail as printed",
-    "unread": "could not be read",
+    "holds": ("holds", "hold"),
+    "approximate": ("holds approximately", "hold approximately"),
+    "definition": ("defines", "define"),
+    "fails": ("fails as printed", "fail as printed"),
+    "unread": ("could not be read", "could not be read"),
 }
 
 

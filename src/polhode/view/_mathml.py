@@ -9,12 +9,11 @@ from xml.etree.ElementTree import Element
 
 from polhode.algebra import Expr
 from polhode.view._scene import Formula
+from polhode.view._spacing import set_functions_apart
 
 _NAMESPACE = ' xmlns="http://www.w3.org/1998/Math/MathML"'
 _SIGNS = ("+", "−", "-")
 _RELATIONS = ("=", ">")
-_FUNCTIONS = ("sin", "cos", "tan", "exp", "sinh", "cosh", "tanh")
-_THIN = "0.17em"
 _REMEMBERED = 512  # formulas: a system is looked at again and again
 _LONGEST = 2500  # letters of a formula that is still printed
 
@@ -47,24 +46,8 @@ def _relation(name: str, left: Expr, sign: str, right: Expr) -> Formula:
 
 def _row(expression: Expr) -> list[Element]:
     root = ElementTree.fromstring(symbol(expression))
-    for row in [*root.iter("math"), *root.iter("mrow")]:
-        _set_functions_apart(row)
+    set_functions_apart(root)
     return list(root[0]) if len(root) == 1 and root[0].tag == "mrow" else list(root)
-
-
-def _set_functions_apart(row: Element) -> None:
-    """A thin space around the name of a function, as in 2 sin θ."""
-    for i in reversed([i for i, element in enumerate(row) if _is_function(element)]):
-        if i + 1 < len(row) and row[i + 1].tag != "mo":
-            row.insert(i + 1, Element("mspace", width=_THIN))
-        if i and row[i - 1].tag != "mo":
-            row.insert(i, Element("mspace", width=_THIN))
-
-
-def _is_function(element: Element) -> bool:
-    """Whether it is sin, or sin² and the like."""
-    name = element[0] if element.tag == "msup" else element
-    return name.tag == "mi" and name.text in _FUNCTIONS
 
 
 def _pieces(row: Sequence[Element]) -> Iterator[list[Element]]:

@@ -1,0 +1,28 @@
+"""Space between the pieces of a formula in MathML, which browsers leave to whoever writes it."""
+
+from __future__ import annotations
+
+from xml.etree.ElementTree import Element
+
+_FUNCTIONS = ("sin", "cos", "tan", "exp", "sinh", "cosh", "tanh")
+_THIN = "0.17em"
+
+
+def set_functions_apart(formula: Element) -> None:
+    """A thin space around the names of functions, as in 2 sin θ."""
+    for row in [*formula.iter("math"), *formula.iter("mrow")]:
+        _set_apart(row)
+
+
+def _set_apart(row: Element) -> None:
+    for i in reversed([i for i, element in enumerate(row) if _is_function(element)]):
+        if i + 1 < len(row) and row[i + 1].tag != "mo":
+            row.insert(i + 1, Element("mspace", width=_THIN))
+        if i and row[i - 1].tag != "mo":
+            row.insert(i, Element("mspace", width=_THIN))
+
+
+def _is_function(element: Element) -> bool:
+    """Whether it is sin, or sin² and the like."""
+    name = element[0] if element.tag == "msup" else element
+    return name.tag == "mi" and name.text in _FUNCTIONS
