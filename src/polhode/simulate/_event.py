@@ -6,9 +6,13 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from polhode.simulate._segment import Segment
+from polhode.simulate.integrate._driver import Stop
+
+if TYPE_CHECKING:
+    from polhode.simulate.contact._course import Change
 
 
 @dataclass(frozen=True)
@@ -43,6 +47,29 @@ class Event:
     def as_json(self) -> dict[str, Any]:
         """As the command line prints it."""
         return {"time": self.time, "kind": self.kind, "from": self.before, "to": self.after}
+
+
+class Happening(Protocol):
+    """Segments of a motion, and the changes of contact mode between them."""
+
+    @property
+    def segments(self) -> tuple[Segment, ...]: ...
+    @property
+    def changes(self) -> tuple[Change, ...]: ...
+    @property
+    def ending(self) -> str: ...
+
+
+def events_of(motion: Happening) -> tuple[Event, ...]:
+    """Start, changes of contact mode, and end."""
+    first, last = motion.segments[0], motion.segments[-1]
+    interrupted = last.parts[-1].solution.stop is Stop.INTERRUPTED
+    events = (
+        Event(first.begin, "start", None, first.mode),
+        *(Event(c.time, c.kind, c.before, c.after) for c in motion.changes),
+        Event(last.end, "interrupted" if interrupted else "end", motion.ending, None),
+    )
+    return placed(events, motion.segments)
 
 
 def placed(events: Iterable[Event], segments: Sequence[Segment]) -> tuple[Event, ...]:

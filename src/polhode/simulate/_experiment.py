@@ -15,15 +15,14 @@ from polhode.base import TIME, NumericError, Progress, SilentProgress, UnitError
 from polhode.derive import Automaton
 from polhode.model import System
 from polhode.simulate._dynamics import EquationsOfMotion
-from polhode.simulate._event import Event, placed
+from polhode.simulate._event import Event, events_of, placed
 from polhode.simulate._follow import prepared
 from polhode.simulate._names import Name
-from polhode.simulate._task import Motion, Prepared, Task
+from polhode.simulate._task import Motion, Prepared, Task, timed
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate._validity import pulling_contacts, refuse_lost_side
 from polhode.simulate._values import evaluate
 from polhode.simulate._watching import with_events
-from polhode.simulate.integrate._driver import Stop
 from polhode.simulate.integrate._integrators import Array, chosen
 from polhode.simulate.integrate._numbers import DOUBLES, Precision, numbers_for
 from polhode.simulate.precise._precisely import Wanted, precisely
@@ -114,7 +113,8 @@ class Experiment:
             run = self._trajectory(motion, task)
             if self._wanted.numbers is DOUBLES:
                 return with_events(run, self._events)
-            return precisely(run, motion, task, self._wanted, shown)
+            with timed(task, "integrate"):
+                return precisely(run, motion, task, self._wanted, shown)
 
     def _ready(self, task: Task) -> Prepared:
         if self._prepared is None:
@@ -130,7 +130,7 @@ class Experiment:
             duration=end,
             t=self._times[self._times <= end],
             mode=motion.ending,
-            events=_events(motion),
+            events=events_of(motion),
             assumed=motion.assumed,
             seconds=task.seconds,
             integrator=task.integrator.name,
@@ -140,20 +140,6 @@ class Experiment:
             refuse_lost_side(trajectory)
             trajectory = replace(trajectory, events=_with_pulls(trajectory))
         return trajectory
-
-
-def _events(motion: Motion) -> tuple[Event, ...]:
-    end = motion.segments[-1].end
-    events = (
-        Event(0.0, "start", None, motion.segments[0].mode),
-        *(Event(c.time, c.kind, c.before, c.after) for c in motion.changes),
-        Event(end, "interrupted" if _was_interrupted(motion) else "end", motion.ending, None),
-    )
-    return placed(events, motion.segments)
-
-
-def _was_interrupted(motion: Motion) -> bool:
-    return motion.segments[-1].parts[-1].solution.stop is Stop.INTERRUPTED
 
 
 def _with_pulls(trajectory: Trajectory) -> tuple[Event, ...]:

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
 from polhode.base import Progress
-from polhode.derive import Mode
 from polhode.simulate._dynamics import Dynamics
 from polhode.simulate._names import Name
 from polhode.simulate._segment import Segment
@@ -18,6 +17,7 @@ from polhode.simulate.integrate._integrators import Integrator
 
 if TYPE_CHECKING:
     from polhode.simulate.contact._course import Change
+    from polhode.simulate.contact._machine import Machine
 
 AS_DECLARED = "as declared"
 
@@ -46,13 +46,26 @@ class Begun:
 
 
 @dataclass(frozen=True)
+class Guarded:
+    """What follows a motion through its contact modes.
+
+    Attributes:
+        machine: the modes, with numbers.
+        apart: contacts that start at a given height.
+    """
+
+    machine: Machine
+    apart: frozenset[int]
+
+
+@dataclass(frozen=True)
 class Motion:
     """What came of it.
 
     Attributes:
         unguarded: whether the contacts were taken as declared, and not looked after.
         begun: how the start was read.
-        mode: the contact mode it begins in, where contacts are looked after.
+        guarded: what looks after the contacts, where they are looked after.
     """
 
     segments: tuple[Segment, ...]
@@ -62,7 +75,7 @@ class Motion:
     assumed: Mapping[str, float]
     unguarded: bool
     begun: Begun
-    mode: Mode | None = None
+    guarded: Guarded | None = None
 
 
 class Prepared(Protocol):

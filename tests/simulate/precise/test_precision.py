@@ -199,11 +199,6 @@ def test_a_thrown_ball_flies_as_exactly():
     assert largest(run.final["z"], MANY.mpf(height.numerator) / height.denominator) < 1e-32
 
 
-def test_a_change_of_mode_is_named_with_its_time():
-    with pytest.raises(NumericError, match=r"sticks at t = 0\.097082665890.* s, in quadruple"):
-        sliding("1 s", v_x="1 m/s", omega_y=0)
-
-
 # -- what people work with -------------------------------------------------------------------------
 
 

@@ -6,10 +6,11 @@ from dataclasses import replace
 
 from polhode.base import ConstraintError
 from polhode.model import Contact
+from polhode.simulate.contact._entry import Entry
 from polhode.simulate.contact._machine import Machine
 from polhode.simulate.contact._place import Place
 from polhode.simulate.contact._rise import STILL
-from polhode.simulate.contact._settle import Entry, Known, settle
+from polhode.simulate.contact._settle import Known, settle
 
 _ROUNDING = 1e-12  # height above a support, over the size of the place, that is none
 

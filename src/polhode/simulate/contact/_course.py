@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -12,14 +13,14 @@ from polhode.base import NumericError, Progress
 from polhode.derive import Guard
 from polhode.simulate._dynamics import WORK
 from polhode.simulate._segment import Part, Segment, state_at
+from polhode.simulate.contact._entry import Entry, beyond, state_on
 from polhode.simulate.contact._lookout import Lookout
 from polhode.simulate.contact._machine import Machine, ModeMachine, gap_symbol, slip_symbols
 from polhode.simulate.contact._onset import onset
 from polhode.simulate.contact._place import Place
 from polhode.simulate.contact._rise import fall_of
-from polhode.simulate.contact._settle import Entry
 from polhode.simulate.contact._touching import Meeting
-from polhode.simulate.contact._transition import Leaving, Transitions, beyond
+from polhode.simulate.contact._transition import Leaving, Transitions
 from polhode.simulate.forcing._drive import Drive
 from polhode.simulate.integrate._driver import Stop, Watched, integrate
 from polhode.simulate.integrate._integrators import Array
@@ -83,6 +84,7 @@ class Walk:
         self._until = until
         self._segments: list[Segment] = []
         self._changes: list[Change] = []
+        self._instants: list[float] = []
         self._transitions = Transitions(machine)
         self._tally = Tally()
 
@@ -93,11 +95,10 @@ class Walk:
             NumericError: where it cannot be continued.
         """
         while entry.place.time < end:
-            outcome = self._stay(entry, end)
+            outcome = self.stay(entry, end)
             self._segments.append(outcome.segment)
-            if outcome.leaving.guard is None and (
-                outcome.segment.end >= end or outcome.interrupted
-            ):
+            now = outcome.leaving.place.time
+            if outcome.leaving.guard is None and (now >= end or outcome.interrupted):
                 break
             time, before = outcome.segment.end, outcome.segment.mode
             last = self._last(outcome)
@@ -106,6 +107,7 @@ class Walk:
             kind, entry = self._transitions.next(entry, outcome.leaving)
             after = self._machine.mode(entry.phases).mode.name
             self._changes.append(Change(time, kind, before, after))
+            self._instants.append(now)
             if len(self._changes) > _MOST_EVENTS:
                 raise _chattering(time)
             if self._stands_still(end):
@@ -117,17 +119,18 @@ class Walk:
 
         Next to none counts as none unless contacts rebound, ever more often.
         """
-        last = self._changes[-_MOST_AT_ONCE:]
-        passed = last[-1].time - last[0].time
+        last = self._instants[-_MOST_AT_ONCE:]
+        passed = last[-1] - last[0]
         if len(last) < _MOST_AT_ONCE or passed > _NO_TIME * end:
             return False
-        return passed <= 8 * np.spacing(last[-1].time) or not self._rebounds()
+        instant = 8 * self._machine.numbers.spacing(last[-1])
+        return bool(passed <= instant) or not self._rebounds()
 
     def _rebounds(self) -> bool:
         contacts = self._machine.automaton.contacts
         return any(self._machine.value(contact.restitution) > 0 for contact in contacts)
 
-    def _last(self, outcome: _Outcome) -> Change | None:
+    def _last(self, outcome: Outcome) -> Change | None:
         """The change that ends the motion, if this is one."""
         guard = outcome.leaving.guard
         kind = guard.kind if guard is not None else ""
@@ -138,28 +141,28 @@ class Walk:
 
     # -- one mode -------------------------------------------------------------------------------
 
-    def _stay(self, entry: Entry, end: float) -> _Outcome:
+    def stay(self, entry: Entry, end: float) -> Outcome:
         """As long as the mode lasts."""
         mode = self._machine.mode(entry.phases)
         begin = now = entry.place.time
         machine, drive = self._machine, self._machine.drive
         parts = list[Part]()
         lookout = Lookout(machine, self._near_flat, mode, entry)
-        state = self._start(mode, entry)
+        state = state_on(machine, entry)
         guard: Guard | None = None
         scale = 0.0
         while guard is None and now < end:
             machine.move_on(now)
             limit = drive.until(now, end)
             if not parts:
-                limit = min(limit, now + self._hop(mode, entry))
+                limit = min(limit, now + self.hop(mode, entry))
             span = (now, limit)
             if entry.onset and not parts:
                 part = onset(mode, entry, state, span, machine.automaton.contacts)
             else:
                 rest = parts[-1].solution.rest(now) if parts else mode.rest(state, now)
                 if entry.slips:
-                    scale = max(scale, self._scale_at(_place(mode, state, now), entry))
+                    scale = max(scale, self.scale_at(place_of(mode, state, now), entry))
                 watched = self._watched(mode, entry, scale or 1.0)
                 part = self._stretch(mode, rest, span, watched)
             part, guard = lookout.cut(part)
@@ -169,41 +172,20 @@ class Walk:
                 guard = None
             if part.solution.stop is Stop.INTERRUPTED or now in drive.jerks:
                 break
-        place = _place(mode, state, now, entry.place.work)
-        gaps = {
-            i: state[gap_symbol(touch.contact)]
-            for i, touch in enumerate(mode.mode.touches)
-            if gap_symbol(touch.contact) in state
-        }
         segment = Segment(mode.mode.name, begin, now, mode.dynamics, tuple(parts))
-        return _Outcome(segment, Leaving(guard, place, gaps))
+        return Outcome(segment, leaving(mode, guard, state, now, entry.place.work))
 
-    def _hop(self, mode: ModeMachine, entry: Entry) -> float:
+    def hop(self, mode: ModeMachine, entry: Entry) -> float:
         """How far ahead a contact that opened on the way may be expected to be closed again, s.
 
         A short hop within a long step would be lost in the rounding of the long one.
         """
         if not entry.gaps:
             return np.inf
-        state = np.concatenate([entry.coordinates, entry.speeds])
-        falls = mode.closing_rates(state, entry.place.time)
+        falls = mode.closing_rates(entry.state, entry.place.time)
         rises = [meeting.velocity[2] for meeting in self._meetings(entry)]
         hops = [fall_of(gap, rises[i], falls[i]) for i, gap in entry.gaps.items() if falls[i] < 0]
         return 1.5 * min((hop for hop in hops if hop > 0), default=np.inf)
-
-    def _start(self, mode: ModeMachine, entry: Entry) -> dict[Symbol, float]:
-        equations = mode.mode.equations
-        values = (*entry.coordinates, *entry.speeds)
-        state = dict(zip((*equations.coordinates, *equations.speeds), values, strict=True))
-        for i, touch in enumerate(mode.mode.touches):
-            if gap_symbol(touch.contact) in mode.dynamics.carried:
-                known = entry.gaps.get(i)
-                gap = self._meetings(entry)[i].gap if known is None else known
-                state[gap_symbol(touch.contact)] = gap
-            for k, symbol in enumerate(slip_symbols(touch.contact)):
-                if symbol in mode.dynamics.carried:
-                    state[symbol] = float(entry.slips[i][k])
-        return {**state, WORK: entry.place.work}
 
     def _stretch(
         self,
@@ -240,9 +222,9 @@ class Walk:
         return lambda time, state: min(values(*state, *constants, time)) < least
 
     def _speed_scale(self, entry: Entry) -> float:
-        return self._scale_at(entry.place, entry) or 1.0
+        return self.scale_at(entry.place, entry) or 1.0
 
-    def _scale_at(self, place: Place, entry: Entry) -> float:
+    def scale_at(self, place: Place, entry: Entry) -> float:
         """Size of the velocities that slips are the difference of, m/s."""
         meetings = self._machine.touching.at(place, beyond(entry.phases))
         return max((meeting.scale for meeting in meetings), default=0.0)
@@ -252,16 +234,32 @@ class Walk:
         return self._machine.touching.at(entry.place, beyond(entry.phases))
 
 
-def _place(
-    mode: ModeMachine, state: Mapping[Symbol, float], time: float, work: float = 0.0
-) -> Place:
+def leaving(
+    mode: ModeMachine,
+    guard: Guard | None,
+    state: Mapping[Symbol, Any],
+    time: Any,
+    work: Any,
+) -> Leaving:
+    """Where a mode ends, in a state of it; the work is as before where none is done."""
+    gaps = {
+        i: state[gap_symbol(touch.contact)]
+        for i, touch in enumerate(mode.mode.touches)
+        if gap_symbol(touch.contact) in state
+    }
+    return Leaving(guard, place_of(mode, state, time, work), gaps)
+
+
+def place_of(mode: ModeMachine, state: Mapping[Symbol, Any], time: Any, work: Any = 0.0) -> Place:
     """A state of a mode as all modes have it; the work as it was before where none is done."""
     own = {s: state[s] for s in mode.dynamics.states if s not in mode.dynamics.carried}
     return mode.lifted(time, own, state.get(WORK, work))
 
 
 @dataclass(frozen=True)
-class _Outcome:
+class Outcome:
+    """A stay in a mode, and where it ended."""
+
     segment: Segment
     leaving: Leaving
 
@@ -285,7 +283,7 @@ def _undecided(time: float, modes: set[str]) -> NumericError:
     # friction it would close again; nor can it hold, for it would have to pull (Painlevé).
     names = sorted(modes) if len(modes) > 1 else [*modes, "contact"]
     return NumericError(
-        f"at t = {time:.9g} s no mode can follow: {' and '.join(names)} exclude each other",
+        f"at t = {float(time):.9g} s no mode can follow: {' and '.join(names)} exclude each other",
         expected="friction that gives way before the contact has to open",
         advice="give the contact a friction coefficient mu, or end the motion before that time",
     )
@@ -293,7 +291,7 @@ def _undecided(time: float, modes: set[str]) -> NumericError:
 
 def _chattering(time: float) -> NumericError:
     return NumericError(
-        f"more than {_MOST_EVENTS} changes of contact mode up to t = {time:.9g} s",
+        f"more than {_MOST_EVENTS} changes of contact mode up to t = {float(time):.9g} s",
         expected="a motion that settles",
         advice="it chatters: end the motion before that time, or change the friction",
     )

@@ -2,28 +2,98 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
-from polhode.algebra import Expr
+from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError
 from polhode.derive import Guard
 from polhode.simulate._dynamics import CLOCK
 from polhode.simulate._segment import Part
+from polhode.simulate.contact._entry import Entry, beyond
 from polhode.simulate.contact._machine import Machine, ModeMachine, gap_symbol
-from polhode.simulate.contact._rise import Rise
-from polhode.simulate.contact._settle import Entry, painleve
+from polhode.simulate.contact._rise import STILL, Rise
+from polhode.simulate.contact._settle import painleve
 from polhode.simulate.contact._touching import Meeting
-from polhode.simulate.contact._transition import beyond, index_of
+from polhode.simulate.contact._transition import index_of
 from polhode.simulate.integrate._crossing import first_fall
-from polhode.simulate.integrate._driver import Stop, stuck
-from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._driver import Stop
+from polhode.simulate.integrate._integrators import Array, broken
 from polhode.simulate.integrate._rows import rows
 
 _JAMMED = 1e-6  # of what sliding has in reserve before it jams: as good as none
+_INSTANT = 8  # steps of rounding of the time, over which nothing can be told from a height
+
+
+class Sight(Protocol):
+    """The states along a stretch of the motion, in doubles, by a place that rises with the time."""
+
+    @property
+    def symbols(self) -> tuple[Symbol, ...]:
+        """The states."""
+
+    @property
+    def turned(self) -> Mapping[Symbol, Symbol]:
+        """Of large angles: the symbol of the angle less whole turns."""
+
+    @property
+    def constants(self) -> Array:
+        """The parameters."""
+
+    @property
+    def knots(self) -> Array:
+        """The places between which everything is smooth."""
+
+    def at(self, places: Array) -> Array:
+        """States, shape (states, places)."""
+
+    def times(self, places: Array) -> Array:
+        """When, s."""
+
+    def passed(self, places: Array) -> Array:
+        """Since the mode was entered, s; zero where nothing can be told from a height yet."""
+
+
+@dataclass(frozen=True)
+class _Seen:
+    """A part of a motion in doubles, by the time; and when its mode was entered, s."""
+
+    part: Part
+    begin: float
+
+    @property
+    def symbols(self) -> tuple[Symbol, ...]:
+        return self.part.solution.symbols
+
+    @property
+    def turned(self) -> Mapping[Symbol, Symbol]:
+        return self.part.solution.turned
+
+    @property
+    def constants(self) -> Array:
+        return self.part.constants
+
+    @property
+    def knots(self) -> Array:
+        return self.part.solution.steps
+
+    def at(self, places: Array) -> Array:
+        return self.part.solution.at(places)
+
+    def times(self, places: Array) -> Array:
+        return places
+
+    def passed(self, places: Array) -> Array:
+        passed = places - self.begin
+        return np.where(passed <= _INSTANT * np.spacing(self.begin), 0.0, passed)
+
+
+def _time(seen: Sight, place: float) -> float:
+    return float(seen.times(np.array([place]))[0])
 
 
 @dataclass(frozen=True)
@@ -49,47 +119,59 @@ class Lookout:
 
     def cut(self, part: Part) -> tuple[Part, Guard | None]:
         """The part up to the first guard that falls, and that guard."""
-        solution, mode = part.solution, self.mode
-        watched = [g for g in mode.mode.guards if g.kind != "sticks"]
-        jams = mode.can_jam
-        fall = None
-        if watched or jams:
-            values = self._values(part, watched)
-            fall = first_fall(values, solution.steps)
+        seen = _Seen(part, self.entry.place.time)
+        fall = self.first_fall(seen)
         if fall is not None:
-            if fall.guard == len(watched):
-                raise painleve(", ".join(e.name for e in mode.sliding), fall.time)
-            return replace(part, end=fall.time), watched[fall.guard]
-        if solution.stop is Stop.STUCK:
-            raise self._jammed(part) or stuck(solution)
-        return part, self._landing(part)
+            return replace(part, end=fall[0]), fall[1]
+        if part.solution.stop is Stop.STUCK:
+            raise self.broken(seen)
+        return part, self.landing(part.solution.vanished)
 
-    def _jammed(self, part: Part) -> NumericError | None:
-        """Where a part ends because forces grow beyond all bounds: Painlevé's paradox, if it is."""
-        if not self.mode.can_jam:
-            return None
-        reserves = self._values(part, [])(part.solution.steps)[-1]
-        if reserves[-1] > _JAMMED * np.max(reserves):
-            return None
-        return painleve(", ".join(e.name for e in self.mode.sliding), part.end)
+    def first_fall(self, seen: Sight) -> tuple[float, Guard] | None:
+        """Where the first guard falls, and that guard.
 
-    def _values(self, part: Part, watched: list[Guard]) -> Callable[[Array], Array]:
+        Raises:
+            NumericError: where sliding jams before.
+        """
+        watched = [g for g in self.mode.mode.guards if g.kind != "sticks"]
+        if not (watched or self.mode.can_jam):
+            return None
+        fall = first_fall(self._values(seen, watched), seen.knots)
+        if fall is None:
+            return None
+        if fall.guard == len(watched):
+            raise self._jammed(seen, fall.time)
+        return fall.time, watched[fall.guard]
+
+    def broken(self, seen: Sight) -> NumericError:
+        """Why the motion cannot be continued where a stretch ends: Painlevé's paradox, if it is."""
+        last = seen.knots[-1]
+        if self.mode.can_jam:
+            reserves = self._values(seen, [])(seen.knots)[-1]
+            if reserves[-1] <= _JAMMED * np.max(reserves):
+                return self._jammed(seen, last)
+        return broken(_time(seen, last))
+
+    def _jammed(self, seen: Sight, place: float) -> NumericError:
+        return painleve(", ".join(e.name for e in self.mode.sliding), _time(seen, place))
+
+    def _values(self, seen: Sight, watched: list[Guard]) -> Callable[[Array], Array]:
         """Values of the guards, and how far sliding is from jamming."""
         mode = self.mode
-        expressions = [self._looked_at(guard) for guard in watched]
+        expressions = [self.looked_at(guard) for guard in watched]
         size = len(mode.mode.equations.speeds)
         masses = [e for row in mode.mode.equations.mass.rows for e in row] if mode.can_jam else []
-        arguments = (*part.solution.symbols, *mode.dynamics.parameters, CLOCK)
+        arguments = (*seen.symbols, *mode.dynamics.parameters, CLOCK)
         wanted = [*expressions, *masses]
-        function = mode.dynamics.function(wanted, arguments, part.solution.turned)
+        function = mode.dynamics.function(wanted, arguments, seen.turned)
         leaving = self._leaving(watched)
 
-        def looked(times: Array) -> Array:
+        def looked(places: Array) -> Array:
             with np.errstate(all="ignore"):
-                found = function(*part.solution.at(times), *part.constants, times)
-            values: Array = rows(found, len(times))
+                found = function(*seen.at(places), *seen.constants, seen.times(places))
+            values: Array = rows(found, len(places))
             for k, rise in leaving.items():
-                values[k] = rise.mean(values[k], times)
+                values[k] = rise.mean(values[k], seen.passed(places))
             own = values[: len(expressions)]
             if not mode.can_jam:
                 return own
@@ -105,21 +187,23 @@ class Lookout:
             i = index_of(guard, self.machine)
             if guard.kind == "touches down" and entry.gaps.get(i) == 0.0:
                 meeting = self.meetings[i]
-                found[k] = Rise(entry.place.time, float(meeting.velocity[2]), meeting.scale)
+                still = self.machine.numbers.finer(STILL) * meeting.scale
+                found[k] = Rise(float(meeting.velocity[2]), float(still))
         return found
 
-    def _looked_at(self, guard: Guard) -> Expr:
+    def looked_at(self, guard: Guard) -> Expr:
+        """What falls through zero where a guard does."""
         if guard.kind == "touches down" and guard.contact is not None:
             return Expr.generator(gap_symbol(guard.contact))
         if guard.kind == "near-flat":
             return guard.positive - self.near_flat
         return guard.positive
 
-    def _landing(self, part: Part) -> Guard | None:
-        """The contact whose slip velocity vanishes at the end of a part."""
-        if part.solution.vanished is None:
+    def landing(self, vanished: int | None) -> Guard | None:
+        """The guard of the contact whose slip velocity vanishes, if one does."""
+        if vanished is None:
             return None
-        i = sorted(self.entry.slips)[part.solution.vanished]
+        i = sorted(self.entry.slips)[vanished]
         name = self.machine.automaton.contacts[i].name
         return next(
             g

@@ -18,6 +18,7 @@ from polhode.simulate.contact._touching import Touching
 from polhode.simulate.forcing._drive import Drive
 from polhode.simulate.integrate._flow import Flow, flow_of
 from polhode.simulate.integrate._integrators import Array, Integrator, Stepper
+from polhode.simulate.integrate._numbers import DOUBLES, Numbers
 from polhode.simulate.integrate._rows import rows
 
 Constants = Mapping[Symbol, float]
@@ -32,6 +33,8 @@ class Machine:
         constants: value of every parameter.
         integrator: what integrates them.
         tolerance: of its steps.
+        numbers: what is computed with.
+        rough: the same machine in doubles; None for that itself.
     """
 
     def __init__(
@@ -41,7 +44,11 @@ class Machine:
         constants: Constants,
         integrator: Integrator,
         tolerance: float | None,
+        numbers: Numbers = DOUBLES,
+        rough: Machine | None = None,
     ) -> None:
+        self.numbers = numbers
+        self.rough = rough or self
         self.automaton = automaton
         self.drive = drive
         self.take(constants)
@@ -68,13 +75,14 @@ class Machine:
             self._modes[phases] = ModeMachine(self, self.automaton.mode(phases))
         return self._modes[phases]
 
-    def value(self, expression: Expr) -> float:
+    def value(self, expression: Expr) -> Any:
         """The value of an expression of constants."""
         known = tuple(self.constants)
         if (expression, known) not in self._functions:
-            function = compile_program([expression], known).function()
+            function = compile_program([expression], known).function(self.numbers.scalars)
             self._functions[expression, known] = function
-        return float(self._functions[expression, known](*self.constants.values())[0])
+        found = self._functions[expression, known](*self.constants.values())[0]
+        return self.numbers.scalar(found)
 
     @cached_property
     def apart(self) -> ModeMachine:
@@ -93,6 +101,7 @@ class ModeMachine:
     def __init__(self, machine: Machine, mode: Mode) -> None:
         self.mode = mode
         self._machine = machine
+        self._numbers = machine.numbers
         self._last: tuple[Constants, Array, list[float]] = ({}, np.empty(0), [])
         carried, meanings = _carried(mode)
         idle = tuple(machine.constants)
@@ -111,8 +120,8 @@ class ModeMachine:
         """What the constants were read from; the constants as an array, and as a list."""
         if self._last[0] is not self._machine.constants:
             known = self._machine.constants
-            values = [float(known[s]) for s in self.dynamics.parameters]
-            self._last = (known, np.array(values), values)
+            values = self._numbers.array([known[s] for s in self.dynamics.parameters])
+            self._last = (known, values, values.tolist())
         return self._last
 
     @cached_property
@@ -140,7 +149,7 @@ class ModeMachine:
         """Expressions as a function of the state, the time and values of extra symbols."""
         states = tuple(s for s in self.dynamics.states if s not in self.dynamics.carried)
         known = (*states, *extra, *self.dynamics.parameters, CLOCK)
-        compiled = self.dynamics.program(expressions, known).function()
+        compiled = self.dynamics.program(expressions, known).function(self._numbers.scalars)
 
         def values(state: Array, time: float, more: Sequence[float] = ()) -> Array:
             constants = self._taken[2]
@@ -148,7 +157,7 @@ class ModeMachine:
                 found = compiled(*state[: len(states)].tolist(), *more, *constants, time)
             except (ArithmeticError, ValueError) as error:
                 raise singular(time) from error
-            return np.array(found, dtype=float)
+            return np.asarray(self._numbers.array(found))
 
         return values
 
@@ -164,7 +173,7 @@ class ModeMachine:
     def lifted(self, time: float, state: Mapping[Symbol, float], work: float) -> Place:
         """The shared state of a state of this mode."""
         own = [s for s in self.dynamics.states if s not in self.dynamics.carried]
-        values = self._lift(np.array([state[s] for s in own]), time, ())
+        values = self._lift(self._numbers.array([state[s] for s in own]), time, ())
         size = len(self._machine.automaton.apart.equations.coordinates)
         return Place(time, values[:size], values[size:], work)
 
@@ -190,15 +199,16 @@ class ModeMachine:
         apart = self._machine.apart
         names = apart.mode.equations.coordinates
         values = dict(zip(names, place.coordinates, strict=True))
-        coordinates = np.array([values[s] for s in self.mode.equations.coordinates])
+        numbers = self._numbers
+        coordinates = numbers.array([values[s] for s in self.mode.equations.coordinates])
         size = len(self.mode.equations.speeds)
-        state = np.concatenate([coordinates, np.zeros(size)])
+        state = np.concatenate([coordinates, numbers.array(np.zeros(size))])
         found = self._projection(state, place.time, ())
         rest, columns = found[: len(place.speeds)], found[len(place.speeds) :]
         allowed = columns.reshape(len(place.speeds), size)
         momentum = apart.mass(place) @ (place.speeds - rest)
         reduced = allowed.T @ apart.mass(place) @ allowed
-        return coordinates, np.asarray(np.linalg.solve(reduced, allowed.T @ momentum), dtype=float)
+        return coordinates, numbers.solved(reduced, allowed.T @ momentum)
 
     @cached_property
     def _mass(self) -> Function:
@@ -318,7 +328,7 @@ def gap_symbol(contact: Contact) -> Symbol:
 def singular(time: float) -> NumericError:
     """An expression without a finite value."""
     return NumericError(
-        f"the equations have no finite value at t = {time:.9g} s",
+        f"the equations have no finite value at t = {float(time):.9g} s",
         expected="a motion away from singular positions",
         advice="start elsewhere, or end before that time",
     )

@@ -8,11 +8,13 @@ import numpy as np
 
 from polhode.algebra import Symbol
 from polhode.model import Contact
-from polhode.simulate._dynamics import CLOCK, WORK
+from polhode.simulate._dynamics import CLOCK
 from polhode.simulate._segment import Part
 from polhode.simulate.contact._creep import creep
-from polhode.simulate.contact._machine import ModeMachine, slip_symbols
-from polhode.simulate.contact._settle import Entry, rates_along
+from polhode.simulate.contact._entry import Entry
+from polhode.simulate.contact._machine import ModeMachine
+from polhode.simulate.contact._polar import polar_shape
+from polhode.simulate.contact._settle import rates_along
 from polhode.simulate.integrate._driver import Solution, Stop
 from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.integrate._rows import rows
@@ -36,17 +38,10 @@ def onset(
         span: from when, and until when at most, s.
         contacts: of the automaton.
     """
-    starting = sorted(entry.onset)
-    touching = [contacts[i] for i in starting]
-    polars = tuple(symbol for contact in touching for symbol in slip_symbols(contact))
-    own = tuple(s for s in mode.dynamics.states if s not in polars and s != WORK)
-    symbols = (*own, WORK)
-    slips = [slip for i in starting for slip in mode.slip_changes[2 * i : 2 * i + 2]]
-    rates = dict(zip(mode.dynamics.states, mode.dynamics.rates, strict=True))
-    wanted = [*(rates[s] for s in own), mode.mode.equations.power, *slips]
-    turning = [mode.sliding_at(contact) for contact in touching]
-    given = tuple(s for e in turning for s in (*e.direction, e.slip_speed))
-    function = mode.dynamics.function(wanted, (*symbols, *given, *mode.dynamics.parameters, CLOCK))
+    shape = polar_shape(mode, entry, contacts)
+    starting, symbols, polars = shape.starting, shape.symbols, shape.polars
+    arguments = (*symbols, *shape.given, *mode.dynamics.parameters, CLOCK)
+    function = mode.dynamics.function(shape.wanted, arguments)
     constants = mode.parameters
     first = len(symbols)
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._numbers import DOUBLES
 
 #: Of a state, a time, and the values of extra symbols.
 Function = Callable[[Array, float, Sequence[float]], Array]
@@ -26,6 +28,13 @@ class Place:
     speeds: Array
     work: float = 0.0
 
-    def kicked(self, change: Array, work: float) -> Place:
+    def rounded(self) -> Place:
+        """The same in doubles."""
+        double = DOUBLES.array
+        return Place(
+            float(self.time), double(self.coordinates), double(self.speeds), float(self.work)
+        )
+
+    def kicked(self, change: Array, work: Any) -> Place:
         """After an instant in which the speeds jumped and work was done."""
         return replace(self, speeds=self.speeds + change, work=self.work + work)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from polhode.simulate.integrate._integrators import Array
 
 STILL = 1e-14  # approach, relative to the velocities it is the difference of, that is none
-_INSTANT = 8  # steps of rounding of the time, over which nothing can be told from a height
 
 
 @dataclass(frozen=True)
@@ -17,28 +17,27 @@ class Rise:
     """A contact that opens.
 
     Attributes:
-        begin: when, s.
-        speed: of opening, then, m/s.
-        scale: size of what that speed is the difference of, m/s.
+        speed: of opening, at first, m/s.
+        still: what of it is rounding, m/s.
     """
 
-    begin: float
     speed: float
-    scale: float
+    still: float
 
-    def mean(self, heights: Array, times: Array) -> Array:
+    def mean(self, heights: Array, passed: Array) -> Array:
         """The mean speed of opening, whose fall through zero is that of the height.
 
         The height itself begins at zero. So does the mean where a contact opens without speed: it
         is then held off by the rounding that it begins with.
+
+        Args:
+            passed: since then, s; zero where nothing can be told from a height yet.
         """
-        passed = times - self.begin
-        now = passed <= _INSTANT * np.spacing(self.begin)
+        now = passed == 0
         mean = np.where(now, self.speed, heights / np.where(now, 1.0, passed))
-        still = STILL * self.scale
-        return np.asarray(mean + still if abs(self.speed) <= still else mean)
+        return np.asarray(mean + self.still if abs(self.speed) <= self.still else mean)
 
 
-def fall_of(height: float, rise: float, fall: float) -> float:
+def fall_of(height: Any, rise: Any, fall: Any) -> Any:
     """How long something that rises from a height, and falls ever faster, is above the ground."""
-    return float(rise + np.sqrt(max(rise * rise - 2 * height * fall, 0.0))) / -fall
+    return (rise + max(rise * rise - 2 * height * fall, 0) ** 0.5) / -fall

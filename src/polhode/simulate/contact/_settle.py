@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from itertools import permutations, product
 from typing import Any
 
@@ -11,6 +11,7 @@ import numpy as np
 
 from polhode.base import NumericError
 from polhode.model import FLIGHT, FRICTIONLESS, ROLLING, SLIDING, Contact, Coulomb, Phase, Rolling
+from polhode.simulate.contact._entry import Entry, directions_of, entered
 from polhode.simulate.contact._machine import Machine, ModeMachine
 from polhode.simulate.contact._place import Place
 from polhode.simulate.contact._touching import Meeting
@@ -38,29 +39,6 @@ class Known:
     beyond: frozenset[int] | None = None
 
 
-@dataclass(frozen=True)
-class Entry:
-    """A mode, and where it is entered.
-
-    Attributes:
-        phases: of every contact.
-        place: the shared state, after what the entry did to the speeds.
-        coordinates: of the mode.
-        speeds: of the mode.
-        onset: for contacts that begin to slip, the angle of the slip to come.
-        slips: slip velocities, by contact.
-        gaps: heights above the support of contacts that have just left it.
-    """
-
-    phases: tuple[Phase, ...]
-    place: Place
-    coordinates: Array
-    speeds: Array
-    onset: dict[int, float] = field(default_factory=dict)
-    slips: dict[int, Array] = field(default_factory=dict)
-    gaps: dict[int, float] = field(default_factory=dict)
-
-
 def settle(machine: Machine, place: Place, known: Known) -> Entry:
     """The mode whose forces are those its contacts can exert.
 
@@ -71,13 +49,18 @@ def settle(machine: Machine, place: Place, known: Known) -> Entry:
     meetings = machine.touching.at(place, beyond)
     failures = list[str]()
     for phases in _candidates(machine, meetings, replace(known, beyond=beyond)):
-        entry = _entry(machine, place, phases, meetings, known)
+        still = [_is_still(machine, i, meeting, known) for i, meeting in enumerate(meetings)]
+        starting = frozenset(i for i, phase in enumerate(phases) if phase.slides and still[i])
+        entry = entered(machine, place, phases, meetings, starting)
+        _refuse_shared(machine.rough, entry.rounded())
+        for i in sorted(starting):
+            entry.onset[i] = onset_angle(machine, entry, i)
         failure = _objection(machine, entry, known)
         if failure is None:
             return entry
         failures.append(failure)
     raise NumericError(
-        f"no contact mode is possible at t = {place.time:.9g} s: {'; '.join(failures)}",
+        f"no contact mode is possible at t = {float(place.time):.9g} s: {'; '.join(failures)}",
         expected="friction and normal forces that some mode can supply",
         advice="lower the friction coefficient, or end the motion before that time",
     )
@@ -88,7 +71,7 @@ def _candidates(
 ) -> Iterator[tuple[Phase, ...]]:
     """Phases of all contacts, those that stick first."""
     options = [
-        list(_options(contact, i, meeting, known))
+        list(_options(machine, contact, i, meeting, known))
         for i, (contact, meeting) in enumerate(
             zip(machine.automaton.contacts, meetings, strict=True)
         )
@@ -96,16 +79,20 @@ def _candidates(
     yield from product(*options)
 
 
-def _options(contact: Contact, i: int, meeting: Meeting, known: Known) -> Iterator[Phase]:
+def _options(
+    machine: Machine, contact: Contact, i: int, meeting: Meeting, known: Known
+) -> Iterator[Phase]:
     if i not in known.apart:
-        for phase in _touching(contact, i, meeting, known):
+        for phase in _touching(machine, contact, i, meeting, known):
             yield phase.beyond() if i in (known.beyond or ()) else phase
     yield FLIGHT
 
 
-def _touching(contact: Contact, i: int, meeting: Meeting, known: Known) -> Iterator[Phase]:
+def _touching(
+    machine: Machine, contact: Contact, i: int, meeting: Meeting, known: Known
+) -> Iterator[Phase]:
     if isinstance(contact, Coulomb):
-        if _is_still(i, meeting, known) and i not in known.slipping:
+        if _is_still(machine, i, meeting, known) and i not in known.slipping:
             yield ROLLING
         yield SLIDING
     elif isinstance(contact, Rolling):
@@ -114,32 +101,11 @@ def _touching(contact: Contact, i: int, meeting: Meeting, known: Known) -> Itera
         yield FRICTIONLESS
 
 
-def _is_still(i: int, meeting: Meeting, known: Known) -> bool:
-    slip = float(np.hypot(*meeting.velocity[:2]))
-    return i in known.stuck or i in known.slipping or slip <= STILL * meeting.scale
-
-
-def _entry(
-    machine: Machine,
-    place: Place,
-    phases: tuple[Phase, ...],
-    meetings: Sequence[Meeting],
-    known: Known,
-) -> Entry:
-    mode = machine.mode(phases)
-    coordinates, speeds = mode.entered(place)
-    after = _after(machine, place, mode, coordinates, speeds, meetings, phases)
-    sliding = [i for i, phase in enumerate(phases) if phase.slides]
-    starting = [i for i in sliding if _is_still(i, meetings[i], known)]
-    slips = {i: meetings[i].velocity[:2] for i in sliding if i not in starting}
-    entry = Entry(phases, after, coordinates, speeds, {}, slips)
-    for i in starting:
-        slips[i] = np.zeros(2)
-        entry.onset[i] = 0.0
-    _refuse_shared(machine, entry)
-    for i in starting:
-        entry.onset[i] = onset_angle(machine, entry, i)
-    return entry
+def _is_still(machine: Machine, i: int, meeting: Meeting, known: Known) -> bool:
+    if i in known.stuck or i in known.slipping:
+        return True
+    slip = machine.numbers.size(meeting.velocity[:2])
+    return bool(slip <= machine.numbers.finer(STILL) * meeting.scale)
 
 
 def _refuse_shared(machine: Machine, entry: Entry) -> None:
@@ -160,85 +126,49 @@ def _refuse_shared(machine: Machine, entry: Entry) -> None:
             )
 
 
-def _after(
-    machine: Machine,
-    place: Place,
-    mode: ModeMachine,
-    coordinates: Array,
-    speeds: Array,
-    meetings: Sequence[Meeting],
-    phases: tuple[Phase, ...],
-) -> Place:
-    """The shared state in the mode; what its constraints did to the speeds did work."""
-    own = (*mode.mode.equations.coordinates, *mode.mode.equations.speeds)
-    values: dict[Any, float] = dict(zip(own, (*coordinates, *speeds), strict=True))
-    entered = mode.lifted(place.time, values, place.work)
-    change = entered.speeds - place.speeds
-    touching = [m for m, p in zip(meetings, phases, strict=True) if not p.flies]
-    if not touching or not np.any(change):
-        return entered
-    arms = np.vstack([m.arms for m in touching])
-    impulse = np.linalg.lstsq(arms.T, machine.apart.mass(place) @ change, rcond=None)[0]
-    middle = [m.velocity + m.support + m.arms @ change / 2 for m in touching]
-    return entered.kicked(np.zeros_like(change), float(impulse @ np.concatenate(middle)))
-
-
-def directions_of(entry: Entry) -> list[float]:
-    """Components of the slip directions, and slip speeds, of all sliding contacts."""
-    found = list[float]()
-    for i, slip in sorted(entry.slips.items()):
-        size = float(np.hypot(*slip))
-        if i in entry.onset:
-            found += [np.cos(entry.onset[i]), np.sin(entry.onset[i]), 0.0]
-        else:
-            found += [slip[0] / size, slip[1] / size, size]
-    return found
-
-
 def _objection(machine: Machine, entry: Entry, known: Known) -> str | None:
     """Why the forces in a mode are impossible; None if they are not."""
-    mode = machine.mode(entry.phases)
-    state = np.concatenate([entry.coordinates, entry.speeds])
-    directions = directions_of(entry)
+    mode, numbers = machine.mode(entry.phases), machine.numbers
     if entry.slips:
-        refuse_jamming(machine, mode, state, entry.place.time, directions)
-    forces = mode.contact_forces(state, entry.place.time, directions)
-    scale = float(np.max(np.abs(forces), initial=0.0))
+        refuse_jamming(machine.rough, entry.rounded())
+    directions = directions_of(entry, numbers)
+    forces = mode.contact_forces(entry.state, entry.place.time, directions)
+    tolerance = numbers.finer(_TOLERANCE)
+    scale = np.max(np.abs(forces), initial=0.0)
     for contact, phase, force in zip(machine.automaton.contacts, entry.phases, forces, strict=True):
         if phase.flies:
             continue
-        if force[2] < -_TOLERANCE * scale:
+        if force[2] < -tolerance * scale:
             return f"{mode.mode.name} would need {contact.name} to pull"
         if phase.rolls and isinstance(contact, Coulomb):
             static = machine.value(contact.mu_static)
-            if np.hypot(*force[:2]) > static * force[2] * (1 + _TOLERANCE):
+            if numbers.size(force[:2]) > static * force[2] * (1 + tolerance):
                 return f"{mode.mode.name} would need more friction than {contact.name} has"
     return None
 
 
-def refuse_jamming(
-    machine: Machine, mode: ModeMachine, state: Array, time: float, directions: Sequence[float]
-) -> None:
+def refuse_jamming(machine: Machine, entry: Entry) -> None:
     """Refuse Painlevé's configurations: a rising normal force that pushes the bodies together.
 
     Raises:
         NumericError: where normal forces and accelerations of sliding are not determined.
     """
-    if mode.jamming(state, time, directions) <= 0:
+    mode = machine.mode(entry.phases)
+    if mode.jamming(entry.state, entry.place.time, directions_of(entry)) <= 0:
         names = ", ".join(element.name for element in mode.sliding)
-        raise painleve(names, time)
+        raise painleve(names, entry.place.time)
 
 
 def painleve(names: str, time: float) -> NumericError:
     """Friction so strong that sliding has no unique forces."""
     return NumericError(
-        f"sliding at {names} jams at t = {time:.9g} s (Painlevé's paradox)",
+        f"sliding at {names} jams at t = {float(time):.9g} s (Painlevé's paradox)",
         expected="friction low enough for the normal force to be determined",
         advice="lower the friction coefficient: rigid bodies have no unique motion here",
     )
 
 
-def onset_angle(machine: Machine, entry: Entry, i: int) -> float:
+def onset_angle(machine: Machine, entry: Entry, i: int) -> Any:
     """The direction (angle, rad) in which a contact that begins to slip slips.
 
     The slip velocity must grow along itself while friction opposes it.
@@ -246,12 +176,26 @@ def onset_angle(machine: Machine, entry: Entry, i: int) -> float:
     Raises:
         NumericError: where no direction, or several, will do.
     """
+    near = _rough_angle(machine.rough, entry.rounded(), i)
+    mode, numbers = machine.mode(entry.phases), machine.numbers
+
+    def across(angle: Any) -> Any:
+        trial = replace(entry, onset={**entry.onset, i: angle})
+        directions = directions_of(trial, numbers)
+        x, y = mode.slip_rates(entry.state, entry.place.time, directions)[i]
+        cos, sin = numbers.direction(angle)
+        return y * cos - x * sin
+
+    return numbers.zero(across, near)
+
+
+def _rough_angle(machine: Machine, entry: Entry, i: int) -> float:
+    """The same in doubles."""
     mode = machine.mode(entry.phases)
-    state = np.concatenate([entry.coordinates, entry.speeds])
 
     def rate(angle: float) -> Array:
         trial = replace(entry, onset={**entry.onset, i: angle})
-        return np.asarray(mode.slip_rates(state, entry.place.time, directions_of(trial))[i])
+        return np.asarray(mode.slip_rates(entry.state, entry.place.time, directions_of(trial))[i])
 
     def across(angle: float) -> float:
         x, y = rate(angle)
@@ -294,5 +238,4 @@ def rates_along(mode: ModeMachine, entry: Entry, i: int, seen: int, angles: Arra
     given: list[Any] = list(directions_of(replace(entry, onset={**entry.onset, i: 0.0})))
     place = 3 * sorted(entry.slips).index(i)
     given[place : place + 3] = [np.cos(angles), np.sin(angles), np.zeros_like(angles)]
-    state = np.concatenate([entry.coordinates, entry.speeds])
-    return np.asarray(mode.slip_rates_along(state, entry.place.time, given)[seen])
+    return np.asarray(mode.slip_rates_along(entry.state, entry.place.time, given)[seen])

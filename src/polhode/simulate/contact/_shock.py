@@ -11,13 +11,16 @@ paradox) f · W f > 0 makes the slip shrink, so that every shock ends.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from polhode.base import NumericError
+from polhode.simulate.contact._turning import STICKS, Turning
 from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._numbers import DOUBLES, Numbers
 
-_STICKS = 1e-13  # slip, relative to the velocity before, that has vanished
+_STRAIGHT = 1e-14  # of what an impulse does: what it does across the slip that is nothing
 _PHASES = 100
 _ANGLES = 72
 
@@ -41,31 +44,37 @@ class Shock:
 class Roughness:
     """What resists at the contact: coefficients of kinetic and static friction, and restitution."""
 
-    kinetic: float
-    static: float
-    restitution: float
+    kinetic: Any
+    static: Any
+    restitution: Any
 
 
-def smooth_shock(felt: Array, velocity: Array, restitution: float) -> Shock:
+def smooth_shock(felt: Array, velocity: Array, restitution: Any) -> Shock:
     """A shock without friction."""
     impulse = np.array([0.0, 0.0, -(1 + restitution) * velocity[2] / felt[2, 2]])
     return Shock(impulse, velocity + felt @ impulse, sticks=False)
 
 
-def rough_shock(felt: Array, velocity: Array, restitution: float) -> Shock:
+def rough_shock(
+    felt: Array, velocity: Array, restitution: Any, numbers: Numbers = DOUBLES
+) -> Shock:
     """A shock on a support that allows no slip at all.
 
     What it gives back is a part of the energy that the point of contact brought, no more.
     """
-    inertia = np.linalg.inv(felt)
+    inertia = _inverse(felt, numbers)
     brought = velocity @ inertia @ velocity
-    rebound = min(restitution * -velocity[2], float(np.sqrt(brought / inertia[2, 2])))
+    rebound = min(restitution * -velocity[2], (brought / inertia[2, 2]) ** 0.5)
     after = np.array([0.0, 0.0, rebound])
     return Shock(inertia @ (after - velocity), after, sticks=True)
 
 
 def coulomb_shock(
-    felt: Array, velocity: Array, roughness: Roughness, where: str = "a contact"
+    felt: Array,
+    velocity: Array,
+    roughness: Roughness,
+    where: str = "a contact",
+    numbers: Numbers = DOUBLES,
 ) -> Shock:
     """A shock with Coulomb's friction and Stronge's restitution.
 
@@ -73,11 +82,12 @@ def coulomb_shock(
         felt: inverse inertia felt at the point of contact, 1/kg.
         velocity: of that point before, m/s.
         where: what an error calls the contact and the instant.
+        numbers: what is computed with.
 
     Raises:
         NumericError: where friction jams and the shock never ends, or slip has no one direction.
     """
-    course = _Course(felt, velocity, roughness, where)
+    course = _Course(felt, velocity, roughness, where, numbers)
     while not course.done:
         course.advance()
     return Shock(course.impulse, course.velocity, course.sticks)
@@ -86,16 +96,19 @@ def coulomb_shock(
 class _Course:
     """The course of a shock over the normal impulse, phase by phase."""
 
-    def __init__(self, felt: Array, velocity: Array, roughness: Roughness, where: str) -> None:
+    def __init__(
+        self, felt: Array, velocity: Array, roughness: Roughness, where: str, numbers: Numbers
+    ) -> None:
         self.where = where
         self.felt = felt
         self.roughness = roughness
         self.velocity = velocity.copy()
-        self.impulse = np.zeros(3)
+        self.impulse = numbers.array(np.zeros(3))
         self.sticks = False
         self.done = False
-        self._scale = float(np.linalg.norm(velocity))
-        self._stored = 0.0
+        self._numbers = numbers
+        self._scale = numbers.size(velocity)
+        self._stored: Any = 0.0
         self._compressing = True
         self._phases = 0
         self._force = np.array([0.0, 0.0, 1.0])
@@ -103,8 +116,8 @@ class _Course:
     def advance(self) -> None:
         """Go on to the next change: from slip to stick, or from compression to restitution."""
         self._phases += 1
-        slip = self.velocity[:2]
-        if self.sticks or np.linalg.norm(slip) <= _STICKS * self._scale:
+        size = self._numbers.size(self.velocity[:2])
+        if self.sticks or size <= self._numbers.finer(STICKS) * self._scale:
             self._hold()
         else:
             self._slide()
@@ -117,14 +130,14 @@ class _Course:
 
     def _hold(self) -> None:
         """Without slip: friction as it is needed, if the static limit allows; else it slips on."""
-        inertia = np.linalg.inv(self.felt)
+        inertia = _inverse(self.felt, self._numbers)
         needed = inertia[:, 2] / inertia[2, 2]
         self.velocity[:2] = 0.0
-        if np.hypot(*needed[:2]) <= self.roughness.static:
+        if self._numbers.size(needed[:2]) <= self.roughness.static:
             self.sticks = True
             self._straight(needed)
             return
-        direction = _onset(self.felt, self.roughness.kinetic, self.where)
+        direction = _onset(self.felt, self.roughness.kinetic, self.where, self._numbers)
         self._straight(np.array([*(-self.roughness.kinetic * direction), 1.0]))
 
     def _straight(self, force: Array) -> None:
@@ -137,7 +150,7 @@ class _Course:
         else:
             left = self.roughness.restitution**2 * self._stored
             # ∫ v dp from v = start: start p + rate p²/2 = left
-            root = np.sqrt(max(start * start + 2 * rate[2] * left, 0.0))
+            root = max(start * start + 2 * rate[2] * left, 0) ** 0.5
             length = (root - start) / rate[2]
         self.impulse = self.impulse + force * length
         self.velocity = self.velocity + rate * length
@@ -154,91 +167,37 @@ class _Course:
 
     def _slide(self) -> None:
         """Friction against a slip that may turn; over an arc of impulse up to the next change."""
-        if _is_isotropic(self.felt):
+        if not self._turns():
             self._slide_straight()
             return
-        slip = self.velocity[:2]
-        unit = self._scale
-        start = np.array(
-            [
-                np.log(np.hypot(*slip) / unit),
-                np.arctan2(slip[1], slip[0]),
-                self.velocity[2] / unit,
-                *(self.impulse / unit),
-                0.0,
-            ]
-        )
-        last, turned = self._turning(start)
-        size, angle = np.exp(last[0]), last[1]
-        self.velocity = unit * np.array([size * np.cos(angle), size * np.sin(angle), last[2]])
-        self.impulse = unit * last[3:6]
-        work = unit**2 * last[6]
-        self._stored -= work if self._compressing else work / self.roughness.restitution**2
-        if turned:
+        unit, bounce = self._scale, self.roughness.restitution**2
+        budget = None if self._compressing else bounce * self._stored / unit**2
+        start = self.velocity / unit
+        turn = Turning(self.felt, self.roughness.kinetic, start, budget).turned(self._numbers)
+        self.velocity = unit * turn.velocity
+        self.impulse = self.impulse + unit * turn.impulse
+        work = unit**2 * turn.work
+        self._stored -= work if self._compressing else work / bounce
+        if turn.over:
             self._turn()
         else:
             self.velocity[:2] = 0.0
 
-    def _turning(self, start: Array) -> tuple[Array, bool]:
-        """Slip up to its end, or else to that of compression or restitution (then True).
-
-        With the slip ρ (cos ψ, sin ψ) and dp = ρ dτ, log ρ and ψ change at rates that depend on ψ
-        alone: nothing is singular where the slip vanishes, which is at infinite τ. States, in units
-        of the velocity before: log ρ, ψ, normal velocity, impulse, work of the normal impulse.
-        """
-        from scipy.integrate import solve_ivp  # slow to import, and rarely needed
-
-        kinetic = self.roughness.kinetic
-        budget = self.roughness.restitution**2 * self._stored / self._scale**2
-
-        def rates(_: float, y: Array) -> Array:
-            size, c, s = np.exp(y[0]), np.cos(y[1]), np.sin(y[1])
-            force = np.array([-kinetic * c, -kinetic * s, 1.0])
-            x, across, up = self.felt @ force
-            along, turning = x * c + across * s, across * c - x * s
-            return np.array([along, turning, size * up, *(size * force), size * y[2]])
-
-        def stuck(_: float, y: Array) -> float:
-            return float(y[0] - np.log(_STICKS))
-
-        def turned(_: float, y: Array) -> float:
-            return float(y[2]) if self._compressing else float(y[6] - budget)
-
-        for event in (stuck, turned):
-            event.terminal = True  # type: ignore[attr-defined]
-        found = solve_ivp(
-            rates,
-            (0.0, np.inf),
-            start,
-            method="DOP853",
-            rtol=1e-13,
-            atol=1e-15,
-            events=(stuck, turned),
-        )
-        return found.y[:, -1], bool(found.t_events[1].size)
-
     def _slide_straight(self) -> None:
         """Where friction cannot turn the slip, everything is linear in the impulse."""
-        slip = self.velocity[:2]
-        size = float(np.hypot(*slip))
-        direction = slip / size
-        kinetic = self.roughness.kinetic
-        force = np.array([*(-kinetic * direction), 1.0])
+        direction, force = self._resisted()
         rate = self.felt @ force
-        slowing = -float(rate[:2] @ direction)
+        slowing = -(rate[:2] @ direction)
+        size = self._numbers.size(self.velocity[:2])
         to_stick = size / slowing if slowing > 0 else np.inf
         start = self.velocity[2]
-        if self._compressing:
-            to_turn = -start / rate[2]
-        else:
-            left = self.roughness.restitution**2 * self._stored
-            to_turn = (np.sqrt(max(start**2 + 2 * rate[2] * left, 0.0)) - start) / rate[2]
+        to_turn = self._to_turn(rate[2])
         length = min(to_stick, to_turn)
         work = start * length + rate[2] * length**2 / 2
         if self._compressing:
             self._stored -= work
         else:
-            self._stored -= work / max(self.roughness.restitution**2, 1e-300)
+            self._stored -= work / self.roughness.restitution**2
         self.impulse = self.impulse + force * length
         self.velocity = self.velocity + rate * length
         if to_stick < to_turn:
@@ -246,16 +205,40 @@ class _Course:
         else:
             self._turn()
 
+    def _turns(self) -> bool:
+        """Whether friction turns the slip that it opposes."""
+        direction, force = self._resisted()
+        rate = self.felt @ force
+        across = rate[1] * direction[0] - rate[0] * direction[1]
+        return bool(abs(across) > self._numbers.finer(_STRAIGHT) * np.max(np.abs(self.felt)))
 
-def _is_isotropic(felt: Array) -> bool:
-    """Whether friction along any direction changes the velocity along that direction alone."""
-    plane = felt[:2, :2]
-    size = np.max(np.abs(felt))
-    even = abs(plane[0, 0] - plane[1, 1]) <= 1e-14 * size and abs(plane[0, 1]) <= 1e-14 * size
-    return bool(even and np.max(np.abs(felt[:2, 2])) <= 1e-14 * size)
+    def _resisted(self) -> tuple[Array, Array]:
+        """Direction of the slip, and the force per normal force that opposes it."""
+        slip = self.velocity[:2]
+        direction = slip / self._numbers.size(slip)
+        return direction, np.array([*(-self.roughness.kinetic * direction), 1.0])
+
+    def _to_turn(self, rate: Any) -> Any:
+        """Impulse up to the end of compression or restitution, if the slip lasts so long.
+
+        Args:
+            rate: of the normal velocity.
+        """
+        start = self.velocity[2]
+        if self._compressing:
+            return -start / rate if rate > 0 else np.inf
+        left = self.roughness.restitution**2 * self._stored
+        square = start**2 + 2 * rate * left
+        if square < 0:
+            return np.inf
+        return (square**0.5 - start) / rate if rate != 0 else left / start
 
 
-def _onset(felt: Array, friction: float, where: str) -> Array:
+def _inverse(felt: Array, numbers: Numbers) -> Array:
+    return np.asarray(numbers.solved(felt, numbers.array(np.eye(3))))
+
+
+def _onset(felt: Array, friction: Any, where: str, numbers: Numbers) -> Array:
     """Direction in which slip grows from nothing during the shock.
 
     Raises:
@@ -263,8 +246,8 @@ def _onset(felt: Array, friction: float, where: str) -> Array:
     """
     from scipy.optimize import brentq  # slow to import, and rarely needed
 
-    def rate(angle: float) -> Array:
-        along = np.array([np.cos(angle), np.sin(angle)])
+    def rate(angle: Any) -> Array:
+        along = np.array(numbers.direction(angle))
         change = felt @ np.array([*(-friction * along), 1.0])
         return np.array([change[:2] @ along, change[1] * along[0] - change[0] * along[1]])
 
@@ -285,4 +268,5 @@ def _onset(felt: Array, friction: float, where: str) -> Array:
             expected="one direction in which slip grows against the friction it brings",
             advice="the rigid body with this friction has no unique motion from here",
         )
-    return np.array([np.cos(growing[0]), np.sin(growing[0])])
+    angle = numbers.zero(lambda angle: rate(angle)[1], growing[0])
+    return np.array(numbers.direction(angle))

@@ -11,14 +11,14 @@ from polhode.model import FLIGHT, FRICTIONLESS, Apart, Coulomb, Phase
 from polhode.simulate._dynamics import Dynamics
 from polhode.simulate._names import published
 from polhode.simulate._start import read_start
-from polhode.simulate._task import Begun, Motion, Task, timed
+from polhode.simulate._task import Begun, Guarded, Motion, Task, timed
 from polhode.simulate._values import idle_parameters, read_parameters
 from polhode.simulate.contact._begin import begun_at
 from polhode.simulate.contact._checks import check_numbers
 from polhode.simulate.contact._course import Walk
+from polhode.simulate.contact._entry import Entry
 from polhode.simulate.contact._machine import Machine
 from polhode.simulate.contact._place import Place
-from polhode.simulate.contact._settle import Entry
 from polhode.simulate.forcing._drive import drive_of
 
 
@@ -41,7 +41,8 @@ class ThroughModes:
         check_numbers(machine)
         with timed(task, "compile"):
             walk = Walk(machine, task.near_flat, progress, task.until)
-            first, begun = first_entry(machine, task)
+            place, begun, apart = _begin(machine, task)
+            first = begun_at(machine, place, apart)
             machine.mode(first.phases).stepper  # noqa: B018
         with timed(task, "integrate"):
             course = walk.along(first, task.end)
@@ -53,7 +54,7 @@ class ThroughModes:
             begun.start.assumed,
             unguarded=False,
             begun=begun,
-            mode=machine.mode(first.phases).mode,
+            guarded=Guarded(machine, apart),
         )
 
     def _with(self, numbers: Mapping[Symbol, float], task: Task) -> Machine:

@@ -62,12 +62,12 @@ class Touching:
         arms = found[8 * count :].reshape(self._shape)
         return [
             Meeting(
-                float(gap),
-                float(reserve),
+                gap,
+                reserve,
                 rest + arm @ place.speeds,
                 arm,
                 support,
-                float(np.max(np.abs(rest) + np.abs(arm) @ np.abs(place.speeds), initial=0.0)),
+                np.max(np.abs(rest) + np.abs(arm) @ np.abs(place.speeds), initial=0.0),
             )
             for gap, reserve, support, rest, arm in zip(
                 gaps, reserves, supports, rests, arms, strict=True

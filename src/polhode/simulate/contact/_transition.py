@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from polhode.base import NumericError
 from polhode.derive import Guard
-from polhode.model import Contact, Coulomb, Phase, Rolling
+from polhode.model import Contact, Coulomb, Rolling
+from polhode.simulate.contact._entry import Entry, beyond
 from polhode.simulate.contact._machine import Machine
 from polhode.simulate.contact._place import Place
 from polhode.simulate.contact._rise import STILL, fall_of
-from polhode.simulate.contact._settle import Entry, Known, settle
+from polhode.simulate.contact._settle import Known, settle
 from polhode.simulate.contact._shock import (
     Roughness,
     Shock,
@@ -22,6 +24,7 @@ from polhode.simulate.contact._shock import (
 )
 from polhode.simulate.contact._touching import Meeting
 from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._numbers import Numbers
 
 _REBOUND = 1e-13  # of the hardest landing: a rebound that is none
 _INSTANT = 32  # steps of rounding of the time: a hop that is over sooner is none
@@ -83,50 +86,52 @@ class Transitions:
 
     def _land(self, before: Entry, place: Place, i: int) -> tuple[str, Entry]:
         """A shock, then contact or another flight."""
-        machine = self._machine
+        machine, numbers = self._machine, self._machine.numbers
         contact = machine.automaton.contacts[i]
         apart = frozenset(k for k, phase in enumerate(before.phases) if phase.flies)
         still = frozenset(k for k, phase in enumerate(before.phases) if phase.rolls)
         meetings = machine.touching.at(place, machine.touching.beyond(place))
         mass = machine.apart.mass(place)
         for k, phase in enumerate(before.phases):
-            if not phase.flies and _feel(meetings[k], meetings[i], mass):
+            if not phase.flies and _feel(meetings[k], meetings[i], mass, numbers):
                 raise _shared(contact.name, machine.automaton.contacts[k].name, place.time)
         meeting = meetings[i]
-        slow = STILL * meeting.scale
+        slow = numbers.finer(STILL) * meeting.scale
         if meeting.velocity[2] > slow:
             return "touches down", settle(machine, place, Known(apart, still))
         if meeting.velocity[2] >= -slow:
             return "touches down", settle(machine, place, Known(apart - {i}, still))
-        felt = meeting.arms @ np.linalg.solve(mass, meeting.arms.T)
+        felt = meeting.arms @ numbers.solved(mass, meeting.arms.T)
         shock = self._shock(contact, felt, meeting.velocity, place.time)
         work = shock.impulse @ (meeting.support + (meeting.velocity + shock.velocity) / 2)
-        change = np.asarray(np.linalg.solve(mass, meeting.arms.T @ shock.impulse), dtype=float)
-        after = place.kicked(change, float(work))
-        hardest = max(self._hardest.get(i, 0.0), -float(meeting.velocity[2]))
+        change = numbers.solved(mass, meeting.arms.T @ shock.impulse)
+        after = place.kicked(change, work)
+        hardest = max(self._hardest.get(i, 0.0), -meeting.velocity[2])
         self._hardest[i] = hardest
-        if shock.velocity[2] > _REBOUND * hardest:
+        if shock.velocity[2] > numbers.finer(_REBOUND) * hardest:
             bounced = settle(machine, after, Known(apart, still))
-            if self._rises(bounced, i, float(shock.velocity[2])):
+            if self._rises(bounced, i, shock.velocity[2]):
                 return "bounces", bounced
         stuck = still | {i} if shock.sticks else still
         return "touches down", settle(machine, after, Known(apart - {i}, stuck))
 
-    def _rises(self, bounced: Entry, i: int, speed: float) -> bool:
+    def _rises(self, bounced: Entry, i: int, speed: Any) -> bool:
         """Whether a contact that bounces is open for longer than the rounding of the time."""
-        state = np.concatenate([bounced.coordinates, bounced.speeds])
         time = bounced.place.time
-        fall = self._machine.mode(bounced.phases).closing_rates(state, time)[i]
-        return bool(fall >= 0 or fall_of(0.0, speed, fall) > _INSTANT * np.spacing(time))
+        fall = self._machine.mode(bounced.phases).closing_rates(bounced.state, time)[i]
+        hop = fall_of(0.0, speed, fall) if fall < 0 else np.inf
+        return bool(hop > _INSTANT * self._machine.numbers.spacing(time))
 
     def _shock(self, contact: Contact, felt: Array, velocity: Array, time: float) -> Shock:
+        numbers = self._machine.numbers
         restitution = self._machine.value(contact.restitution)
         if isinstance(contact, Coulomb):
             kinetic, static = (self._machine.value(m) for m in (contact.mu, contact.mu_static))
             roughness = Roughness(kinetic, static, restitution)
-            return coulomb_shock(felt, velocity, roughness, f"{contact.name} at t = {time:.9g} s")
+            where = f"{contact.name} at t = {float(time):.9g} s"
+            return coulomb_shock(felt, velocity, roughness, where, numbers)
         if isinstance(contact, Rolling):
-            return rough_shock(felt, velocity, restitution)
+            return rough_shock(felt, velocity, restitution, numbers)
         return smooth_shock(felt, velocity, restitution)
 
 
@@ -144,24 +149,19 @@ def _gaps(before: Entry, leaving: Leaving, entry: Entry, landed: int | None) -> 
     }
 
 
-def _feel(one: Meeting, other: Meeting, mass: Array) -> bool:
+def _feel(one: Meeting, other: Meeting, mass: Array, numbers: Numbers) -> bool:
     """Whether an impulse at one contact is felt at another."""
-    shared = one.arms @ np.linalg.solve(mass, other.arms.T)
-    own = one.arms @ np.linalg.solve(mass, one.arms.T)
+    shared = one.arms @ numbers.solved(mass, other.arms.T)
+    own = one.arms @ numbers.solved(mass, one.arms.T)
     return bool(np.max(np.abs(shared)) > _UNFELT * np.max(np.abs(own)))
 
 
 def _shared(lands: str, touches: str, time: float) -> NumericError:
     return NumericError(
-        f"{lands} lands at t = {time:.9g} s while {touches}, which feels it, touches",
+        f"{lands} lands at t = {float(time):.9g} s while {touches}, which feels it, touches",
         expected="one contact of connected bodies at a time: shared shocks are not determined",
         advice="end the motion before that time",
     )
-
-
-def beyond(phases: tuple[Phase, ...]) -> frozenset[int]:
-    """The contacts that are beyond the edge of their support."""
-    return frozenset(i for i, phase in enumerate(phases) if phase.is_beyond)
 
 
 def index_of(guard: Guard, machine: Machine) -> int:

@@ -30,11 +30,13 @@ class TaylorSeries:
         numbers = launch.numbers
         taylor = copy(_compiled(launch.program, len(launch.start), numbers))
         read = _Reader(numbers)
-        taylor.time = read(0)
+        taylor.time = read(launch.begin)
         taylor.state[:] = [read(value) for value in launch.start]
         taylor.pars[:] = [read(value) for value in launch.constants[: len(taylor.pars)]]
         _, *_, output, _ = taylor.propagate_until(
-            read(launch.end), c_output=True, callback=lambda t: watch(float(t.time))
+            read(launch.end),
+            c_output=True,
+            callback=lambda t: watch(float(t.time), float(t.last_h), t.state),
         )
         if output is None:
             raise broken(float(taylor.time))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any, TypeAlias
@@ -13,6 +13,7 @@ import numpy as np
 
 from polhode.algebra import Arithmetic, Op, arrays
 from polhode.base import NumericError
+from polhode.simulate.integrate._equations import least_solution, solution
 
 #: As asked for: double, extended, quadruple, or a number of decimal digits.
 Precision: TypeAlias = str | int | None
@@ -20,6 +21,9 @@ Precision: TypeAlias = str | int | None
 _DOUBLE_BITS = 53
 _FEWEST, _MOST = 16, 10_000  # decimal digits
 _SPARE = 64  # bits carried beyond those asked for in what is worked out once
+_DOUBLE_SPACING = 2.0**-52
+_POLISHED = 40  # secant steps to a zero at most
+_NEAR = 1e-9  # how far from where it is in doubles they set out
 
 
 class Numbers(ABC):
@@ -65,6 +69,57 @@ class Numbers(ABC):
         """An mpmath context with bits to spare, for what is worked out once."""
         return context_of(self.bits + _SPARE)
 
+    @cached_property
+    def careful(self) -> ManyDigits:
+        """Numbers of that context, for what is worked out where a contact mode ends."""
+        return ManyDigits(self.name, self.bits, _SPARE)
+
+    # -- single numbers, vectors and matrices ---------------------------------------------------
+
+    @property
+    def scalars(self) -> Arithmetic:
+        """How single ones are computed with."""
+        return self.arithmetic
+
+    @abstractmethod
+    def finer(self, share: float) -> Any:
+        """What is to the rounding of these numbers what a share is to that of doubles."""
+
+    @abstractmethod
+    def solved(self, matrix: Any, right: Any) -> Any:
+        """The solution of linear equations, for one right side or the columns of a matrix."""
+
+    @abstractmethod
+    def least(self, matrix: Any, right: Any) -> Any:
+        """The least of all vectors that solve linear equations best."""
+
+    def size(self, vector: Any) -> Any:
+        """The length of a vector."""
+        return self.scalars.functions[Op.SQRT](vector @ vector)
+
+    def direction(self, angle: Any) -> tuple[Any, Any]:
+        """Cosine and sine of an angle."""
+        functions = self.scalars.functions
+        return functions[Op.COS](angle), functions[Op.SIN](angle)
+
+    def spacing(self, value: Any) -> Any:
+        """How far it is to the next number."""
+        return abs(value) * self.finer(_DOUBLE_SPACING)
+
+    def zero(self, function: Callable[[Any], Any], near: float) -> Any:
+        """Where a function is zero, by the secant method from where it is in doubles."""
+        older = self.scalar(self.array(near - _NEAR)[()])
+        newer = self.scalar(self.array(near)[()])
+        before, now = function(older), function(newer)
+        for _ in range(_POLISHED):
+            if now in (0, before):
+                break
+            older, newer = newer, newer - now * (newer - older) / (now - before)
+            before, now = now, function(newer)
+            if abs(newer - older) <= self.spacing(newer):
+                break
+        return newer
+
 
 class Doubles(Numbers):
     """NumPy's doubles."""
@@ -75,14 +130,49 @@ class Doubles(Numbers):
     def arithmetic(self) -> Arithmetic:
         return arrays()
 
+    @property
+    def scalars(self) -> Arithmetic:
+        return _FLOATS
+
     def array(self, values: Any) -> Any:
         return np.asarray(values, dtype=float)
 
     def scalar(self, value: Any) -> Any:
         return float(value)
 
+    def finer(self, share: float) -> float:
+        return share
 
-class LongDoubles(Numbers):
+    def solved(self, matrix: Any, right: Any) -> Any:
+        return np.linalg.solve(matrix, right)
+
+    def least(self, matrix: Any, right: Any) -> Any:
+        return np.linalg.lstsq(matrix, right, rcond=None)[0]
+
+    def size(self, vector: Any) -> float:
+        return math.hypot(*vector)
+
+    def spacing(self, value: float) -> float:
+        return float(np.spacing(value))
+
+    def zero(self, function: Callable[[float], float], near: float) -> float:
+        return near
+
+
+class Finer(Numbers):
+    """Numbers with more bits than doubles."""
+
+    def finer(self, share: float) -> Any:
+        return self.exact.ldexp(self.exact.mpf(share), _DOUBLE_BITS - self.bits)
+
+    def solved(self, matrix: Any, right: Any) -> Any:
+        return solution(self.exact, matrix, right)
+
+    def least(self, matrix: Any, right: Any) -> Any:
+        return least_solution(self.exact, matrix, right, self.finer(_DEPENDENT))
+
+
+class LongDoubles(Finer):
     """The long doubles of the machine: where they are longer, 64 bits."""
 
     name, bits, dtype = "extended", int(np.finfo(np.longdouble).nmant) + 1, np.longdouble
@@ -102,22 +192,31 @@ class LongDoubles(Numbers):
     def scalar(self, value: Any) -> Any:
         return np.longdouble(value)
 
+    def spacing(self, value: Any) -> Any:
+        return np.spacing(np.abs(value))
+
     def _rounded(self, value: Any) -> Any:
         return np.longdouble(self.exact.nstr(value, 30))
 
 
-class ManyDigits(Numbers):
-    """mpmath's numbers, in arrays of objects."""
+class ManyDigits(Finer):
+    """mpmath's numbers, in arrays of objects.
+
+    Args:
+        name: what the precision is called.
+        bits: that can be relied on.
+        spare: bits carried besides.
+    """
 
     dtype = object
 
-    def __init__(self, name: str, bits: int) -> None:
-        self.name, self.bits = name, bits
+    def __init__(self, name: str, bits: int, spare: int = 0) -> None:
+        self.name, self.bits, self._spare = name, bits, spare
 
     @cached_property
     def context(self) -> Any:
         """The mpmath context that they belong to."""
-        return context_of(self.bits)
+        return context_of(self.bits + self._spare)
 
     @cached_property
     def arithmetic(self) -> Arithmetic:
@@ -136,6 +235,8 @@ class ManyDigits(Numbers):
         return value
 
 
+_DEPENDENT = 1e-10  # of the largest singular value: one that is rounding
+_FLOATS = Arithmetic.of(math)
 _CALLS = (Op.SQRT, Op.SIN, Op.COS, Op.EXP, Op.SINH, Op.COSH)
 
 DOUBLES = Doubles()

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Protocol
 
@@ -37,6 +37,46 @@ class Series:
     def rounded_at(self, times: Any) -> Any:
         """The same in doubles, to their rounding."""
         return self._evaluated(DOUBLES, self._rounded_times, times, lambda i: self.limbs[0, i])
+
+    # -- by the step and the share of it that has passed ---------------------------------------
+
+    @property
+    def steps(self) -> int:
+        """How many there are."""
+        return len(self.times) - 1
+
+    def state(self, step: int, share: Any) -> Any:
+        """The states within a step, shape (states,)."""
+        return _horner(self._piece(step), self.numbers.array([share]))[:, 0]
+
+    def time(self, step: int, share: Any) -> Any:
+        """When that is, s."""
+        begin, end = self.times[step : step + 2]
+        return begin + (end - begin) * self.numbers.scalar(self.numbers.array(share)[()])
+
+    def rounded_states(self, places: Any) -> Any:
+        """States in doubles, shape (states, places), at places that count the steps."""
+        which = pieces_at(np.arange(len(self.times), dtype=float), places)
+        found = np.empty((self.limbs.shape[3], len(places)))
+        for i in occurring(which):
+            here = which == i
+            found[:, here] = _horner(self.limbs[0, i], places[here] - i)
+        return found
+
+    def rounded_times(self, places: Any, begin: Any) -> Any:
+        """When that is, from some instant on, s, in doubles."""
+        which = pieces_at(np.arange(len(self.times), dtype=float), places)
+        since = np.array([float(time - begin) for time in self.times])
+        lengths = np.array([float(step) for step in self.times[1:] - self.times[:-1]])
+        return since[which] + (places - which) * lengths[which]
+
+    def without_empty_steps(self) -> Series:
+        """Without steps so short that no time passes in these numbers."""
+        passes = self.times[1:] > self.times[:-1]
+        if not np.any(passes):
+            return self
+        times = np.append(self.times[:1], self.times[1:][passes])
+        return replace(self, times=times, limbs=self.limbs[:, passes])
 
     @cached_property
     def _rounded_times(self) -> Any:
@@ -84,8 +124,8 @@ def limbs_of(values: Any, count: int) -> Any:
 class Watch(Protocol):
     """Looks on after every step."""
 
-    def __call__(self, time: float) -> bool:
-        """Whether to go on."""
+    def __call__(self, time: float, step: float, state: Sequence[Any]) -> bool:
+        """Whether to go on, from the end of a step of that length."""
         ...
 
 
@@ -98,13 +138,15 @@ class Launch:
         numbers: what it is to be computed in.
         constants: of the parameters, as mpmath numbers with bits to spare.
         start: of the states, the same.
-        end: s, the same; the start is at zero.
+        begin: s, the same.
+        end: s, the same.
     """
 
     program: Program
     numbers: Numbers
     constants: list[Any]
     start: list[Any]
+    begin: Any
     end: Any
 
 

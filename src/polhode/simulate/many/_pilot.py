@@ -18,10 +18,10 @@ from polhode.simulate._segment import Part, state_at
 from polhode.simulate._task import Task
 from polhode.simulate.contact._checks import check_numbers
 from polhode.simulate.contact._course import Course, Walk
+from polhode.simulate.contact._entry import Entry, state_on
 from polhode.simulate.contact._lookout import Lookout
 from polhode.simulate.contact._machine import Machine
 from polhode.simulate.contact._onset import onset
-from polhode.simulate.contact._settle import Entry
 from polhode.simulate.contact._through import first_entry
 from polhode.simulate.contact._transition import Leaving
 from polhode.simulate.many._company import Departure
@@ -95,7 +95,7 @@ class Pilot(Walk):
     def enter(self, entry: Entry, end: float) -> Entered:
         """The beginning of a mode: a slip that sets in, for which vectors are no use."""
         mode = self._machine.mode(entry.phases)
-        begin, state = entry.place.time, self._start(mode, entry)
+        begin, state = entry.place.time, state_on(self._machine, entry)
         if not entry.onset:
             return Entered(entry, begin, state)
         contacts = self._machine.automaton.contacts

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from polhode.simulate._segment import Part, state_at
-from polhode.simulate.contact._settle import Entry
+from polhode.simulate.contact._entry import Entry
 from polhode.simulate.many._company import Company, Departure, Group, Phases, Starts, Stays
 from polhode.simulate.many._pilot import Entered, Pilot
 from polhode.simulate.many._sightings import LAST, Sightings

@@ -1,4 +1,4 @@
-"""A motion once more in numbers of higher precision, within one contact mode."""
+"""A motion once more in numbers of higher precision."""
 
 from __future__ import annotations
 
@@ -6,30 +6,27 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-import numpy as np
-
-from polhode.algebra import Expr, Symbol
-from polhode.base import DeclarationError, Enough, NumericError, Progress
-from polhode.derive import Mode
-from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
-from polhode.simulate._event import Event, placed
+from polhode.algebra import Expr
+from polhode.base import DeclarationError, Progress
+from polhode.simulate._dynamics import WORK, Dynamics
+from polhode.simulate._event import Event, events_of, placed
 from polhode.simulate._segment import Part, Segment
-from polhode.simulate._task import Motion, Task
+from polhode.simulate._task import AS_DECLARED, Guarded, Motion, Task
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate._watching import passages
-from polhode.simulate.contact._machine import gap_symbol, slip_symbols
+from polhode.simulate.contact._begin import begun_at
+from polhode.simulate.contact._course import Course
+from polhode.simulate.contact._machine import Machine
+from polhode.simulate.contact._place import Place
 from polhode.simulate.forcing._pieces import Pieces
-from polhode.simulate.integrate._crossing import first_fall
-from polhode.simulate.integrate._driver import Solution, Stop
-from polhode.simulate.integrate._flow import flow_of
+from polhode.simulate.integrate._driver import Stop, Watched
 from polhode.simulate.integrate._integrators import broken
 from polhode.simulate.integrate._numbers import Numbers
-from polhode.simulate.integrate._series import Launch, Series, SeriesIntegrator
-from polhode.simulate.precise._exactly import evaluated, exact_value, exact_values, on
-from polhode.simulate.precise._precise_start import precise_start
-
-_POLISHED = 24  # secant steps to an event at most
-_NEAR = 1e-9  # of a duration: how far from it they set out
+from polhode.simulate.integrate._series import SeriesIntegrator
+from polhode.simulate.precise._exactly import evaluated, exact_value
+from polhode.simulate.precise._given import Given, end_of, read_exactly
+from polhode.simulate.precise._precise_walk import PreciseWalk
+from polhode.simulate.precise._stretch import State, Steps
 
 
 @dataclass(frozen=True)
@@ -61,48 +58,38 @@ def precisely(
 
     Raises:
         DeclarationError: for prescribed motions that are known to doubles only.
-        NumericError: where the contact mode changes.
+        NumericError: where the motion cannot be continued.
     """
-    _refuse_changes(motion, wanted.numbers)
-    _refuse_samples(task.forcing, wanted.numbers)
-    course = _Course(motion, task, wanted)
-    series = course.integrated(progress)
-    segment = course.segment(series)
+    numbers = wanted.numbers
+    _refuse_samples(task.forcing, numbers)
+    known = {*motion.begun.dynamics.parameters, *motion.segments[0].dynamics.parameters}
+    given = read_exactly(motion.begun, known, task, numbers)
+    end = end_of(wanted.duration, numbers)
+    steps = Steps(_integrator(task.integrator.name), numbers, end, progress)
+    if motion.guarded is None:
+        course = _as_declared(motion.segments[0].dynamics, given, steps)
+        events = _events_beside(rough, course)
+    else:
+        course = _through_modes(motion.guarded, given, steps, task, progress)
+        events = events_of(course)
+    end = course.segments[-1].end
     run = replace(
         rough,
-        segments=(segment,),
-        duration=segment.end,
-        t=_samples(wanted, segment.end),
-        integrator=course.integrator.name,
-        events=_events(rough, segment),
+        segments=course.segments,
+        duration=end,
+        t=_samples(wanted, end),
+        mode=course.ending,
+        integrator=steps.name,
+        events=events,
     )
-    if motion.mode is not None:
-        _refuse_falls(run.rounded(), motion.mode, task.near_flat, wanted.numbers)
-    return _with_events(run, wanted)
+    return _with_events(run, wanted.events)
 
 
-def _refuse_changes(motion: Motion, numbers: Numbers) -> None:
-    if motion.changes:
-        first = motion.changes[0]
-        raise _switch(first.time, first.kind, numbers)
-
-
-def _refuse_falls(run: Trajectory, mode: Mode, near_flat: float, numbers: Numbers) -> None:
-    """Refuse a motion that leaves its mode, though in doubles it does not."""
-    guards = [guard for guard in mode.guards if guard.kind != "sticks"]
-    sides = [g.positive - near_flat if g.kind == "near-flat" else g.positive for g in guards]
-    (segment,) = run.segments
-    fall = first_fall(lambda times: segment.values(sides, times), segment.steps) if sides else None
-    if fall is not None and fall.time > 0:
-        raise _switch(fall.time, guards[fall.guard].kind, numbers)
-
-
-def _switch(time: float, kind: str, numbers: Numbers) -> NumericError:
-    return NumericError(
-        f"{kind} at t = {time:.15g} s, in {numbers.name} precision",
-        expected="a motion within one contact mode: only in doubles are modes followed",
-        advice="end before that time, and start the next mode from there",
-    )
+def _events_beside(rough: Trajectory, course: Course) -> tuple[Event, ...]:
+    """Start and end, and between them what was seen of the motion in doubles."""
+    first, last = events_of(course)
+    seen = (event for event in rough.events[1:-1] if event.time < last.time)
+    return (first, *placed(seen, course.segments), last)
 
 
 def _refuse_samples(forcing: Mapping[Any, Any], numbers: Numbers) -> None:
@@ -115,84 +102,6 @@ def _refuse_samples(forcing: Mapping[Any, Any], numbers: Numbers) -> None:
             )
 
 
-# -- what is integrated ------------------------------------------------------------------------
-
-
-class _Course:
-    """The equations of the mode, and exact numbers for them."""
-
-    def __init__(self, motion: Motion, task: Task, wanted: Wanted) -> None:
-        self._motion = motion
-        self._numbers = wanted.numbers
-        self._context = wanted.numbers.exact
-        self.integrator = _integrator(task.integrator.name)
-        self.dynamics = _stateless(motion.segments[0].dynamics, motion.mode)
-        begun = motion.begun
-        known = {*self.dynamics.parameters, *begun.dynamics.parameters}
-        exact = exact_values(task.given, known, {})
-        self._parameters = self._evaluated(exact)
-        start = exact_values(task.start, _startable(begun.dynamics), exact)
-        self._given = self._evaluated(start)
-        (self._end,) = evaluated([exact_value(wanted.duration, {})], {}, self._context)
-
-    def _evaluated(self, values: Mapping[Symbol, Expr]) -> dict[Symbol, Any]:
-        found = evaluated(list(values.values()), {}, self._context)
-        return dict(zip(values, found, strict=True))
-
-    def integrated(self, progress: Progress) -> Series:
-        """From the start to the end, or to where progress ends it."""
-        flow = flow_of(self.dynamics, reduced=False)
-        state = self._start() | {WORK: self._context.mpf(0)}
-        launch = Launch(
-            flow.core.program,
-            self._numbers,
-            self._constants,
-            [state[s] for s in flow.core.symbols],
-            self._end,
-        )
-        watch = _Watch(progress, float(self._end))
-        series = self.integrator.integrate(launch, watch)
-        if series.times[-1] < self._numbers.array(self._end) and not watch.enough:
-            raise broken(float(series.times[-1]))
-        return series
-
-    @property
-    def _constants(self) -> list[Any]:
-        return [self._parameters[s] for s in self.dynamics.parameters]
-
-    def _start(self) -> dict[Symbol, Any]:
-        """Coordinates and speeds of the mode, from those in which the start was read."""
-        begun = self._motion.begun
-        parameters = {s: self._parameters[s] for s in begun.dynamics.parameters}
-        found = precise_start(begun.dynamics, begun.start, self._given, parameters, self._context)
-        own = self.dynamics.states
-        lifted = begun.dynamics.lifted
-        wanted = [lifted.get(s, Expr.generator(s)) for s in own]
-        program = begun.dynamics.program(wanted, (*found, *parameters, CLOCK))
-        zero = self._context.mpf(0)
-        values = program.function(on(self._context))(*found.values(), *parameters.values(), zero)
-        return dict(zip(own, values, strict=True))
-
-    def segment(self, series: Series) -> Segment:
-        """The motion, known at every instant."""
-        flow = flow_of(self.dynamics, reduced=False)
-        end = self._numbers.scalar(series.times[-1])
-        solution = Solution(
-            flow.core.symbols,
-            {},
-            series.times,
-            Stop.TIME if end >= self._numbers.array(self._end) else Stop.INTERRUPTED,
-            None,
-            series.at,
-            self._numbers,
-            series.rounded_at,
-        )
-        constants = self._numbers.array(self._constants)
-        begin = self._numbers.scalar(series.times[0])
-        part = Part(begin, end, solution, constants)
-        return Segment(self._motion.segments[0].mode, begin, end, self.dynamics, (part,))
-
-
 def _integrator(name: str) -> SeriesIntegrator:
     if name == "heyoka":
         from polhode.simulate.integrate._heyoka_series import TaylorSeries
@@ -203,47 +112,55 @@ def _integrator(name: str) -> SeriesIntegrator:
     return PowerSeries()
 
 
-def _startable(dynamics: Dynamics) -> tuple[Symbol, ...]:
-    equations = dynamics.equations
-    rates = (*equations.kinematics, *equations.dependent)
-    return (*equations.coordinates, *equations.speeds, *rates)
+# -- what is integrated ------------------------------------------------------------------------
 
 
-def _stateless(dynamics: Dynamics, mode: Mode | None) -> Dynamics:
-    """Slips and gaps taken from the state, from which so many digits do not drown."""
-    if mode is None:
-        return dynamics
-    own = dict[Symbol, Expr]()
-    for touch in mode.touches:
-        own |= zip(slip_symbols(touch.contact), touch.slip, strict=True)
-        own[gap_symbol(touch.contact)] = touch.gap
-    seen = {s: value for s, value in own.items() if s in dynamics.carried}
-    return replace(
-        dynamics,
-        carried={},
-        meanings={**dynamics.meanings, **seen},
-        lifted={**dynamics.lifted, **seen},
+def _through_modes(
+    guarded: Guarded, given: Given, steps: Steps, task: Task, progress: Progress
+) -> Course:
+    """Through all contact modes, as the forces demand."""
+    rough, numbers = guarded.machine, steps.numbers.careful
+    machine = Machine(
+        rough.automaton, rough.drive, given.parameters, rough.integrator, None, numbers, rough
     )
+    equations = rough.automaton.apart.equations
+    coordinates, speeds = (
+        numbers.array(list(given.state(symbols).values()))
+        for symbols in (equations.coordinates, equations.speeds)
+    )
+    zero = given.context.mpf(0)
+    first = begun_at(machine, Place(zero, coordinates, speeds, zero), guarded.apart)
+    walk = PreciseWalk(machine, steps, task.near_flat, progress, task.until)
+    return walk.along(first, steps.end)
 
 
-class _Watch:
-    """Tells of every step, and ends where it is told to, or where steps become too short."""
+@dataclass(frozen=True)
+class _Declared:
+    """The equations of the contacts as they are declared, with numbers."""
 
-    def __init__(self, progress: Progress, end: float) -> None:
-        self.enough = False
-        self._progress = progress
-        self._least = 1e-14 * end
-        self._end = end
-        self._time = -np.inf
+    dynamics: Dynamics
+    parameters: Any
 
-    def __call__(self, time: float) -> bool:
-        try:
-            self._progress.advance()
-        except Enough:
-            self.enough = True
-        stuck = time - self._time < self._least and time < self._end
-        self._time = time
-        return not (self.enough or stuck)
+
+def _as_declared(dynamics: Dynamics, given: Given, steps: Steps) -> Course:
+    """The contacts as they are declared, and kept to."""
+    careful = steps.numbers.careful
+    constants = careful.array([given.parameters[s] for s in dynamics.parameters])
+    moving = _Declared(dynamics, constants)
+    now = given.context.mpf(0)
+    state: State = given.state(dynamics.states) | {WORK: now}
+    end = steps.end
+    parts, stop = list[Part](), Stop.TIME
+    while now < end and stop is not Stop.INTERRUPTED:
+        stretch = steps.along(moving, state, (now, end), Watched(), now)
+        stop = stretch.stop
+        if stop is Stop.STUCK:
+            raise broken(float(stretch.series.times[-1]))
+        parts.append(stretch.part(stretch.series.times[-1]))
+        state = stretch.state(stretch.series.steps - 1, 1, careful)
+        now = careful.array([parts[-1].end])[0]
+    segment = Segment(AS_DECLARED, parts[0].begin, parts[-1].end, dynamics, tuple(parts))
+    return Course((segment,), (), AS_DECLARED)
 
 
 # -- samples and events ------------------------------------------------------------------------
@@ -260,27 +177,13 @@ def _samples(wanted: Wanted, end: Any) -> Any:
     return times[times <= end]
 
 
-def _events(rough: Trajectory, segment: Segment) -> tuple[Event, ...]:
-    """Those of the motion in doubles, at its own beginning and end."""
-    begun, *between, ended = rough.events
-    stop = segment.parts[-1].solution.stop
-    kind = "interrupted" if stop is Stop.INTERRUPTED else "end"
-    own = (
-        replace(begun, time=segment.begin),
-        *(event for event in between if event.time < segment.end),
-        replace(ended, time=segment.end, kind=kind),
-    )
-    return placed(own, [segment])
-
-
-def _with_events(run: Trajectory, wanted: Wanted) -> Trajectory:
+def _with_events(run: Trajectory, events: Mapping[str, Expr]) -> Trajectory:
     """The same motion with an event wherever one of some expressions passes through zero."""
-    (segment,) = run.segments
-    (rounded,) = run.rounded().segments
     found = [
         Event(_root(segment, expression, time), name, segment.mode, segment.mode, segment, segment)
-        for name, expression in wanted.events.items()
-        for time in passages(rounded, expression)
+        for name, expression in events.items()
+        for segment in run.segments
+        for time in passages(segment.rounded(), expression)
     ]
     first, *between, last = run.events
     inside = sorted([*between, *found], key=lambda event: event.time)
@@ -288,22 +191,12 @@ def _with_events(run: Trajectory, wanted: Wanted) -> Trajectory:
 
 
 def _root(segment: Segment, expression: Expr, near: float) -> Any:
-    """Where an expression is zero, from where it is in doubles, by the secant method."""
-    numbers = segment.parts[0].solution.numbers
-    wanted = [Expr.of(expression)]
+    """Where an expression is zero, from where it is in doubles."""
+    wanted, numbers = [Expr.of(expression)], segment.numbers
+    length = segment.end - segment.begin
 
-    def value(time: Any) -> Any:
-        return segment.values(wanted, numbers.array([time]))[0, 0]
+    def value(share: Any) -> Any:
+        return segment.values(wanted, numbers.array([segment.begin + share * length]))[0, 0]
 
-    newer = numbers.scalar(numbers.array(near)[()])
-    older = newer + _NEAR * segment.end * (-1 if 2 * near > segment.end else 1)
-    before, now = value(older), value(newer)
-    for _ in range(_POLISHED):
-        if now in (0, before):
-            break
-        older, newer = newer, newer - now * (newer - older) / (now - before)
-        newer = min(max(newer, segment.begin), segment.end)
-        before, now = now, value(newer)
-        if newer == older:
-            break
-    return newer
+    share = numbers.zero(value, float((near - segment.begin) / length))
+    return segment.begin + min(max(share, 0), 1) * length

@@ -1,0 +1,136 @@
+"""Where a contact mode is entered, and what its constraints do to the speeds there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from polhode.algebra import Symbol
+from polhode.model import Phase
+from polhode.simulate._dynamics import WORK
+from polhode.simulate.contact._machine import Machine, ModeMachine, gap_symbol, slip_symbols
+from polhode.simulate.contact._place import Place
+from polhode.simulate.contact._touching import Meeting
+from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._numbers import DOUBLES, Numbers
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A mode, and where it is entered.
+
+    Attributes:
+        phases: of every contact.
+        place: the shared state, after what the entry did to the speeds.
+        coordinates: of the mode.
+        speeds: of the mode.
+        onset: for contacts that begin to slip, the angle of the slip to come.
+        slips: slip velocities, by contact.
+        gaps: heights above the support of contacts that have just left it.
+    """
+
+    phases: tuple[Phase, ...]
+    place: Place
+    coordinates: Array
+    speeds: Array
+    onset: dict[int, Any] = field(default_factory=dict)
+    slips: dict[int, Array] = field(default_factory=dict)
+    gaps: dict[int, float] = field(default_factory=dict)
+
+    @property
+    def state(self) -> Array:
+        """Coordinates and speeds of the mode."""
+        return np.concatenate([self.coordinates, self.speeds])
+
+    def rounded(self) -> Entry:
+        """The same in doubles."""
+        double = DOUBLES.array
+        return replace(
+            self,
+            place=self.place.rounded(),
+            coordinates=double(self.coordinates),
+            speeds=double(self.speeds),
+            onset={i: float(angle) for i, angle in self.onset.items()},
+            slips={i: double(slip) for i, slip in self.slips.items()},
+            gaps={i: float(gap) for i, gap in self.gaps.items()},
+        )
+
+
+def entered(
+    machine: Machine,
+    place: Place,
+    phases: tuple[Phase, ...],
+    meetings: Sequence[Meeting],
+    starting: frozenset[int],
+) -> Entry:
+    """A mode with what entering it does to the speeds.
+
+    Args:
+        starting: contacts that begin to slip; in which direction remains to be found.
+    """
+    mode = machine.mode(phases)
+    coordinates, speeds = mode.entered(place)
+    after = _after(machine, place, mode, coordinates, speeds, meetings, phases)
+    sliding = [i for i, phase in enumerate(phases) if phase.slides]
+    none = machine.numbers.array(np.zeros(2))
+    slips = {i: none if i in starting else meetings[i].velocity[:2] for i in sliding}
+    return Entry(phases, after, coordinates, speeds, dict.fromkeys(sorted(starting), 0.0), slips)
+
+
+def _after(
+    machine: Machine,
+    place: Place,
+    mode: ModeMachine,
+    coordinates: Array,
+    speeds: Array,
+    meetings: Sequence[Meeting],
+    phases: tuple[Phase, ...],
+) -> Place:
+    """The shared state in the mode; what its constraints did to the speeds did work."""
+    own = (*mode.mode.equations.coordinates, *mode.mode.equations.speeds)
+    values: dict[Any, float] = dict(zip(own, (*coordinates, *speeds), strict=True))
+    lifted = mode.lifted(place.time, values, place.work)
+    change = lifted.speeds - place.speeds
+    touching = [m for m, p in zip(meetings, phases, strict=True) if not p.flies]
+    if not touching or not np.any(change):
+        return lifted
+    arms = np.vstack([m.arms for m in touching])
+    impulse = machine.numbers.least(arms.T, machine.apart.mass(place) @ change)
+    middle = [m.velocity + m.support + m.arms @ change / 2 for m in touching]
+    return lifted.kicked(np.zeros_like(change), impulse @ np.concatenate(middle))
+
+
+def directions_of(entry: Entry, numbers: Numbers = DOUBLES) -> list[Any]:
+    """Components of the slip directions, and slip speeds, of all sliding contacts."""
+    found = list[Any]()
+    for i, slip in sorted(entry.slips.items()):
+        size = numbers.size(slip)
+        if i in entry.onset:
+            found += [*numbers.direction(entry.onset[i]), 0.0]
+        else:
+            found += [slip[0] / size, slip[1] / size, size]
+    return found
+
+
+def state_on(machine: Machine, entry: Entry) -> dict[Symbol, Any]:
+    """All states where a mode is entered, those that are carried along included."""
+    mode = machine.mode(entry.phases)
+    equations, carried = mode.mode.equations, mode.dynamics.carried
+    own = (*equations.coordinates, *equations.speeds)
+    state = dict(zip(own, entry.state.tolist(), strict=True))
+    meetings = machine.touching.at(entry.place, beyond(entry.phases))
+    for i, touch in enumerate(mode.mode.touches):
+        gap, slips = gap_symbol(touch.contact), slip_symbols(touch.contact)
+        if gap in carried:
+            state[gap] = entry.gaps.get(i, meetings[i].gap)
+        if slips[0] in carried:
+            state |= zip(slips, entry.slips[i].tolist(), strict=True)
+    return {**state, WORK: entry.place.work}
+
+
+def beyond(phases: tuple[Phase, ...]) -> frozenset[int]:
+    """The contacts that are beyond the edge of their support."""
+    return frozenset(i for i, phase in enumerate(phases) if phase.is_beyond)

@@ -1,0 +1,60 @@
+"""Where a slip velocity vanishes at the end of a stretch, in numbers of higher precision."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from polhode.simulate.integrate._crossing import bisected
+from polhode.simulate.integrate._driver import Stop, Watched
+from polhode.simulate.integrate._series import Series
+from polhode.simulate.precise._stretch import Stretch
+
+
+@dataclass(frozen=True)
+class Spot:
+    """A place within a stretch.
+
+    Attributes:
+        step: which of its steps.
+        share: of it that has passed.
+    """
+
+    step: int
+    share: Any
+
+
+def landing(stretch: Stretch, watched: Watched) -> tuple[Spot, int] | None:
+    """Where a vector vanishes within the last step, and which; None if they only turn round."""
+    if stretch.stop is not Stop.VANISHED:
+        return None
+    for k, pair in enumerate(watched.vectors):
+        spot = _turning(stretch.series, list(pair))
+        if _size(stretch.series, spot, list(pair)) <= watched.passing:
+            return spot, k
+    return None
+
+
+def _turning(series: Series, rows: list[int]) -> Spot:
+    """Where a vector is across what it was when the last step began; else the end of the step."""
+    step, numbers = series.steps - 1, series.numbers
+    first = series.state(step, 0)[rows]
+
+    def along(share: Any) -> Any:
+        return first @ series.state(step, share)[rows]
+
+    if along(1) > 0:
+        return Spot(step, 1)
+    coarse = [float(value) for value in first]
+    near = bisected(lambda share: _in_doubles(series, step, share, rows) @ coarse, 0.0, 1.0)
+    return Spot(step, numbers.zero(along, near))
+
+
+def _in_doubles(series: Series, step: int, share: float, rows: list[int]) -> Any:
+    return series.rounded_states(np.array([step + share]))[rows, 0]
+
+
+def _size(series: Series, spot: Spot, rows: list[int]) -> float:
+    return float(series.numbers.size(series.state(spot.step, spot.share)[rows]))

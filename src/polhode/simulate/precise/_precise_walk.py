@@ -1,0 +1,128 @@
+"""The course of a motion through its contact modes, in numbers of higher precision."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from polhode.base import Progress
+from polhode.derive import Guard
+from polhode.simulate._dynamics import CLOCK
+from polhode.simulate._segment import Part, Segment
+from polhode.simulate.contact._course import Outcome, Walk, leaving, place_of
+from polhode.simulate.contact._entry import Entry, state_on
+from polhode.simulate.contact._lookout import Lookout
+from polhode.simulate.contact._machine import Machine, ModeMachine, slip_symbols
+from polhode.simulate.integrate._driver import Stop, Watched
+from polhode.simulate.precise._first_slip import first_slip
+from polhode.simulate.precise._landing import Spot, landing
+from polhode.simulate.precise._stretch import InDoubles, State, Steps, Stretch
+
+_LOOK = 12  # steps after which the guards are looked at
+_VANISHED = 1e-14  # slip speed, relative to the velocities around, that is none
+_INSTANT = 32  # steps of rounding of the time: a hop that is over sooner is none
+_LANDED = 1e-10  # the same at an instant at which the slip velocity turns round
+
+
+@dataclass(frozen=True)
+class _Cut:
+    """A stretch up to where its contact mode ends, or to its own end."""
+
+    part: Part
+    state: State
+    time: Any
+    guard: Guard | None
+
+
+class PreciseWalk(Walk):
+    """Follows a motion from mode to mode.
+
+    Args:
+        machine: the modes, in numbers with bits to spare.
+        steps: what integrates them.
+        near_flat: value at which an expression that must stay positive counts as gone.
+        progress: told of every step.
+        until: what, once it happens, ends the motion.
+    """
+
+    def __init__(
+        self,
+        machine: Machine,
+        steps: Steps,
+        near_flat: float,
+        progress: Progress,
+        until: frozenset[str],
+    ) -> None:
+        super().__init__(machine, near_flat, progress, until)
+        self._steps = steps
+
+    def stay(self, entry: Entry, end: Any) -> Outcome:
+        """As long as the mode lasts."""
+        machine = self._machine
+        mode = machine.mode(entry.phases)
+        lookout = Lookout(machine, self._near_flat, mode, entry)
+        begin = now = entry.place.time
+        state: State = state_on(machine, entry)
+        parts = list[Part]()
+        guard, stop = None, Stop.PAUSE
+        shortest = _INSTANT * machine.numbers.spacing(begin)
+        limit = min(end, begin + max(self.hop(mode, entry), shortest))
+        while guard is None and now < end and stop is not Stop.INTERRUPTED:
+            watched = self._watched_in(mode, entry, state, now)
+            if entry.onset and not parts:
+                contacts = machine.automaton.contacts
+                stretch = first_slip(mode, entry, state, limit, contacts, self._steps.numbers)
+            else:
+                stretch = self._steps.along(mode, state, (now, limit), watched, begin)
+            cut = self._cut(lookout, stretch, watched)
+            parts.append(cut.part)
+            state, now, guard, stop = cut.state, cut.time, cut.guard, stretch.stop
+            limit = end
+        ends = self._steps.numbers.array([begin, now])
+        segment = Segment(mode.mode.name, ends[0], ends[1], mode.dynamics, tuple(parts))
+        return Outcome(segment, leaving(mode, guard, state, now, entry.place.work))
+
+    def _watched_in(self, mode: ModeMachine, entry: Entry, state: State, now: Any) -> Watched:
+        """What to look at from a state on."""
+        symbols = self._steps.symbols(mode.dynamics)
+        contacts = self._machine.automaton.contacts
+        pairs = [slip_symbols(contacts[i]) for i in sorted(entry.slips)]
+        places = tuple(tuple(symbols.index(s) for s in pair) for pair in pairs)
+        scale = self.scale_at(place_of(mode, state, now), entry) or 1 if pairs else 1
+        finer = self._steps.numbers.finer
+        least, passing = finer(_VANISHED) * scale, finer(_LANDED) * scale
+        return Watched(_LOOK, places, float(least), float(passing), tally=self._tally)
+
+    def _cut(self, lookout: Lookout, stretch: Stretch, watched: Watched) -> _Cut:
+        """A stretch up to the first guard that falls."""
+        landed = landing(stretch, watched)
+        seen = InDoubles(stretch)
+        fall = lookout.first_fall(seen)
+        spot, guard = Spot(stretch.series.steps - 1, 1), None
+        if landed is not None:
+            spot, guard = landed[0], lookout.landing(landed[1])
+        if fall is not None and fall[0] < spot.step + float(spot.share):
+            spot, guard = self._fallen(lookout, stretch, *fall)
+        if guard is None and stretch.stop is Stop.STUCK:
+            raise lookout.broken(seen)
+        time = stretch.series.time(spot.step, spot.share)
+        careful = self._machine.numbers
+        state = stretch.state(spot.step, spot.share, careful)
+        return _Cut(stretch.part(time), state, careful.array([time])[0], guard)
+
+    def _fallen(
+        self, lookout: Lookout, stretch: Stretch, place: float, guard: Guard
+    ) -> tuple[Spot, Guard]:
+        """Where a guard falls, to the rounding of the numbers."""
+        series, numbers = stretch.series, stretch.series.numbers
+        step = min(int(place), series.steps - 1)
+        dynamics = lookout.mode.dynamics
+        arguments = (*stretch.symbols, *dynamics.parameters, CLOCK)
+        function = dynamics.function([lookout.looked_at(guard)], arguments, numbers=numbers)
+        constants = numbers.array(stretch.constants)
+
+        def value(share: Any) -> Any:
+            return function(*series.state(step, share), *constants, series.time(step, share))[0]
+
+        share = numbers.zero(value, place - step)
+        return Spot(step, min(max(share, 0), 1)), guard

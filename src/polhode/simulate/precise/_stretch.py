@@ -1,0 +1,220 @@
+"""A stretch of a motion within one contact mode, in numbers of higher precision."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import hypot
+from operator import mul
+from typing import Any, Protocol
+
+import numpy as np
+
+from polhode.algebra import Symbol
+from polhode.base import Enough, Progress
+from polhode.simulate._dynamics import Dynamics
+from polhode.simulate._segment import Part
+from polhode.simulate.integrate._driver import Solution, Stop, Watched
+from polhode.simulate.integrate._flow import Flow, flow_of
+from polhode.simulate.integrate._integrators import Array, looks_along
+from polhode.simulate.integrate._numbers import DOUBLES, Numbers
+from polhode.simulate.integrate._series import Launch, Series, SeriesIntegrator
+
+_SMALLEST = 1e-14  # length of a step, over the time and the longest, that means a singular position
+_ALMOST = 100.0  # times the length at which a vector has vanished: there it turns round
+
+State = Mapping[Symbol, Any]
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A stretch of a motion, and why it ends where it does.
+
+    Attributes:
+        symbols: the states.
+        series: their powers of time.
+        constants: the parameters.
+        stop: why it ends.
+        mode_begin: when its contact mode was entered, s.
+    """
+
+    symbols: tuple[Symbol, ...]
+    series: Series
+    constants: Any
+    stop: Stop
+    mode_begin: Any
+
+    def state(self, step: int, share: Any, numbers: Numbers) -> dict[Symbol, Any]:
+        """All states where a share of a step has passed, in other numbers."""
+        values = numbers.array(self.series.state(step, share)).tolist()
+        return dict(zip(self.symbols, values, strict=True))
+
+    def part(self, end: Any) -> Part:
+        """Its part up to some instant, as trajectories have it."""
+        series, times = self.series, self.series.times
+        steps = np.append(times[times < end], end)
+        at, rounded = series.at, series.rounded_at
+        numbers = series.numbers
+        solution = Solution(self.symbols, {}, steps, self.stop, None, at, numbers, rounded)
+        return Part(times[0], end, solution, numbers.array(self.constants))
+
+
+@dataclass(frozen=True)
+class InDoubles:
+    """A stretch as those see it who look out for guards; places count its steps."""
+
+    stretch: Stretch
+
+    @property
+    def symbols(self) -> tuple[Symbol, ...]:
+        return self.stretch.symbols
+
+    @property
+    def turned(self) -> Mapping[Symbol, Symbol]:
+        return {}
+
+    @property
+    def constants(self) -> Array:
+        return np.asarray(DOUBLES.array(self.stretch.constants))
+
+    @property
+    def knots(self) -> Array:
+        return np.arange(self.stretch.series.steps + 1.0)
+
+    def at(self, places: Array) -> Array:
+        return np.asarray(self.stretch.series.rounded_states(places))
+
+    def times(self, places: Array) -> Array:
+        return np.asarray(self.stretch.series.rounded_times(places, 0))
+
+    def passed(self, places: Array) -> Array:
+        return np.asarray(self.stretch.series.rounded_times(places, self.stretch.mode_begin))
+
+
+class Moving(Protocol):
+    """Equations of motion with numbers."""
+
+    @property
+    def dynamics(self) -> Dynamics:
+        """The equations."""
+
+    @property
+    def parameters(self) -> Any:
+        """The constants, in the order of the equations."""
+
+
+class Steps:
+    """Makes such stretches.
+
+    Args:
+        integrator: Taylor's method.
+        numbers: to compute in.
+        end: of the motion, s.
+        progress: told of every step.
+    """
+
+    def __init__(
+        self, integrator: SeriesIntegrator, numbers: Numbers, end: Any, progress: Progress
+    ) -> None:
+        self.numbers = numbers
+        self.end = numbers.careful.array([end])[0]
+        self.name = integrator.name
+        self._integrator = integrator
+        self._progress = progress
+        self._flows: dict[int, tuple[Dynamics, Flow]] = {}
+
+    def symbols(self, dynamics: Dynamics) -> tuple[Symbol, ...]:
+        """The states, in the order of the series."""
+        return self._flow(dynamics).core.symbols
+
+    def along(
+        self,
+        mode: Moving,
+        start: State,
+        span: tuple[Any, Any],
+        watched: Watched,
+        mode_begin: Any,
+    ) -> Stretch:
+        """From a state on, towards the end of a span, or to where what is watched ends it.
+
+        Raises:
+            NumericError: where the motion cannot even begin.
+        """
+        flow, constants = self._flow(mode.dynamics), mode.parameters.tolist()
+        begin, end = span
+        looks = looks_along(flow)
+        if looks > 1:  # steps are not to leap over a pulse
+            end = min(end, begin + self.end / looks)
+        end = self.numbers.array([end])[0]
+        symbols = flow.core.symbols
+        own = [start[s] for s in symbols]
+        launch = Launch(flow.core.program, self.numbers, constants, own, begin, end)
+        watch = _Watch(own, watched, (float(begin), float(end)), self.numbers, self._progress)
+        series = self._integrator.integrate(launch, watch)
+        stop = watch.stop or Stop.TIME
+        if watch.stop is None and series.times[-1] < end:
+            stop = Stop.STUCK
+        return Stretch(symbols, series.without_empty_steps(), constants, stop, mode_begin)
+
+    def _flow(self, dynamics: Dynamics) -> Flow:
+        if id(dynamics) not in self._flows:
+            self._flows[id(dynamics)] = (dynamics, flow_of(dynamics, reduced=False))
+        return self._flows[id(dynamics)][1]
+
+
+class _Watch:
+    """Tells of every step, and stops where there is reason to."""
+
+    def __init__(
+        self,
+        state: Sequence[Any],
+        watched: Watched,
+        span: tuple[float, float],
+        numbers: Numbers,
+        progress: Progress,
+    ) -> None:
+        self.stop: Stop | None = None
+        self._watched = watched
+        self._progress = progress
+        self._span = span
+        self._smallest = float(numbers.finer(_SMALLEST))
+        self._longest = 0.0
+        self._steps = 0
+        self._vectors = self._seen(state)
+        self._shrinks = [False for _ in self._vectors]
+
+    def __call__(self, time: float, step: float, state: Sequence[Any]) -> bool:
+        self._steps += 1
+        self._longest = max(self._longest, step)
+        before, self._vectors = self._vectors, self._seen(state)
+        shrank, self._shrinks = self._shrinks, list(map(_is_shorter, self._vectors, before))
+        try:
+            self._progress.advance()
+        except Enough:
+            self.stop = Stop.INTERRUPTED
+            return False
+        self._watched.tally.count(self._span, time, hurries=not self._is_small())
+        if any(map(self._vanishes, before, self._vectors, shrank)):
+            self.stop = Stop.VANISHED
+        elif step < self._smallest * max(abs(time), self._longest) and time < self._span[1]:
+            self.stop = Stop.VANISHED if self._is_small() else Stop.STUCK
+        elif self._steps >= self._watched.pause:
+            self.stop = Stop.PAUSE
+        return self.stop is None
+
+    def _seen(self, state: Sequence[Any]) -> list[list[float]]:
+        """The vectors in a state; alone, they are known to the digits of doubles."""
+        return [[float(state[place]) for place in pair] for pair in self._watched.vectors]
+
+    def _is_small(self) -> bool:
+        return any(hypot(*vector) <= self._watched.passing for vector in self._vectors)
+
+    def _vanishes(self, before: list[float], now: list[float], shrank: bool) -> bool:
+        turned = sum(map(mul, before, now)) <= 0.0
+        size = hypot(*now)
+        grows = shrank and size <= _ALMOST * self._watched.least and not _is_shorter(now, before)
+        return turned or grows or size <= self._watched.least
+
+
+def _is_shorter(one: list[float], other: list[float]) -> bool:
+    return hypot(*one) < hypot(*other)
