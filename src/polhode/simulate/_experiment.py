@@ -25,7 +25,7 @@ from polhode.simulate._values import evaluate
 from polhode.simulate._watching import with_events
 from polhode.simulate.integrate._integrators import Array, chosen
 from polhode.simulate.integrate._numbers import DOUBLES, Precision, numbers_for
-from polhode.simulate.precise._precisely import Wanted, precisely
+from polhode.simulate.precise._wanted import Wanted
 
 SAMPLES = 1001
 _LONGEST = 1e18  # s; the world is not as old
@@ -113,6 +113,8 @@ class Experiment:
             run = self._trajectory(motion, task)
             if self._wanted.numbers is DOUBLES:
                 return with_events(run, self._events)
+            from polhode.simulate.precise._precisely import precisely  # a room that few enter
+
             with timed(task, "integrate"):
                 return precisely(run, motion, task, self._wanted, shown)
 

@@ -58,8 +58,8 @@ def simulate(
         near_flat: value of the sine of the tilt of a disk, for instance, at which it counts as
             lying flat: the point of contact is not defined beyond, and the motion ends there.
         precision: double, extended (the machine's long doubles), quadruple, or a number of
-            decimal digits; all but double within one contact mode. Values are then taken exactly
-            as they are written: "0.1 m" is a tenth, the float 0.1 its binary value.
+            decimal digits. Values are then taken exactly as they are written: "0.1 m" is a
+            tenth, the float 0.1 its binary value.
         progress: told of every step.
 
     Raises:

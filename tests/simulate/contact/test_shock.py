@@ -6,7 +6,14 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from oracles.shocks import felt_inertia, lost, random_shock, stepped
-from polhode.simulate.contact._shock import Roughness, coulomb_shock, rough_shock, smooth_shock
+from polhode.simulate.contact._shock import (
+    Roughness,
+    Shock,
+    coulomb_shock,
+    rough_shock,
+    smooth_shock,
+)
+from polhode.simulate.integrate._numbers import ManyDigits, numbers_for
 
 RESTITUTIONS = st.sampled_from([0.0, 0.3, 0.7, 1.0])
 FRICTIONS = st.sampled_from([0.0, 0.05, 0.2, 0.6, 1.5])
@@ -74,3 +81,24 @@ def test_ball_in_closed_form(mu: float) -> None:
     assert abs(shock.velocity[2] - e * 2.0) < 1e-14
     assert np.abs(shock.velocity[:2] - left * velocity[:2]).max() < 1e-14
     assert shock.sticks == (left == 0.0)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_beyond_doubles_it_is_the_same_shock(seed: int) -> None:
+    """Friction turns the slip of these: in doubles by Runge and Kutta, beyond by power series."""
+    rng = np.random.default_rng(seed)
+    lever = rng.normal(size=(3, 3))
+    felt, velocity = lever @ lever.T + 0.3 * np.eye(3), rng.normal(size=3)
+    velocity[2] = -abs(velocity[2])
+    double = coulomb_shock(felt, velocity, Roughness(0.3, 0.4, 0.6))
+    fine, finer = (_in_numbers(felt, velocity, numbers_for(p).careful) for p in ("quadruple", 50))
+    assert np.max(np.abs(fine.velocity - double.velocity)) < 1e-12
+    assert np.max(np.abs(fine.impulse - double.impulse)) < 1e-12
+    assert max(abs(fine.velocity - finer.velocity)) < 1e-31
+    assert max(abs(fine.impulse - finer.impulse)) < 1e-31
+
+
+def _in_numbers(felt: np.ndarray, velocity: np.ndarray, numbers: ManyDigits) -> Shock:
+    rough = Roughness(*numbers.array([0.3, 0.4, 0.6]))
+    given = numbers.array(felt), numbers.array(velocity)
+    return coulomb_shock(*given, rough, "a contact", numbers)

@@ -222,7 +222,7 @@ def test_times_beyond_the_motion_are_refused():
 
 
 @pytest.mark.parametrize(
-    "precision", ["triple", "", 0, 15, -40, 10**6, 2.5, True, "1e3", "9" * 5000, object()]
+    "precision", ["triple", "", 0, 15, -40, 301, 10**6, 2.5, True, "1e3", "9" * 5000, object()]
 )
 def test_precisions_that_there_are_not(precision):
     with pytest.raises(NumericError, match="expected double, extended, quadruple, or a number of"):

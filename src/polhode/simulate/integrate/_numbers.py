@@ -19,7 +19,7 @@ from polhode.simulate.integrate._equations import least_solution, solution
 Precision: TypeAlias = str | int | None
 
 _DOUBLE_BITS = 53
-_FEWEST, _MOST = 16, 10_000  # decimal digits
+_FEWEST, _MOST = 16, 300  # decimal digits; the last of more would be below the least double
 _SPARE = 64  # bits carried beyond those asked for in what is worked out once
 _DOUBLE_SPACING = 2.0**-52
 _POLISHED = 40  # secant steps to a zero at most

@@ -27,23 +27,7 @@ from polhode.simulate.precise._exactly import evaluated, exact_value
 from polhode.simulate.precise._given import Given, end_of, read_exactly
 from polhode.simulate.precise._precise_walk import PreciseWalk
 from polhode.simulate.precise._stretch import State, Steps
-
-
-@dataclass(frozen=True)
-class Wanted:
-    """What is asked for, as it was given.
-
-    Attributes:
-        numbers: what to compute in.
-        duration: s, with a unit or exactly.
-        samples: how many, or their times.
-        events: expressions whose passing through zero is recorded, by name.
-    """
-
-    numbers: Numbers
-    duration: Any
-    samples: Any
-    events: Mapping[str, Expr]
+from polhode.simulate.precise._wanted import Wanted
 
 
 def precisely(
