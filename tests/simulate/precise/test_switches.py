@@ -9,6 +9,7 @@ import polhode as ph
 from polhode.simulate import Trajectory
 from polhode.simulate.integrate._numbers import fraction_of
 from simulate.contact import balls, blocks, disks
+from simulate.precise.test_precision import Impatient
 
 DIGITS = mpmath.MPContext()
 DIGITS.dps = 120
@@ -280,3 +281,21 @@ def test_a_ball_rolls_off_the_edge_of_a_sheet_that_is_pulled_away():
     assert (
         off(run.final["v_x"], (exact("0.2") + exact("0.4") * exact("0.7")) / exact("1.4")) < 1e-32
     )
+
+
+def test_what_is_done_is_kept_of_a_motion_that_switches():
+    values, steps = DISK | {"mu": "0.3"}, 170
+    start = {"theta": "60 deg", "phi_dot": 3, "omega_3": 8}
+    run = ph.simulate(
+        disks.with_friction(),
+        values,
+        start,
+        "0.3",
+        samples=11,
+        precision="quadruple",
+        progress=Impatient(steps),
+    )
+    assert kinds(run)[-1] == "interrupted"
+    assert 0 < run.duration < 0.3
+    assert run.t[-1] <= run.duration
+    assert run.drift.energy < 1e-32

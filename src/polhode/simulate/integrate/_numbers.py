@@ -299,11 +299,9 @@ def ratio(context: Any, value: Fraction) -> Any:
 
 def number(context: Any, value: Any) -> Any:
     """A number of any sort, rounded to a context."""
-    return (
-        +context.make_mpf(value._mpf_)
-        if hasattr(value, "_mpf_")
-        else ratio(context, fraction_of(value))
-    )
+    if hasattr(value, "_mpf_"):
+        return +context.make_mpf(value._mpf_)
+    return context.mpf(value) if isinstance(value, float) else ratio(context, fraction_of(value))
 
 
 def fraction_of(value: Any) -> Fraction:
