@@ -27,8 +27,8 @@ from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.integrate._tally import Tally
 
 _LOOK = 400  # steps after which the guards are looked at
-_VANISHED = 1e-14  # slip speed, relative to the velocities around, that is none
-_LANDED = 1e-10  # the same at an instant at which the slip velocity turns round
+VANISHED = 1e-14  # slip speed, relative to the velocities around, that is none
+LANDED = 1e-10  # the same at an instant at which the slip velocity turns round
 _MOST_EVENTS = 50_000
 _NO_TIME = 1e-11  # of the time of the whole motion
 _MOST_AT_ONCE = 32  # changes of mode while no time passes: far more than contacts can have
@@ -208,7 +208,7 @@ class Walk:
             tuple(core.index(s) for s in pair) for pair in vectors if set(pair) <= set(core)
         )
         over = self._is_flat(mode)
-        least, passing = _VANISHED * scale, _LANDED * scale
+        least, passing = VANISHED * scale, LANDED * scale
         return Watched(_LOOK, places, least, passing, over, self._tally)
 
     def _is_flat(self, mode: ModeMachine) -> Callable[[float, list[float]], bool]:

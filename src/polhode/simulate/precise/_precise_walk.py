@@ -9,7 +9,7 @@ from polhode.base import Progress
 from polhode.derive import Guard
 from polhode.simulate._dynamics import CLOCK
 from polhode.simulate._segment import Part, Segment
-from polhode.simulate.contact._course import Outcome, Walk, leaving, place_of
+from polhode.simulate.contact._course import LANDED, VANISHED, Outcome, Walk, leaving, place_of
 from polhode.simulate.contact._entry import Entry, state_on
 from polhode.simulate.contact._lookout import Lookout
 from polhode.simulate.contact._machine import Machine, ModeMachine, slip_symbols
@@ -19,9 +19,7 @@ from polhode.simulate.precise._landing import Spot, landing
 from polhode.simulate.precise._stretch import InDoubles, State, Steps, Stretch
 
 _LOOK = 12  # steps after which the guards are looked at
-_VANISHED = 1e-14  # slip speed, relative to the velocities around, that is none
 _INSTANT = 32  # steps of rounding of the time: a hop that is over sooner is none
-_LANDED = 1e-10  # the same at an instant at which the slip velocity turns round
 
 
 @dataclass(frozen=True)
@@ -87,10 +85,11 @@ class PreciseWalk(Walk):
         symbols = self._steps.symbols(mode.dynamics)
         contacts = self._machine.automaton.contacts
         pairs = [slip_symbols(contacts[i]) for i in sorted(entry.slips)]
-        places = tuple(tuple(symbols.index(s) for s in pair) for pair in pairs)
+        carried = [pair for pair in pairs if set(pair) <= set(symbols)]
+        places = tuple(tuple(symbols.index(s) for s in pair) for pair in carried)
         scale = self.scale_at(place_of(mode, state, now), entry) or 1 if pairs else 1
         finer = self._steps.numbers.finer
-        least, passing = finer(_VANISHED) * scale, finer(_LANDED) * scale
+        least, passing = finer(VANISHED) * scale, finer(LANDED) * scale
         return Watched(_LOOK, places, float(least), float(passing), tally=self._tally)
 
     def _cut(self, lookout: Lookout, stretch: Stretch, watched: Watched) -> _Cut:
