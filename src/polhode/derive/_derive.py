@@ -54,7 +54,7 @@ def _derived(system: System, form: Form) -> Equations:
     refuse_shared_names(motion, needs)
     columns = lines(motion)
     rows = _projected(motion, needs)
-    rubbing = [c for c in columns if c.direction != c.restraint.direction]
+    rubbing = [c for c in columns if c.leans]
     if rubbing:
         values = solve_reactions(motion, needs, columns).values
         rows = tuple(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from polhode.algebra import (
@@ -36,6 +36,11 @@ class Line:
     def name(self) -> str:
         """Name of the reaction component."""
         return self.restraint.name
+
+    @property
+    def leans(self) -> bool:
+        """Whether friction goes with it."""
+        return self.direction != self.restraint.direction
 
     def on(self, body: Body) -> Wrench | None:
         """What one unit does to a body."""
@@ -106,35 +111,83 @@ def solve_reactions(
 
     What hangs on others is mostly declared after them, and tells the reactions that carry it.
     """
-    rows: list[Row] = []
-    right: list[Expr] = []
-    bodies = tuple(demands)[::-1]
-    for body in bodies:
+    balances = list(_balances(motion, demands, columns))
+    if any(line.leans for line in columns):
+        return _from(_held(balances, motion), motion, columns, 0)
+    return _from(balances, motion, columns, len(motion.speeds))
+
+
+def _held(balances: list[_Balance], motion: Motion) -> list[_Balance]:
+    """Without as many as there are independent speeds, for which the projections on these stand.
+
+    With friction a projection would tell a reaction too, over the slip; and what is told by it,
+    put into the same projection, would leave no equation of motion.
+    """
+    reach = [tuple(b.reach[i] for b in balances) for i in range(len(motion.speeds))]
+    nothing = [ZERO] * len(reach)
+    told = motion.form.eliminate(reach, nothing, [0] * len(balances), motion.accelerations).solved
+    return [b for i, b in enumerate(balances) if i not in told]
+
+
+@dataclass(frozen=True)
+class _Balance:
+    """One component of the balance of forces or couples on a body.
+
+    Attributes:
+        body: that body.
+        row: what a unit of each reaction gives to it.
+        demand: what the motion asks for.
+        reach: the velocity along it that a unit of each independent speed gives.
+    """
+
+    body: Body
+    row: Row
+    demand: Expr
+    reach: Row
+
+
+def _balances(
+    motion: Motion, demands: Mapping[Body, Wrench], columns: tuple[Line, ...]
+) -> Iterator[_Balance]:
+    for body in tuple(demands)[::-1]:
         demand = demands[body]
+        velocity, angular = motion.velocities[body]
         unit = [line.on(body) for line in columns]
         triad = next((w.force.triad for w in unit if w and w.force.components), body.axes)
-        forces = demand.force.express(triad).components
+        forces, moved = demand.force.express(triad).components, velocity.express(triad).components
         for i in range(3):
-            rows.append(tuple(_part(w.force, triad, i) if w else ZERO for w in unit))
-            right.append(forces[i])
+            row = tuple(_part(w.force, triad, i) if w else ZERO for w in unit)
+            yield _Balance(body, row, forces[i], _slopes(moved[i], motion))
         for i in range(3):
-            rows.append(tuple(_part(w.couple, body.axes, i) if w else ZERO for w in unit))
-            right.append(demand.couple.components[i])
+            row = tuple(_part(w.couple, body.axes, i) if w else ZERO for w in unit)
+            turned = angular.express(body.axes).components[i]
+            yield _Balance(body, row, demand.couple.components[i], _slopes(turned, motion))
+
+
+def _slopes(rate: Expr, motion: Motion) -> Row:
+    return tuple(rate.diff(speed) for speed in motion.speeds)
+
+
+def _from(
+    balances: list[_Balance], motion: Motion, columns: tuple[Line, ...], spare: int
+) -> Reactions:
+    """From balances of which some, but no more, may be left over as equations of motion."""
     try:
-        return _solved(motion, motion.form, rows, right, columns)
+        return _solved(motion, motion.form, balances, columns, spare)
     except OutgrownError:
-        return _solved(motion, IN_PARTS, rows, right, columns)
+        return _solved(motion, IN_PARTS, balances, columns, spare)
 
 
 def _solved(
-    motion: Motion, form: Form, rows: list[Row], right: list[Expr], columns: tuple[Line, ...]
+    motion: Motion, form: Form, balances: list[_Balance], columns: tuple[Line, ...], spare: int
 ) -> Reactions:
     def eliminated(table: Sequence[Row], values: Sequence[Expr]) -> Elimination:
         ranks = [0] * (len(table[0]) if table else len(columns))
         return form.eliminate(table, values, ranks, motion.accelerations)
 
-    outcome = eliminated(rows, right)
-    _refuse_unheld(motion, outcome, tuple(motion.system.bodies)[::-1])
+    outcome = eliminated([b.row for b in balances], [b.demand for b in balances])
+    if len(outcome.contradictory) > spare:
+        raise _unheld(motion, [balances[i].body for i in outcome.contradictory])
     return _named(outcome, [line.name for line in columns], eliminated)
 
 
@@ -142,15 +195,12 @@ def _part(vector: Vector, triad: object, index: int) -> Expr:
     return vector.express(triad).components[index] if any(vector.components) else ZERO  # type: ignore[arg-type]
 
 
-def _refuse_unheld(motion: Motion, outcome: Elimination, bodies: tuple[Body, ...]) -> None:
-    """Balances left over must be the equations of motion; more of them means a missing support."""
-    demanding = outcome.contradictory
-    if len(demanding) <= len(motion.speeds):
-        return
+def _unheld(motion: Motion, demanding: list[Body]) -> ConstraintError:
+    """Balances are left over that are no equations of motion: a support is missing."""
     held = {r.body for group in motion.restraints.values() for r in group if r.is_couple}
-    suspects = [bodies[i // 6].name for i in demanding if bodies[i // 6] not in held]
-    names = ", ".join(dict.fromkeys(suspects or [b.name for b in bodies]))
-    raise ConstraintError(
+    suspects = [body.name for body in demanding if body not in held]
+    names = ", ".join(dict.fromkeys(suspects or [body.name for body in motion.system.bodies]))
+    return ConstraintError(
         f"nothing supplies the couple that keeps the axes of {names} as they are declared",
         expected="a Hinge, Guide, Universal or Motor for every rotation that is ruled out",
         advice="add it, or turn the axes by one more coordinate",

@@ -61,8 +61,9 @@ def test_two_balls_that_slide_alike_stick_at_once(pair: Automaton) -> None:
     assert run.final["v_x_1"] == run.final["v_x_2"]
 
 
-def test_a_shock_that_another_contact_feels_is_refused_by_name() -> None:
-    """Two balls joined by a bar are dropped askew: one rests on the table when the other lands."""
+@pytest.fixture(scope="module")
+def joined() -> Automaton:
+    """Two balls, free to turn, at the ends of a bar that turns about y."""
     length = ph.symbol("L", positive=True)
     lab = ph.Frame("lab")
     axes = lab.rotated(ph.coordinate("theta"), "y", labels="1 2 3", name="bar")
@@ -78,10 +79,32 @@ def test_a_shock_that_another_contact_feels_is_refused_by_name() -> None:
         ph.Hinge(bar, axis="2"),
         ph.Gravity(G),
     )
-    numbers = {"m": 1, "a": 0.1, "g": 9.81, "L": 0.5, "mu": 0.1}
+    return automaton(system)
+
+
+JOINED = {"m": 1, "a": 0.1, "g": 9.81, "L": 0.5, "mu": 0.1}
+
+
+def test_a_shock_that_another_contact_feels_is_refused_by_name(joined: Automaton) -> None:
+    """They are dropped askew: one rests on the table when the other lands."""
     start = {"theta": -0.3, "z_1": 0.2, "z_2": 0.2 + 0.5 * np.sin(0.3)}
     with pytest.raises(ph.NumericError, match=r"second lands .* while first, which feels it"):
-        ph.simulate(system, numbers, start, 1.0)
+        ph.simulate(joined, JOINED, start, 1.0)
+
+
+@pytest.mark.parametrize("along", ["x", "y"])
+def test_balls_on_a_bar_slide_and_roll(joined: Automaton, along: str) -> None:
+    """Half the bar leans on each ball, 3mg/2: v = v0 - mu g t, and a omega = 15/4 mu g t."""
+    mu, g = JOINED["mu"], JOINED["g"]
+    other = "y" if along == "x" else "x"
+    still = {f"omega_{axis}_{tag}": 0.0 for axis in "xyz" for tag in "12"}
+    start = still | {f"v_{along}_{tag}": 1.0 for tag in "12"} | {f"v_{other}_1": 0.0}
+    run = ph.simulate(joined, JOINED, start, 0.4, samples=2)
+    assert [event.kind for event in run.events] == ["start", "sticks", "end"]
+    assert abs(run.events[1].time - 4 / (19 * mu * g)) < 1e-13
+    for tag in "12":
+        assert abs(run.final[f"v_{along}_{tag}"] - 15 / 19) < 1e-13
+    assert run.drift.energy < 1e-13
 
 
 def test_two_balls_on_one_sheet_begin_to_slip_at_once() -> None:
