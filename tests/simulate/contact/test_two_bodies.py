@@ -1,5 +1,7 @@
 """Bodies that do not feel each other, in one system: each moves as it would alone."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
@@ -61,25 +63,30 @@ def test_two_balls_that_slide_alike_stick_at_once(pair: Automaton) -> None:
     assert run.final["v_x_1"] == run.final["v_x_2"]
 
 
-@pytest.fixture(scope="module")
-def joined() -> Automaton:
+def on_a_bar(support: Callable[[ph.Frame], ph.Plane]) -> Automaton:
     """Two balls, free to turn, at the ends of a bar that turns about y."""
     length = ph.symbol("L", positive=True)
     lab = ph.Frame("lab")
+    floor = support(lab)
     axes = lab.rotated(ph.coordinate("theta"), "y", labels="1 2 3", name="bar")
     bar = ph.Body("bar", mass=M, inertia=(0, M * length**2, M * length**2), axes=axes, tag="b")
     one, two = (ph.sphere(tag, mass=M, radius=A, axes=lab, tag=tag) for tag in "12")
     half = axes["1"] * (length / 2)
     nowhere = lab["x"] * 0
     system = ph.System(
-        ph.Coulomb(one, on=ph.Plane(lab), mu=MU, name="first"),
-        ph.Coulomb(two, on=ph.Plane(lab), mu=MU, name="second"),
+        ph.Coulomb(one, on=floor, mu=MU, name="first"),
+        ph.Coulomb(two, on=floor, mu=MU, name="second"),
         ph.Pivot(bar, at=-half, to=one.point(nowhere)),
         ph.Pivot(two, at=nowhere, to=bar.point(half), name="other end", force="R"),
         ph.Hinge(bar, axis="2"),
         ph.Gravity(G),
     )
     return automaton(system)
+
+
+@pytest.fixture(scope="module")
+def joined() -> Automaton:
+    return on_a_bar(ph.Plane)
 
 
 JOINED = {"m": 1, "a": 0.1, "g": 9.81, "L": 0.5, "mu": 0.1}
@@ -90,6 +97,15 @@ def test_a_shock_that_another_contact_feels_is_refused_by_name(joined: Automaton
     start = {"theta": -0.3, "z_1": 0.2, "z_2": 0.2 + 0.5 * np.sin(0.3)}
     with pytest.raises(ph.NumericError, match=r"second lands .* while first, which feels it"):
         ph.simulate(joined, JOINED, start, 1.0)
+
+
+def test_slips_that_feel_each_other_and_begin_at_once_are_refused_by_name() -> None:
+    """A sheet is pulled from under both balls of the bar."""
+    on_sheet = on_a_bar(lambda lab: ph.Sheet(lab, motion=ph.functions("X Y")))
+    pulled = {"X": 0, "Y": 2 * ph.time**3}
+    told = "begins at several contacts at once at t = .*: first, second.*do not feel each other"
+    with pytest.raises(ph.NumericError, match=told):
+        ph.simulate(on_sheet, JOINED, {}, 2.0, forcing=pulled)
 
 
 @pytest.mark.parametrize("along", ["x", "y"])

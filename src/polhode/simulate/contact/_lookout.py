@@ -176,7 +176,8 @@ class Lookout:
             if not mode.can_jam:
                 return own
             matrices = values[len(expressions) :].T.reshape(-1, size, size)
-            return np.vstack([own, np.linalg.det(matrices)])
+            with np.errstate(all="ignore"):
+                return np.vstack([own, np.linalg.det(matrices)])
 
         return looked
 
