@@ -22,9 +22,10 @@ from polhode.simulate.contact._rise import fall_of
 from polhode.simulate.contact._touching import Meeting
 from polhode.simulate.contact._transition import Leaving, Transitions
 from polhode.simulate.forcing._drive import Drive
-from polhode.simulate.integrate._driver import Stop, Watched, integrate
+from polhode.simulate.integrate._driver import Stop, integrate
 from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.integrate._tally import Tally
+from polhode.simulate.integrate._watched import Watched
 
 _LOOK = 400  # steps after which the guards are looked at
 VANISHED = 1e-14  # slip speed, relative to the velocities around, that is none

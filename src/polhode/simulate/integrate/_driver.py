@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum
-from math import hypot, inf
-from operator import mul
+from math import inf
 from typing import TypeAlias
 
 import numpy as np
@@ -20,12 +19,10 @@ from polhode.simulate.integrate._flow import Flow, Stage
 from polhode.simulate.integrate._integrators import Array, Leg, Stepper, broken, looks_along
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
 from polhode.simulate.integrate._quadrature import integral
-from polhode.simulate.integrate._tally import MOST_STEPS, Tally
+from polhode.simulate.integrate._watched import SMALLEST, Vanishing, Watched
 
 _FEW = 10_000  # times for which states are remembered
 _TURNS = 4  # periods after which an angle is counted from zero again
-_ALMOST = 100.0  # times the length at which a vector has vanished: there it turns round
-_SMALLEST = 1e-14  # length of a step, over the time and the longest, that means a singular position
 
 States: TypeAlias = Callable[[Array], Array]
 
@@ -38,31 +35,6 @@ class Stop(Enum):
     PAUSE = "enough steps to look at"
     VANISHED = "a vector that was watched vanished or turned round"
     STUCK = "the motion cannot be continued"
-
-
-@dataclass(frozen=True)
-class Watched:
-    """What to look at while integrating.
-
-    Attributes:
-        pause: steps after which to stop for a look.
-        vectors: places in the core of vectors that stop the integration where they vanish.
-        least: length, m/s, at which such a vector has vanished.
-        passing: the same at an instant at which it turns round, or where steps become too short.
-        over: whether the motion is certainly over at a state, so that there is reason for a look.
-        tally: of the steps of the whole motion.
-    """
-
-    pause: int = MOST_STEPS
-    vectors: tuple[tuple[int, ...], ...] = ()
-    least: float = 0.0
-    passing: float = 0.0
-    over: Callable[[float, list[float]], bool] = lambda time, state: False
-    tally: Tally = field(default_factory=Tally)
-
-    def seen(self, state: list[float]) -> list[list[float]]:
-        """The vectors in a state of the core."""
-        return [[state[place] for place in places] for places in self.vectors]
 
 
 @dataclass(frozen=True)
@@ -263,8 +235,7 @@ class _Watch:
         self._watched = watched
         self._steps = 0
         self._time = -inf
-        self._vectors = watched.seen(state.tolist())
-        self._shrinks = [False for _ in self._vectors]
+        self._vanishing = Vanishing(watched, state.tolist())
 
     def __call__(self, time: float, state: list[float]) -> bool:
         self._steps += 1
@@ -273,13 +244,11 @@ class _Watch:
         except Enough:
             self.stop = Stop.INTERRUPTED
             return False
-        self._watched.tally.count(self._span, time, hurries=not self._is_small())
-        before, self._vectors = self._vectors, self._watched.seen(state)
-        shrank, self._shrinks = self._shrinks, list(map(_is_shorter, self._vectors, before))
-        if any(map(self._vanishes, before, self._vectors, shrank)):
+        self._watched.tally.count(self._span, time, hurries=not self._vanishing.is_near)
+        if self._vanishing.at(state):
             self.stop = Stop.VANISHED
         elif self._is_stuck(time) and time < self._span[1]:
-            self.stop = Stop.VANISHED if self._is_small() else Stop.STUCK
+            self.stop = Stop.VANISHED if self._vanishing.is_near else Stop.STUCK
         elif self._steps % self._watched.pause == 0 or self._watched.over(time, state):
             self.stop = Stop.PAUSE
         self._time = time
@@ -289,21 +258,7 @@ class _Watch:
         step = time - self._time
         if step < inf:
             self._longest = max(self._longest, step)
-        return step < _SMALLEST * max(abs(time), self._longest)
-
-    def _is_small(self) -> bool:
-        return any(hypot(*vector) <= self._watched.passing for vector in self._vectors)
-
-    def _vanishes(self, before: list[float], now: list[float], shrank: bool) -> bool:
-        turned = sum(map(mul, before, now)) <= 0.0
-        size = hypot(*now)
-        # Where it turns round within a few steps, none of them need be half a turn.
-        grows = shrank and size <= _ALMOST * self._watched.least and not _is_shorter(now, before)
-        return turned or grows or size <= self._watched.least
-
-
-def _is_shorter(one: list[float], other: list[float]) -> bool:
-    return hypot(*one) < hypot(*other)
+        return step < SMALLEST * max(abs(time), self._longest)
 
 
 def stuck(solution: Solution) -> NumericError:

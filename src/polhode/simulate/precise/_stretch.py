@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import hypot
-from operator import mul
 from typing import Any, Protocol
 
 import numpy as np
@@ -14,14 +12,12 @@ from polhode.algebra import Symbol
 from polhode.base import Enough, Progress
 from polhode.simulate._dynamics import Dynamics
 from polhode.simulate._segment import Part
-from polhode.simulate.integrate._driver import Solution, Stop, Watched
+from polhode.simulate.integrate._driver import Solution, Stop
 from polhode.simulate.integrate._flow import Flow, flow_of
 from polhode.simulate.integrate._integrators import Array, looks_along
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
 from polhode.simulate.integrate._series import Launch, Series, SeriesIntegrator
-
-_SMALLEST = 1e-14  # length of a step, over the time and the longest, that means a singular position
-_ALMOST = 100.0  # times the length at which a vector has vanished: there it turns round
+from polhode.simulate.integrate._watched import SMALLEST, Vanishing, Watched
 
 State = Mapping[Symbol, Any]
 
@@ -177,44 +173,24 @@ class _Watch:
         self._watched = watched
         self._progress = progress
         self._span = span
-        self._smallest = float(numbers.finer(_SMALLEST))
+        self._smallest = float(numbers.finer(SMALLEST))
         self._longest = 0.0
         self._steps = 0
-        self._vectors = self._seen(state)
-        self._shrinks = [False for _ in self._vectors]
+        self._vanishing = Vanishing(watched, state)
 
     def __call__(self, time: float, step: float, state: Sequence[Any]) -> bool:
         self._steps += 1
         self._longest = max(self._longest, step)
-        before, self._vectors = self._vectors, self._seen(state)
-        shrank, self._shrinks = self._shrinks, list(map(_is_shorter, self._vectors, before))
         try:
             self._progress.advance()
         except Enough:
             self.stop = Stop.INTERRUPTED
             return False
-        self._watched.tally.count(self._span, time, hurries=not self._is_small())
-        if any(map(self._vanishes, before, self._vectors, shrank)):
+        self._watched.tally.count(self._span, time, hurries=not self._vanishing.is_near)
+        if self._vanishing.at(state):
             self.stop = Stop.VANISHED
         elif step < self._smallest * max(abs(time), self._longest) and time < self._span[1]:
-            self.stop = Stop.VANISHED if self._is_small() else Stop.STUCK
+            self.stop = Stop.VANISHED if self._vanishing.is_near else Stop.STUCK
         elif self._steps >= self._watched.pause:
             self.stop = Stop.PAUSE
         return self.stop is None
-
-    def _seen(self, state: Sequence[Any]) -> list[list[float]]:
-        """The vectors in a state; alone, they are known to the digits of doubles."""
-        return [[float(state[place]) for place in pair] for pair in self._watched.vectors]
-
-    def _is_small(self) -> bool:
-        return any(hypot(*vector) <= self._watched.passing for vector in self._vectors)
-
-    def _vanishes(self, before: list[float], now: list[float], shrank: bool) -> bool:
-        turned = sum(map(mul, before, now)) <= 0.0
-        size = hypot(*now)
-        grows = shrank and size <= _ALMOST * self._watched.least and not _is_shorter(now, before)
-        return turned or grows or size <= self._watched.least
-
-
-def _is_shorter(one: list[float], other: list[float]) -> bool:
-    return hypot(*one) < hypot(*other)

@@ -1,0 +1,76 @@
+"""What is watched while integrating: vectors that may vanish, and the steps of the motion."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from math import hypot
+from operator import mul
+from typing import Any
+
+from polhode.simulate.integrate._tally import MOST_STEPS, Tally
+
+#: Length of a step, over the time and the longest, that means a singular position.
+SMALLEST = 1e-14
+_ALMOST = 100.0  # times the length at which a vector has vanished: there it turns round
+
+
+@dataclass(frozen=True)
+class Watched:
+    """What to look at while integrating.
+
+    Attributes:
+        pause: steps after which to stop for a look.
+        vectors: places in the core of vectors that stop the integration where they vanish.
+        least: length, m/s, at which such a vector has vanished.
+        passing: the same at an instant at which it turns round, or where steps become too short.
+        over: whether the motion is certainly over at a state, so that there is reason for a look.
+        tally: of the steps of the whole motion.
+    """
+
+    pause: int = MOST_STEPS
+    vectors: tuple[tuple[int, ...], ...] = ()
+    least: float = 0.0
+    passing: float = 0.0
+    over: Callable[[float, list[float]], bool] = lambda time, state: False
+    tally: Tally = field(default_factory=Tally)
+
+    def seen(self, state: Sequence[Any]) -> list[list[float]]:
+        """The vectors in a state of the core; alone, they are known to the digits of doubles."""
+        return [[float(state[place]) for place in places] for places in self.vectors]
+
+
+class Vanishing:
+    """Watches from step to step whether a vector vanishes.
+
+    Args:
+        watched: which vectors, and what is small.
+        state: at the beginning.
+    """
+
+    def __init__(self, watched: Watched, state: Sequence[Any]) -> None:
+        self._watched = watched
+        self._vectors = watched.seen(state)
+        self._shrinks = [False for _ in self._vectors]
+
+    def at(self, state: Sequence[Any]) -> bool:
+        """Whether one vanishes, or turns round, on the way to a state."""
+        before, self._vectors = self._vectors, self._watched.seen(state)
+        shrank, self._shrinks = self._shrinks, list(map(_is_shorter, self._vectors, before))
+        return any(map(self._vanishes, before, self._vectors, shrank))
+
+    @property
+    def is_near(self) -> bool:
+        """Whether one is as small as where it turns round."""
+        return any(hypot(*vector) <= self._watched.passing for vector in self._vectors)
+
+    def _vanishes(self, before: list[float], now: list[float], shrank: bool) -> bool:
+        turned = sum(map(mul, before, now)) <= 0.0
+        size = hypot(*now)
+        # Where it turns round within a few steps, none of them need be half a turn.
+        grows = shrank and size <= _ALMOST * self._watched.least and not _is_shorter(now, before)
+        return turned or grows or size <= self._watched.least
+
+
+def _is_shorter(one: list[float], other: list[float]) -> bool:
+    return hypot(*one) < hypot(*other)
