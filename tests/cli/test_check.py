@@ -69,6 +69,15 @@ def test_a_process_that_ends_unasked_is_told(capsys, monkeypatch):
     assert "less memory" in capsys.readouterr().err
 
 
+@pytest.fixture
+def interruptible():
+    """As from a terminal: what is started in the background ignores interruptions."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("interruptible")
 def test_an_interruption_ends_the_process_that_judges(capsys, monkeypatch):
     def interrupting(*_, **__):
         os.kill(os.getppid(), signal.SIGINT)
