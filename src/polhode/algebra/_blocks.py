@@ -13,7 +13,7 @@ from functools import lru_cache
 from polhode.algebra._balls import Ball, value
 from polhode.algebra._expression import ONE, ZERO, Expr
 from polhode.algebra._generators import Symbol
-from polhode.algebra._linear import Elimination, Row, dot
+from polhode.algebra._linear import Elimination, Row, dot, length
 from polhode.algebra._parts import named
 from polhode.algebra._roots import is_plainly_positive
 
@@ -83,7 +83,7 @@ class _Elimination:
             for j in columns if i not in used else ():
                 entry = row[j]
                 if _cannot_vanish(entry):
-                    yield len(entry.num) + len(entry.den), j, i
+                    yield length(entry), j, i
 
     def _clear(self, i: int, j: int) -> None:
         table, scale = self._table, ONE / self._table[i][j]

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from polhode.algebra._expression import Expr
 from polhode.algebra._generators import Kind, Symbol
+from polhode.algebra._linear import length
 from polhode.algebra._roots import factors
 
 
@@ -34,8 +35,8 @@ def centred(factor: Expr, exponent: Expr) -> Centred | None:
     None where that is not shorter.
     """
     ways = (_about(factor, *place) for place in _places(exponent))
-    best = min(ways, key=lambda way: _length(way.expression), default=None)
-    return best if best is not None and _length(best.expression) < _length(factor) else None
+    best = min(ways, key=lambda way: length(way.expression), default=None)
+    return best if best is not None and length(best.expression) < length(factor) else None
 
 
 def _places(exponent: Expr) -> Iterator[tuple[Symbol, Expr]]:
@@ -51,7 +52,3 @@ def _about(factor: Expr, symbol: Symbol, meaning: Expr) -> Centred:
     distance = Symbol(f"({meaning.key})", Kind.PARAMETER)
     away = (Expr.generator(distance) - meaning) / meaning.diff(symbol)
     return Centred(factor.subs({symbol: Expr.generator(symbol) + away}), distance, meaning)
-
-
-def _length(expression: Expr) -> int:
-    return len(expression.num) + len(expression.den)

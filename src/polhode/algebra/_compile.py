@@ -19,7 +19,7 @@ from polhode.algebra._forms import shortest
 from polhode.algebra._functions import CIRCULAR, Elementary, exponentials
 from polhode.algebra._generators import Generator, Symbol
 from polhode.algebra._half_angles import Factors, lowest
-from polhode.algebra._linear import Matrix, Row
+from polhode.algebra._linear import Matrix, Row, length
 from polhode.algebra._parts import Part
 from polhode.algebra._program import Op, Program
 from polhode.algebra._ring import Polynomial, Ring
@@ -120,7 +120,7 @@ class _Writer:
         merged = exponentials(expression)
         if merged is not None:
             return reduce(self.tape.add, [self._exponential(*part) for part in merged])
-        if expression.ring.has_parts or _size(expression) > _LONG:
+        if expression.ring.has_parts or length(expression) > _LONG:
             return self._replayed(expression)
         return self.written(expression)
 
@@ -270,10 +270,6 @@ def _steps_of(expression: Expr) -> Program:
     generators = expression.ring.generators
     writer.know({g: writer.tape.argument(i) for i, g in enumerate(generators)})
     return writer.tape.program((), [writer.written(expression)])
-
-
-def _size(expression: Expr) -> int:
-    return len(expression.num) + len(expression.den)
 
 
 def _divided(solve: LinearSolve) -> tuple[Matrix, Row]:

@@ -302,9 +302,10 @@ def exponentials(expression: Expr) -> list[tuple[Expr, Expr]] | None:
 
     None where they do not, or where the denominator is a sum with exps in it.
     """
-    occurring = [g for g in expression.ring.generators if isinstance(g, Exponential)]
+    if not any(isinstance(g, Exponential) for g in expression.ring.generators):
+        return None
     below = _exponent_of(expression.denominator)
-    if not occurring or below is None:
+    if below is None:
         return None
     divisor, taken = below
     parts: dict[Expr, Expr] = {}

@@ -141,15 +141,19 @@ def _pivot(
     return i, j
 
 
+def length(expression: Expr) -> int:
+    """Terms above and below the bar."""
+    return len(expression.num) + len(expression.den)
+
+
 def _complexity(pivot: Expr) -> tuple[int, int]:
     """Numbers first, then what cannot vanish, then parameters; short before long."""
     if pivot.rational is not None:
         return (0, 0)
-    length = len(pivot.num) + len(pivot.den)
     if is_positive(pivot) or is_positive(-pivot):
-        return (1, length)
+        return (1, length(pivot))
     constant = all(not s.kind.varies for s in pivot.symbols())
-    return (2 if constant else 3, length)
+    return (2 if constant else 3, length(pivot))
 
 
 def _clear(table: list[list[Expr]], i: int, j: int) -> None:
@@ -167,7 +171,7 @@ def _clear(table: list[list[Expr]], i: int, j: int) -> None:
 
 def _refuse_long(table: list[list[Expr]]) -> None:
     # Elimination multiplies lengths: what has grown this long takes hours two pivots later.
-    longest = max(len(entry.num) + len(entry.den) for row in table for entry in row)
+    longest = max(length(entry) for row in table for entry in row)
     if longest > LONGEST:
         raise OutgrownError(
             f"linear equations whose exact solution has grown to {longest} terms",

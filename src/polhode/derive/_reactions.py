@@ -13,6 +13,7 @@ from polhode.algebra import (
     OutgrownError,
     Row,
     Symbol,
+    Triad,
     Vector,
     dot,
 )
@@ -123,7 +124,8 @@ def _held(balances: list[_Balance], motion: Motion) -> list[_Balance]:
     With friction a projection would tell a reaction too, over the slip; and what is told by it,
     put into the same projection, would leave no equation of motion.
     """
-    reach = [tuple(b.reach[i] for b in balances) for i in range(len(motion.speeds))]
+    rates = [_part(b.moved, b.triad, b.place) for b in balances]
+    reach = [tuple(rate.diff(speed) for rate in rates) for speed in motion.speeds]
     nothing = [ZERO] * len(reach)
     told = motion.form.eliminate(reach, nothing, [0] * len(balances), motion.accelerations).solved
     return [b for i, b in enumerate(balances) if i not in told]
@@ -137,13 +139,17 @@ class _Balance:
         body: that body.
         row: what a unit of each reaction gives to it.
         demand: what the motion asks for.
-        reach: the velocity along it that a unit of each independent speed gives.
+        moved: what it does work on: the body's velocity, or its angular velocity.
+        triad: along one of whose axes it is taken.
+        place: of that axis.
     """
 
     body: Body
     row: Row
     demand: Expr
-    reach: Row
+    moved: Vector
+    triad: Triad
+    place: int
 
 
 def _balances(
@@ -154,18 +160,13 @@ def _balances(
         velocity, angular = motion.velocities[body]
         unit = [line.on(body) for line in columns]
         triad = next((w.force.triad for w in unit if w and w.force.components), body.axes)
-        forces, moved = demand.force.express(triad).components, velocity.express(triad).components
+        forces = demand.force.express(triad).components
         for i in range(3):
             row = tuple(_part(w.force, triad, i) if w else ZERO for w in unit)
-            yield _Balance(body, row, forces[i], _slopes(moved[i], motion))
+            yield _Balance(body, row, forces[i], velocity, triad, i)
         for i in range(3):
             row = tuple(_part(w.couple, body.axes, i) if w else ZERO for w in unit)
-            turned = angular.express(body.axes).components[i]
-            yield _Balance(body, row, demand.couple.components[i], _slopes(turned, motion))
-
-
-def _slopes(rate: Expr, motion: Motion) -> Row:
-    return tuple(rate.diff(speed) for speed in motion.speeds)
+            yield _Balance(body, row, demand.couple.components[i], angular, body.axes, i)
 
 
 def _from(
@@ -191,8 +192,8 @@ def _solved(
     return _named(outcome, [line.name for line in columns], eliminated)
 
 
-def _part(vector: Vector, triad: object, index: int) -> Expr:
-    return vector.express(triad).components[index] if any(vector.components) else ZERO  # type: ignore[arg-type]
+def _part(vector: Vector, triad: Triad, index: int) -> Expr:
+    return vector.express(triad).components[index] if any(vector.components) else ZERO
 
 
 def _unheld(motion: Motion, demanding: list[Body]) -> ConstraintError:

@@ -25,24 +25,24 @@ class Slope(NamedTuple):
     error: Array
 
 
-def slope(values: Callable[[float], Array | None], size: float) -> Slope | None:
+def slope(values: Callable[[float], Array | None], middle: Array, size: float) -> Slope | None:
     """Derivative of values by what they depend on, element by element.
 
     Args:
         values: at a departure from where it is wanted; None where they cannot be compared.
+        middle: where it is wanted.
         size: by which departures are measured.
 
     Returns:
         None where there are none to compare, however small the departure. Where the derivative
         jumps it is the mean of both sides, and the error half of the jump.
     """
-    middle = values(0.0)
     best: Slope | None = None
     rising, folded = list[Array](), list[Array]()  # differences of ever higher order
     for rung in range(_RUNGS):
         step = _FIRST * size / _FINER**rung
         ahead, behind = values(step), values(-step)
-        if middle is None or ahead is None or behind is None:
+        if ahead is None or behind is None:
             rising, folded = [], []
             continue
         rising = _extrapolated((ahead - behind) / (2 * step), rising, 2)

@@ -127,14 +127,17 @@ class Varied:
         """Motions to which the same happens in the same order are known to rounding throughout."""
         dynamics = run.segments[0].dynamics.without_carried
         start: dict[Any, Any] = {s.published: x for s, x in _begin(run, dynamics).items()}
-        found = [self._slope(run, start, name, times) for name in self._by]
+        middle = self._read(run, times)
+        found = [self._slope(run, middle, start, name, times) for name in self._by]
         return Along(
-            self._read(run, times),
+            middle,
             np.stack([one.value for one in found], axis=1),
             np.stack([one.error for one in found], axis=1),
         )
 
-    def _slope(self, run: Trajectory, start: dict[Any, Any], name: str, times: Array) -> Slope:
+    def _slope(
+        self, run: Trajectory, middle: Array, start: dict[Any, Any], name: str, times: Array
+    ) -> Slope:
         given = dict[Any, Any](run.parameters)
         value = float(given[name] if name in given else start[name])
 
@@ -145,7 +148,7 @@ class Varied:
             other = self._experiment.run(numbers, begin)
             return self._read(other, times) if _course(other) == _course(run) else None
 
-        found = slope(values, abs(value) or 1.0)
+        found = slope(values, middle, abs(value) or 1.0)
         if found is None:
             raise NumericError(
                 f"derivatives by {name} at {value:g}, where the order of events changes",

@@ -67,9 +67,10 @@ def read_exactly(begun: Begun, known: set[Symbol], task: Task, numbers: Numbers)
     return Given(parameters, start, begun, context)
 
 
-def end_of(duration: Any, numbers: Numbers) -> Any:
-    """The end of the motion, s, rounded to the numbers."""
-    return numbers.array(evaluated([exact_value(duration, {})], {}, numbers.exact))[0]
+def exactly(duration: Any, numbers: Numbers) -> Any:
+    """A duration, s, with bits to spare."""
+    (found,) = evaluated([exact_value(duration, {})], {}, numbers.exact)
+    return found
 
 
 def _startable(dynamics: Dynamics) -> tuple[Symbol, ...]:

@@ -24,8 +24,7 @@ from polhode.simulate.integrate._integrators import broken
 from polhode.simulate.integrate._numbers import Numbers
 from polhode.simulate.integrate._series import SeriesIntegrator
 from polhode.simulate.integrate._watched import Watched
-from polhode.simulate.precise._exactly import evaluated, exact_value
-from polhode.simulate.precise._given import Given, end_of, read_exactly
+from polhode.simulate.precise._given import Given, exactly, read_exactly
 from polhode.simulate.precise._precise_walk import PreciseWalk
 from polhode.simulate.precise._stretch import State, Steps
 from polhode.simulate.precise._wanted import Wanted
@@ -49,7 +48,8 @@ def precisely(
     _refuse_samples(task.forcing, numbers)
     known = {*motion.begun.dynamics.parameters, *motion.segments[0].dynamics.parameters}
     given = read_exactly(motion.begun, known, task, numbers)
-    end = end_of(wanted.duration, numbers)
+    duration = exactly(wanted.duration, numbers)
+    end = numbers.array([duration])[0]
     steps = Steps(_integrator(task.integrator.name), numbers, end, progress)
     if motion.guarded is None:
         course = _as_declared(motion.segments[0].dynamics, given, steps)
@@ -62,7 +62,7 @@ def precisely(
         rough,
         segments=course.segments,
         duration=end,
-        t=_samples(wanted, end),
+        t=_samples(wanted, duration, end),
         mode=course.ending,
         integrator=steps.name,
         events=events,
@@ -151,12 +151,11 @@ def _as_declared(dynamics: Dynamics, given: Given, steps: Steps) -> Course:
 # -- samples and events ------------------------------------------------------------------------
 
 
-def _samples(wanted: Wanted, end: Any) -> Any:
+def _samples(wanted: Wanted, duration: Any, end: Any) -> Any:
     numbers = wanted.numbers
     if not isinstance(wanted.samples, int):
         times = numbers.array(wanted.samples)
         return times[times <= end]
-    (duration,) = evaluated([exact_value(wanted.duration, {})], {}, numbers.exact)
     last = wanted.samples - 1
     times = numbers.array([duration * k / last for k in range(last + 1)])
     return times[times <= end]
