@@ -13,9 +13,10 @@ from polhode.simulate._start import read_start
 from polhode.simulate._task import AS_DECLARED, Begun, Motion, Task, timed
 from polhode.simulate._values import idle_parameters, read_parameters
 from polhode.simulate.forcing._drive import Drive, drive_of
-from polhode.simulate.integrate._driver import Stop, integrate, stuck
+from polhode.simulate.integrate._driver import integrate, stuck
 from polhode.simulate.integrate._flow import Flow, flow_of
 from polhode.simulate.integrate._integrators import Stepper
+from polhode.simulate.integrate._watched import Stop
 
 
 class AsDeclared:

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Protocol
 
 from polhode.simulate._segment import Segment
-from polhode.simulate.integrate._driver import Stop
+from polhode.simulate.integrate._watched import Stop
 
 if TYPE_CHECKING:
     from polhode.simulate.contact._course import Change

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,10 +22,10 @@ from polhode.simulate.contact._rise import fall_of
 from polhode.simulate.contact._touching import Meeting
 from polhode.simulate.contact._transition import Leaving, Transitions
 from polhode.simulate.forcing._drive import Drive
-from polhode.simulate.integrate._driver import Stop, integrate
+from polhode.simulate.integrate._driver import integrate
 from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.integrate._tally import Tally
-from polhode.simulate.integrate._watched import Watched
+from polhode.simulate.integrate._watched import Stop, Watched
 
 _LOOK = 400  # steps after which the guards are looked at
 VANISHED = 1e-14  # slip speed, relative to the velocities around, that is none
@@ -212,7 +212,7 @@ class Walk:
         least, passing = VANISHED * scale, LANDED * scale
         return Watched(_LOOK, places, least, passing, over, self._tally)
 
-    def _is_flat(self, mode: ModeMachine) -> Callable[[float, list[float]], bool]:
+    def _is_flat(self, mode: ModeMachine) -> Callable[[float, Sequence[float]], bool]:
         """Whether a state of the core is beyond the side on which the equations hold.
 
         What follows there may take any number of steps, and does not count.

@@ -21,9 +21,9 @@ from polhode.simulate.contact._settle import painleve
 from polhode.simulate.contact._touching import Meeting
 from polhode.simulate.contact._transition import index_of
 from polhode.simulate.integrate._crossing import first_fall
-from polhode.simulate.integrate._driver import Stop
 from polhode.simulate.integrate._integrators import Array, broken
 from polhode.simulate.integrate._rows import rows
+from polhode.simulate.integrate._watched import Stop
 
 _JAMMED = 1e-6  # of what sliding has in reserve before it jams: as good as none
 _INSTANT = 8  # steps of rounding of the time, over which nothing can be told from a height

@@ -23,9 +23,10 @@ from polhode.simulate.files._archive import Archive, Sampled, Stretch, series_of
 from polhode.simulate.files._sampling import samples_of
 from polhode.simulate.files._store import read_archive, write_archive
 from polhode.simulate.forcing._drive import Drive
-from polhode.simulate.integrate._driver import Solution, Stop
+from polhode.simulate.integrate._driver import Solution
 from polhode.simulate.integrate._integrators import chosen
 from polhode.simulate.integrate._numbers import DOUBLES
+from polhode.simulate.integrate._watched import Stop
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from enum import Enum
 from math import inf
 from typing import TypeAlias
 
@@ -12,29 +11,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polhode.algebra import Symbol
-from polhode.base import Enough, NumericError, Progress
+from polhode.base import NumericError, Progress
 from polhode.simulate.integrate._ascending import ascending, occurring
 from polhode.simulate.integrate._crossing import bisected
 from polhode.simulate.integrate._flow import Flow, Stage
 from polhode.simulate.integrate._integrators import Array, Leg, Stepper, broken, looks_along
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
 from polhode.simulate.integrate._quadrature import integral
-from polhode.simulate.integrate._watched import SMALLEST, Vanishing, Watched
+from polhode.simulate.integrate._watched import StepWatch, Stop, Watched
 
 _FEW = 10_000  # times for which states are remembered
 _TURNS = 4  # periods after which an angle is counted from zero again
 
 States: TypeAlias = Callable[[Array], Array]
-
-
-class Stop(Enum):
-    """Why an integration came to its end."""
-
-    TIME = "the end was reached"
-    INTERRUPTED = "who listens has enough"
-    PAUSE = "enough steps to look at"
-    VANISHED = "a vector that was watched vanished or turned round"
-    STUCK = "the motion cannot be continued"
 
 
 @dataclass(frozen=True)
@@ -198,7 +187,8 @@ def _legs(
     """Angles that have grown far are counted from zero again: their rounding would spread."""
     now, end = span
     periods = np.array([period or np.inf for period in flow.periods])
-    watch = _Watch(state, _TURNS * periods, span, progress, watched)
+    steps = StepWatch(watched, state.tolist(), span, progress)
+    watch = _Watch(steps, _TURNS * periods)
     legs, begins, turned = list[Leg](), list[float](), list[Array]()
     offset = np.zeros(len(state))
     while now < end and watch.stop is None:
@@ -219,46 +209,16 @@ def _legs(
 class _Watch:
     """Stops a leg when an angle has grown far, and all of them when there is reason to look."""
 
-    def __init__(
-        self,
-        state: Array,
-        limits: Array,
-        span: tuple[float, float],
-        progress: Progress,
-        watched: Watched,
-    ) -> None:
+    def __init__(self, steps: StepWatch, limits: Array) -> None:
         self.stop: Stop | None = None
+        self._steps = steps
         self._limits = [(i, limit) for i, limit in enumerate(limits.tolist()) if limit < inf]
-        self._span = span
-        self._longest = 0.0
-        self._progress = progress
-        self._watched = watched
-        self._steps = 0
         self._time = -inf
-        self._vanishing = Vanishing(watched, state.tolist())
 
     def __call__(self, time: float, state: list[float]) -> bool:
-        self._steps += 1
-        try:
-            self._progress.advance()
-        except Enough:
-            self.stop = Stop.INTERRUPTED
-            return False
-        self._watched.tally.count(self._span, time, hurries=not self._vanishing.is_near)
-        if self._vanishing.at(state):
-            self.stop = Stop.VANISHED
-        elif self._is_stuck(time) and time < self._span[1]:
-            self.stop = Stop.VANISHED if self._vanishing.is_near else Stop.STUCK
-        elif self._steps % self._watched.pause == 0 or self._watched.over(time, state):
-            self.stop = Stop.PAUSE
-        self._time = time
+        step, self._time = time - self._time, time
+        self.stop = self._steps.after(time, step, state)
         return self.stop is None and all(abs(state[i]) < limit for i, limit in self._limits)
-
-    def _is_stuck(self, time: float) -> bool:
-        step = time - self._time
-        if step < inf:
-            self._longest = max(self._longest, step)
-        return step < SMALLEST * max(abs(time), self._longest)
 
 
 def stuck(solution: Solution) -> NumericError:

@@ -4,15 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from math import hypot
+from enum import Enum
+from math import hypot, inf
 from operator import mul
 from typing import Any
 
+from polhode.base import Enough, Progress
+from polhode.simulate.integrate._numbers import DOUBLES, Numbers
 from polhode.simulate.integrate._tally import MOST_STEPS, Tally
 
-#: Length of a step, over the time and the longest, that means a singular position.
-SMALLEST = 1e-14
+_SMALLEST = 1e-14  # length of a step, over the time and the longest, at a singular position
 _ALMOST = 100.0  # times the length at which a vector has vanished: there it turns round
+
+
+class Stop(Enum):
+    """Why an integration came to its end."""
+
+    TIME = "the end was reached"
+    INTERRUPTED = "who listens has enough"
+    PAUSE = "enough steps to look at"
+    VANISHED = "a vector that was watched vanished or turned round"
+    STUCK = "the motion cannot be continued"
 
 
 @dataclass(frozen=True)
@@ -32,7 +44,7 @@ class Watched:
     vectors: tuple[tuple[int, ...], ...] = ()
     least: float = 0.0
     passing: float = 0.0
-    over: Callable[[float, list[float]], bool] = lambda time, state: False
+    over: Callable[[float, Sequence[Any]], bool] = lambda time, state: False
     tally: Tally = field(default_factory=Tally)
 
     def seen(self, state: Sequence[Any]) -> list[list[float]]:
@@ -40,7 +52,7 @@ class Watched:
         return [[float(state[place]) for place in places] for places in self.vectors]
 
 
-class Vanishing:
+class _Vanishing:
     """Watches from step to step whether a vector vanishes.
 
     Args:
@@ -70,6 +82,64 @@ class Vanishing:
         # Where it turns round within a few steps, none of them need be half a turn.
         grows = shrank and size <= _ALMOST * self._watched.least and not _is_shorter(now, before)
         return turned or grows or size <= self._watched.least
+
+
+class StepWatch:
+    """Tells of every step of a stretch of a motion, and says where there is reason to stop.
+
+    Args:
+        watched: what may stop it.
+        state: at the beginning.
+        span: from its beginning to where it is to end, s.
+        progress: told of every step.
+        numbers: in which the states are.
+    """
+
+    def __init__(
+        self,
+        watched: Watched,
+        state: Sequence[Any],
+        span: tuple[float, float],
+        progress: Progress,
+        numbers: Numbers = DOUBLES,
+    ) -> None:
+        self._watched = watched
+        self._span = span
+        self._progress = progress
+        self._smallest = float(numbers.finer(_SMALLEST))
+        self._longest = 0.0
+        self._steps = 0
+        self._vanishing = _Vanishing(watched, state)
+
+    def after(self, time: float, step: float, state: Sequence[Any]) -> Stop | None:
+        """Why to stop after a step, if at all.
+
+        Args:
+            time: at its end, s.
+            step: its length, s; infinite where it is not known.
+            state: at its end.
+
+        Raises:
+            NumericError: where there are too many steps already, or will be.
+        """
+        self._steps += 1
+        try:
+            self._progress.advance()
+        except Enough:
+            return Stop.INTERRUPTED
+        self._watched.tally.count(self._span, time, hurries=not self._vanishing.is_near)
+        if self._vanishing.at(state):
+            return Stop.VANISHED
+        if self._is_short(time, step) and time < self._span[1]:
+            return Stop.VANISHED if self._vanishing.is_near else Stop.STUCK
+        if self._steps >= self._watched.pause or self._watched.over(time, state):
+            return Stop.PAUSE
+        return None
+
+    def _is_short(self, time: float, step: float) -> bool:
+        if step < inf:
+            self._longest = max(self._longest, step)
+        return step < self._smallest * max(abs(time), self._longest)
 
 
 def _is_shorter(one: list[float], other: list[float]) -> bool:

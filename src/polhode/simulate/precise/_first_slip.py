@@ -11,9 +11,9 @@ from polhode.simulate._dynamics import CLOCK
 from polhode.simulate.contact._entry import Entry
 from polhode.simulate.contact._machine import ModeMachine
 from polhode.simulate.contact._polar import polar_shape
-from polhode.simulate.integrate._driver import Stop
 from polhode.simulate.integrate._numbers import Numbers
 from polhode.simulate.integrate._slip_series import Beginning
+from polhode.simulate.integrate._watched import Stop
 from polhode.simulate.precise._stretch import State, Stretch
 
 

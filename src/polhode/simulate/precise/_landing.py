@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 
 from polhode.simulate.integrate._crossing import bisected
-from polhode.simulate.integrate._driver import Stop
 from polhode.simulate.integrate._series import Series
-from polhode.simulate.integrate._watched import Watched
+from polhode.simulate.integrate._watched import Stop, Watched
 from polhode.simulate.precise._stretch import Stretch
 
 

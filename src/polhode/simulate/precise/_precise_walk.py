@@ -13,8 +13,7 @@ from polhode.simulate.contact._course import LANDED, VANISHED, Outcome, Walk, le
 from polhode.simulate.contact._entry import Entry, state_on
 from polhode.simulate.contact._lookout import Lookout
 from polhode.simulate.contact._machine import Machine, ModeMachine, slip_symbols
-from polhode.simulate.integrate._driver import Stop
-from polhode.simulate.integrate._watched import Watched
+from polhode.simulate.integrate._watched import Stop, Watched
 from polhode.simulate.precise._first_slip import first_slip
 from polhode.simulate.precise._landing import Spot, landing
 from polhode.simulate.precise._stretch import InDoubles, State, Steps, Stretch

@@ -9,15 +9,15 @@ from typing import Any, Protocol
 import numpy as np
 
 from polhode.algebra import Symbol
-from polhode.base import Enough, Progress
+from polhode.base import Progress
 from polhode.simulate._dynamics import Dynamics
 from polhode.simulate._segment import Part
-from polhode.simulate.integrate._driver import Solution, Stop
+from polhode.simulate.integrate._driver import Solution
 from polhode.simulate.integrate._flow import Flow, flow_of
 from polhode.simulate.integrate._integrators import Array, looks_along
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
 from polhode.simulate.integrate._series import Launch, Series, SeriesIntegrator
-from polhode.simulate.integrate._watched import SMALLEST, Vanishing, Watched
+from polhode.simulate.integrate._watched import StepWatch, Stop, Watched
 
 State = Mapping[Symbol, Any]
 
@@ -145,7 +145,8 @@ class Steps:
         symbols = flow.core.symbols
         own = [start[s] for s in symbols]
         launch = Launch(flow.core.program, self.numbers, constants, own, begin, end)
-        watch = _Watch(own, watched, (float(begin), float(end)), self.numbers, self._progress)
+        within = (float(begin), float(end))
+        watch = _Watch(StepWatch(watched, own, within, self._progress, self.numbers))
         series = self._integrator.integrate(launch, watch)
         stop = watch.stop or Stop.TIME
         if watch.stop is None and series.times[-1] < end:
@@ -159,38 +160,12 @@ class Steps:
 
 
 class _Watch:
-    """Tells of every step, and stops where there is reason to."""
+    """Remembers why a stretch was stopped."""
 
-    def __init__(
-        self,
-        state: Sequence[Any],
-        watched: Watched,
-        span: tuple[float, float],
-        numbers: Numbers,
-        progress: Progress,
-    ) -> None:
+    def __init__(self, steps: StepWatch) -> None:
         self.stop: Stop | None = None
-        self._watched = watched
-        self._progress = progress
-        self._span = span
-        self._smallest = float(numbers.finer(SMALLEST))
-        self._longest = 0.0
-        self._steps = 0
-        self._vanishing = Vanishing(watched, state)
+        self._steps = steps
 
     def __call__(self, time: float, step: float, state: Sequence[Any]) -> bool:
-        self._steps += 1
-        self._longest = max(self._longest, step)
-        try:
-            self._progress.advance()
-        except Enough:
-            self.stop = Stop.INTERRUPTED
-            return False
-        self._watched.tally.count(self._span, time, hurries=not self._vanishing.is_near)
-        if self._vanishing.at(state):
-            self.stop = Stop.VANISHED
-        elif step < self._smallest * max(abs(time), self._longest) and time < self._span[1]:
-            self.stop = Stop.VANISHED if self._vanishing.is_near else Stop.STUCK
-        elif self._steps >= self._watched.pause:
-            self.stop = Stop.PAUSE
+        self.stop = self._steps.after(time, step, state)
         return self.stop is None
