@@ -2,9 +2,9 @@
 
 from polhode.derive._automaton import Automaton as Automaton
 from polhode.derive._automaton import Mode as Mode
-from polhode.derive._automaton import Touch as Touch
 from polhode.derive._automaton import automaton as automaton
 from polhode.derive._derive import derive as derive
 from polhode.derive._equations import Equations as Equations
 from polhode.derive._equations import Reaction as Reaction
 from polhode.derive._guards import Guard as Guard
+from polhode.derive._touch import Touch as Touch

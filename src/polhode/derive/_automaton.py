@@ -12,6 +12,7 @@ from polhode.base import DeclarationError, look_up
 from polhode.derive._derive import derive
 from polhode.derive._equations import Equations
 from polhode.derive._guards import Guard, guards_of
+from polhode.derive._touch import Touch, touch_of
 from polhode.model import (
     FLIGHT,
     Apart,
@@ -26,30 +27,6 @@ from polhode.model import (
 
 #: The phase of every contact, in the order of the declaration.
 Phases = tuple[Phase, ...]
-
-
-@dataclass(frozen=True)
-class Touch:
-    """Where a body and a support are, or would be, in contact; along the axes of the support.
-
-    Attributes:
-        contact: as declared.
-        reserve: how far the place is on this side of the support's edge, m.
-        gap: height of the lowest point of the body above the support, m.
-        closing: its rate, m/s.
-        slip: velocity of that point along the support, m/s.
-    """
-
-    contact: Contact
-    reserve: Expr
-    gap: Expr
-    closing: Expr
-    slip: tuple[Expr, Expr]
-
-    @property
-    def expressions(self) -> tuple[Expr, ...]:
-        """All of it."""
-        return (self.reserve, self.gap, self.closing, *self.slip)
 
 
 @dataclass(frozen=True)
@@ -180,7 +157,7 @@ class Automaton:
             elements[contact.name] = option[phase]
         equations = derive(with_elements(self.system, elements))
         supported = zip(self.contacts, chosen, strict=True)
-        touches = tuple(_touch(equations, contact, phase) for contact, phase in supported)
+        touches = tuple(touch_of(equations, contact, phase) for contact, phase in supported)
         return Mode(
             self._name(chosen),
             chosen,
@@ -214,22 +191,3 @@ class Automaton:
 def automaton(system: System) -> Automaton:
     """The contact modes of a system, derived from the declaration as they are needed."""
     return Automaton(system)
-
-
-def _touch(equations: Equations, declared: Contact, phase: Phase) -> Touch:
-    motion = equations.kinetics
-    contact = where(declared, phase)
-    place = motion.places[contact.body]
-    gap = (place + contact.arm).dot(contact.on.up)
-    slips = [
-        motion.slip(contact.restraint(label, motion.places)).dot(contact.on.axes[label])
-        for label in (*contact.on.tangents, contact.on.normal)
-    ]
-    reserve = declared.on.reserve(place + contact.arm)
-    return Touch(contact, reserve, gap, slips[2], (slips[0], slips[1]))
-
-
-def where(contact: Contact, phase: Phase) -> Contact:
-    """The contact on its support, or on what lies beyond the edge."""
-    beyond = contact.on.beyond
-    return contact.on_support(beyond) if phase.is_beyond and beyond is not None else contact

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from polhode.algebra import ZERO, Expr
 from polhode.derive._equations import Equations
+from polhode.derive._touch import Touch
 from polhode.model import Contact, Coulomb, Phase
-
-if TYPE_CHECKING:
-    from polhode.derive._automaton import Touch
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,53 @@
+"""Where bodies and supports touch, or would: gaps, slips and how far the edge is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from polhode.algebra import Expr
+from polhode.derive._equations import Equations
+from polhode.model import Contact, Phase
+
+
+@dataclass(frozen=True)
+class Touch:
+    """Where a body and a support are, or would be, in contact; along the axes of the support.
+
+    Attributes:
+        contact: as declared.
+        reserve: how far the place is on this side of the support's edge, m.
+        gap: height of the lowest point of the body above the support, m.
+        closing: its rate, m/s.
+        slip: velocity of that point along the support, m/s.
+    """
+
+    contact: Contact
+    reserve: Expr
+    gap: Expr
+    closing: Expr
+    slip: tuple[Expr, Expr]
+
+    @property
+    def expressions(self) -> tuple[Expr, ...]:
+        """All of it."""
+        return (self.reserve, self.gap, self.closing, *self.slip)
+
+
+def touch_of(equations: Equations, declared: Contact, phase: Phase) -> Touch:
+    """What is known of a contact where it rolls, slides or is apart, as the equations have it."""
+    motion = equations.kinetics
+    contact = _where(declared, phase)
+    place = motion.places[contact.body]
+    gap = (place + contact.arm).dot(contact.on.up)
+    slips = [
+        motion.slip(contact.restraint(label, motion.places)).dot(contact.on.axes[label])
+        for label in (*contact.on.tangents, contact.on.normal)
+    ]
+    reserve = declared.on.reserve(place + contact.arm)
+    return Touch(contact, reserve, gap, slips[2], (slips[0], slips[1]))
+
+
+def _where(contact: Contact, phase: Phase) -> Contact:
+    """The contact on its support, or on what lies beyond the edge."""
+    beyond = contact.on.beyond
+    return contact.on_support(beyond) if phase.is_beyond and beyond is not None else contact
