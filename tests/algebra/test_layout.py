@@ -39,6 +39,7 @@ from polhode.algebra import (
     tanh,
     time,
 )
+from polhode.algebra._reading import LONGEST
 
 m, M, a, b, g, k = symbols("m M a b g k", positive=True)
 I, I_1, I_2, I_3, Omega, alpha, lambda_ = symbols(
@@ -276,7 +277,7 @@ def test_the_tree_has_the_value_of_the_expression(recipe):
 @given(recipes)
 def test_text_of_anything_is_read_back(recipe):
     expression = expression_of(recipe)
-    assume(expression is not None)
+    assume(expression is not None and len(str(expression)) <= LONGEST)
     again = read_expression(str(expression), NAMES)
     assert are_close(value(again), value(expression))
     assert (again - expression) * (again + expression) == 0
