@@ -27,17 +27,19 @@ class Numbers(dict[Symbol, float]):
     Args:
         free: of those that the circumstances leave open.
         states: the circumstances.
+        seed: of the others that they leave open.
     """
 
-    def __init__(self, free: Mapping[Symbol, float], states: Circumstances) -> None:
+    def __init__(self, free: Mapping[Symbol, float], states: Circumstances, seed: int) -> None:
         super().__init__(free)
         self._free = dict(self)
         self._states = states
+        self._seed = seed
 
     def __missing__(self, symbol: Symbol) -> float:
         image = self._states.of(symbol)
         unheard = image.symbols() - self._free.keys() - {_PI}
-        self._free |= points((), unheard, len(self._free)).floats()
+        self._free |= points((), unheard, self._seed + len(self._free)).floats()
         self[symbol] = number(image, self._free)
         return self[symbol]
 
@@ -93,8 +95,8 @@ def real_states(states: Circumstances, expressions: Iterable[Expr]) -> Iterator[
     equations = states.equations
     symbols = {s for e in used for s in e.symbols()}
     symbols |= {*equations.coordinates, *equations.speeds, *equations.parameters}
-    drawn = (points(used, symbols, seed) for seed in range(1000, 1000 + _TRIES))
-    every = (Numbers(point.floats(), states) for point in drawn)
+    seeds = range(1000, 1000 + _TRIES)
+    every = (Numbers(points(used, symbols, seed).floats(), states, seed) for seed in seeds)
     return (found for found in every if _is_real(found, states, symbols))
 
 

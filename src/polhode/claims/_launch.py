@@ -141,7 +141,7 @@ def bench_along(asked: Asked) -> tuple[TrueMotion, Bench]:
     running = replace(asked, relations=()).states(TrueMotion)
     found = islice(_courses(asked, running, _SHORT), _MOTIONS)
     moments = (course.state(part) for course in found for part in _PARTS)
-    return running, Bench(tuple(Numbers(state, running) for state in moments))
+    return running, Bench(tuple(Numbers(state, running, i) for i, state in enumerate(moments)))
 
 
 def _refuted(followed: Followed, sample: int, asked: Asked) -> Verdict:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from functools import cached_property, lru_cache, partial
+from itertools import chain
 
 from polhode.algebra import Expr, Kind, Symbol, Vector, pi, time
 from polhode.claims._asked import The
@@ -144,8 +145,8 @@ class Vocabulary:
             if symbol is not None and symbol.order < 3:
                 yield name_of(name)
         frames = self.mechanics.frames.values()
-        angles = (frame.angle.symbol for frame in frames if frame.angle.symbol is not None)
-        for angle in dict.fromkeys(angles):
+        turned = (sorted(frame.angle.symbols(), key=str) for frame in frames)
+        for angle in dict.fromkeys(chain.from_iterable(turned)):
             if angle.kind is Kind.COORDINATE:
                 yield from (Call(name, name_of(angle.published)) for name in ("sin", "cos"))
 

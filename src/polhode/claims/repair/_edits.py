@@ -77,6 +77,12 @@ def _by_number(place: Place, number: Fraction) -> Iterator[Edit]:
         yield Edit("extra term", place.path, Number("0"), 1.0 + len([*letters(node)]) / 20)
 
 
+def emptied(place: Place) -> Iterator[Edit]:
+    """Nothing in the place of a whole side, where another side says what that is."""
+    if place.is_side and Number("0") not in place.parent.parts:
+        yield Edit("extra term", place.path, Number("0"), 2.0 + len([*letters(place.node)]) / 20)
+
+
 def _has_number(node: Node) -> bool:
     return any(isinstance(factor, Number) for factor in _factors(node))
 
@@ -90,6 +96,16 @@ def _factors(node: Node) -> tuple[Node, ...]:
         case Quotient(above, below):
             return (*_factors(above), *_factors(below))
     return (node,)
+
+
+def _bases(node: Node) -> set[Node]:
+    """What stands as a factor above the fraction lines, whatever its power."""
+    match node:
+        case Negative(of) | PlusMinus(of) | Power(of, _) | Quotient(of, _):
+            return _bases(of)
+        case Product(factors):
+            return {base for factor in factors for base in _bases(factor)}
+    return {node}
 
 
 def _scaled(node: Node, number: Fraction) -> Node:
@@ -110,6 +126,8 @@ def _by_quantities(place: Place, match: Match) -> Iterator[Edit]:
 
 
 def _inserted(place: Place, match: Match) -> Iterator[Edit]:
+    if any(power < 0 and node in _bases(place.node) for node, power in match.powers):
+        return  # it would only be crossed out
     above = [raised(node, p) for node, p in match.powers if p > 0]
     below = [raised(node, -p) for node, p in match.powers if p < 0]
     number = abs(match.number)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from itertools import islice
 
 import numpy as np
@@ -16,6 +16,7 @@ from polhode.claims.latex._tree import (
     Node,
     Root,
     Sum,
+    walk,
 )
 from polhode.claims.repair._edits import Edit, times_match
 from polhode.claims.repair._figures import scalar
@@ -26,6 +27,7 @@ from polhode.claims.repair._workpiece import Workpiece
 from polhode.claims.repair._written import UNKNOWN_TERM, length, repeats, solved, written
 
 _MOST_MATCHES = 5
+_STRANGE = 5  # letters that a force or an acceleration counts for which the claim does not know
 
 
 def missing_terms(
@@ -36,9 +38,9 @@ def missing_terms(
         return
     deep = 0.05 if isinstance(place.parent, Node) else 0.0
     for term in _terms(work, place, members):
-        if _takes_away(place.node, term) or repeats(work, place, term):
-            continue
-        size = 2.0 + deep + length(term) / 20
+        letters = {piece for piece in walk(term) if isinstance(piece, Node)}
+        strange = sum(map(work.is_strange, letters))
+        size = 2.0 + deep + (length(term) + _STRANGE * strange) / 20
         yield Edit("missing term", place.path, added(place.node, term), size)
 
 
@@ -48,17 +50,24 @@ def _takes_away(node: Node, term: Node) -> bool:
 
 
 def _terms(work: Workpiece, place: Place, members: Sequence[int]) -> Iterator[Node]:
+    def adds(term: Node) -> bool:
+        return not _takes_away(place.node, term) and not repeats(work, place, term)
+
     value = work.value(place.node)
     if isinstance(value, Expr):
-        yield from _along(work, place, None, members)
+        yield from _along(work, place, None, members, adds)
     elif isinstance(value, Vector):
         for direction in work.directions:
-            yield from _along(work, place, direction, members)
-        yield from vector_terms(work, place, members)
+            yield from _along(work, place, direction, members, adds)
+        yield from filter(adds, vector_terms(work, place, members))
 
 
 def _along(
-    work: Workpiece, place: Place, direction: Node | None, members: Sequence[int]
+    work: Workpiece,
+    place: Place,
+    direction: Node | None,
+    members: Sequence[int],
+    adds: Callable[[Node], bool],
 ) -> Iterator[Node]:
     """Terms along one direction, or scalar ones."""
     tail = [] if direction is None else [direction]
@@ -74,20 +83,20 @@ def _along(
     if amount is not None:
         if not np.isfinite(amount).all():
             return
-        found = list(islice(work.products.equal_to(amount), _MOST_MATCHES))
-        yield from (times_match(match, *tail) for match in found)
+        matches = islice(work.products.equal_to(amount), _MOST_MATCHES)
+        found = [t for match in matches if adds(t := times_match(match, *tail))]
+        yield from found
         if found:
             return
     lost = _lost(work, place, direction, members)
     if lost is not None:
-        yield from written(work, lost, tail)
+        yield from filter(adds, written(work, lost, tail))
 
 
 def _takes_terms(place: Place, inner: Collection[Place]) -> bool:
     """Whether a term may be lost there: of a side, a sum, or where a factor could make it right."""
-    whole = not isinstance(place.parent, Node)
     inside = isinstance(place.parent, Derivative | Root | Components | Cross | Dot)
-    return whole or inside or isinstance(place.node, Sum) or place in inner
+    return place.is_side or inside or isinstance(place.node, Sum) or place in inner
 
 
 def _lost(

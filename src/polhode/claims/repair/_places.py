@@ -42,9 +42,14 @@ class Place:
         return self.path[0]
 
     @property
+    def is_side(self) -> bool:
+        """Whether it is a whole side."""
+        return not isinstance(self.parent, Node)
+
+    @property
     def is_term(self) -> bool:
         """Whether it is one term of a sum or a whole side, with its sign."""
-        return not isinstance(self.parent, Node) or isinstance(self.parent, Sum)
+        return self.is_side or isinstance(self.parent, Sum)
 
     @property
     def is_exponent(self) -> bool:

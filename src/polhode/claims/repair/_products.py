@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -27,9 +27,11 @@ class Products:
 
     Attributes:
         known: letters with their values: (states,).
+        upright: those that stand above a fraction line only.
     """
 
     known: Sequence[tuple[Node, Array]]
+    upright: Collection[Node] = ()
 
     def equal_to(self, amount: Array) -> Iterator[Match]:
         """A number times products of letters, the shortest first.
@@ -54,7 +56,11 @@ class Products:
 
     def _singles(self, amount: Array) -> Iterator[Match]:
         for (i, j), number in _simple(amount, self._powered):
-            yield Match(number, ((self.known[i][0], _POWERS[j]),))
+            if self._may_stand(self.known[i][0], _POWERS[j]):
+                yield Match(number, ((self.known[i][0], _POWERS[j]),))
+
+    def _may_stand(self, node: Node, power: int) -> bool:
+        return power > 0 or node not in self.upright
 
     @cached_property
     def _powered(self) -> Array:
@@ -74,7 +80,8 @@ class Products:
     def _pairs(self, amount: Array) -> Iterator[Match]:
         for (i, j), number in _simple(amount, self._table):
             (first, p), (second, q) = self._signed[i], self._signed[j]
-            if i < j and first != second:
+            allowed = self._may_stand(first, p) and self._may_stand(second, q)
+            if allowed and i < j and first != second:
                 yield Match(number, ((first, p), (second, q)))
 
     # -- more of them ----------------------------------------------------------------------------

@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from itertools import chain, pairwise
 
+from polhode.algebra import Expr
 from polhode.base import PolhodeError
 from polhode.claims._asked import Asked
+from polhode.claims._circumstances import AnyState
+from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims.latex._tree import Statement
 from polhode.claims.repair._at_limit import AtLimit
 from polhode.claims.repair._exchanged import exchanged
@@ -73,11 +76,10 @@ def _from(repair: Repaired, reading: Reading, context: str, holds: Holds) -> tup
         whole: list[Repaired] = []
         for found, enough in zip(workshop.corrected(workshop.failing), ENOUGH, strict=True):
             whole += [r for r in found if _sound(r, workshop.failing, reading, holds)]
-            telling = [r for r in whole if _tells(r, reading)]
-            if any(r.size - repair.size < enough for r in telling):
+            if any(r.size - repair.size < enough for r in whole):
                 break
         if whole:
-            return smallest(telling or whole)
+            return smallest(whole)
         first = _begun(workshop)
         if first is None:
             return ()
@@ -101,18 +103,32 @@ def _tells(repair: Repaired, reading: Reading) -> bool:
 
 
 def _sound(repair: Repaired, failing: Sequence[int], reading: Reading, holds: Holds) -> bool:
-    if is_empty(repair.statement):
+    """Whether it holds, is of one dimension, and says something."""
+    if is_empty(repair.statement) or not _tells(repair, reading):
         return False
-    grown = any(change.what == "missing term" for change in repair.changes)
     try:
         asked = reading.asked(repair.statement, {})
-        cancelled = grown and any(_vanishes(asked, member) for member in failing)
-        return not cancelled and holds(asked)
+        if dimensions_at_odds(asked) or _cancels(repair, asked, failing):
+            return False
+        return holds(asked)
     except (PolhodeError, ArithmeticError):
         return False
 
 
-def _vanishes(asked: Asked, member: int) -> bool:
+def _cancels(repair: Repaired, asked: Asked, failing: Sequence[int]) -> bool:
+    """Whether what is brought in leaves nothing, be it only by the kinematics for a new term."""
+    if not any(change.inserts for change in repair.changes):
+        return False
+    grown = any(change.what == "missing term" for change in repair.changes)
+    kept = asked.states(AnyState).on if grown else _as_it_is
+    return any(_vanishes(asked, member, kept) for member in failing)
+
+
+def _as_it_is(value: Expr) -> Expr:
+    return value
+
+
+def _vanishes(asked: Asked, member: int, on: Callable[[Expr], Expr]) -> bool:
     """Whether both sides of a member vanish by themselves."""
     sides = (c for c in asked.components() if c.member == member)
-    return not any(c.left or c.right for c in sides)
+    return not any(on(c.left) or on(c.right) for c in sides)

@@ -25,8 +25,9 @@ from polhode.claims.repair._written import UNKNOWN_TERM, plainly_written, repeat
 
 
 def may_be_rewritten(place: Place) -> bool:
-    """Whether it is a whole side, a term or a sum."""
-    return place.is_term or isinstance(place.node, Sum)
+    """Whether it is a whole side, a term or a sum; what the claim is about keeps its letter."""
+    is_subject = place.is_side and isinstance(_base(place.node), Name | Dots)
+    return (place.is_term or isinstance(place.node, Sum)) and not is_subject
 
 
 def rewritten(work: Workpiece, place: Place, members: Sequence[int]) -> Iterator[Edit]:

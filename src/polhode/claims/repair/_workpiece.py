@@ -8,7 +8,7 @@ from functools import cached_property, reduce
 
 import numpy as np
 
-from polhode.algebra import Expr, Vector
+from polhode.algebra import Expr, Kind, Vector
 from polhode.claims._components import Side
 from polhode.claims._numeric import Array
 from polhode.claims.latex._tree import Cross, Derivative, Dots, Name, Node, Statement
@@ -119,8 +119,18 @@ class Workpiece:
 
     @cached_property
     def products(self) -> Products:
-        """Products of these scalars."""
-        return Products(self.known)
+        """Products of these scalars; authors divide by no force, and by no acceleration."""
+        return Products(self.known, [node for node, _ in self.known if self.is_strange(node)])
+
+    def is_strange(self, node: Node) -> bool:
+        """Whether it is a reaction or an acceleration that the claim does not speak of."""
+        value = self.vocabulary.get(node)
+        symbol = None if value is None else value.symbol
+        if symbol is None or node in self.own:
+            return False
+        if symbol.name in self.tried.states.equations.components:
+            return True
+        return symbol.order + (symbol.kind is Kind.SPEED) > 1
 
     @cached_property
     def figures(self) -> Array:

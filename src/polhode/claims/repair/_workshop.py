@@ -21,7 +21,7 @@ from polhode.claims.latex._tree import (
     Quotient,
     Statement,
 )
-from polhode.claims.repair._edits import Edit, dotted, edits, replaced, replaced_by
+from polhode.claims.repair._edits import Edit, dotted, edits, emptied, replaced, replaced_by
 from polhode.claims.repair._figures import scalar
 from polhode.claims.repair._links import Links
 from polhode.claims.repair._missing import missing_terms
@@ -218,6 +218,8 @@ class Workshop:
         """What a place multiplied by a factor makes right."""
         for number in simple_numbers(response):
             yield from edits(place, Match(number))
+            if number == 0:
+                yield from emptied(place)
         factor = multiplier(response)
         if factor is not None:
             for match in self._work.products.short(factor):

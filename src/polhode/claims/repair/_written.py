@@ -16,6 +16,7 @@ from polhode.claims.latex._tree import (
     Name,
     Node,
     Number,
+    Piece,
     Power,
     Quotient,
     Statement,
@@ -136,7 +137,13 @@ def _fraction(number: Fraction, above: Iterable[Node], below: Iterable[Node]) ->
 
 
 def repeats(work: Workpiece, place: Place, node: Node) -> bool:
-    """Whether something new at a place brings in a whole side of the same chain."""
+    """Whether something new at a place brings in a whole side of the same chain, not a power."""
     sides = work.statement.relations[place.relation].sides
     others = {side for i, side in enumerate(sides) if i != place.path[1]} - {ZERO}
-    return any(piece in others for piece in walk(node))
+    powers = [piece.base for piece in walk(node) if isinstance(piece, Power)]
+    return any(piece in others and not _among(piece, powers) for piece in walk(node))
+
+
+def _among(piece: Piece, pieces: Sequence[Piece]) -> bool:
+    """Whether it is one of these, not only equal to it."""
+    return any(piece is other for other in pieces)
