@@ -152,6 +152,12 @@ def _check_bodies(dynamics: Dynamics, values: Numbers) -> None:
         entries = tuple(entry for row in body.inertia.rows for entry in row)
         if values.keys() >= set(constants(entries)):
             inertia = _function(entries, tuple(values))(*values.values())
+            if not np.isfinite(inertia).all():
+                raise DeclarationError(
+                    f"inertia of body {body.name!r}: beyond all numbers, with these values",
+                    expected="moments of at most 1e308 kg m²",
+                    advice="check the units of masses and lengths",
+                )
             moments = np.linalg.eigvalsh(np.reshape(inertia, (3, 3))).tolist()
             if moments[0] < 0 or moments[2] > moments[0] + moments[1]:
                 check_inertia(body.name, moments)

@@ -11,7 +11,7 @@ from typing import Any
 
 from polhode.base import Enough, Progress
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
-from polhode.simulate.integrate._tally import MOST_STEPS, Tally
+from polhode.simulate.integrate._tally import Tally
 
 _SMALLEST = 1e-14  # length of a step, over the time and the longest, at a singular position
 _ALMOST = 100.0  # times the length at which a vector has vanished: there it turns round
@@ -40,7 +40,7 @@ class Watched:
         tally: of the steps of the whole motion.
     """
 
-    pause: int = MOST_STEPS
+    pause: float = inf
     vectors: tuple[tuple[int, ...], ...] = ()
     least: float = 0.0
     passing: float = 0.0
@@ -107,6 +107,7 @@ class StepWatch:
         self._span = span
         self._progress = progress
         self._smallest = float(numbers.finer(_SMALLEST))
+        self._size = len(state) * numbers.bits / DOUBLES.bits
         self._longest = 0.0
         self._steps = 0
         self._vanishing = _Vanishing(watched, state)
@@ -127,7 +128,8 @@ class StepWatch:
             self._progress.advance()
         except Enough:
             return Stop.INTERRUPTED
-        self._watched.tally.count(self._span, time, hurries=not self._vanishing.is_near)
+        hurries = not self._vanishing.is_near
+        self._watched.tally.count(self._span, time, self._size, hurries=hurries)
         if self._vanishing.at(state):
             return Stop.VANISHED
         if self._is_short(time, step) and time < self._span[1]:
