@@ -10,7 +10,7 @@ from random import Random
 
 from claims.mutants import Mutant, mutants
 from claims.oracle import JUDGED, Oracle
-from polhode.algebra import Expr, Symbol, Vector
+from polhode.algebra import Expr, Vector
 from polhode.base import PolhodeError
 from polhode.catalogue import CATALOGUE, problem_set
 from polhode.claims import Answer, Claim, Document, Notation, read_document
@@ -18,6 +18,7 @@ from polhode.claims._asked import Asked
 from polhode.claims._check import judged_claim
 from polhode.claims._circumstances import AnyState
 from polhode.claims._components import Relation, Side
+from polhode.claims._declared import reaction_symbol
 from polhode.claims._typed import with_start
 from polhode.claims.latex import Statement, read_latex, write_latex
 from polhode.derive import Equations, derive
@@ -171,8 +172,10 @@ def _try(original: Original, oracle: Oracle, mutant: Mutant, counts: Counts) -> 
 def _undetermined(asked: Asked) -> bool:
     """Whether the claim speaks of reactions that Newton's laws leave open."""
     forces = asked.equations.components.items()
-    free = {Symbol(name) for name, value in forces if value.symbol == Symbol(name)}
-    open_ = {Symbol(name) for name, value in forces if free & value.symbols()}
+    free = {
+        reaction_symbol(name) for name, value in forces if value.symbol == reaction_symbol(name)
+    }
+    open_ = {reaction_symbol(name) for name, value in forces if free & value.symbols()}
     sides = (side for c in asked.components() for side in (c.left, c.right))
     return any(open_ & side.symbols() for side in sides)
 

@@ -9,6 +9,7 @@ from functools import cached_property
 
 from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError
+from polhode.claims._declared import reaction_symbol
 from polhode.claims._elimination import eliminated
 from polhode.claims._meaning import with_signs
 from polhode.claims._rates import on_constraints, on_motion
@@ -99,10 +100,16 @@ class Circumstances(ABC):
     @cached_property
     def _reactions(self) -> dict[Symbol, Expr]:
         """Reaction components that Newton's laws determine."""
-        found = self.equations.components
-        return {
-            Symbol(name): value for name, value in found.items() if value.symbol != Symbol(name)
-        }
+        names = {Symbol(name): reaction_symbol(name) for name in self.equations.components}
+        values = (_renamed(value, names) for value in self.equations.components.values())
+        found = zip(names.values(), values, strict=True)
+        return {symbol: value for symbol, value in found if value.symbol != symbol}
+
+
+def _renamed(expression: Expr, names: Mapping[Symbol, Symbol]) -> Expr:
+    """With other symbols of the same names, so that both do not meet in one expression."""
+    images = {g: names.get(g, g) if isinstance(g, Symbol) else g for g in expression.generators}
+    return expression.recast({g: Expr.generator(image) for g, image in images.items()})
 
 
 @dataclass(frozen=True)
@@ -118,6 +125,12 @@ class TrueMotion(Circumstances):
     """All states with the accelerations and reactions of the motion."""
 
     def _settled(self, expression: Expr) -> Expr:
-        forces = expression.symbols() & self._reactions.keys()
-        known = expression.subs({s: self._reactions[s] for s in forces})
-        return on_motion(known, self.equations)
+        forces = {s for s in expression.symbols() if s.base() in self._reactions}
+        return on_motion(expression.subs({s: self._force(s) for s in forces}), self.equations)
+
+    def _force(self, symbol: Symbol) -> Expr:
+        """A reaction component on the motion, or one of its rates."""
+        value = on_motion(self._reactions[symbol.base()], self.equations)
+        for _ in range(symbol.order):
+            value = on_motion(self.equations.rate(value), self.equations)
+        return value

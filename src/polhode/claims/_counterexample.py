@@ -10,7 +10,7 @@ from polhode.algebra import Expr, Symbol
 from polhode.base import PolhodeError
 from polhode.claims._circumstances import AnyState, Circumstances
 from polhode.claims._components import Component
-from polhode.claims._declared import declared
+from polhode.claims._declared import declared, reaction_symbol
 from polhode.claims._newton_euler import constrained_motion, true_motion
 from polhode.claims._numeric import number
 from polhode.claims._points import Point, points
@@ -89,7 +89,7 @@ def _confirmed(
 ) -> Confirmation | None:
     """Both sides with accelerations and reactions from the numeric balance of every body."""
     try:
-        numbers = _numbers(point, states)
+        numbers = _with_rates_of_forces(_numbers(point, states), component, states)
         left, right = (float(number(s, numbers)) for s in (component.left, component.right))
     except (PolhodeError, ArithmeticError, ValueError, KeyError):
         return None
@@ -106,6 +106,21 @@ def _confirmed(
     return Confirmation(named, left, right, agrees)
 
 
+def _with_rates_of_forces(
+    numbers: dict[Symbol, float], component: Component, states: Circumstances
+) -> dict[Symbol, float]:
+    """With the first rates of reactions that the sides speak of."""
+    used = component.left.symbols() | component.right.symbols()
+    forces = {reaction_symbol(name) for name in states.equations.components}
+    rates = {s for s in used - numbers.keys() if s.order == 1 and s.base() in forces}
+    if not rates:
+        return numbers
+    from polhode.claims._own_motion import rate_along_motion  # SciPy takes its time
+
+    system, speeds = states.equations.system, states.equations.speeds
+    return numbers | {s: rate_along_motion(system, numbers, speeds, s.base()) for s in rates}
+
+
 def _numbers(point: Point, states: Circumstances) -> dict[Symbol, float]:
     drawn = point.floats()
     state = dict(drawn)
@@ -118,6 +133,6 @@ def _numbers(point: Point, states: Circumstances) -> dict[Symbol, float]:
         return drawn | constrained_motion(
             system, state, {s: drawn[s] for s in wanted if s in drawn}
         )
-    open_ = {Symbol(name) for name in states.equations.undetermined}
+    open_ = {reaction_symbol(name) for name in states.equations.undetermined}
     found = true_motion(system, state)
     return {**drawn, **{s: v for s, v in found.items() if s not in open_ or s not in drawn}}

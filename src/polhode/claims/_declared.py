@@ -130,3 +130,8 @@ def _only(expression: Expr) -> Symbol:
 
 def _name(symbol: Symbol) -> str:
     return symbol.published
+
+
+def reaction_symbol(name: str) -> Symbol:
+    """What stands for a reaction component in claims; unlike a parameter it varies."""
+    return Symbol(name, Kind.FUNCTION)

@@ -9,9 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from polhode.algebra import ZERO, Expr, Kind, Symbol, Vector, linear_parts, solve, symbols
+from polhode.algebra import ZERO, Expr, Kind, Vector, linear_parts, solve, symbols
 from polhode.base import DeclarationError
-from polhode.claims._declared import Declared, declared
+from polhode.claims._declared import Declared, declared, reaction_symbol
 from polhode.claims._meaning import Tensor
 from polhode.derive import Equations
 from polhode.model import Body, Frame, Gravity, Restraint
@@ -39,7 +39,7 @@ class Mechanics:
         driven = [symbol for f in known.functions for symbol in (f, f.derivative())]
         every = (*known.parameters, *known.coordinates, *known.speeds, *rates, *second, *driven)
         found = {symbol.published: Expr.generator(symbol) for symbol in every}
-        return found | {line.name: reaction(line.name) for line in self.equations.lines}
+        return found | {line.name: _reaction(line.name) for line in self.equations.lines}
 
     @cached_property
     def declared(self) -> Declared:
@@ -175,7 +175,7 @@ class Mechanics:
 
     def _sum_of_reactions(self, names: set[str]) -> Vector:
         shares = (
-            line.direction * reaction(line.name)
+            line.direction * _reaction(line.name)
             for line in self.equations.lines
             if line.name in names
         )
@@ -186,7 +186,7 @@ class Mechanics:
         centre, places = self.position(about), self.declared.places
         total = self.body.axes.zero
         for line in self.equations.lines:
-            restraint, share = line.restraint, line.direction * reaction(line.name)
+            restraint, share = line.restraint, line.direction * _reaction(line.name)
             if restraint.other is None:
                 lever = places[restraint.body] + restraint.arm - centre if restraint.arm else None
                 total = total + (lever.cross(share) if lever else share)
@@ -256,6 +256,5 @@ class Mechanics:
         return expression.subs(dict(zip(speeds, values, strict=True)))
 
 
-def reaction(name: str) -> Expr:
-    """The symbol of a reaction component."""
-    return Expr.generator(Symbol(name))
+def _reaction(name: str) -> Expr:
+    return Expr.generator(reaction_symbol(name))

@@ -13,7 +13,7 @@ import numpy as np
 
 from polhode.algebra import Symbol, Vector
 from polhode.base import NumericError
-from polhode.claims._declared import Declared, declared
+from polhode.claims._declared import Declared, declared, reaction_symbol
 from polhode.claims._jets import Array
 from polhode.claims._trial import Trial
 from polhode.model import Body, Restraint, System
@@ -39,7 +39,7 @@ def true_motion(system: System, state: Mapping[Symbol, float]) -> Numbers:
     rows, right = _joined(_kinematic(trial), _balances(known, trial))
     found = _solve(rows, right, "supports that contradict one another")
     reactions = {
-        Symbol(r.name): float(force)
+        reaction_symbol(r.name): float(force)
         for r, force in zip(known.restraints, found[len(speeds) :], strict=True)
     }
     return _numbers(known, state, speeds, found) | reactions

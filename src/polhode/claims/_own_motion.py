@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from math import isclose
 from typing import Any
 
+import numpy as np
+from scipy.differentiate import derivative
 from scipy.integrate import solve_ivp
 
 from polhode.algebra import Symbol
@@ -18,6 +20,8 @@ from polhode.claims._verdict import Confirmation
 from polhode.model import System
 
 _TOLERANCE = 1e-9
+_FINE = 1e-13
+_STEP = 0.02  # s
 _ROUNDING = 1e-5
 
 
@@ -41,15 +45,44 @@ def followed_anew(followed: Followed, sample: int) -> Confirmation | None:
     return Confirmation({"t": since + course.begin}, left, right, agrees)
 
 
+def rate_along_motion(
+    system: System, state: Mapping[Symbol, float], speeds: Collection[Symbol], symbol: Symbol
+) -> float:
+    """Rate of a number of the motion through a state, such as a reaction, by differences.
+
+    Args:
+        system: the declaration.
+        state: parameters, coordinates and speeds.
+        speeds: enough of them to fix all others.
+        symbol: of the number.
+    """
+    start = _whole(system, state)
+    free = set(declared(system).speeds) - set(speeds)
+
+    def at(times: Array) -> Array:
+        moved = [_moved(system, start, time, _FINE, free)[symbol] for time in np.ravel(times)]
+        return np.reshape(moved, np.shape(times))
+
+    found = derivative(at, 0.0, initial_step=_STEP, order=8, maxiter=4)
+    return float(found.df)
+
+
 def _whole(system: System, start: Mapping[Symbol, float]) -> dict[Symbol, float]:
     """With a number for parameters on which the motion does not depend."""
     return dict.fromkeys(declared(system).parameters, 1.0) | dict(start)
 
 
-def _moved(system: System, start: dict[Symbol, float], duration: float) -> dict[Symbol, float]:
-    """Every number of the state a while after a start."""
+def _moved(
+    system: System,
+    start: dict[Symbol, float],
+    duration: float,
+    tolerance: float = _TOLERANCE,
+    free: Collection[Symbol] = (),
+) -> dict[Symbol, float]:
+    """Every number of the state a while after a start; some speeds follow from the others."""
     first = true_motion(system, start)
-    moving = sorted({s for s in first if s.derivative() in first}, key=lambda s: s.published)
+    rated = {s for s in first if s.derivative() in first and s not in free}
+    moving = sorted(rated, key=lambda s: s.published)
     fixed = {s: v for s, v in start.items() if not s.kind.varies}
 
     def all_numbers(values: Any) -> dict[Symbol, float]:
@@ -66,7 +99,7 @@ def _moved(system: System, start: dict[Symbol, float], duration: float) -> dict[
         (0.0, duration),
         [first[s] for s in moving],
         method="DOP853",
-        rtol=_TOLERANCE,
-        atol=_TOLERANCE,
+        rtol=tolerance,
+        atol=tolerance,
     )
     return all_numbers(run.y[:, -1])

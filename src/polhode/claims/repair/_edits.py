@@ -78,8 +78,14 @@ def _by_number(place: Place, number: Fraction) -> Iterator[Edit]:
 
 
 def emptied(place: Place) -> Iterator[Edit]:
-    """Nothing in the place of a whole side, where another side says what that is."""
-    if place.is_side and Number("0") not in place.parent.parts:
+    """Ways to write that a whole side vanishes: nothing there, or the rate of what is constant."""
+    if not place.is_side:
+        return
+    is_letter = isinstance(place.node, Name | Dots)
+    is_said = Number("0") in place.parent.parts
+    if is_letter and is_said:
+        yield replaced(place, dotted(place.node), 1.0)
+    if not is_letter and not is_said:
         yield Edit("extra term", place.path, Number("0"), 2.0 + len([*letters(place.node)]) / 20)
 
 
@@ -98,13 +104,13 @@ def _factors(node: Node) -> tuple[Node, ...]:
     return (node,)
 
 
-def _bases(node: Node) -> set[Node]:
+def bases(node: Node) -> set[Node]:
     """What stands as a factor above the fraction lines, whatever its power."""
     match node:
         case Negative(of) | PlusMinus(of) | Power(of, _) | Quotient(of, _):
-            return _bases(of)
+            return bases(of)
         case Product(factors):
-            return {base for factor in factors for base in _bases(factor)}
+            return {base for factor in factors for base in bases(factor)}
     return {node}
 
 
@@ -126,7 +132,7 @@ def _by_quantities(place: Place, match: Match) -> Iterator[Edit]:
 
 
 def _inserted(place: Place, match: Match) -> Iterator[Edit]:
-    if any(power < 0 and node in _bases(place.node) for node, power in match.powers):
+    if any(power < 0 and node in bases(place.node) for node, power in match.powers):
         return  # it would only be crossed out
     above = [raised(node, p) for node, p in match.powers if p > 0]
     below = [raised(node, -p) for node, p in match.powers if p < 0]

@@ -13,12 +13,14 @@ from polhode.claims.latex._tree import (
     Cross,
     Derivative,
     Dot,
+    Dots,
+    Name,
     Node,
     Root,
     Sum,
     walk,
 )
-from polhode.claims.repair._edits import Edit, times_match
+from polhode.claims.repair._edits import Edit, bases, times_match
 from polhode.claims.repair._figures import scalar
 from polhode.claims.repair._places import Place, added, negated, put, times
 from polhode.claims.repair._tally import UNKNOWN
@@ -46,7 +48,10 @@ def missing_terms(
 
 def _takes_away(node: Node, term: Node) -> bool:
     """Whether all that a term does is to put something else in the place of what is there."""
-    return negated(node) in (term.terms if isinstance(term, Sum) else (term,))
+    is_letter = isinstance(node, Name | Dots)
+    return negated(node) in (term.terms if isinstance(term, Sum) else (term,)) or (
+        is_letter and node in bases(term)
+    )
 
 
 def _terms(work: Workpiece, place: Place, members: Sequence[int]) -> Iterator[Node]:

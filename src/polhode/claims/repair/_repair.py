@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from itertools import chain, pairwise
 
-from polhode.algebra import Expr
 from polhode.base import PolhodeError
 from polhode.claims._asked import Asked
-from polhode.claims._circumstances import AnyState
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims.latex._tree import Statement
 from polhode.claims.repair._at_limit import AtLimit
@@ -116,19 +114,9 @@ def _sound(repair: Repaired, failing: Sequence[int], reading: Reading, holds: Ho
 
 
 def _cancels(repair: Repaired, asked: Asked, failing: Sequence[int]) -> bool:
-    """Whether what is brought in leaves nothing, be it only by the kinematics for a new term."""
+    """Whether what is brought in leaves nothing on both sides of a member."""
     if not any(change.inserts for change in repair.changes):
         return False
-    grown = any(change.what == "missing term" for change in repair.changes)
-    kept = asked.states(AnyState).on if grown else _as_it_is
-    return any(_vanishes(asked, member, kept) for member in failing)
-
-
-def _as_it_is(value: Expr) -> Expr:
-    return value
-
-
-def _vanishes(asked: Asked, member: int, on: Callable[[Expr], Expr]) -> bool:
-    """Whether both sides of a member vanish by themselves."""
-    sides = (c for c in asked.components() if c.member == member)
-    return not any(on(c.left) or on(c.right) for c in sides)
+    sides = ((c.member, c.left or c.right) for c in asked.components())
+    left = {member for member, rest in sides if rest}
+    return any(member not in left for member in failing)

@@ -213,13 +213,16 @@ class Workshop:
             yield from self._vectors(place, kept)
         if response is not None:
             yield from self._scaled(place, response)
+            if 0 in set(simple_numbers(response)):
+                yield from (e for e in emptied(place) if self._holds_with(e, kept))
+
+    def _holds_with(self, edit: Edit, kept: Collection[int]) -> bool:
+        return self._hold(self._repair.with_changes((edit,)).statement, kept)
 
     def _scaled(self, place: Place, response: Response) -> Iterator[Edit]:
         """What a place multiplied by a factor makes right."""
         for number in simple_numbers(response):
             yield from edits(place, Match(number))
-            if number == 0:
-                yield from emptied(place)
         factor = multiplier(response)
         if factor is not None:
             for match in self._work.products.short(factor):

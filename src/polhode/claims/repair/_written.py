@@ -31,6 +31,7 @@ _UNKNOWN = Symbol("missing")
 _LARGEST_SIZE = 12
 _LONGEST_SUM = 4
 _MOST = 16
+_FACTOR = 4  # how much longer something may be than a short multiple of it
 
 #: Stands in a statement where something is to be found.
 UNKNOWN_TERM = Name("missing")
@@ -78,7 +79,7 @@ def written(work: Workpiece, value: Expr, tail: Sequence[Node]) -> Iterator[Node
     """A quantity times vectors in the letters of the text, at most one of them of the motion."""
     yield from plainly_written(work, value, tail)
     for node, moved in work.settled.items():
-        if moved and moved != work.vocabulary[node]:
+        if moved and moved != work.vocabulary[node] and _are_about_as_long(value, moved):
             yield from plainly_written(work, value / moved, [node, *tail])
 
 
@@ -129,6 +130,16 @@ def _sum(factor: Expr, plain: Mapping[Expr, Node]) -> Node | None:
 def _is_longer(polynomial: Expr, most: int) -> bool:
     """Whether it has more than so many terms."""
     return any(islice(polynomial.terms(), most, None))
+
+
+def _are_about_as_long(one: Expr, other: Expr) -> bool:
+    """Whether one may be a short multiple of the other."""
+    shorter, longer = sorted((_terms(one), _terms(other)))
+    return longer <= _FACTOR * shorter
+
+
+def _terms(expression: Expr) -> int:
+    return sum(1 for part in (expression.numerator, expression.denominator) for _ in part.terms())
 
 
 def _fraction(number: Fraction, above: Iterable[Node], below: Iterable[Node]) -> Node:
