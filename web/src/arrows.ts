@@ -14,40 +14,61 @@ export const COLOURS: Record<ArrowKind, string> = {
 
 const UP = new Vector3(0, 1, 0);
 const HEAD = 5.5; // length of the head, in thicknesses
+// Usual lengths of the longest arrows, in reaches: unlike, so that parallel ones are told apart.
+const USUAL: Record<ArrowKind, number> = { force: 2.4, load: 2.4, torque: 1.9, omega: 1.5, momentum: 1.9 };
+const SPIKE = 12; // largest over usual length, beyond which the usual one no longer decides
+
+/** Forces, or where there are none what turns. */
+export function usuallyShown(kinds: ArrowKind[]): Set<ArrowKind> {
+  return new Set(kinds.includes("force") ? ["force"] : ["omega", "momentum"]);
+}
+
+/** Length on the screen of a vector of length one, by its kind, beside a body of this reach; m. */
+export function scales(arrows: ArrowData[], reach: number): (kind: ArrowKind) => number {
+  const group = (kind: ArrowKind): string => (kind === "load" ? "force" : kind);
+  const sizes: Record<string, number> = {};
+  for (const { kind, usual, largest } of arrows) {
+    sizes[group(kind)] = Math.max(sizes[group(kind)] ?? 0, usual, largest / SPIKE);
+  }
+  return (kind) => (USUAL[kind] * reach) / sizes[group(kind)];
+}
+
+/** Shaft and head, solid, and once more faint: of no length yet. */
+export function arrowObject(kind: ArrowKind, thick: number): Group {
+  const group = new Group();
+  for (const [depthTest, opacity, order] of [[true, 1, 20], [false, 0.62, 19]] as const) {
+    const material = new MeshBasicMaterial({
+      color: COLOURS[kind],
+      transparent: true,
+      depthTest,
+      depthWrite: depthTest,
+      opacity,
+    });
+    const shaft = new Mesh(new CylinderGeometry(thick, thick, 1, 16).translate(0, 0.5, 0), material);
+    const head = new Mesh(new ConeGeometry(2.6 * thick, HEAD * thick, 24).translate(0, (-HEAD * thick) / 2, 0), material);
+    shaft.renderOrder = head.renderOrder = order;
+    group.add(shaft, head);
+  }
+  return group;
+}
 
 export class Arrow {
-  readonly group = new Group();
   private readonly foot: Rows;
   private readonly along: Rows;
-  private readonly parts: { shaft: Mesh; head: Mesh }[] = [];
   private readonly buffer: number[] = [];
   private readonly vector = new Vector3();
   private readonly turn = new Quaternion();
 
+  /** @param group what it is drawn as, of this thickness. */
   constructor(
     readonly data: ArrowData,
+    readonly group: Group,
     private readonly body: Pose,
     private readonly scale: number,
     private readonly thick: number,
   ) {
     this.foot = new Rows(data.foot);
     this.along = new Rows(data.along);
-    for (const [depthTest, opacity, order] of [[true, 1, 20], [false, 0.62, 19]] as const) {
-      const material = new MeshBasicMaterial({
-        color: COLOURS[data.kind],
-        transparent: true,
-        depthTest,
-        depthWrite: depthTest,
-        opacity,
-      });
-      const shaft = new Mesh(new CylinderGeometry(thick, thick, 1, 16).translate(0, 0.5, 0), material);
-      const head = new Mesh(new ConeGeometry(2.6 * thick, HEAD * thick, 24).translate(0, (-HEAD * thick) / 2, 0), material);
-      for (const part of [shaft, head]) {
-        part.renderOrder = order;
-        this.group.add(part);
-      }
-      this.parts.push({ shaft, head });
-    }
   }
 
   /** Its length in its unit. */
@@ -61,9 +82,10 @@ export class Arrow {
     this.vector.fromArray(this.along.at(frame, this.buffer)).multiplyScalar(this.scale);
     const length = this.vector.length();
     const hidden = length < 0.3 * this.thick || Number.isNaN(this.group.position.x);
-    for (const { shaft, head } of this.parts) {
+    const tip = Math.min(1, length / (1.5 * HEAD * this.thick));
+    const [solid, tipped, faint, faintTip] = this.group.children;
+    for (const [shaft, head] of [[solid, tipped], [faint, faintTip]]) {
       shaft.visible = head.visible = !hidden;
-      const tip = Math.min(1, length / (1.5 * HEAD * this.thick));
       head.scale.setScalar(tip);
       head.position.y = length;
       shaft.scale.set(tip, Math.max(length - 0.9 * HEAD * this.thick * tip, 1e-9), tip);

@@ -3,7 +3,7 @@
 import { COLOURS } from "./arrows";
 import { type Clock, rates } from "./clock";
 import { digits, make } from "./dom";
-import type { ArrowKind, SceneData } from "./scene";
+import type { ArrowKind } from "./scene";
 import type { Stage } from "./stage";
 
 const STEP = 0.01; // of the duration, for one press of an arrow key
@@ -66,11 +66,9 @@ function speed(clock: Clock): HTMLElement {
 }
 
 /** Switches for arrows, traces and the camera. */
-export function switches(scene: SceneData, stage: Stage, clock: Clock): HTMLElement {
-  const kinds = [...new Set(scene.arrows.map(({ kind }) => kind))];
-  const first: ArrowKind[] = kinds.includes("force") ? ["force"] : ["omega", "momentum"];
-  const arrows = kinds.map((kind) => arrowSwitch(kind, stage, clock, first.includes(kind)));
-  const traces = toggle("Traces", stage.traces.length > 0, (on) => stage.showTraces(on));
+export function switches(stage: Stage, clock: Clock): HTMLElement {
+  const arrows = stage.kinds.map((kind) => arrowSwitch(kind, stage, clock));
+  const traces = toggle("Traces", stage.showsTraces, (on) => stage.showTraces(on));
   const follow = toggle("Follow", stage.follow, (on) => stage.setFollow(on));
   const home = make("button", { type: "button", class: "switch" }, "Reset view");
   home.addEventListener("click", () => stage.home());
@@ -84,16 +82,15 @@ export function switches(scene: SceneData, stage: Stage, clock: Clock): HTMLElem
   );
 }
 
-function arrowSwitch(kind: ArrowKind, stage: Stage, clock: Clock, on: boolean): HTMLElement {
+function arrowSwitch(kind: ArrowKind, stage: Stage, clock: Clock): HTMLElement {
   const own = stage.arrows.filter(({ data }) => data.kind === kind);
   const [letter, words] = NAMES[kind];
   const value = make("span", { class: "value" });
-  const button = toggle("", on, (shown) => stage.show(kind, shown));
+  const button = toggle("", stage.shows(kind), (shown) => stage.show(kind, shown));
   const dot = make("span", { class: "dot", "aria-hidden": "true" });
   dot.style.background = COLOURS[kind];
   button.title = `${words}: ${own.map(({ data }) => data.name).join(", ")}`;
   button.append(dot, make("i", {}, letter), make("span", { class: "spoken" }, ` ${words} `), value);
-  stage.show(kind, on);
   if (own.length === 1) {
     clock.onChange(({ time }) => {
       const frame = (time / clock.duration) * (stage.scene.frames - 1);

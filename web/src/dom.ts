@@ -55,3 +55,9 @@ export function digits(value: number, count = 4): string {
 export function raised(text: string): string {
   return text.replace(/\^(\d)/g, (_, digit: string) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)]);
 }
+
+/** Once what is there now is on the screen; at once, where nobody sees it. */
+export function painted(): Promise<void> {
+  if (document.hidden) return Promise.resolve();
+  return new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+}

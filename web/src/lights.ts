@@ -5,14 +5,18 @@ import { DirectionalLight, HemisphereLight, type PerspectiveCamera, type Scene, 
 export class Lights {
   private readonly sun = new DirectionalLight("#fff6e8", 1.9);
 
-  constructor(world: Scene, camera: PerspectiveCamera, reach: number) {
+  constructor(world: Scene, camera: PerspectiveCamera) {
     world.add(new HemisphereLight("#ffffff", "#b9b2a4", 1.5));
     camera.add(new DirectionalLight("#ffffff", 0.7));
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(1024, 1024);
     this.sun.shadow.radius = 4;
-    this.sun.shadow.normalBias = 0.01 * reach;
     world.add(camera, this.sun, this.sun.target);
+  }
+
+  /** Shadows of bodies as large as this. */
+  fit(reach: number): void {
+    this.sun.shadow.normalBias = 0.01 * reach;
   }
 
   /** Let the sun shine on a place, with shadows as far as a range about it. */
@@ -29,9 +33,5 @@ export class Lights {
     camera.near = 0.1 * range;
     camera.far = 8 * range;
     camera.updateProjectionMatrix();
-  }
-
-  dispose(): void {
-    this.sun.dispose();
   }
 }

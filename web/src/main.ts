@@ -4,18 +4,18 @@ import "uplot/dist/uPlot.min.css";
 import "./page.css";
 import { Clock, rates } from "./clock";
 import { keys, switches, transport } from "./controls";
-import { make } from "./dom";
+import { make, painted } from "./dom";
 import { Plots } from "./plots";
 import type { SceneData } from "./scene";
 import { Stage } from "./stage";
-import { footer, heading, sections } from "./text";
+import { footer, heading, judgements, sections } from "./text";
 
 function show(scene: SceneData): void {
   const clock = new Clock(scene.duration, rates(scene.duration).usual);
   const picture = make("div", { class: "picture", tabindex: 0, role: "application", "aria-label": described(scene) });
   const theatre = make("section", { class: "theatre", "aria-label": "Motion" }, picture);
   const plots = make("section", { class: "plots", "aria-label": "Plots against time" });
-  const words = make("div", { class: "words" }, ...sections(scene));
+  const words = make("div", { class: "words" }, ...judgements(scene), ...sections(scene));
   const main = make("main", {}, heading(scene), make("div", { class: "show" }, theatre, plots), words);
   document.body.append(main, footer(scene));
 
@@ -25,22 +25,18 @@ function show(scene: SceneData): void {
   const dark = matchMedia("(prefers-color-scheme: dark)");
   dark.addEventListener("change", () => drawn.theme());
 
-  afterPaint(() => {
+  // What takes its time comes after the words and plots are on the screen.
+  void painted().then(() => {
     const stage = staged(scene, picture);
     keys(clock, picture, stage);
     if (stage) {
-      picture.after(switches(scene, stage, clock));
+      picture.after(switches(stage, clock));
       clock.onChange(({ time }) => stage.seek(time));
       stage.theme(dark.matches);
       dark.addEventListener("change", () => stage.theme(dark.matches));
     }
     document.body.dataset.ready = "yes";
   });
-}
-
-/** What takes its time comes after the words and plots are on the screen. */
-function afterPaint(act: () => void): void {
-  requestAnimationFrame(() => setTimeout(act));
 }
 
 function described(scene: SceneData): string {

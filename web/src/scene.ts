@@ -1,8 +1,9 @@
 // The scene as polhode writes it; see Scene in polhode's view room for what everything means.
 
+/** In a page the numbers are in base64; the lab's come as they are. */
 export interface Packed {
   shape: number[];
-  float32: string;
+  float32: string | Float32Array;
 }
 
 /** Rows of numbers; one row stands for all where nothing changes. */
@@ -12,10 +13,8 @@ export class Rows {
   readonly width: number;
 
   constructor(packed: Packed) {
-    const text = atob(packed.float32);
-    const bytes = new Uint8Array(text.length);
-    for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
-    this.data = new Float32Array(bytes.buffer);
+    const { float32 } = packed;
+    this.data = typeof float32 === "string" ? decoded(float32) : float32;
     this.count = packed.shape[0];
     this.width = packed.shape[1] ?? 1;
   }
@@ -31,6 +30,13 @@ export class Rows {
     }
     return out;
   }
+}
+
+function decoded(base64: string): Float32Array {
+  const text = atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
+  return new Float32Array(bytes.buffer);
 }
 
 export type Triple = [number, number, number];
@@ -128,7 +134,18 @@ export interface JudgementData {
   correction: string;
 }
 
-export interface SceneData {
+/** What there is to read of a motion: curves, formulas and numbers. */
+export interface AccountData {
+  panels: PanelData[];
+  motion: FormulaData[];
+  reactions: FormulaData[];
+  parameters: NumberData[];
+  start: NumberData[];
+  evidence: NumberData[];
+  happenings: { time: number; what: string }[];
+}
+
+export interface SceneData extends AccountData {
   title: string;
   about: string;
   duration: number;
@@ -142,13 +159,6 @@ export interface SceneData {
   supports: SupportData[];
   arrows: ArrowData[];
   traces: TraceData[];
-  panels: PanelData[];
-  motion: FormulaData[];
-  reactions: FormulaData[];
-  parameters: NumberData[];
-  start: NumberData[];
-  evidence: NumberData[];
-  happenings: { time: number; what: string }[];
   judgements: JudgementData[];
   origin: { versions?: Record<string, string | null>; integrator?: string };
 }

@@ -72,7 +72,7 @@ function mesh(geometry: BufferGeometry, material: Material | Material[]): Mesh {
 }
 
 function sphere(a: number, b: number, c: number): Object3D {
-  const ball = mesh(new SphereGeometry(1, 64, 40), marked(panels()));
+  const ball = mesh(new SphereGeometry(1, 48, 28), marked(panels()));
   ball.scale.set(a, b, c);
   return ball;
 }

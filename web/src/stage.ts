@@ -1,37 +1,20 @@
 // The picture in three dimensions.
 
-import {
-  LineSegments,
-  type Material,
-  Mesh,
-  type Object3D,
-  PCFShadowMap,
-  PerspectiveCamera,
-  Plane,
-  Quaternion,
-  Raycaster,
-  Scene,
-  Vector2,
-  Vector3,
-  WebGLRenderer,
-} from "three";
+import { type Object3D, type PerspectiveCamera, Plane, Quaternion, Raycaster, Vector2, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { Arrow } from "./arrows";
+import { Arrow, arrowObject, scales, usuallyShown } from "./arrows";
 import { extent } from "./extent";
-import { Lights } from "./lights";
+import { House } from "./house";
 import { Link } from "./links";
 import { Pose } from "./pose";
 import { posts } from "./posts";
 import { type ArrowKind, Rows, type SceneData, type SupportData, type Triple } from "./scene";
 import { bodyObject, reach } from "./shapes";
-import { Grounds } from "./supports";
+import { boundless, paint, surfaceOf } from "./supports";
 import { Trace } from "./traces";
 import { Triad } from "./triad";
 
 const FAR = 5.5; // reaches of the body that are in view when it is followed
-// Usual lengths of the longest arrows, in reaches: unlike, so that parallel ones are told apart.
-const ARROW: Record<ArrowKind, number> = { force: 2.4, load: 2.4, torque: 1.9, omega: 1.5, momentum: 1.9 };
-const SPIKE = 12; // largest over usual length, beyond which the usual one no longer decides
 const WIDE = 60; // reaches by which a sheet is wider while a hand pulls it
 const LIFT = 0.05; // of a floor below what stands on it, in reaches
 
@@ -39,12 +22,9 @@ export class Stage {
   readonly arrows: Arrow[];
   readonly traces: Trace[];
   follow: boolean;
-  private readonly renderer: WebGLRenderer;
-  private readonly world = new Scene();
-  private readonly camera: PerspectiveCamera;
+  private readonly house: House;
   private readonly controls: OrbitControls;
-  private readonly lights: Lights;
-  private readonly grounds = new Grounds();
+  private readonly shown: Set<ArrowKind>;
   private readonly links: Link[];
   private readonly triad: Triad;
   private readonly moving: { pose: Pose; object: Object3D }[] = [];
@@ -59,8 +39,8 @@ export class Stage {
   private readonly sheets: { pose: Pose; object: Object3D; support: SupportData }[] = [];
   private dark = false;
   private frame = 0;
-  private waiting = false;
-  private released = false;
+  private stale = false;
+  private traced = true;
 
   /**
    * Throws where there is no WebGL.
@@ -73,7 +53,8 @@ export class Stage {
     before?: Stage,
     keepsView = false,
   ) {
-    this.renderer = before?.renderer ?? rendererOf();
+    this.house = before?.house ?? new House();
+    this.house.begin();
     this.up = new Vector3(...scene.up);
     this.triad = new Triad(scene.directions);
     this.poses = scene.bodies.map((body) => new Pose(body.pose));
@@ -84,48 +65,63 @@ export class Stage {
     this.addBodies();
     this.addGrounds();
     this.traces = scene.traces.map((data) => new Trace(data));
-    for (const trace of this.traces) this.carrier(trace).add(trace.line);
+    for (const trace of this.traces) this.carrier(trace).add(this.house.own(trace.line));
     this.arrows = this.makeArrows();
-    this.world.add(...this.arrows.map((arrow) => arrow.group), ...this.links.map((link) => link.object));
-    this.camera = new PerspectiveCamera(32, 1, this.reach / 8, 300 * Math.max(this.radius, this.reach));
-    this.camera.up.copy(this.up);
-    this.lights = new Lights(this.world, this.camera, this.reach);
-    this.aim();
-    holder.append(this.renderer.domElement, this.triad.element);
+    this.shown = usuallyShown(this.kinds);
+    for (const link of this.links) this.house.own(link.object);
+    before?.leave();
     this.controls = new OrbitControls(this.camera, holder);
     this.controls.maxDistance = 40 * Math.max(this.radius, this.reach);
     this.controls.minDistance = 1.5 * this.reach;
     this.controls.addEventListener("change", () => this.draw());
-    this.home();
-    if (before) this.succeed(before, keepsView);
+    this.open(keepsView ? before : undefined);
+    holder.append(this.canvas, this.triad.element);
     this.fitting.observe(holder);
     this.fit();
   }
 
-  private succeed(before: Stage, keepsView: boolean): void {
-    if (keepsView && before.follow === this.follow) {
-      const moved = this.controls.target.clone().sub(before.controls.target);
-      if (!this.follow) moved.setScalar(0);
-      this.controls.target.copy(before.controls.target).add(moved);
-      this.camera.position.copy(before.camera.position).add(moved);
-    }
+  private get camera(): PerspectiveCamera {
+    return this.house.camera;
+  }
+
+  /** Show what is seen first, from where an earlier stage was looked at. */
+  private open(before?: Stage): void {
+    const eye = this.camera.position.clone();
+    this.camera.up.copy(this.up);
+    this.camera.near = this.reach / 8;
+    this.camera.far = 300 * Math.max(this.radius, this.reach);
+    this.camera.updateProjectionMatrix();
+    this.house.lights.fit(this.reach);
+    this.aim();
+    if (before) this.inherit(before);
+    for (const { data, group } of this.arrows) group.visible = this.shown.has(data.kind);
+    this.showTraces(this.traced);
+    this.home();
+    if (before) this.look(before, eye);
+  }
+
+  /** What was switched on or off stays so. */
+  private inherit(before: Stage): void {
+    this.follow = before.follow;
+    this.traced = before.traced;
+    for (const kind of before.kinds) this.shown[before.shown.has(kind) ? "add" : "delete"](kind);
+  }
+
+  private look(before: Stage, eye: Vector3): void {
+    const moved = this.controls.target.clone().sub(before.controls.target);
+    if (!this.follow) moved.setScalar(0);
+    this.controls.target.copy(before.controls.target).add(moved);
+    this.camera.position.copy(eye).add(moved);
     this.controls.enabled = before.controls.enabled;
-    this.renderer.compile(this.world, this.camera); // or the shaders they share would go with the old
-    before.release();
     this.controls.update();
   }
 
-  private release(): void {
-    this.released = true;
+  private leave(): void {
+    this.house.set();
+    this.stale = false;
     this.fitting.disconnect();
     this.triad.element.remove();
     this.controls.dispose();
-    this.lights.dispose();
-    this.world.traverse((object) => {
-      if (!(object instanceof Mesh || object instanceof LineSegments)) return;
-      object.geometry.dispose();
-      for (const material of [object.material].flat() as Material[]) material.dispose();
-    });
   }
 
   /** Whether pulling turns the view; where it does not, something else is pulled. */
@@ -151,10 +147,9 @@ export class Stage {
       const { reach } = sheet.support;
       const wide: [number, number] = [reach[0] + WIDE * this.reach, reach[1] + WIDE * this.reach];
       sheet.object.visible = false;
-      sheet.object = this.grounds.surface({ ...sheet.support, reach: wide }, this.grid());
-      this.world.add(sheet.object);
+      sheet.object = this.house.own(surfaceOf({ ...sheet.support, reach: wide }, this.grid()));
     }
-    this.grounds.theme(this.dark);
+    paint(this.house.world, this.dark);
   }
 
   /** Draw bodies as other poses have them. */
@@ -178,7 +173,7 @@ export class Stage {
   }
 
   get canvas(): HTMLCanvasElement {
-    return this.renderer.domElement;
+    return this.house.renderer.domElement;
   }
 
   /** Back to where the picture was first seen from. */
@@ -218,19 +213,33 @@ export class Stage {
     this.home();
   }
 
+  get kinds(): ArrowKind[] {
+    return [...new Set(this.scene.arrows.map(({ kind }) => kind))];
+  }
+
+  shows(kind: ArrowKind): boolean {
+    return this.shown.has(kind);
+  }
+
+  get showsTraces(): boolean {
+    return this.traced;
+  }
+
   show(kind: ArrowKind, shown: boolean): void {
+    this.shown[shown ? "add" : "delete"](kind);
     for (const arrow of this.arrows) if (arrow.data.kind === kind) arrow.group.visible = shown;
     this.draw();
   }
 
   showTraces(shown: boolean): void {
+    this.traced = shown;
     for (const trace of this.traces) this.carrier(trace)[shown ? "add" : "remove"](trace.line);
     this.draw();
   }
 
   theme(dark: boolean): void {
     this.dark = dark;
-    this.grounds.theme(dark);
+    paint(this.house.world, dark);
     for (const trace of this.traces) trace.theme(dark);
     this.draw();
   }
@@ -267,14 +276,18 @@ export class Stage {
   }
 
   private draw(): void {
-    if (this.waiting) return;
-    this.waiting = true;
+    if (this.stale) return;
+    this.stale = true;
     requestAnimationFrame(() => {
-      this.waiting = false;
-      if (this.released) return;
-      this.renderer.render(this.world, this.camera);
-      this.triad.update(this.camera);
+      if (this.stale) this.drawNow();
     });
+  }
+
+  /** Draw what is to be drawn without waiting for the next frame of the screen. */
+  drawNow(): void {
+    this.stale = false;
+    this.house.draw();
+    this.triad.update(this.camera);
   }
 
   private fit(): void {
@@ -283,9 +296,10 @@ export class Stage {
     this.camera.aspect = width / height;
     this.camera.fov = width < height ? 40 : 32;
     this.camera.updateProjectionMatrix();
-    const before = this.renderer.getSize(new Vector2());
+    const { renderer } = this.house;
+    const before = renderer.getSize(new Vector2());
     if (before.x === width && before.y === height) return; // or what is drawn would be cleared
-    this.renderer.setSize(width, height);
+    renderer.setSize(width, height);
     this.draw();
   }
 
@@ -305,8 +319,9 @@ export class Stage {
 
   private addBodies(): void {
     this.scene.bodies.forEach((body, i) => {
-      const object = bodyObject(body, this.scene.joints.filter((joint) => joint.body === i));
-      this.world.add(object);
+      const { shape, arms } = body;
+      const joints = this.scene.joints.filter((joint) => joint.body === i);
+      const object = this.house.part({ shape, arms, joints }, () => bodyObject(body, joints));
       this.moving.push({ pose: this.poses[i], object });
     });
   }
@@ -317,22 +332,25 @@ export class Stage {
   }
 
   private carrier(trace: Trace): Object3D {
-    return this.carriers[trace.data.support] ?? this.world;
+    return this.carriers[trace.data.support] ?? this.house.world;
   }
 
   private addGrounds(): void {
     const grid = this.grid();
     for (const support of this.scene.supports) {
-      const object = this.grounds.surface(support, grid);
+      const { kind, middle, reach } = support;
+      const object = this.house.part({ kind, middle, reach, grid }, () => surfaceOf(support, grid));
       this.carriers.push(object);
-      this.world.add(object);
       const pose = new Pose(support.pose);
       this.moving.push({ pose, object });
-      if (support.kind === "sheet") this.sheets.push({ pose, object, support });
-      if (support.kind === "sheet") this.world.add(this.table(pose, Math.max(...support.reach) + this.radius, grid));
+      if (kind !== "sheet") continue;
+      this.sheets.push({ pose, object, support });
+      this.table(pose, Math.max(...reach) + this.radius, grid);
     }
     const { floor } = this.scene;
-    if (floor !== null) this.world.add(this.floor(floor, grid), ...posts(this.held(), floor, { up: this.up, middle: this.middle, reach: this.reach }));
+    if (floor === null) return;
+    this.floor(floor, grid);
+    for (const post of posts(this.held(), floor, { up: this.up, middle: this.middle, reach: this.reach })) this.house.own(post);
   }
 
   /** About how far the lines on the ground are apart, m. */
@@ -340,18 +358,20 @@ export class Stage {
     return 1.2 * Math.max(this.reach, this.follow ? 0 : 0.35 * this.radius);
   }
 
-  private table(pose: Pose, width: number, grid: number): Object3D {
-    const table = this.grounds.boundless([0, 0], 2.5 * width, grid);
+  private table(pose: Pose, width: number, grid: number): void {
+    const table = this.boundless(2.5 * width, grid);
     pose.apply(0, table);
     table.position.addScaledVector(this.up, -LIFT * this.reach);
-    return table;
   }
 
-  private floor(height: number, grid: number): Object3D {
-    const floor = this.grounds.boundless([0, 0], 7 * this.radius, grid);
+  private boundless(radius: number, grid: number): Object3D {
+    return this.house.part({ radius, grid }, () => boundless([0, 0], radius, grid));
+  }
+
+  private floor(height: number, grid: number): void {
+    const floor = this.boundless(7 * this.radius, grid);
     floor.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), this.up);
     floor.position.copy(this.middle).addScaledVector(this.up, height - this.middle.dot(this.up));
-    return floor;
   }
 
   /** Points in space that hold a body away from its middle. */
@@ -365,27 +385,16 @@ export class Stage {
   }
 
   private makeArrows(): Arrow[] {
-    const group = (kind: ArrowKind): string => (kind === "load" ? "force" : kind);
-    const sizes: Record<string, number> = {};
-    for (const { kind, usual, largest } of this.scene.arrows) {
-      sizes[group(kind)] = Math.max(sizes[group(kind)] ?? 0, usual, largest / SPIKE);
-    }
+    const thick = 0.028 * this.reach;
+    const scale = scales(this.scene.arrows, this.reach);
     return this.scene.arrows.map((data) => {
-      const scale = (ARROW[data.kind] * this.reach) / sizes[group(data.kind)];
-      return new Arrow(data, this.poses[data.body], scale, 0.028 * this.reach);
+      const { kind, body } = data;
+      const object = this.house.part({ kind, thick }, () => arrowObject(kind, thick));
+      return new Arrow(data, object, this.poses[body], scale(kind), thick);
     });
   }
 
   private aim(): void {
-    this.lights.aim(this.target(this.place), 1.2 * this.seen(), this.up, this.horizontal());
+    this.house.lights.aim(this.target(this.place), 1.2 * this.seen(), this.up, this.horizontal());
   }
-}
-
-function rendererOf(): WebGLRenderer {
-  const renderer = new WebGLRenderer({ antialias: true, alpha: true });
-  renderer.debug.checkShaderErrors = false; // waiting for them holds up the first picture
-  renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-  renderer.shadowMap.enabled = true;
-  renderer.shadowMap.type = PCFShadowMap;
-  return renderer;
 }

@@ -8,11 +8,11 @@ import {
   LineBasicMaterial,
   LineSegments,
   Mesh,
-  MeshLambertMaterial,
   type Object3D,
   PlaneGeometry,
   RingGeometry,
 } from "three";
+import { Ground } from "./ground";
 import { PALETTE } from "./marks";
 import type { SupportData } from "./scene";
 
@@ -33,97 +33,83 @@ const MOST = 60; // lines to either side of the middle
 const PARTS = 32; // pieces of a line
 const FADE = 0.35; // part of the radius of a boundless plane at which it begins to fade
 
-interface Painted {
-  material: MeshLambertMaterial | LineBasicMaterial;
-  colour: Colour;
+/** The surface of a support, to be moved with its pose. */
+export function surfaceOf({ kind, middle, reach }: SupportData, grid: number): Object3D {
+  if (kind === "turntable") return turntable(reach[0], grid);
+  return kind === "sheet" ? sheet(middle, reach, grid) : boundless(middle, 2.2 * Math.max(...reach), grid);
 }
 
-export class Grounds {
-  private readonly painted: Painted[] = [];
+/** Ground in the colours of a light or dark page. */
+export function paint(world: Object3D, dark: boolean): void {
+  const look = dark ? DARK : LIGHT;
+  world.traverse((object) => {
+    const colour = object.userData.colour as Colour | undefined;
+    if (colour) ((object as Mesh).material as Ground | LineBasicMaterial).color.set(look[colour]);
+  });
+}
 
-  /** The surface of a support, to be moved with its pose. */
-  surface(support: SupportData, size: number): Object3D {
-    const builders: Record<string, (support: SupportData, size: number) => Object3D> = {
-      turntable: (data, grid) => this.turntable(data.reach[0], grid),
-      sheet: (data, grid) => this.sheet(data, grid),
-    };
-    const plane = ({ middle, reach }: SupportData, grid: number): Object3D =>
-      this.boundless(middle, 2.2 * Math.max(...reach), grid);
-    return (builders[support.kind] ?? plane)(support, size);
-  }
+/** A plane that fades out of sight. */
+export function boundless(middle: Point, radius: number, size: number): Object3D {
+  const group = new Group();
+  const geometry = new RingGeometry(0, radius, 64, 12);
+  geometry.translate(middle[0], middle[1], 0);
+  fill(group, geometry, "ground", (x, y) => fading(Math.hypot(x - middle[0], y - middle[1]) / radius));
+  lines(group, gridLines(middle, [radius, radius], spacing(size)), "lines", (x, y) =>
+    fading(Math.hypot(x - middle[0], y - middle[1]) / radius),
+  );
+  return group;
+}
 
-  /** A plane that fades out of sight. */
-  boundless(middle: Point, radius: number, size: number): Object3D {
-    const group = new Group();
-    const geometry = new RingGeometry(0, radius, 64, 12);
-    geometry.translate(middle[0], middle[1], 0);
-    this.fill(group, geometry, "ground", (x, y) => fading(Math.hypot(x - middle[0], y - middle[1]) / radius));
-    this.lines(group, gridLines(middle, [radius, radius], spacing(size)), "lines", (x, y) =>
-      fading(Math.hypot(x - middle[0], y - middle[1]) / radius),
-    );
-    return group;
-  }
+function sheet(middle: Point, reach: Point, size: number): Object3D {
+  const group = new Group();
+  const [a, b] = reach;
+  const [x, y] = middle;
+  const geometry = new PlaneGeometry(2 * a, 2 * b);
+  geometry.translate(x, y, 0);
+  fill(group, geometry, "paper");
+  lines(group, gridLines(middle, reach, spacing(size)), "lines");
+  const corners: Point[] = [[x - a, y - b], [x + a, y - b], [x + a, y + b], [x - a, y + b]];
+  lines(group, corners.map((corner, i) => [corner, corners[(i + 1) % 4]]), "strong");
+  return group;
+}
 
-  theme(dark: boolean): void {
-    const look = dark ? DARK : LIGHT;
-    for (const { material, colour } of this.painted) material.color.set(look[colour]);
-  }
+function turntable(radius: number, size: number): Object3D {
+  const group = new Group();
+  fill(group, new CircleGeometry(radius, 128), "paper");
+  const step = Math.max(spacing(size), radius / 40);
+  const circles = [];
+  for (let r = step; r < 0.97 * radius; r += step) circles.push(...circle(r));
+  lines(group, circles, "lines", undefined, 1);
+  lines(group, circle(radius), "strong", undefined, 1);
+  const [first, ...others] = Array.from({ length: 12 }, (_, i) => spoke(radius, (Math.PI * i) / 6));
+  lines(group, [first], "strong");
+  lines(group, others, "lines");
+  const mark = new RingGeometry(0.93 * radius, radius, 8, 1, -0.06, 0.12);
+  mark.translate(0, 0, 1e-4 * radius);
+  fill(group, mark, "accent");
+  return group;
+}
 
-  private sheet({ middle, reach }: SupportData, size: number): Object3D {
-    const group = new Group();
-    const [a, b] = reach;
-    const [x, y] = middle;
-    const geometry = new PlaneGeometry(2 * a, 2 * b);
-    geometry.translate(x, y, 0);
-    this.fill(group, geometry, "paper");
-    this.lines(group, gridLines(middle, reach, spacing(size)), "lines");
-    const corners: Point[] = [[x - a, y - b], [x + a, y - b], [x + a, y + b], [x - a, y + b]];
-    this.lines(group, corners.map((corner, i) => [corner, corners[(i + 1) % 4]]), "strong");
-    return group;
-  }
+function fill(group: Group, geometry: BufferGeometry, colour: Colour, alpha?: (x: number, y: number) => number): void {
+  const material = new Ground(alpha !== undefined, colour === "accent" ? 0 : 1);
+  if (alpha) veil(geometry, alpha);
+  const mesh = new Mesh(geometry, material);
+  mesh.receiveShadow = true;
+  mesh.userData.colour = colour;
+  mesh.renderOrder = alpha ? -2 : 0;
+  group.add(mesh);
+}
 
-  private turntable(radius: number, size: number): Object3D {
-    const group = new Group();
-    this.fill(group, new CircleGeometry(radius, 128), "paper");
-    const step = Math.max(spacing(size), radius / 40);
-    for (let r = step; r < 0.97 * radius; r += step) this.lines(group, circle(r), "lines", undefined, 1);
-    this.lines(group, circle(radius), "strong", undefined, 1);
-    for (let i = 0; i < 12; i++) {
-      const angle = (Math.PI * i) / 6;
-      this.lines(group, [[[0, 0], [radius * Math.cos(angle), radius * Math.sin(angle)]]], i ? "lines" : "strong");
-    }
-    const mark = new RingGeometry(0.93 * radius, radius, 8, 1, -0.06, 0.12);
-    mark.translate(0, 0, 1e-4 * radius);
-    this.fill(group, mark, "accent");
-    return group;
-  }
-
-  private fill(group: Group, geometry: BufferGeometry, colour: Colour, alpha?: (x: number, y: number) => number): void {
-    const material = new MeshLambertMaterial({
-      polygonOffset: true,
-      polygonOffsetFactor: colour === "accent" ? 0 : 1,
-      polygonOffsetUnits: 1,
-      ...(alpha && { transparent: true, vertexColors: true }),
-    });
-    if (alpha) veil(geometry, alpha);
-    this.painted.push({ material, colour });
-    const mesh = new Mesh(geometry, material);
-    mesh.receiveShadow = true;
-    mesh.renderOrder = alpha ? -2 : 0;
-    group.add(mesh);
-  }
-
-  /** Straight lines, in pieces: a long one that passes the eye is not drawn by every machine. */
-  private lines(group: Group, ends: Point[][], colour: Colour, alpha?: (x: number, y: number) => number, parts = PARTS): void {
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(pieces(ends, parts), 3));
-    const material = new LineBasicMaterial(alpha && { transparent: true, vertexColors: true });
-    if (alpha) veil(geometry, alpha);
-    this.painted.push({ material, colour });
-    const drawn = new LineSegments(geometry, material);
-    drawn.renderOrder = alpha ? -1 : 0;
-    group.add(drawn);
-  }
+/** Straight lines, in pieces: a long one that passes the eye is not drawn by every machine. */
+function lines(group: Group, ends: Point[][], colour: Colour, alpha?: (x: number, y: number) => number, parts = PARTS): void {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(pieces(ends, parts), 3));
+  const material = new LineBasicMaterial(alpha && { transparent: true, vertexColors: true });
+  if (alpha) veil(geometry, alpha);
+  const drawn = new LineSegments(geometry, material);
+  drawn.userData.colour = colour;
+  drawn.renderOrder = alpha ? -1 : 0;
+  group.add(drawn);
 }
 
 /** White, as far as can be seen through it. */
@@ -151,6 +137,10 @@ function pieces(lines: Point[][], count: number): Float32Array {
     }
   }
   return places;
+}
+
+function spoke(radius: number, angle: number): Point[] {
+  return [[0, 0], [radius * Math.cos(angle), radius * Math.sin(angle)]];
 }
 
 function circle(radius: number): Point[][] {

@@ -1,16 +1,15 @@
 // What the page says in formulas, numbers and words.
 
 import { digits, formula, make, raised } from "./dom";
-import type { FormulaData, JudgementData, NumberData, SceneData } from "./scene";
+import type { AccountData, FormulaData, JudgementData, NumberData, SceneData } from "./scene";
 
 export function heading(scene: SceneData): HTMLElement {
   const about = scene.about ? [make("p", { class: "about" }, scene.about)] : [];
   return make("header", {}, make("h1", {}, scene.title), ...about);
 }
 
-export function sections(scene: SceneData): HTMLElement[] {
+export function sections(scene: AccountData): HTMLElement[] {
   return [
-    ...judgements(scene),
     ...section("Equations of motion", formulas(scene.motion)),
     ...section("Reactions", formulas(scene.reactions)),
     make(
@@ -58,12 +57,12 @@ function numbers(rows: NumberData[], count = 4): HTMLElement[] {
   return [make("table", {}, make("tbody", {}, ...lines))];
 }
 
-function evidence(scene: SceneData): HTMLElement[] {
+function evidence(scene: AccountData): HTMLElement[] {
   const told = make("p", {}, "Largest drift of what must stay as it is, along the whole motion:");
   return scene.evidence.length ? [told, ...numbers(scene.evidence, 2)] : [];
 }
 
-function events(scene: SceneData): HTMLElement[] {
+function events(scene: AccountData): HTMLElement[] {
   if (!scene.happenings.length) return [];
   const lines = scene.happenings.map(({ time, what }) =>
     make("tr", {}, make("th", { scope: "row", class: "number" }, `${digits(time)} s`), make("td", {}, what)),
@@ -71,7 +70,7 @@ function events(scene: SceneData): HTMLElement[] {
   return [make("table", {}, make("tbody", {}, ...lines))];
 }
 
-function judgements(scene: SceneData): HTMLElement[] {
+export function judgements(scene: SceneData): HTMLElement[] {
   return section("Claims", scene.judgements.map(judged));
 }
 

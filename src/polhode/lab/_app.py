@@ -27,6 +27,7 @@ from polhode.lab._work import DONE
 _PURPOSES = {  # of the worker that a task is for
     "describe": "motion",
     "run": "motion",
+    "read": "motion",
     "follow": "motion",
     "standing": "study",
     "claims": "claims",
@@ -34,6 +35,7 @@ _PURPOSES = {  # of the worker that a task is for
     "check": "claims",
     "export": "files",
 }
+_PACKETS = ("run", "read", "follow")  # answered with a packet
 _PAGE = """<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -122,7 +124,7 @@ async def _answer(request: Request, task: str, crew: Crew, limits: Limits) -> Re
 
 def _seconds(task: str, limits: Limits) -> float:
     """How long a task may take."""
-    own = {"run": limits.motion, "follow": limits.motion, "export": limits.file}
+    own = dict.fromkeys(_PACKETS, limits.motion) | {"export": limits.file}
     return own.get(task, limits.thought)
 
 
@@ -138,6 +140,8 @@ def _whole(task: str, body: bytes, reply: bytes) -> Response:
     kind, content = reply[:1], reply[1:]
     if kind != DONE:
         return Response(content, status_code=422, media_type="application/json")
+    if task in _PACKETS:
+        return Response(content, media_type="application/octet-stream")
     if task != "export":
         return Response(content, media_type="application/json")
     file = KINDS[Fields.read(body).text("kind")]

@@ -10,12 +10,13 @@ from typing import Any
 from polhode.base import Progress
 from polhode.lab._claims import answered, claims_about, judged
 from polhode.lab._controls import with_usual_numbers
-from polhode.lab._describe import described, followed, outcome, shown
+from polhode.lab._describe import described, followed, outcome, read, seen
 from polhode.lab._desk import Desk
 from polhode.lab._exports import exported
 from polhode.lab._files import KINDS
 from polhode.lab._formulas import invariants_of
 from polhode.lab._offer import Own, entry_of
+from polhode.lab._packet import packet
 from polhode.lab._standing import Family, families_of
 from polhode.lab._variants import variant
 from polhode.lab._wish import CONTACTS, Fields, question_of, wish_of
@@ -39,7 +40,7 @@ class Bench:
         self._invariants: dict[tuple[str, str], list[dict[str, Any]]] = {}
 
     def do(self, task: str, body: bytes) -> bytes:
-        """The reply to a request: a JSON document, or a file.
+        """The reply to a request: a JSON document, a packet with numbers, or a file.
 
         Raises:
             PolhodeError: for a request that cannot be met.
@@ -51,6 +52,7 @@ class Bench:
         return {
             "describe": self._describe,
             "run": self._run,
+            "read": self._read,
             "follow": self._follow,
             "standing": self._standing,
             "claims": self._claims,
@@ -75,12 +77,17 @@ class Bench:
     def _run(self, fields: Fields) -> bytes:
         wish = wish_of(fields.only(*_WISH))
         played = self._desk(wish.system).play(wish, self._progress)
-        scene = shown(played.variant, played.run)
-        return _json({"scene": scene.as_json(), "outcome": outcome(played.run)})
+        return packet(seen(played.variant, played.run))
+
+    def _read(self, fields: Fields) -> bytes:
+        wish = wish_of(fields.only(*_WISH))
+        played = self._desk(wish.system).play(wish, self._progress)
+        account = read(played.variant, played.run)
+        return packet({"account": account, "outcome": outcome(played.run)})
 
     def _follow(self, fields: Fields) -> bytes:
         wish = wish_of(fields.only(*_WISH))
-        return _json(followed(self._desk(wish.system).play(wish, self._progress).run))
+        return packet(followed(self._desk(wish.system).play(wish, self._progress).run))
 
     def _standing(self, fields: Fields) -> bytes:
         wish = wish_of(fields.only(*_WISH))

@@ -10,7 +10,7 @@ from polhode.algebra import Expr, Symbol
 from polhode.lab._controls import parameters_of, start_of
 from polhode.lab._variants import Variant, declared_contact
 from polhode.simulate import Trajectory
-from polhode.view import Scene, poses, scene
+from polhode.view import Account, Scene, account, poses, scene, scenery
 
 _RATE = 30  # poses in a second of what follows a hand
 _CONTACTS = ("rolling", "smooth", "friction")
@@ -43,16 +43,27 @@ def described(chosen: Variant, declared: Variant) -> dict[str, Any]:
     }
 
 
+def seen(chosen: Variant, run: Trajectory) -> Scene:
+    """What there is to look at."""
+    return scenery(run, title=chosen.entry.title, about=chosen.entry.about)
+
+
+def read(chosen: Variant, run: Trajectory) -> Account:
+    """What there is to read, with the plots of the catalogue that it has."""
+    return account(run, plots=plots_of(chosen, run), meanings=meanings_of(chosen))
+
+
 def shown(chosen: Variant, run: Trajectory) -> Scene:
-    """The scene of a motion, with the plots of the catalogue that it has."""
-    entry = chosen.entry
+    """All there is to see, for a page of its own."""
+    entry, plots = chosen.entry, plots_of(chosen, run)
     return scene(
-        run,
-        title=entry.title,
-        about=entry.about,
-        plots=plots_of(chosen, run),
-        meanings={parameter.name: parameter.meaning for parameter in entry.parameters},
+        run, title=entry.title, about=entry.about, plots=plots, meanings=meanings_of(chosen)
     )
+
+
+def meanings_of(chosen: Variant) -> dict[str, str]:
+    """What parameters are, by name."""
+    return {parameter.name: parameter.meaning for parameter in chosen.entry.parameters}
 
 
 def followed(run: Trajectory) -> dict[str, Any]:

@@ -40,6 +40,7 @@ class Desk:
         self.entry = entry
         self._variants: dict[str, Variant] = {}
         self._experiments: OrderedDict[object, Experiment] = OrderedDict()
+        self._last: tuple[Wish, Played] | None = None
 
     def variant(self, contact: str) -> Variant:
         """The system with its contacts of a kind, derived once."""
@@ -72,11 +73,16 @@ class Desk:
         return Numbers(parameters, found.forcing, start, found.duration)
 
     def play(self, wish: Wish, progress: Progress | None = None) -> Played:
-        """The motion that is asked for.
+        """The motion that is asked for; the last one is kept, as it is asked for again to be read.
 
         Raises:
             PolhodeError: for values that cannot be, and motions that cannot be followed.
         """
+        if self._last is None or self._last[0] != wish:
+            self._last = (wish, self._played(wish, progress))
+        return self._last[1]
+
+    def _played(self, wish: Wish, progress: Progress | None) -> Played:
         chosen, numbers = self.variant(wish.contact), self.numbers(wish)
         experiment = self._experiment(wish, chosen, numbers)
         return Played(chosen, experiment.run(numbers.parameters, numbers.start, progress))

@@ -7,10 +7,14 @@ from polhode.view._mathml import equation as equation
 from polhode.view._notebook import html_of as html_of
 from polhode.view._page import page as page
 from polhode.view._page import page_of as page_of
+from polhode.view._scene import Account as Account
 from polhode.view._scene import Judgement as Judgement
 from polhode.view._scene import Scene as Scene
+from polhode.view._scene import plain as plain
+from polhode.view._scene_build import account as account
 from polhode.view._scene_build import poses as poses
 from polhode.view._scene_build import scene as scene
+from polhode.view._scene_build import scenery as scenery
 from polhode.view._typeset import typeset as typeset
 from polhode.view.figures._run import figure_of_run as figure_of_run
 from polhode.view.figures._run import plot as plot

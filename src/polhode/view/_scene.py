@@ -10,7 +10,7 @@ row stays the same throughout.
 from __future__ import annotations
 
 import base64
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -284,6 +284,19 @@ class Judgement:
 
 
 @dataclass(frozen=True)
+class Account:
+    """What there is to read of a motion; see `Scene` for what each part is."""
+
+    panels: tuple[Panel, ...]
+    motion: tuple[Formula, ...]
+    reactions: tuple[Formula, ...]
+    parameters: tuple[Number, ...]
+    start: tuple[Number, ...]
+    evidence: tuple[Number, ...]
+    happenings: tuple[Happening, ...]
+
+
+@dataclass(frozen=True)
 class Scene:
     """All there is to see of a motion; `as_json` gives the document that a page is made of.
 
@@ -317,7 +330,7 @@ class Scene:
     supports: tuple[Support, ...]
     arrows: tuple[Arrow, ...]
     traces: tuple[Trace, ...]
-    panels: tuple[Panel, ...]
+    panels: tuple[Panel, ...] = ()
     motion: tuple[Formula, ...] = ()
     reactions: tuple[Formula, ...] = ()
     parameters: tuple[Number, ...] = ()
@@ -336,15 +349,24 @@ class Scene:
         return document
 
 
-def plain(value: Any) -> Any:
-    """A part of a scene as plain data."""
+def in_base64(numbers: bytes) -> str:
+    """Numbers as text."""
+    return base64.b64encode(numbers).decode("ascii")
+
+
+def plain(value: Any, told: Callable[[bytes], object] = in_base64) -> Any:
+    """A part of a scene as plain data.
+
+    Args:
+        value: the part.
+        told: what stands for the numbers of an array, which come as little-endian float32.
+    """
     if is_dataclass(value):
-        return {f.name: plain(getattr(value, f.name)) for f in fields(value)}
+        return {f.name: plain(getattr(value, f.name), told) for f in fields(value)}
     if isinstance(value, np.ndarray):
-        packed = base64.b64encode(value.astype("<f4").tobytes()).decode("ascii")
-        return {"shape": list(value.shape), "float32": packed}
+        return {"shape": list(value.shape), "float32": told(value.astype("<f4").tobytes())}
     if isinstance(value, tuple | list):
-        return [plain(item) for item in value]
+        return [plain(item, told) for item in value]
     if isinstance(value, Mapping):
-        return {str(key): plain(item) for key, item in value.items()}
+        return {str(key): plain(item, told) for key, item in value.items()}
     return value

@@ -72,7 +72,7 @@ def collapsed(rows: Array) -> Array:
 def quaternions(matrices: Array) -> Array:
     """Rotation matrices as unit quaternions (x, y, z, w) that follow each other without a jump.
 
-    Each is the eigenvector of Bar-Itzhack's symmetric matrix to the largest eigenvalue.
+    With the identity, Bar-Itzhack's symmetric matrix is 4 q qᵀ; each is its largest column.
     """
     m = matrices
     xx, yy, zz = m[:, 0, 0], m[:, 1, 1], m[:, 2, 2]
@@ -83,7 +83,10 @@ def quaternions(matrices: Array) -> Array:
         k[:, i, j] = k[:, j, i] = m[:, i, j] + m[:, j, i]
     for i, (j, l) in enumerate(((2, 1), (0, 2), (1, 0))):
         k[:, i, 3] = k[:, 3, i] = m[:, j, l] - m[:, l, j]
-    found: Array = np.linalg.eigh(k)[1][:, :, -1]
+    k += np.eye(4)
+    largest = np.argmax(np.einsum("nii->ni", k), axis=1)
+    column = k[np.arange(len(k)), :, largest]
+    found: Array = column / np.linalg.norm(column, axis=1, keepdims=True)
     flips = np.sign(np.sum(found[1:] * found[:-1], axis=1))
     found[1:] *= np.cumprod(np.where(flips < 0, -1.0, 1.0))[:, None]
     return found
@@ -93,16 +96,25 @@ def rolled(turning: Array, step: float) -> Array:
     """Attitudes that an angular velocity (rad/s, along fixed directions) leads to from none."""
     half = (turning[1:] + turning[:-1]) * (step / 4)
     angle = np.linalg.norm(half, axis=1, keepdims=True)
-    vector = half * np.sinc(angle / np.pi)
-    found = [(0.0, 0.0, 0.0, 1.0)]
-    for (a, b, c), w in zip(vector.tolist(), np.cos(angle[:, 0]).tolist(), strict=True):
-        x, y, z, s = found[-1]
-        found.append(
-            (
-                w * x + s * a + b * z - c * y,
-                w * y + s * b + c * x - a * z,
-                w * z + s * c + a * y - b * x,
-                w * s - a * x - b * y - c * z,
-            )
-        )
-    return np.array(found)
+    turns = np.hstack([half * np.sinc(angle / np.pi), np.cos(angle)])
+    found = np.vstack([(0.0, 0.0, 0.0, 1.0), turns])
+    reach = 1
+    while reach < len(found):  # each is a turn over so many steps, and over twice as many next
+        found[reach:] = _after(found[reach:], found[:-reach])
+        reach *= 2
+    return found
+
+
+def _after(second: Array, first: Array) -> Array:
+    """Quaternions of one turn after another, both along fixed directions."""
+    a, b, c, w = second.T
+    x, y, z, s = first.T
+    return np.stack(
+        [
+            w * x + s * a + b * z - c * y,
+            w * y + s * b + c * x - a * z,
+            w * z + s * c + a * y - b * x,
+            w * s - a * x - b * y - c * z,
+        ],
+        axis=1,
+    )

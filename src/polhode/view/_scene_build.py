@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from math import ceil
-from typing import Any
 
 import numpy as np
 
@@ -13,7 +13,16 @@ from polhode.derive import Equations
 from polhode.model import Body
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array, equations_of
-from polhode.view._scene import Judgement, Link, Scene, SceneBody, Support, Triple, plain
+from polhode.view._scene import (
+    Account,
+    Judgement,
+    Link,
+    Pose,
+    Scene,
+    SceneBody,
+    Support,
+    Triple,
+)
 from polhode.view._scene_along import constants, vectors
 from polhode.view._scene_bodies import arrows_of, bodies_of
 from polhode.view._scene_joints import joints_of, links_of
@@ -60,6 +69,31 @@ def scene(
     Raises:
         DeclarationError: for the name of a quantity that the run does not have.
     """
+    read = account(run, plots=plots, meanings=meanings)
+    seen = scenery(run, title=title, about=about)
+    return replace(seen, judgements=tuple(judgements), **vars(read))
+
+
+def account(
+    run: Trajectory,
+    *,
+    plots: Sequence[Sequence[str]] = (),
+    meanings: Mapping[str, str] | None = None,
+) -> Account:
+    """What there is to read of a motion: the arguments are those of `scene`."""
+    return Account(
+        panels=panels_of(run, plots or everything(run)),
+        motion=motion_of(run),
+        reactions=reactions_of(run),
+        parameters=parameters_of(run, meanings or {}),
+        start=start_of(run),
+        evidence=evidence_of(run),
+        happenings=happenings_of(run),
+    )
+
+
+def scenery(run: Trajectory, *, title: str = "", about: str = "") -> Scene:
+    """What there is to look at: a scene without an account, which takes its time."""
     equations = equations_of(run)
     t = np.linspace(0.0, run.duration, _frames(run))
     links = links_of(run, t)
@@ -81,24 +115,14 @@ def scene(
         supports=supports,
         arrows=arrows_of(run, t),
         traces=(*traces, *other_traces(bodies)),
-        panels=panels_of(run, plots or everything(run)),
-        motion=motion_of(run),
-        reactions=reactions_of(run),
-        parameters=parameters_of(run, meanings or {}),
-        start=start_of(run),
-        evidence=evidence_of(run),
-        happenings=happenings_of(run),
-        judgements=tuple(judgements),
         origin=origin_of_scene(run),
     )
 
 
-def poses(run: Trajectory, frames: int) -> list[dict[str, Any]]:
-    """Where the bodies are at equally spaced instants, as `Scene.as_json` puts it: a scene of
-    little else is made while one waits.
-    """
+def poses(run: Trajectory, frames: int) -> tuple[Pose, ...]:
+    """Where the bodies are at equally spaced instants: little else is made while one waits."""
     t = np.linspace(0.0, run.duration, frames)
-    return [plain(body.pose) for body in bodies_of(run, (), t)]
+    return tuple(body.pose for body in bodies_of(run, (), t))
 
 
 def _frames(run: Trajectory) -> int:

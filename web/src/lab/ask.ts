@@ -1,5 +1,7 @@
 // Questions to the lab's server: the newest of a kind counts, and older ones hold it up only so long.
 
+import { opened } from "./packet";
+
 export interface Refusal {
   given: string;
   expected: string;
@@ -15,6 +17,11 @@ export class RefusedError extends Error {
 
 export async function ask<T>(task: string, question: object, signal?: AbortSignal): Promise<T> {
   return (await post(task, question, signal)).json() as Promise<T>;
+}
+
+/** An answer with many numbers. */
+export async function askForNumbers<T>(task: string, question: object, signal?: AbortSignal): Promise<T> {
+  return opened<T>(await (await post(task, question, signal)).arrayBuffer());
 }
 
 export async function post(task: string, question: object, signal?: AbortSignal): Promise<Response> {
@@ -37,9 +44,9 @@ export class Asker<T> {
   private under: AbortController | null = null;
 
   constructor(
-    private readonly task: string,
+    private readonly put: (question: object, signal: AbortSignal) => Promise<T>,
     private readonly delay: number,
-    private readonly answer: (answer: T) => void,
+    private readonly answer: (answer: T, question: object, signal: AbortSignal) => Promise<void> | void,
     private readonly refused: (message: string) => void,
     private readonly busy: (busy: boolean) => void = () => {},
   ) {}
@@ -76,8 +83,8 @@ export class Asker<T> {
 
   private async send(question: object, signal: AbortSignal): Promise<void> {
     try {
-      const answer = await ask<T>(this.task, question, signal);
-      if (!signal.aborted) this.answer(answer);
+      const answer = await this.put(question, signal);
+      if (!signal.aborted) await this.answer(answer, question, signal);
     } catch (error) {
       if (!signal.aborted) this.refused(error instanceof RefusedError ? error.message : "The lab's server does not answer; is polhode lab still running?");
     }

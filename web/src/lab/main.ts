@@ -3,9 +3,10 @@
 import "uplot/dist/uPlot.min.css";
 import "../page.css";
 import "./lab.css";
-import { formula, make } from "../dom";
+import { formula, make, painted } from "../dom";
+import type { SceneData } from "../scene";
 import { sections } from "../text";
-import { ask, Asker } from "./ask";
+import { ask, Asker, askForNumbers } from "./ask";
 import { asking, Claims, said } from "./claims";
 import { keeping } from "./keep";
 import { Player } from "./player";
@@ -14,7 +15,7 @@ import { Field, isAbout, shownNumber, Slider } from "./sliders";
 import { badge, invariants, steadyMotions } from "./standing";
 import { empty, read, written } from "./state";
 import { tabs } from "./tabs";
-import type { Answer, Control, Description, Offer, Outcome, Row, Standing, State } from "./types";
+import type { Control, Description, Offer, Outcome, Reading, Row, Standing, State } from "./types";
 
 const MOTION_DELAY = 0; // ms after the last change
 const STUDY_DELAY = 300; // when the picture is there
@@ -42,8 +43,8 @@ class Lab {
   private readonly steady = make("div", {});
   private claimsOpen = false;
   private eager = false; // to play what comes next
-  private readonly motion = new Asker<Answer>("run", MOTION_DELAY, (answer) => this.play(answer), (message) => this.refused(message), (busy) => this.busy(busy));
-  private readonly study = new Asker<Standing>("standing", STUDY_DELAY, (standing) => this.stand(standing), () => this.stand({ families: [], invariants: [] }), (busy) => this.steady.setAttribute("aria-busy", String(busy)));
+  private readonly motion = new Asker<SceneData>((wish, signal) => askForNumbers("run", wish, signal), MOTION_DELAY, (scene, wish, signal) => this.play(scene, wish, signal), (message) => this.refused(message), (busy) => this.busy(busy));
+  private readonly study = new Asker<Standing>((wish, signal) => ask("standing", wish, signal), STUDY_DELAY, (standing) => this.stand(standing), () => this.stand({ families: [], invariants: [] }), (busy) => this.steady.setAttribute("aria-busy", String(busy)));
 
   constructor(offers: Offer[]) {
     this.state = read(location.hash) ?? empty(offers[0].name);
@@ -193,18 +194,29 @@ class Lab {
     this.changed();
   }
 
-  private play({ scene, outcome }: Answer): void {
-    const first = document.body.dataset.ready !== "yes";
+  /** The picture first; what there is to read of it is asked for meanwhile, and follows. */
+  private async play(scene: SceneData, wish: object, signal: AbortSignal): Promise<void> {
+    const asked = askForNumbers<Reading>("read", wish, signal);
+    asked.catch(() => {}); // told where it is waited for
     this.player.show(scene, `${this.state.system} ${this.state.sheet.length}`);
     this.drag.arm(this.drag.armed);
     if (this.eager) this.player.clock?.play();
     this.eager = false;
-    this.equations.replaceChildren(...sections(scene));
+    counted("pictures");
+    await painted();
+    if (signal.aborted) return;
+    this.player.furnish();
+    this.read(await asked);
+  }
+
+  private read({ account, outcome }: Reading): void {
+    this.player.plot(account.panels);
+    this.equations.replaceChildren(...sections(account));
     this.outcome.replaceChildren(...(this.state.sheet.length ? [returned(outcome)] : []));
     for (const field of this.fields) field.wrong("");
     this.tell("");
-    if (first) document.body.dataset.ready = "yes";
-    document.body.dataset.answers = String(Number(document.body.dataset.answers ?? 0) + 1);
+    document.body.dataset.ready = "yes";
+    counted("answers");
   }
 
   private stand(standing: Standing): void {
@@ -241,6 +253,12 @@ class Lab {
     this.player.theatre.classList.toggle("busy", busy);
     this.player.theatre.setAttribute("aria-busy", String(busy));
   }
+}
+
+/** For whoever watches the page. */
+function counted(what: string): void {
+  const { dataset } = document.body;
+  dataset[what] = String(Number(dataset[what] ?? 0) + 1);
 }
 
 /** A path to a hundredth of a second and a tenth of a millimetre. */

@@ -4,7 +4,7 @@ import { Clock, rates } from "../clock";
 import { keys, switches, transport } from "../controls";
 import { make } from "../dom";
 import { Plots } from "../plots";
-import type { SceneData } from "../scene";
+import type { PanelData, SceneData } from "../scene";
 import { Stage } from "../stage";
 
 export class Player {
@@ -26,20 +26,32 @@ export class Player {
     });
   }
 
-  /** Play a motion; one of the same system goes on at the same time of the clock. */
+  /** Play a motion; one of the same system goes on at the same time of the clock. Its picture is drawn at once. */
   show(scene: SceneData, system: string): void {
     const same = system === this.system;
     this.system = system;
     const clock = this.follower(scene, same);
     this.stage = this.staged(scene, same);
-    this.drawn.show(scene.panels, clock);
-    this.controls(scene, clock);
+    const { stage } = this;
+    if (!stage) return;
+    clock.onChange(({ time }) => stage.seek(time));
+    stage.theme(this.dark.matches);
+    stage.drawNow();
+  }
+
+  /** What is moved and pressed, for the motion that is shown. */
+  furnish(): void {
+    const { clock, stage } = this;
+    if (!clock) return;
+    this.controls(clock);
     this.listening.abort();
     this.listening = new AbortController();
-    keys(clock, this.picture, this.stage, this.listening.signal);
-    const { stage } = this;
-    if (stage) clock.onChange(({ time }) => stage.seek(time));
-    stage?.theme(this.dark.matches);
+    keys(clock, this.picture, stage, this.listening.signal);
+  }
+
+  /** Plots of the motion that is shown. */
+  plot(panels: PanelData[]): void {
+    if (this.clock) this.drawn.show(panels, this.clock);
   }
 
   private follower(scene: SceneData, same: boolean): Clock {
@@ -70,23 +82,13 @@ export class Player {
     }
   }
 
-  /** The rows under the picture, with what was pressed and where the keyboard was. */
-  private controls(scene: SceneData, clock: Clock): void {
-    const before = [...this.theatre.querySelectorAll<HTMLElement>(".controls :is(button, input, select)")];
-    const focused = before.indexOf(document.activeElement as HTMLElement);
-    const pressed = new Map(before.map((button) => [told(button), button.getAttribute("aria-pressed")]));
-    const rows = make("div", { class: "controls" }, ...(this.stage ? [switches(scene, this.stage, clock)] : []), transport(clock));
+  /** The rows under the picture, with the keyboard where it was. */
+  private controls(clock: Clock): void {
+    const held = (): HTMLElement[] => [...this.theatre.querySelectorAll<HTMLElement>(".controls :is(button, input, select)")];
+    const focused = held().indexOf(document.activeElement as HTMLElement);
+    const rows = make("div", { class: "controls" }, ...(this.stage ? [switches(this.stage, clock)] : []), transport(clock));
     this.theatre.querySelector(".controls")?.remove();
     this.picture.after(rows);
-    const after = [...rows.querySelectorAll<HTMLElement>("button, input, select")];
-    for (const button of after) {
-      const wanted = pressed.get(told(button));
-      if (wanted && wanted !== button.getAttribute("aria-pressed")) button.click();
-    }
-    if (focused >= 0) after[focused]?.focus();
+    if (focused >= 0) held()[focused]?.focus();
   }
-}
-
-function told(button: HTMLElement): string {
-  return button.title || button.getAttribute("aria-label") || (button.textContent ?? "");
 }

@@ -5,7 +5,7 @@
 import { make } from "../dom";
 import { Pose } from "../pose";
 import type { PoseData, Triple } from "../scene";
-import { ask } from "./ask";
+import { askForNumbers } from "./ask";
 import type { Player } from "./player";
 import type { Row } from "./types";
 
@@ -167,7 +167,7 @@ export class SheetDrag {
     while (this.armed && !signal.aborted) {
       try {
         const duration = path[path.length - 1][0] + AHEAD;
-        const found = await ask<Followed>("follow", this.wish(path, duration), signal);
+        const found = await askForNumbers<Followed>("follow", this.wish(path, duration), signal);
         this.course = { ...found, poses: found.poses.map((pose) => new Pose(pose)) };
       } catch {
         if (signal.aborted) return; // what the ball does is then told once the sheet is let go

@@ -1,6 +1,6 @@
 // What the lab's server says, and what it is asked; see the lab room of polhode.
 
-import type { SceneData } from "../scene";
+import type { AccountData } from "../scene";
 
 export interface Offer {
   name: string;
@@ -42,8 +42,9 @@ export interface Outcome {
   end: number;
 }
 
-export interface Answer {
-  scene: SceneData;
+/** What is asked for once the picture is there. */
+export interface Reading {
+  account: AccountData;
   outcome: Outcome[];
 }
 

@@ -1,0 +1,15 @@
+// Answers with many numbers: JSON, and the numbers as they are after it; see the lab room of polhode.
+
+const WORD = 4; // bytes of a number, and of the length of the JSON
+
+/** What was sent, every array with its numbers. */
+export function opened<T>(packet: ArrayBuffer): T {
+  const length = new DataView(packet).getUint32(0, true);
+  const text = new TextDecoder().decode(new Uint8Array(packet, WORD, length));
+  const numbers = new Float32Array(packet, WORD + length);
+  return JSON.parse(text, (key, value: unknown) => {
+    if (key !== "float32") return value;
+    const [begin, end] = value as [number, number];
+    return numbers.subarray(begin, end);
+  }) as T;
+}
