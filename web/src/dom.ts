@@ -56,8 +56,12 @@ export function raised(text: string): string {
   return text.replace(/\^(\d)/g, (_, digit: string) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)]);
 }
 
-/** Once what is there now is on the screen; at once, where nobody sees it. */
+const LATEST = 250; // ms; what is out of sight, such as a frame that was scrolled away, is not painted at all
+
+/** Once what is there now is on the screen, or would have been. */
 export function painted(): Promise<void> {
-  if (document.hidden) return Promise.resolve();
-  return new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+  return new Promise((done) => {
+    requestAnimationFrame(() => setTimeout(done));
+    setTimeout(done, LATEST);
+  });
 }

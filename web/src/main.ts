@@ -34,6 +34,7 @@ function show(scene: SceneData): void {
       clock.onChange(({ time }) => stage.seek(time));
       stage.theme(dark.matches);
       dark.addEventListener("change", () => stage.theme(dark.matches));
+      stage.drawNow();
     }
     document.body.dataset.ready = "yes";
   });

@@ -9,6 +9,7 @@ from typing import Any, Protocol
 from polhode.algebra._expression import ZERO, Expr, ExprLike
 from polhode.algebra._linear import Matrix, Row, dot
 from polhode.algebra._roots import sqrt
+from polhode.base import Shown
 
 
 class Triad(Protocol):
@@ -30,7 +31,7 @@ class Triad(Protocol):
 
 
 @dataclass(frozen=True)
-class Vector:
+class Vector(Shown):
     """A vector by its components along a triad."""
 
     components: Row

@@ -8,6 +8,7 @@ from enum import Enum
 from math import prod
 
 from polhode.algebra import ONE, ZERO, Expr, Kind, Symbol, factors, is_positive
+from polhode.base import Shown
 
 
 class Truth(Enum):
@@ -19,7 +20,7 @@ class Truth(Enum):
 
 
 @dataclass(frozen=True)
-class Condition:
+class Condition(Shown):
     """`expression > 0`, with factors of known sign left out.
 
     Attributes:

@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from polhode.algebra import Expr, Matrix, Vector
+from polhode.base import Shown
 from polhode.derive import Equations
 from polhode.model import Body, Frame
 
 
 @dataclass(frozen=True)
-class Fictitious:
+class Fictitious(Shown):
     """What the motion of a frame adds to Newton's laws.
 
     On an element they are forces per unit mass (N/kg); on a body, torques about its centre of

@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, sqrt
-from polhode.base import DeclarationError
+from polhode.base import DeclarationError, Shown
 from polhode.derive import Equations
 from polhode.model import Contact
 
 
 @dataclass(frozen=True)
-class ContactForces:
+class ContactForces(Shown):
     """Forces at a contact along true motions.
 
     Attributes:

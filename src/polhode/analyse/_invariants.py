@@ -16,7 +16,7 @@ from polhode.model import Body, Contact
 
 
 @dataclass(frozen=True)
-class Invariant:
+class Invariant(Shown):
     """An expression of coordinates, speeds and time that keeps its value along every motion.
 
     Attributes:

@@ -24,12 +24,12 @@ from polhode.algebra import (
     variables,
 )
 from polhode.analyse._reduced import reduced
-from polhode.base import NumericError
+from polhode.base import NumericError, Shown
 from polhode.derive import Equations
 
 
 @dataclass(frozen=True)
-class LinearIntegrals:
+class LinearIntegrals(Shown):
     """Speeds u with du/dθ = A(θ) u along every motion.
 
     Attributes:

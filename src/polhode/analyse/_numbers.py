@@ -11,14 +11,14 @@ from flint import fmpq, fmpq_poly
 
 from polhode.algebra import Expr, ExprLike, Symbol, as_symbol, pi
 from polhode.analyse._steady import SteadyMotion
-from polhode.base import NumericError
+from polhode.base import NumericError, Shown
 
 #: Relations of a higher degree in the unknown are refused.
 LARGEST_DEGREE = 24
 
 
 @dataclass(frozen=True)
-class SteadyValues:
+class SteadyValues(Shown):
     """All values of one quantity on a family of steady motions.
 
     Attributes:

@@ -35,7 +35,7 @@ _ASIDE = Symbol("aside")
 
 
 @dataclass(frozen=True)
-class Branch:
+class Branch(Shown):
     """A relation solved for one quantity.
 
     Attributes:

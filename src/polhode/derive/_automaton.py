@@ -8,7 +8,7 @@ from functools import cached_property
 from itertools import product
 
 from polhode.algebra import Expr, Kind, Symbol, variables
-from polhode.base import DeclarationError, look_up
+from polhode.base import DeclarationError, Shown, look_up
 from polhode.derive._derive import derive
 from polhode.derive._equations import Equations
 from polhode.derive._guards import Guard, guards_of
@@ -61,7 +61,7 @@ class Mode:
 
 
 @dataclass(frozen=True)
-class Automaton:
+class Automaton(Shown):
     """All contact modes of a system; each is derived when it is first asked for.
 
     Coordinates, speeds and reactions have the same names in every mode.
@@ -130,6 +130,11 @@ class Automaton:
         if chosen not in self._known:
             self._known[chosen] = self._derived(chosen)
         return self._known[chosen]
+
+    @property
+    def known(self) -> tuple[Mode, ...]:
+        """The modes that were asked for, as they are derived by now."""
+        return tuple(self._known.values())
 
     @cached_property
     def names(self) -> tuple[str, ...]:

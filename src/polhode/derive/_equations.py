@@ -31,7 +31,7 @@ from polhode.model import Body, System
 
 
 @dataclass(frozen=True)
-class Reaction:
+class Reaction(Shown):
     """What one contact or joint does to its body.
 
     Attributes:

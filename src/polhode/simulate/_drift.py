@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from polhode.algebra import Expr
+from polhode.base import Shown
 from polhode.simulate._dynamics import WORK
 from polhode.simulate._segment import Segment
 from polhode.simulate.integrate._ascending import ascending
@@ -18,7 +19,7 @@ _MOST_CHECKED = 20_000  # instants of a segment that are looked at
 
 
 @dataclass(frozen=True)
-class Drift:
+class Drift(Shown):
     """Largest departures along a trajectory.
 
     Attributes:

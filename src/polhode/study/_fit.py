@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from polhode.base import DeclarationError, NumericError
+from polhode.base import DeclarationError, NumericError, Shown
 from polhode.simulate import Experiment
 from polhode.study._block import Subject
 from polhode.study._columns import Array, Name, published_names, several
@@ -19,7 +19,7 @@ _TOLERANCE = 1e-12  # relative, of the last step
 
 
 @dataclass(frozen=True)
-class Fit:
+class Fit(Shown):
     """The values that fit best, in SI units.
 
     Attributes:

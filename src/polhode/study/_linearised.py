@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polhode.algebra import FLOATS, Compiled, Program
-from polhode.base import NumericError
+from polhode.base import NumericError, Shown
 from polhode.derive import Equations, derive
 from polhode.model import System
 from polhode.simulate import Dynamics, idle_parameters, read_parameters, read_start
@@ -23,7 +23,7 @@ _STEADY = 1e-9  # of the largest rate that there could be
 
 
 @dataclass(frozen=True)
-class Linearised:
+class Linearised(Shown):
     """Small departures from a steady motion: d(departure)/dt = matrix @ departure.
 
     Attributes:

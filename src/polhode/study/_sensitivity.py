@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from polhode.algebra import Expr, Symbol, as_symbol
-from polhode.base import NumericError, look_up
+from polhode.base import NumericError, Shown, look_up
 from polhode.simulate import Dynamics, Event, Experiment, Trajectory
 from polhode.simulate.many import Stretch, Tangents
 from polhode.study._block import Subject
@@ -20,7 +20,7 @@ from polhode.study._extremes import Quantity
 
 
 @dataclass(frozen=True)
-class Sensitivities:
+class Sensitivities(Shown):
     """Quantities along a motion, and their derivatives by parameters and start values; all SI.
 
     Attributes:

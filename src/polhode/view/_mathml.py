@@ -35,6 +35,14 @@ def positive(expression: Expr) -> Formula:
     return _relation("", expression, ">", Expr.of(0))
 
 
+def alone(expression: Expr) -> Formula:
+    """An expression by itself, which may break likewise."""
+    spoken = expression.pretty()
+    if len(spoken) > _LONGEST:
+        return Formula("", (), f"… ({len(spoken):,} characters: too long to be read here)")
+    return Formula("", tuple(_written(piece) for piece in _pieces(_row(expression))), spoken)
+
+
 def _relation(name: str, left: Expr, sign: str, right: Expr) -> Formula:
     spoken = f"{left.pretty()} {sign} {right.pretty()}"
     if len(spoken) > _LONGEST:

@@ -23,24 +23,12 @@ from polhode.derive import Equations
 from polhode.model import Body, System
 from polhode.simulate import Trajectory
 from polhode.study import Ensemble
+from polhode.view._markup import folded, framed, rows, table
 from polhode.view._mathml import equation, positive, symbol
 from polhode.view._page import page_of
-from polhode.view._scene import Formula
 from polhode.view._scene_build import scene
 
 _ZERO = Expr.of(0)
-_STYLE = (
-    "<style>.polhode{max-width:60em;overflow-x:auto}"
-    ".polhode math{font-size:1.1em;"
-    "font-family:'STIX Two Math','Cambria Math','Latin Modern Math',math}"
-    ".polhode .row{margin:.45em 0 .45em 1.2em;line-height:1.9}"
-    ".polhode table{border-collapse:collapse;margin:.3em 0}"
-    ".polhode table td,.polhode table th{text-align:left;vertical-align:baseline;"
-    "padding:.15em .8em .15em 0}"
-    ".polhode summary{cursor:pointer;font-weight:600}"
-    ".polhode table caption{text-align:left;white-space:nowrap;font-weight:600;"
-    "padding:.2em 0}</style>"
-)
 _TALL = 640  # pixels of the picture of a motion with its plots
 _FAILURES = 10  # that are told
 _WIDE = "min(100%, 72rem)"
@@ -54,11 +42,11 @@ def html_of(thing: object) -> str:
 
 @html_of.register
 def _(thing: System) -> str:
-    bodies = _table("bodies", ("", "mass", "inertia"), map(_body, thing.bodies))
+    bodies = table("bodies", ("", "mass", "inertia"), map(_body, thing.bodies))
     parts = [(escape(e.name), type(e).__name__) for e in thing.elements]
     parts += [(escape(load.name), type(load).__name__) for load in thing.loads]
-    others = _table("what acts on them", ("", ""), parts) if parts else ""
-    return _framed(f"<strong>{escape(thing.name)}</strong>{bodies}{others}")
+    others = table("what acts on them", ("", ""), parts) if parts else ""
+    return framed(f"<strong>{escape(thing.name)}</strong>{bodies}{others}")
 
 
 @html_of.register
@@ -71,53 +59,53 @@ def _(thing: Equations) -> str:
         for name, value in thing.components.items()
         if name not in thing.undetermined
     ]
-    shown = f"<strong>Equations of motion of {escape(thing.system.name)}</strong>{_rows(motion)}"
-    shown += _folded("with", kinematics) + _folded("reactions", reactions)
+    shown = f"<strong>Equations of motion of {escape(thing.system.name)}</strong>{rows(motion)}"
+    shown += folded("with", kinematics) + folded("reactions", reactions)
     if thing.undetermined:
         shown += f"<p>Not determined: {escape(', '.join(thing.undetermined))}</p>"
-    return _framed(shown)
+    return framed(shown)
 
 
 @html_of.register
 def _(thing: SteadyMotion) -> str:
     name = escape(thing.reduced.equations.system.name)
-    rows = [equation("", condition, _ZERO) for condition in thing.conditions]
-    shown = f"<strong>Steady motion of {name}</strong>{_rows(rows)}"
-    if not rows:
+    held = [equation("", condition, _ZERO) for condition in thing.conditions]
+    shown = f"<strong>Steady motion of {name}</strong>{rows(held)}"
+    if not held:
         shown += "<p>Every state.</p>"
     for branch in thing.branches:
-        shown += _rows([equation("", branch.quantity, branch.value)])
+        shown += rows([equation("", branch.quantity, branch.value)])
         shown += _where("exists where", branch.exists)
     try:
-        return _framed(shown + _told(stability(thing)))
+        return framed(shown + _told(stability(thing)))
     except NumericError:  # a family on which the coordinates are singular
-        return _framed(shown)
+        return framed(shown)
 
 
 @html_of.register
 def _(thing: Stability) -> str:
-    return _framed(_told(thing))
+    return framed(_told(thing))
 
 
 @html_of.register
 def _(thing: Invariants) -> str:
-    rows = [
+    found = [
         f"<p>{escape(i.meaning)}</p>"
-        f"{_rows([equation('', Expr.generator(Symbol(i.name)), i.expression)])}"
+        f"{rows([equation('', Expr.generator(Symbol(i.name)), i.expression)])}"
         for i in thing
     ]
     beyond = f"<pre>{escape(str(thing.linear))}</pre>" if thing.linear else ""
     limits = f"<p>Searched: {escape(thing.ansatz)}. Nothing outside it is excluded.</p>"
-    return _framed("<strong>Invariants</strong>" + "".join(rows) + beyond + limits)
+    return framed("<strong>Invariants</strong>" + "".join(found) + beyond + limits)
 
 
 @html_of.register
 def _(thing: Ensemble) -> str:
-    rows = [(escape(name), _spread(thing, name)) for name in thing.values]
+    outputs = [(escape(name), _spread(thing, name)) for name in thing.values]
     title = f"{len(thing)} members, {thing.failed} failed"
     why = [f"<p>member {k}: {escape(v)}</p>" for k, v in list(thing.failures.items())[:_FAILURES]]
     folded = f"<details><summary>why</summary>{''.join(why)}</details>" if why else ""
-    return _framed(_table(title, ("output", "of all members"), rows) + folded)
+    return framed(table(title, ("output", "of all members"), outputs) + folded)
 
 
 @html_of.register
@@ -131,35 +119,11 @@ def _(thing: Trajectory) -> str:
     )
 
 
-def _framed(inner: str) -> str:
-    return f"<div class='polhode'>{_STYLE}{inner}</div>"
-
-
 def _body(body: Body) -> tuple[str, ...]:
     inertia = body.inertia.rows
     off = any(inertia[i][j] for i in range(3) for j in range(3) if i != j)
     entries = [e for row in inertia for e in row] if off else [inertia[i][i] for i in range(3)]
     return escape(body.name), symbol(body.mass), ", ".join(map(symbol, entries))
-
-
-def _table(title: str, header: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    head = "".join(f"<th scope='col'>{cell}</th>" for cell in header)
-    body = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
-    return f"<table><caption>{title}</caption><tr>{head}</tr>{body}</table>"
-
-
-def _rows(formulas: Iterable[Formula]) -> str:
-    return "".join(f"<div class='row'>{_formula(f)}</div>" for f in formulas)
-
-
-def _formula(formula: Formula) -> str:
-    return " ".join(formula.pieces) or escape(formula.spoken)
-
-
-def _folded(title: str, formulas: list[Formula]) -> str:
-    if not formulas:
-        return ""
-    return f"<details><summary>{title}</summary>{_rows(formulas)}</details>"
 
 
 def _told(found: Stability) -> str:
@@ -169,7 +133,7 @@ def _told(found: Stability) -> str:
 def _where(words: str, conditions: Iterable[Condition]) -> str:
     """Conditions of which something is left to ask."""
     formulas = [positive(c.expression) for c in conditions if c.truth is Truth.OPEN]
-    return f"<p>{words}</p>{_rows(formulas)}" if formulas else ""
+    return f"<p>{words}</p>{rows(formulas)}" if formulas else ""
 
 
 def _spread(found: Ensemble, name: str) -> str:
