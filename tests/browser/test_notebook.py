@@ -28,3 +28,13 @@ def test_the_frame_plays(opened, cell):
         assert shown.page.locator("iframe").bounding_box()["width"] <= 1000
         assert [url for url in shown.requests if not url.startswith(("file:", "about:"))] == []
         assert shown.complaints == []
+
+
+def test_a_frame_out_of_sight_is_ready_when_it_is_scrolled_to(opened, cell):
+    """Browsers paint no frame that is out of sight, and exported notebooks begin with many."""
+    with opened(cell) as shown:
+        shown.page.evaluate("document.body.style.paddingTop = '5000px'")
+        shown.page.frames[1].evaluate("location.reload()")
+        frame = shown.page.frame_locator("iframe")
+        frame.locator("body[data-ready]").wait_for(state="attached", timeout=90_000)
+        assert frame.locator("canvas").count() > 1

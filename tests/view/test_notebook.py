@@ -4,6 +4,7 @@ import re
 from html.parser import HTMLParser
 
 import nbformat
+import numpy as np
 import pytest
 from nbclient import NotebookClient
 
@@ -131,3 +132,46 @@ def test_an_ensemble_is_summed_up():
     assert "2 members, 1 failed" in html
     assert "stays up: 1" in html
     assert "member 1: sin(theta) = 0" in html
+
+
+def test_parts_of_results_are_typeset():
+    disk = CATALOGUE["rolling-disk"].build()
+    equations = ph.derive(disk)
+    numbers = {"m": 0.2, "a": 0.03, "g": 9.81}
+    start = {"theta": "80 deg", "omega_3": 40}
+    force = equations.reactions["ground"]
+    assert "What ground does to disk" in force._repr_html_()
+    assert force._repr_html_().count("<math") == 3
+    assert "along lab" in force.force._repr_html_()
+    needed = ph.contact_forces(equations, "ground")
+    assert "tangential" in needed._repr_html_()
+    steady = ph.steady(equations)[0]
+    assert '<mo form="infix">=</mo>' in steady.branches[0]._repr_html_()
+    assert "&gt;" in ph.stability(steady).conditions[0]._repr_html_()
+    constants = ph.invariants(equations)
+    assert "energy" in constants["E"]._repr_html_()
+    assert "derivatives by" in constants.linear._repr_html_()
+    drift = ph.simulate(disk, numbers, start, "0.05 s").drift
+    assert f"{drift.energy:.6g}" in drift._repr_html_()
+    grown = ph.linearised(disk, numbers, {"theta": "90 deg", "omega_3": 40})
+    assert "phi_dot" in grown._repr_html_()
+
+
+def test_contact_modes_are_named_and_what_is_known_of_them_is_told():
+    modes = ph.automaton(ph.with_friction(CATALOGUE["rolling-disk"].build(), ph.symbol("mu")))
+    assert "modes: rolling; sliding; frictionless; flight" in modes._repr_html_()
+    assert "lasts while" not in modes._repr_html_()
+    assert modes.together.name == "rolling"
+    assert "rolling lasts while" in modes._repr_html_()
+
+
+def test_derivatives_and_fits_are_tables():
+    disk = CATALOGUE["rolling-disk"].build()
+    numbers = {"m": 0.2, "a": 0.03, "g": 9.81}
+    start = {"theta": "80 deg", "omega_3": 40}
+    times = np.linspace(0.0, 0.05, 6)
+    found = ph.sensitivities(disk, numbers, start, "0.05 s", of=["theta"], by=["a"])
+    assert "<td>theta</td><td>a</td>" in found._repr_html_()
+    measured = {"theta": ph.simulate(disk, numbers, start, "0.05 s").evaluate("theta", times)}
+    best = ph.fit(disk, numbers | {"a": 0.031}, start, times, measured, vary=["a"])
+    assert "<td>a</td><td>0.03</td>" in best._repr_html_()
