@@ -1,9 +1,16 @@
-"""Pages of the tour on a telephone: what is wider than the screen is scrolled by itself."""
+"""Pages of the tour and of audits: what is too wide is scrolled, by the keyboard too."""
 
+import subprocess
+import sys
 from importlib.resources import files
+from pathlib import Path
 
-from browser.conftest import PHONE
+import pytest
+
+from browser.conftest import PHONE, WIDE
 from polhode.view import typeset
+
+AXE = Path(__file__).parent / "node_modules" / "axe-core" / "axe.min.js"
 
 LONG = r"\frac{" + " + ".join([r"4\dot\theta^2\cos\theta"] * 9) + "}{8}"
 
@@ -20,3 +27,26 @@ def test_a_long_fraction_does_not_make_the_page_wide(opened, tmp_path):
         inner = shown.page.locator(".equation").evaluate("e => [e.scrollWidth, e.clientWidth]")
         assert inner[0] > inner[1]
         assert shown.page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
+
+
+@pytest.fixture(scope="module")
+def audited(tmp_path_factory):
+    """The page of an audit of a few claims, one of which fails and is corrected."""
+    path = tmp_path_factory.mktemp("audit") / "audit.html"
+    only = [word for claim in ("1", "13", "66") for word in ("--only", claim)]
+    command = [sys.executable, "-m", "polhode", "audit", *only, "--html", str(path)]
+    subprocess.run(command, check=False, capture_output=True, timeout=120)  # 1: some fail
+    html = path.read_text("utf-8")
+    path.write_text(html.replace("<body ", "<body data-ready "), "utf-8")
+    return path
+
+
+@pytest.mark.parametrize("viewport", [WIDE, PHONE])
+def test_axe_finds_no_serious_fault_of_an_audit(opened, audited, viewport):
+    with opened(audited, viewport=viewport) as shown:
+        shown.page.evaluate("document.querySelectorAll('details').forEach(d => { d.open = true; })")
+        shown.page.evaluate(AXE.read_text("utf-8"))
+        faults = shown.page.evaluate("axe.run()")["violations"]
+        assert shown.page.locator("article").count() == 3
+        assert shown.page.locator(".correction").count() == 1
+        assert [f["id"] for f in faults if f["impact"] in ("serious", "critical")] == []

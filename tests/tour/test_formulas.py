@@ -47,6 +47,11 @@ def test_a_line_may_break_before_every_sign_between_terms():
     ]
 
 
+def test_what_may_be_scrolled_is_reached_by_the_keyboard():
+    assert 'tabindex="0"' in equation(long_sum(), ZERO)
+    assert "tabindex" not in equation(a - b + c, ZERO)
+
+
 def test_no_line_breaks_after_a_leading_minus():
     pieces = list(ElementTree.fromstring(equation(a, -b)))
     assert len(pieces) == 2

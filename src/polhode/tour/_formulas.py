@@ -13,6 +13,7 @@ from polhode.tour._html import Markup, joined, tag
 _NAMESPACE = ' xmlns="http://www.w3.org/1998/Math/MathML"'
 _SIGNS = ("+", "−", "-")
 _FUNCTIONS = ("sin", "cos", "tan", "exp", "sinh", "cosh", "tanh")
+_WIDE = 40  # signs of a formula that may have to be scrolled, on a telephone
 _LONG = 36  # letters, figures and signs in a bracket or fraction that may be broken
 
 
@@ -21,7 +22,8 @@ def equation(left: Expr, right: Expr) -> Markup:
     row = [*_row(left), _sign("="), *_row(right)]
     spoken = f"{left.pretty()} = {right.pretty()}"
     pieces = (_math(piece, displaystyle="true") for piece in _pieces(list(_opened(row))))
-    return tag("div", *pieces, class_="equation", role="math", aria_label=spoken)
+    wide = {"tabindex": "0"} if len(spoken) > _WIDE else {}
+    return tag("div", *pieces, class_="equation", role="math", aria_label=spoken, **wide)
 
 
 def inline(expression: Expr) -> Markup:

@@ -57,7 +57,9 @@ _COUNTED = {
 def _claim(claim: Told) -> Markup:
     said: list[Markup] = []
     if claim.correction:
-        said.append(tag("div", "should read ", formula(claim.correction), class_="should"))
+        said.append(
+            tag("div", "should read ", formula(claim.correction), class_="should", tabindex="0")
+        )
     if claim.answer != "holds" and claim.reason:
         said.append(tag("p", claim.reason, class_="reason"))
     return tag(

@@ -66,13 +66,15 @@ def _(thing: Verdict) -> str:
         shown += f"<p>{escape(correction.what)}; it holds as {_formula(correction.latex)}</p>"
     evidence = "".join((*_residuals(thing), *_example(thing), *_remarks(thing)))
     if evidence:
-        shown += f"<details><summary>Evidence</summary><div>{evidence}</div></details>"
+        shown += f"<details><summary>Evidence</summary><div {_SCROLLS}>{evidence}</div></details>"
     return f"<style>{_style()}</style><div class='audit'><article>{shown}</article></div>"
 
 
 def _style() -> str:
     return (files("polhode.view") / "audit.css").read_text("utf-8")
 
+
+_SCROLLS = "tabindex='0'"  # by the arrow keys, where it is too wide
 
 _PAGE = """<!doctype html>
 <html lang="en">
@@ -140,7 +142,9 @@ def _claim(judged: Judged) -> str:
     label = escape(judged.claim.id)
     head = f"<span class='number'>({label})</span>{_statement(judged)}{_badge(judged.answer)}"
     body = (
-        f"<details><summary>Evidence</summary><div>{evidence}</div></details>" if evidence else ""
+        f"<details><summary>Evidence</summary><div {_SCROLLS}>{evidence}</div></details>"
+        if evidence
+        else ""
     )
     correction = _correction(judged, judged.verdict.correction)
     return (
@@ -152,7 +156,7 @@ def _claim(judged: Judged) -> str:
 def _statement(judged: Judged) -> str:
     claim = judged.claim
     words = f"<q>{escape(claim.words)}</q>" if claim.words else ""
-    return f"<div class='printed'>{words}{_formula(claim.latex or claim.means)}</div>"
+    return f"<div class='printed' {_SCROLLS}>{words}{_formula(claim.latex or claim.means)}</div>"
 
 
 def _formula(latex: str) -> str:
@@ -170,8 +174,8 @@ def _correction(judged: Judged, correction: Correction | None) -> str:
         after = f"<code>{escape(correction.latex)}</code>"
     return (
         f"<div class='correction'><p>{escape(correction.what)}</p>"
-        f"<div class='was'><span>printed</span>{before}</div>"
-        f"<div class='is'><span>holds</span>{after}</div></div>"
+        f"<div class='was' {_SCROLLS}><span>printed</span>{before}</div>"
+        f"<div class='is' {_SCROLLS}><span>holds</span>{after}</div></div>"
     )
 
 
