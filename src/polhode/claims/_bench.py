@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import islice
-from math import isfinite
 
 import numpy as np
 
@@ -100,11 +99,12 @@ def real_states(states: Circumstances, expressions: Iterable[Expr]) -> Iterator[
     return (found for found in every if _is_real(found, states, symbols))
 
 
-def _is_real(numbers: Numbers, states: Circumstances, symbols: Iterable[Symbol]) -> bool:
+def _is_real(state: Numbers, states: Circumstances, symbols: Iterable[Symbol]) -> bool:
+    ordered = tuple(symbols)
     try:
-        settled = {s: number(states.of(s), numbers) for s in symbols}
-        positive = all(number(states.on(e), numbers) > 0 for e in states.signs)
+        settled = numbers([states.of(s) for s in ordered], state, ())
+        positive = numbers([states.on(e) for e in states.signs], state, ()) > 0
     except (PolhodeError, ArithmeticError, ValueError, KeyError):
         return False
-    numbers.update(settled)
-    return positive and all(map(isfinite, settled.values()))
+    state.update(zip(ordered, settled.tolist(), strict=True))
+    return bool(positive.all() and np.isfinite(settled).all())

@@ -10,16 +10,14 @@ from polhode.base import PURE, TIME, Dimension, PolhodeError
 from polhode.claims._asked import Asked
 from polhode.claims._components import Component
 
-Known = Mapping[Symbol, Dimension]
-
 
 def dimensions_at_odds(asked: Asked) -> str:
     """The members whose terms have different dimensions, in words; empty where there are none."""
     try:
-        known = asked.equations.dimensions
+        gauge = _Gauge(asked.equations.dimensions)
     except PolhodeError:
         return ""
-    odd = {c.member: found for c in asked.components() if (found := _dimensions(c, known))}
+    odd = {c.member: found for c in asked.components() if (found := _dimensions(c, gauge))}
     told = (f"{_listed(found)} in member {member + 1}" for member, found in odd.items())
     return f"terms of different dimensions: {'; '.join(told)}" if odd else ""
 
@@ -28,39 +26,49 @@ def _listed(found: tuple[Dimension, ...]) -> str:
     return " and ".join(sorted(map(str, found)))
 
 
-def _dimensions(component: Component, known: Known) -> tuple[Dimension, ...]:
+def _dimensions(component: Component, gauge: _Gauge) -> tuple[Dimension, ...]:
     """The dimensions of a component's terms, where they are not all the same."""
-    every = [d for side in (component.left, component.right) for d in _terms(side, known)]
+    every = [d for side in (component.left, component.right) for d in gauge.terms(side)]
     found = tuple(dict.fromkeys(every))
     return found if len(found) > 1 else ()
 
 
-def _terms(side: Expr, known: Known) -> Iterator[Dimension]:
-    """Of every term of which the dimension is known, over the first term below."""
-    below = next((_dimension(powers, known) for powers, _ in side.denominator.terms()), PURE)
-    for powers, _ in side.numerator.terms():
-        above = _dimension(powers, known)
-        if above is not None and below is not None:
-            yield above / below
+class _Gauge:
+    """Tells dimensions by those of the symbols; of a generator only once."""
 
+    def __init__(self, known: Mapping[Symbol, Dimension]) -> None:
+        self._known = known
+        self._found: dict[Generator, Dimension | None] = {}
 
-def _dimension(powers: Mapping[Generator, int], known: Known) -> Dimension | None:
-    """Of a product of powers; None where it has a letter of unknown dimension."""
-    whole = PURE
-    for generator, power in powers.items():
-        found = _of(generator, known)
-        if found is None:
-            return None
-        whole = whole * found**power
-    return whole
+    def terms(self, side: Expr) -> Iterator[Dimension]:
+        """Of every term of which the dimension is known, over the first term below."""
+        below = next((self._product(powers) for powers, _ in side.denominator.terms()), PURE)
+        for powers, _ in side.numerator.terms():
+            above = self._product(powers)
+            if above is not None and below is not None:
+                yield above / below
 
+    def _product(self, powers: Mapping[Generator, int]) -> Dimension | None:
+        """Of a product of powers; None where it has a letter of unknown dimension."""
+        whole = PURE
+        for generator, power in powers.items():
+            found = self._of(generator)
+            if found is None:
+                return None
+            whole = whole * (found if power == 1 else found**power)
+        return whole
 
-def _of(generator: Generator, known: Known) -> Dimension | None:
-    if isinstance(generator, Symbol):
-        base = PURE if generator.name == "pi" else known.get(generator.base())
-        return None if base is None else base / TIME**generator.order
-    if not generator.depth or generator.partner() is not None:
-        return PURE
-    inside = next(iter(generator.arguments[0].numerator.terms()))[0]
-    found = _dimension(inside, known)
-    return None if found is None else found ** Fraction(1, 2)
+    def _of(self, generator: Generator) -> Dimension | None:
+        if generator not in self._found:
+            self._found[generator] = self._dimension(generator)
+        return self._found[generator]
+
+    def _dimension(self, generator: Generator) -> Dimension | None:
+        if isinstance(generator, Symbol):
+            base = PURE if generator.name == "pi" else self._known.get(generator.base())
+            return None if base is None else base / TIME**generator.order
+        if not generator.depth or generator.partner() is not None:
+            return PURE
+        inside = next(iter(generator.arguments[0].numerator.terms()))[0]
+        found = self._product(inside)
+        return None if found is None else found ** Fraction(1, 2)

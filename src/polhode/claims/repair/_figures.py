@@ -126,6 +126,14 @@ _FORMED: Mapping[type[Piece], Callable[..., Figure]] = {
 }
 
 
+_ARITHMETIC = (tree.Sum, tree.Product, tree.Negative, tree.Quotient, tree.Cross, tree.Dot)
+
+
+def is_arithmetic(node: Piece) -> bool:
+    """Whether its value follows from those of its parts with no choice of a branch."""
+    return isinstance(node, _ARITHMETIC)
+
+
 def formed(node: Piece, inside: Sequence[Figure]) -> Figure:
     """What a node makes of the figures of its parts.
 

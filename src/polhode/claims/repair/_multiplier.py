@@ -55,7 +55,7 @@ class Response:
         if not places:
             return None
         rows = tuple(kept.index(self.rows[k]) for k in places)
-        return Response(lambda at: self.changing(at)[places], rows, self.before[kept])
+        return _Part(lambda at: self.changing(at)[places], rows, self.before[kept], self, places)
 
     @cached_property
     def moved(self) -> tuple[int, ...]:
@@ -100,23 +100,41 @@ class Response:
         whole[list(self.rows)] = self.change
         return whole
 
+    @cached_property
+    def multiplier(self) -> Array | None:
+        """The factor at every state at which all vanishes, by secants from one; None without one.
 
-def multiplier(response: Response) -> Array | None:
-    """The factor at every state at which all vanishes, by secants from one; None if there is none.
+        A residual that no factor changes must vanish already.
+        """
+        here, there = self.here, self.probed[:, _PROBES.index(1.25)]
+        size = np.abs(here) + np.abs(there)
+        row = int(np.argmax(np.abs(here - there).min(axis=1)))
+        if not np.isfinite(here).all() or not np.abs(here - there)[row].all():
+            return None
+        change = self.change
+        at = 1 - here[row] / change[row] if change is not None else _by_secants(self, row)
+        here = self(at[None])[:, 0]
+        scale = size.max(axis=1, keepdims=True) + np.abs(at)
+        vanishes = np.isfinite(here).all() and (np.abs(here) <= _CLOSE * scale).all()
+        return at if vanishes else None
 
-    A residual that no factor changes must vanish already.
+
+@dataclass(frozen=True, eq=False)
+class _Part(Response):
+    """Some rows of a response.
+
+    Attributes:
+        whole: the response.
+        places: which of its rows.
     """
-    here, there = response.here, response.probed[:, _PROBES.index(1.25)]
-    size = np.abs(here) + np.abs(there)
-    row = int(np.argmax(np.abs(here - there).min(axis=1)))
-    if not np.isfinite(here).all() or not np.abs(here - there)[row].all():
-        return None
-    change = response.change
-    at = 1 - here[row] / change[row] if change is not None else _by_secants(response, row)
-    here = response(at[None])[:, 0]
-    scale = size.max(axis=1, keepdims=True) + np.abs(at)
-    vanishes = np.isfinite(here).all() and (np.abs(here) <= _CLOSE * scale).all()
-    return at if vanishes else None
+
+    whole: Response
+    places: list[int]
+
+    @cached_property
+    def probed(self) -> Array:
+        """The same rows of what is known of the whole."""
+        return np.asarray(self.whole.probed[self.places])
 
 
 def _by_secants(response: Response, row: int) -> Array:

@@ -15,7 +15,7 @@ from polhode.claims._components import Relation, Side, triad_of
 from polhode.claims._meaning import Tensor
 from polhode.claims._numeric import Array
 from polhode.claims.latex._tree import Node, Statement
-from polhode.claims.repair._figures import Figure, carried, scalar, together
+from polhode.claims.repair._figures import Figure, carried, formed, is_arithmetic, scalar, together
 from polhode.claims.repair._links import Links
 from polhode.claims.repair._places import Place
 from polhode.claims.repair._reading import Reading
@@ -50,8 +50,17 @@ class Tally:
     def of(self, node: Node) -> Figure:
         """The figure of a node by itself; raises one of `UNKNOWN` where it has none."""
         if node not in self._figures:
-            self._figures[node] = self._figure(self._reading.value(node))
+            self._figures[node] = self._found(node)
         return self._figures[node]
+
+    def _found(self, node: Node) -> Figure:
+        """From the figures of its parts where that can be, which is quicker than exactly."""
+        if is_arithmetic(node):
+            try:
+                return formed(node, [self.of(part) for part in node.parts])  # type: ignore[arg-type]
+            except UNKNOWN:
+                pass
+        return self._figure(self._reading.value(node))
 
     def rows(self, place: Place, new: Figure, members: Sequence[int]) -> Array:
         """What is left of members with another quantity at a place: (rows, trials, states).

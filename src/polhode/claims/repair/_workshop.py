@@ -25,7 +25,7 @@ from polhode.claims.repair._edits import Edit, dotted, edits, emptied, replaced,
 from polhode.claims.repair._figures import scalar
 from polhode.claims.repair._links import Links
 from polhode.claims.repair._missing import missing_terms
-from polhode.claims.repair._multiplier import Match, Response, multiplier, simple_numbers
+from polhode.claims.repair._multiplier import Match, Response, simple_numbers
 from polhode.claims.repair._own_terms import fitted
 from polhode.claims.repair._places import Place, places, put, tidied, times
 from polhode.claims.repair._reading import Reading
@@ -126,7 +126,7 @@ class Workshop:
         yield self._ranked(
             (replace(edit, size=edit.size + costs[place]),)
             for place, response in responses.items()
-            if may_be_rewritten(place) and multiplier(response) is not None
+            if may_be_rewritten(place) and response.multiplier is not None
             for edit in rewritten(self._work, place, self._within(place, kept))
         )
 
@@ -223,7 +223,7 @@ class Workshop:
         """What a place multiplied by a factor makes right."""
         for number in simple_numbers(response):
             yield from edits(place, Match(number))
-        factor = multiplier(response)
+        factor = response.multiplier
         if factor is not None:
             for match in self._work.products.short(factor):
                 yield from edits(place, match)
@@ -242,7 +242,7 @@ class Workshop:
         """Whether it is a factor or the like, and could be made right by another value."""
         if not isinstance(place.parent, Product | Quotient | Power | Call):
             return False
-        return multiplier(response) is not None
+        return response.multiplier is not None
 
     def _exchanged(self, place: Place, factor: Array) -> Iterator[Edit]:
         """Other letters whose value is what the place would have to be."""
