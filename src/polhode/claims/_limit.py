@@ -10,7 +10,7 @@ from math import log
 from polhode.algebra import ONE, ZERO, Expr, Symbol
 from polhode.base import NumericError, PolhodeError
 from polhode.claims._asked import Asked
-from polhode.claims._bench import bench
+from polhode.claims._bench import real_states
 from polhode.claims._circumstances import AnyState, Circumstances, TrueMotion
 from polhode.claims._components import Component
 from polhode.claims._counterexample import refutation
@@ -178,13 +178,15 @@ def _measured(remainders: Sequence[_Remainder]) -> Iterator[str]:
         if difference:
             try:
                 order = _slope(difference, left.states)
-            except (PolhodeError, ArithmeticError, ValueError, IndexError):
+            except (PolhodeError, ArithmeticError, ValueError):
                 continue
             yield f"halving what is small makes the remainder fall as its power {order:.2f}"
             return
 
 
 def _slope(difference: Expr, states: Circumstances) -> float:
-    point = bench(states, [difference.subs({SMALLNESS: ONE})]).states[0]
+    point = next(real_states(states, [difference.subs({SMALLNESS: ONE})]), None)
+    if point is None:
+        raise NumericError("no state among those tried", expected="one that is real")
     sizes = [abs(number(difference, {**point, SMALLNESS: 2.0**-k})) for k in (7, 8)]
     return log(sizes[0] / sizes[1], 2)

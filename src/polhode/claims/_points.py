@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from math import atan
 from random import Random
 
@@ -96,14 +97,15 @@ def _draws(random: Random, pool: list[Fraction]) -> Callable[[Symbol], Fraction]
     return draw
 
 
-def _angles(generator: Generator) -> Iterable[Symbol]:
+@lru_cache(maxsize=1024)
+def _angles(generator: Generator) -> tuple[Symbol, ...]:
     """Symbols that the generator takes a sine or cosine of, also under roots."""
     odd = _odd(generator)
     if odd is not None and odd[1] < 0:
         angle = _angle(generator)[0]
-        return [] if angle == _PI else [angle]
+        return () if angle == _PI else (angle,)
     inner = (g for argument in generator.arguments for g in argument.generators)
-    return [a for g in inner for a in _angles(g)]
+    return tuple(a for g in inner for a in _angles(g))
 
 
 def _odd(generator: Generator) -> tuple[Generator, int] | None:
