@@ -4,6 +4,7 @@ What judges whole documents is fetched when first asked for, so that one check l
 it needs.
 """
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from polhode.claims._bindings import Bound as Bound
@@ -26,33 +27,32 @@ from polhode.claims.latex import read_latex as read_latex
 from polhode.claims.latex import write_latex as write_latex
 
 if TYPE_CHECKING:
-    from polhode.claims._late import Consequence as Consequence
-    from polhode.claims._late import Judged as Judged
-    from polhode.claims._late import Limits as Limits
-    from polhode.claims._late import Report as Report
-    from polhode.claims._late import audit as audit
-    from polhode.claims._late import audit_apart as audit_apart
-    from polhode.claims._late import read_document as read_document
-    from polhode.claims._late import tidied as tidied
-    from polhode.claims._late import told as told
+    from polhode.claims._apart import Limits as Limits
+    from polhode.claims._apart import audit_apart as audit_apart
+    from polhode.claims._audit import audit as audit
+    from polhode.claims._read_document import read_document as read_document
+    from polhode.claims._report import Consequence as Consequence
+    from polhode.claims._report import Judged as Judged
+    from polhode.claims._report import Report as Report
+    from polhode.claims._report import told as told
+    from polhode.claims.repair import tidied as tidied
 
 _LATE = {
-    "Limits",
-    "audit_apart",
-    "audit",
-    "read_document",
-    "Consequence",
-    "Judged",
-    "Report",
-    "told",
-    "tidied",
+    "Limits": "_apart",
+    "audit_apart": "_apart",
+    "audit": "_audit",
+    "read_document": "_read_document",
+    "Consequence": "_report",
+    "Judged": "_report",
+    "Report": "_report",
+    "told": "_report",
+    "tidied": "repair",
 }
 
 
 def __getattr__(name: str) -> Any:
     if name not in _LATE:
         raise AttributeError(f"module 'polhode.claims' has no attribute {name!r}")
-    from polhode.claims import _late
-
-    globals().update({late: getattr(_late, late) for late in _LATE})
-    return globals()[name]
+    found = getattr(import_module(f"polhode.claims.{_LATE[name]}"), name)
+    globals()[name] = found
+    return found

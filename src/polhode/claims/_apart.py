@@ -17,7 +17,7 @@ from polhode.claims._audit import asked_for, reported
 from polhode.claims._document import Claim, Document
 from polhode.claims._report import Report
 from polhode.claims._verdict import Answer, Verdict
-from polhode.claims._worker import Reply, Request
+from polhode.claims._worker import Reply, Request, Subject
 from polhode.model import System
 
 Declared = Callable[[str], System]
@@ -70,10 +70,10 @@ def audit_apart(
         raise DeclarationError(f"{workers} workers", expected="one or more")
     began, told = perf_counter(), progress or SilentProgress()
     asked, bounds = asked_for(document, only), limits or Limits()
-    requests, verdicts = _requests(document, asked, cache(declared), bounds)
-    told.begin("audit", len(requests))
+    cases, verdicts = _cases(document, asked, cache(declared))
+    told.begin("audit", len(cases))
     try:
-        with closing(_judged(requests, workers, bounds)) as judged:
+        with closing(_judged(cases, workers, bounds)) as judged:
             for claim, verdict in judged:
                 verdicts[claim.id] = verdict
                 told.advance()
@@ -84,11 +84,24 @@ def audit_apart(
     return reported(document, asked, verdicts, perf_counter() - began)
 
 
-def _requests(
-    document: Document, asked: Iterable[Claim], declared: Declared, limits: Limits
-) -> tuple[list[Request], dict[str, Verdict]]:
+@dataclass(frozen=True)
+class _Case:
+    """A claim to be judged, and what it is about."""
+
+    claim: Claim
+    subject: Subject
+
+    @property
+    def system(self) -> str:
+        """Name of the system that it is about."""
+        return self.subject.part.system
+
+
+def _cases(
+    document: Document, asked: Iterable[Claim], declared: Declared
+) -> tuple[list[_Case], dict[str, Verdict]]:
     """What workers are to judge, and the verdicts on claims whose system is not there."""
-    requests: list[Request] = []
+    cases: list[_Case] = []
     unread: dict[str, Verdict] = {}
     for claim in asked:
         part = document.part_of(claim)
@@ -97,16 +110,16 @@ def _requests(
         except PolhodeError as error:
             unread[claim.id] = Verdict(Answer.UNREAD, claim.context, reason=str(error))
         else:
-            requests.append(Request(part, claim, system, limits.seconds))
-    return requests, unread
+            cases.append(_Case(claim, Subject(part, system)))
+    return cases, unread
 
 
 def _judged(
-    requests: Sequence[Request], workers: int, limits: Limits
+    cases: Sequence[_Case], workers: int, limits: Limits
 ) -> Generator[tuple[Claim, Verdict]]:
-    queue = _Queue(requests)
+    queue = _Queue(cases)
     with ExitStack() as crew:
-        busy = [_Worker(limits) for _ in range(min(workers, len(requests)))]
+        busy = [_Worker(limits) for _ in range(min(workers, len(cases)))]
         for worker in busy:
             crew.callback(worker.end)
         while busy:
@@ -118,14 +131,14 @@ def _judged(
 
 
 class _Queue:
-    """Requests by system, so that a worker derives few of them."""
+    """Cases by system, so that a worker derives few of them."""
 
-    def __init__(self, requests: Iterable[Request]) -> None:
-        self._waiting: dict[str, list[Request]] = {}
-        for request in requests:
-            self._waiting.setdefault(request.part.system, []).insert(0, request)
+    def __init__(self, cases: Iterable[_Case]) -> None:
+        self._waiting: dict[str, list[_Case]] = {}
+        for case in cases:
+            self._waiting.setdefault(case.system, []).insert(0, case)
 
-    def next(self, system: str) -> Request | None:
+    def next(self, system: str) -> _Case | None:
         """One about this system, or else about that of which most are waiting."""
         if not self._waiting.get(system):
             system = max(self._waiting, key=lambda name: len(self._waiting[name]))
@@ -154,7 +167,8 @@ class _Worker:
         self.replies = Connection(os.dup(self._process.stdout.fileno()), writable=False)
         self._process.stdin.close()
         self._process.stdout.close()
-        self._request: Request | None = None
+        self._case: _Case | None = None
+        self._known: set[str] = set()  # parts that it was asked about
         self._failure: Verdict | None = None
         self._system = ""
         self._deadline = monotonic() + _PATIENCE * self._limits.seconds
@@ -178,25 +192,25 @@ class _Worker:
         except (EOFError, OSError):
             yield from self._lost()
             return
-        if self._request is None or reply is None:  # it is ready
+        if self._case is None or reply is None:  # it is ready
             self.idle = True
             return
         verdict, self.idle = reply
         if self.idle:
-            yield self._request.claim, verdict
+            yield self._case.claim, verdict
         else:
             self._failure = verdict
 
     def _lost(self) -> Iterator[tuple[Claim, Verdict]]:
         """Begin again without the claim at hand."""
         self.end()
-        if self._request is None:
+        if self._case is None:
             raise DeclarationError(
                 "a worker process that does not start",
                 expected=f"{sys.executable} to import polhode",
                 advice="judge in this process, with polhode.claims.audit",
             )
-        yield self._request.claim, self._last_word(self._request.claim)
+        yield self._case.claim, self._last_word(self._case.claim)
         self._begin()
 
     def _last_word(self, claim: Claim) -> Verdict:
@@ -215,14 +229,20 @@ class _Worker:
         """Begin the next claim, if there is one."""
         if not self.idle:
             return
-        self._request = queue.next(self._system)
-        if self._request is not None:
+        self._case = queue.next(self._system)
+        if self._case is not None:
             self._failure = None
-            self._system = self._request.part.system
+            self._system = self._case.system
             self._deadline = monotonic() + _PATIENCE * self._limits.seconds
             with suppress(BrokenPipeError):  # its replies will tell that it has ended
-                self._requests.send(self._request)
+                self._requests.send(self._request(self._case))
             self.idle = False
+
+    def _request(self, case: _Case) -> Request:
+        """The claim, with what it is about where the process was not asked about that before."""
+        is_known = case.claim.part in self._known
+        self._known.add(case.claim.part)
+        return Request(case.claim, None if is_known else case.subject, self._limits.seconds)
 
     def end(self) -> None:
         """End the process, whatever it does."""

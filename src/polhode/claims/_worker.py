@@ -21,25 +21,37 @@ Reply = tuple[Verdict, bool]
 
 
 @dataclass(frozen=True)
+class Subject:
+    """What claims are about.
+
+    Attributes:
+        part: of the document that they stand in.
+        system: that it treats.
+    """
+
+    part: Part
+    system: System
+
+
+@dataclass(frozen=True)
 class Request:
     """A claim to be judged.
 
     Attributes:
-        part: of the document that it stands in.
         claim: itself.
-        system: that it is about.
+        subject: that it is about; None for one that this process was asked about before.
         seconds: of processor time, after which the process ends itself.
     """
 
-    part: Part
     claim: Claim
-    system: System
+    subject: Subject | None
     seconds: float
 
 
 def work(requests: Connection, replies: Connection) -> None:
     """Send None when ready, then verdicts for every request, until no more come."""
     systems: dict[str, System] = {}
+    parts: dict[str, Part] = {}
     equations: dict[str, Equations] = {}
 
     def resolved(name: str) -> Equations:
@@ -54,13 +66,15 @@ def work(requests: Connection, replies: Connection) -> None:
             request: Request = requests.recv()
         except EOFError:
             return
-        systems[request.part.system] = request.system
+        if request.subject is not None:
+            part = parts[request.claim.part] = request.subject.part
+            systems[part.system] = request.subject.system
         bound_time(request.seconds)
-        replies.send((_verdict(desk, request, replies), True))
+        replies.send((_verdict(desk, parts[request.claim.part], request.claim, replies), True))
         bound_time(0)
 
 
-def _verdict(desk: Desk, request: Request, replies: Connection) -> Verdict:
+def _verdict(desk: Desk, part: Part, claim: Claim, replies: Connection) -> Verdict:
     failures: list[Verdict] = []
 
     def tell(failure: Verdict) -> None:
@@ -68,14 +82,14 @@ def _verdict(desk: Desk, request: Request, replies: Connection) -> Verdict:
         replies.send((failure, False))
 
     try:
-        return desk.verdict(request.part, request.claim, tell)
+        return desk.verdict(part, claim, tell)
     except MemoryError:
         why = "not decided: it needs more memory than a claim is allowed"
     except Exception as error:  # a fault of the program's is told, and the others go on
         why = f"unexpected {type(error).__name__}: {error}"[:500]
     if failures:
         return replace(failures[-1], remarks=(*failures[-1].remarks, why))
-    return Verdict(Answer.UNREAD, request.claim.context, reason=why)
+    return Verdict(Answer.UNREAD, claim.context, reason=why)
 
 
 def _own_output() -> int:
