@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import signal
 from contextlib import suppress
+from pathlib import Path
 
 
 def bound_time(seconds: float) -> None:
@@ -18,3 +19,12 @@ def bound_memory(most: int) -> None:
         import resource
 
         resource.setrlimit(resource.RLIMIT_AS, (most, most))
+
+
+def bound_growth(most: int) -> None:
+    """Refuse the process more than some bytes beyond what it has, where that can be told."""
+    with suppress(ImportError, OSError, ValueError):
+        import resource
+
+        pages = int(Path("/proc/self/statm").read_text().split()[0])
+        bound_memory(pages * resource.getpagesize() + most)

@@ -9,13 +9,17 @@ from typing import TYPE_CHECKING, Any
 
 from polhode.claims._bindings import Bound as Bound
 from polhode.claims._bindings import BoundRelation as BoundRelation
-from polhode.claims._check import check as check
+from polhode.claims._bounded import check as check
+from polhode.claims._bounded import uncorrected as uncorrected
+from polhode.claims._check import Enquiry as Enquiry
 from polhode.claims._document import Claim as Claim
 from polhode.claims._document import Definition as Definition
 from polhode.claims._document import Document as Document
 from polhode.claims._document import Part as Part
 from polhode.claims._meaning import BindingError as BindingError
 from polhode.claims._notation import Notation as Notation
+from polhode.claims._patience import Tell as Tell
+from polhode.claims._patience import within as within
 from polhode.claims._verdict import Answer as Answer
 from polhode.claims._verdict import Confirmation as Confirmation
 from polhode.claims._verdict import Correction as Correction

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import reduce
 
 from polhode.base import ParseError, PolhodeError
@@ -20,39 +20,41 @@ from polhode.claims.latex._tree import Node, Statement
 from polhode.derive import Equations
 
 
-def check(
-    latex: str,
-    equations: Equations,
-    *,
-    context: str = "motion",
-    let: Iterable[str] = (),
-    given: Iterable[str] = (),
-    small: Iterable[str] = (),
-    tell: Callable[[Verdict], object] = lambda verdict: None,
-) -> Verdict:
-    r"""Judge a published equation against a model.
+@dataclass(frozen=True)
+class Enquiry:
+    """A published equation as somebody asks about it; the attributes are the arguments of `check`.
 
-    Args:
+    Attributes:
         latex: the equation, as printed.
-        equations: of the system.
-        context: where it is to hold: identity, motion, steady, threshold, limit, launch, number.
-        let: new symbols of the text, in published names or LaTeX: ``epsilon = theta - pi/2``.
-        given: restrictions, such as ``theta = pi/2``.
-        small: small quantities with the order to be kept, such as ``epsilon:1``.
-        tell: called with a failure as soon as it is found; a correction may take longer.
-
-    Returns:
-        The verdict with its evidence; ``unread`` for what cannot be read or bound.
-
-    Raises:
-        ParseError: for an unknown context, a `let` of a known symbol, and unreadable restrictions.
+        context: where it is to hold.
+        let: new symbols of the text.
+        given: restrictions.
+        small: small quantities with the order to be kept.
     """
-    if context not in CONTEXTS:
-        raise ParseError(f"context {context!r}", expected=f"one of {', '.join(CONTEXTS)}")
-    notation = Notation.of(equations)
-    for say, texts in ((with_let, let), (with_given, given), (with_small, small)):
-        notation = reduce(say, texts, notation)
-    return judged_claim(latex, notation, context, tell=tell)
+
+    latex: str
+    context: str = "motion"
+    let: tuple[str, ...] = ()
+    given: tuple[str, ...] = ()
+    small: tuple[str, ...] = ()
+
+    def judged(
+        self, equations: Equations, tell: Callable[[Verdict], object] = lambda verdict: None
+    ) -> Verdict:
+        """The verdict; a failure is told as soon as it is found, for a correction may take long.
+
+        Raises `ParseError` as `check` does.
+        """
+        if self.context not in CONTEXTS:
+            raise ParseError(f"context {self.context!r}", expected=f"one of {', '.join(CONTEXTS)}")
+        notation = Notation.of(equations)
+        for say, texts in (
+            (with_let, self.let),
+            (with_given, self.given),
+            (with_small, self.small),
+        ):
+            notation = reduce(say, texts, notation)
+        return judged_claim(self.latex, notation, self.context, tell=tell)
 
 
 def judged_claim(

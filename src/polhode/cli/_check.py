@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Any
 
-from polhode.claims import Answer, Verdict, check
+from polhode.base import NumericError
+from polhode.claims import Answer, Enquiry, Tell, Verdict, uncorrected, within
 from polhode.cli._document import document, printed
 from polhode.cli._parser import Parser
-from polhode.cli._patience import Said, Tell, within
 from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.derive import derive
+
+#: Exit code, and what is printed.
+Said = tuple[int, str]
 
 _LONGEST = 60.0  # s of computing
 _ADVICE = "judge its members one by one, or restrict it with --given"
@@ -41,28 +43,26 @@ def configure(parser: Parser) -> None:
 def run(options: Namespace) -> int:
     """Judge one equation and print the verdict; 0 where it holds, 1 where it fails, 2 unread."""
     system = entry_of(options.name).build()
+    extra = (tuple(said) for said in (options.let, options.given, options.small))
+    enquiry = Enquiry(options.latex, options.context, *extra)
+
     said = _in_json if options.json else _in_words
+    told: list[Said] = []
 
-    def judged(tell: Tell) -> Said:
-        verdict = check(
-            options.latex,
-            derive(system),
-            context=options.context,
-            let=options.let,
-            given=options.given,
-            small=options.small,
-            tell=lambda failure: tell(said(_uncorrected(failure))),
-        )
-        return said(verdict)
+    def judged(tell: Tell[Said]) -> Said:
+        def tell_failure(failure: Verdict) -> None:
+            tell(said(uncorrected(failure, _LONGEST)))
 
-    code, text = within(_LONGEST, judged, advice=_ADVICE)
+        return said(enquiry.judged(derive(system), tell_failure))
+
+    try:
+        code, text = within(_LONGEST, judged, advice=_ADVICE, heard=told.append)
+    except NumericError:
+        if not told:
+            raise
+        code, text = told[-1]
     print(text)
     return code
-
-
-def _uncorrected(failure: Verdict) -> Verdict:
-    remark = f"looking for a correction took more than {_LONGEST:g} s of computing"
-    return replace(failure, remarks=(*failure.remarks, remark))
 
 
 def _in_json(verdict: Verdict) -> Said:
