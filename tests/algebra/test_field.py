@@ -3,6 +3,7 @@
 import math
 import pickle
 from fractions import Fraction
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -26,7 +27,7 @@ from algebra.worlds import (
     x,
     y,
 )
-from polhode.algebra import ONE, ZERO, Expr, coordinate, cos, sin, speed, sqrt, symbol, tan
+from polhode.algebra import ONE, ZERO, Expr, coordinate, cos, cosh, sin, speed, sqrt, symbol, tan
 from polhode.base import DeclarationError, NumericError
 
 
@@ -171,6 +172,17 @@ def test_dividing_by_nothing_is_a_division_by_zero(divide):
 def test_a_huge_power_is_refused_before_it_is_worked_out(power):
     with pytest.raises(NumericError, match="at most the power 1000"):
         (a + b) ** power
+
+
+def of_unlike_arguments(function, count):
+    return 1 + sum(function(p * q) for p, q in list(combinations((a, b, theta, phi), 2))[:count])
+
+
+@pytest.mark.parametrize("function", [cos, cosh])
+def test_a_denominator_of_too_many_unlike_arguments_is_refused_before_it_is_worked_out(function):
+    with pytest.raises(NumericError, match="too many unlike arguments"):
+        1 / of_unlike_arguments(function, 5)
+    assert (1 / of_unlike_arguments(function, 3)) * of_unlike_arguments(function, 3) == 1
 
 
 @pytest.mark.parametrize("power", [Fraction(1, 3), 0.1, x, theta])

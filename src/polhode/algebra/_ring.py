@@ -17,8 +17,9 @@ from typing import Any
 from flint import Ordering, fmpq_mpoly_ctx
 
 from polhode.algebra._generators import Generator
-from polhode.base import DeclarationError
+from polhode.base import DeclarationError, NumericError
 
+_MOST_PRODUCTS = 2 * 10**6  # of terms; beyond, what comes out is of no use and fills the memory
 _FEW = 16  # terms up to which it is quicker to put the variables in one by one
 Polynomial = Any  # flint.fmpq_mpoly: python-flint ships no usable type information
 Monomial = tuple[int, ...]
@@ -110,6 +111,7 @@ class Ring:
             if den.degrees()[position]:
                 even, odd = self.split(den, position)
                 conjugate = even - odd * self.context.gen(position)
+                _refuse_if_hopeless(max(len(num), len(den)) * len(conjugate))
                 num, den = self.reduce(num * conjugate), self.reduce(den * conjugate)
                 if den == 0:
                     raise ZeroDivisionError("the denominator vanishes identically")
@@ -133,6 +135,17 @@ class Ring:
         """Coefficients of `num` over the monomials of the algebraic generators."""
         positions = [position for position, _ in self.algebraic]
         return self.grouped(num, positions).values() if positions else (num,)
+
+
+def _refuse_if_hopeless(products: int) -> None:
+    """Each unlike cosine or root in a denominator squares the number of terms that it grows to."""
+    if products > _MOST_PRODUCTS:
+        raise NumericError(
+            f"a denominator with sines, exponentials or roots of too many unlike arguments: "
+            f"{products:.0e} products to bring it to its unique form",
+            expected=f"at most {_MOST_PRODUCTS:.0e}",
+            advice="give some of its symbols values, or multiply the denominator out",
+        )
 
 
 def _with(monomial: Monomial, position: int, power: int) -> Monomial:
