@@ -42,7 +42,7 @@ def true_motion(system: System, state: Mapping[Symbol, float]) -> Numbers:
         reaction_symbol(r.name): float(force)
         for r, force in zip(known.restraints, found[len(speeds) :], strict=True)
     }
-    return _numbers(known, state, speeds, found) | reactions
+    return _numbers(trial, state, speeds, found) | reactions
 
 
 def constrained_motion(
@@ -51,13 +51,14 @@ def constrained_motion(
     """The same for some motion that the constraints allow: these accelerations, and no forces."""
     known = declared(system)
     speeds = _speeds(known, state)
-    rows, right = _kinematic(_trials(known, state, speeds))
+    trial = _trials(known, state, speeds)
+    rows, right = _kinematic(trial)
     fixed = {s: a for s in speeds if (a := accelerations.get(s.derivative())) is not None}
     held = [[float(s == given) for s in speeds] for given in fixed]
     rows = np.vstack([rows, np.reshape(held, (len(fixed), len(speeds)))])
     right = np.concatenate([right, list(fixed.values())])
     found = _solve(rows, right, "accelerations that the constraints rule out")
-    return _numbers(known, state, speeds, found)
+    return _numbers(trial, state, speeds, found)
 
 
 def _speeds(known: Declared, state: Mapping[Symbol, float]) -> Numbers:
@@ -94,9 +95,9 @@ def _balances(known: Declared, trial: Trial) -> tuple[Array, Array]:
     """Newton and Euler for every body: rows over the rates of speeds and then the reactions."""
     lines = [_line(known, trial, r) for r in known.restraints]
     rows, right = [], []
-    for body, moving in trial.bodies.items():
-        force = moving.acceleration * trial.scalar(body.mass)
-        need = trial.values([*force, *moving.spin_rate])
+    for body in trial.bodies:
+        force = trial.acceleration(body) * trial.scalar(body.mass)
+        need = trial.values([*force, *trial.spin_rate(body)])
         columns = [line.get(body, np.zeros(6)) for line in lines]
         reactions = np.reshape(columns, (len(lines), 6)).T
         rows.append(np.hstack([need[:, 1:] - need[:, :1], -reactions]))
@@ -148,16 +149,17 @@ def _joined(kinematic: tuple[Array, Array], balances: tuple[Array, Array]) -> tu
 
 
 def _numbers(
-    known: Declared, state: Mapping[Symbol, float], speeds: Numbers, found: Sequence[float] | Array
+    trial: Trial, state: Mapping[Symbol, float], speeds: Numbers, found: Sequence[float] | Array
 ) -> Numbers:
-    rates = {s: np.array([float(a)]) for s, a in zip(speeds, found, strict=False)}
-    trial = Trial(known, state, {s: np.array([v]) for s, v in speeds.items()}, rates)
+    """Of the motion with these rates of speeds, on which all accelerations depend evenly."""
+    rates = np.asarray(found[: len(speeds)], dtype=float)
     numbers = {**state, **speeds}
-    numbers |= {s.derivative(): float(rate[0]) for s, rate in rates.items()}
-    for q in known.coordinates:
+    numbers |= {s.derivative(): float(rate) for s, rate in zip(speeds, rates, strict=True)}
+    for q in trial.coordinates:
         jet = trial.number(q)
+        still, *moved = jet.second
         numbers[q.derivative()] = float(jet.rate[0])
-        numbers[q.derivative().derivative()] = float(jet.second[0])
+        numbers[q.derivative().derivative()] = float(still + (np.array(moved) - still) @ rates)
     return numbers
 
 

@@ -25,14 +25,10 @@ class Moving:
     Attributes:
         velocity: of the centre of mass, m/s.
         angular: angular velocity, rad/s.
-        acceleration: of the centre of mass, m/s².
-        spin_rate: rate of the angular momentum about the centre of mass, N m.
     """
 
     velocity: Jets
     angular: Jets
-    acceleration: Jets
-    spin_rate: Jets
 
 
 class Trial:
@@ -69,22 +65,27 @@ class Trial:
         for q in known.coordinates:
             self._table[q] = Jet(self._nothing + state[q], self._nothing, self._nothing)
         for _ in range(2):
-            rates = {q: self._rate(q) for q in known.coordinates}
-            for q, rate in rates.items():
+            for q, rate in self._rates().items():
                 first, second = self._wide(rate.value), self._wide(rate.rate)
                 self._table[q] = Jet(self._nothing + state[q], first, second)
                 self._table[q.derivative()] = Jet(first, second, self._nothing)
 
-    def _rate(self, coordinate: Symbol) -> Jet:
-        declared = self._known.rates.get(coordinate)
-        if declared is None:
-            return self._table[coordinate.derivative()]
-        return self.scalar(declared)
+    def _rates(self) -> dict[Symbol, Jet]:
+        declared = self._known.rates
+        bare = {
+            q: self._table[q.derivative()] for q in self._known.coordinates if q not in declared
+        }
+        return bare | dict(zip(declared, self.scalars(declared.values()), strict=True))
 
     def _wide(self, array: Array) -> Array:
         return self._nothing + array
 
     # -- reading --------------------------------------------------------------------------------
+
+    @property
+    def coordinates(self) -> tuple[Symbol, ...]:
+        """All coordinates."""
+        return self._known.coordinates
 
     def number(self, symbol: Symbol) -> Jet:
         """One symbol."""
@@ -101,7 +102,7 @@ class Trial:
 
     def vector(self, vector: Vector) -> Jets:
         """Components along the root frame."""
-        return np.array(self.scalars(vector.express(self._root).components), dtype=object)
+        return np.array(self.scalars(_along(vector, self._root)), dtype=object)
 
     def now(self, vector: Vector) -> Array:
         """The same by value, in the first of the motions."""
@@ -124,20 +125,25 @@ class Trial:
 
     def _moving(self, body: Body) -> Moving:
         velocity = self._inertial_rate(self.vector(self._known.places[body]))
-        angular = self.vector(body.angular_velocity)
-        momentum = self._angular_momentum(body, angular)
-        return Moving(
-            velocity, angular, self._inertial_rate(velocity), self._inertial_rate(momentum)
-        )
+        return Moving(velocity, self.vector(body.angular_velocity))
+
+    def acceleration(self, body: Body) -> Jets:
+        """Of its centre of mass, in inertial space, m/s²."""
+        return self._inertial_rate(self.bodies[body].velocity)
+
+    def spin_rate(self, body: Body) -> Jets:
+        """Rate of its angular momentum about the centre of mass, in inertial space, N m."""
+        return self._inertial_rate(self._angular_momentum(body))
 
     def _inertial_rate(self, vector: Jets) -> Jets:
         return np.array([c.dt for c in vector], dtype=object) + _cross(self._carried, vector)
 
-    def _angular_momentum(self, body: Body, angular: Jets) -> Jets:
-        axes = [self.vector(body.axes[label]) for label in body.axes.labels]
-        along = np.array([_dot(axis, angular) for axis in axes], dtype=object)
-        moments = [_dot(self.scalars(row), along) for row in body.inertia.rows]
-        return sum(axis * moment for axis, moment in zip(axes, moments, strict=True))
+    def _angular_momentum(self, body: Body) -> Jets:
+        angular = self.bodies[body].angular
+        found = np.array(self.scalars(_axes_and_moments(body, self._root)), dtype=object)
+        axes, moments = found.reshape(2, 3, 3)
+        along = [_dot(axis, angular) for axis in axes]
+        return sum(axis * _dot(row, along) for axis, row in zip(axes, moments, strict=True))
 
     def slip(self, restraint: Restraint, direction: Vector) -> Jet:
         """Relative velocity that a restraint rules out, along a direction."""
@@ -165,6 +171,18 @@ class Trial:
 
 
 _PI = Symbol("pi")
+
+
+@lru_cache(maxsize=4096)
+def _along(vector: Vector, root: Frame) -> tuple[Expr, ...]:
+    return vector.express(root).components
+
+
+@lru_cache(maxsize=64)
+def _axes_and_moments(body: Body, root: Frame) -> tuple[Expr, ...]:
+    """Components of a body's axes, one after another, and then the rows of its inertia."""
+    axes = [_along(body.axes[label], root) for label in body.axes.labels]
+    return tuple(entry for row in (*axes, *body.inertia.rows) for entry in row)
 
 
 @lru_cache(maxsize=4096)
