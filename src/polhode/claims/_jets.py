@@ -32,12 +32,19 @@ class Jet:
         return value if isinstance(value, Jet) else cls(np.asarray(value), _ZERO, _ZERO)
 
     @property
+    def is_constant(self) -> bool:
+        """Whether it was made as one."""
+        return self.rate is _ZERO and self.second is _ZERO
+
+    @property
     def dt(self) -> Jet:
         """The first rate, as a quantity of its own."""
         return Jet(self.rate, self.second, _ZERO)
 
     def __add__(self, other: Jet | float) -> Jet:
         b = Jet.of(other)
+        if b.is_constant:
+            return Jet(self.value + b.value, self.rate, self.second)
         return Jet(self.value + b.value, self.rate + b.rate, self.second + b.second)
 
     def __neg__(self) -> Jet:
@@ -48,11 +55,20 @@ class Jet:
 
     def __mul__(self, other: Jet | float) -> Jet:
         b = Jet.of(other)
+        if b.is_constant:
+            return self._scaled(b.value)
+        if self.is_constant:
+            return b._scaled(self.value)
         return Jet(
             self.value * b.value,
             self.rate * b.value + self.value * b.rate,
             self.second * b.value + 2 * self.rate * b.rate + self.value * b.second,
         )
+
+    def _scaled(self, factor: Array) -> Jet:
+        if self.is_constant:
+            return Jet.of(self.value * factor)
+        return Jet(self.value * factor, self.rate * factor, self.second * factor)
 
     def __truediv__(self, other: Jet | float) -> Jet:
         b = Jet.of(other)
@@ -69,6 +85,8 @@ class Jet:
 
     def through(self, value: Array, slope: Array, curvature: Array) -> Jet:
         """A function of this quantity, by its value and first two derivatives here."""
+        if self.is_constant:
+            return Jet.of(value)
         second = curvature * self.rate**2 + slope * self.second
         return Jet(value, slope * self.rate, second)
 
