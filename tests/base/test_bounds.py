@@ -23,3 +23,9 @@ def test_a_bound_of_no_time_is_none():
 
 def test_memory_beyond_the_bound_is_refused():
     assert "MemoryError" in ended("bound_memory(1 << 30); bytes(2 << 30)").stderr
+
+
+def test_a_bound_of_growth_leaves_what_there_is():
+    holding = "held = bytearray(1 << 30); bound_growth(1 << 28)"
+    assert ended(f"{holding}; bytes(1 << 27)").returncode == 0
+    assert "MemoryError" in ended(f"{holding}; bytes(1 << 30)").stderr

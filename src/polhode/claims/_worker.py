@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import sys
@@ -15,6 +16,8 @@ from polhode.claims._document import Claim, Part
 from polhode.claims._verdict import Answer, Verdict
 from polhode.derive import Equations, derive
 from polhode.model import System
+
+_RARELY = 50_000  # objects that wait for the collector; nearly all are freed without it
 
 #: A verdict, and whether it is the last word on its claim.
 Reply = tuple[Verdict, bool]
@@ -102,6 +105,7 @@ def _own_output() -> int:
 def main() -> None:
     """Work for the process at the other end of standard input and output."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # who asks ends us
+    gc.set_threshold(_RARELY)
     bound_memory(int(sys.argv[1]))
     replies = Connection(_own_output(), readable=False)
     with suppress(BrokenPipeError):
