@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from itertools import islice
 
 import numpy as np
@@ -73,7 +73,16 @@ class Bench:
         return partial(_evaluated, found)
 
     def _columns(self, symbols: Iterable[Symbol]) -> dict[Symbol, Array]:
-        return {s: np.array([state[s] for state in self.states]) for s in symbols}
+        return {symbol: self._column(symbol) for symbol in symbols}
+
+    def _column(self, symbol: Symbol) -> Array:
+        if symbol not in self._known:
+            self._known[symbol] = np.array([state[symbol] for state in self.states])
+        return self._known[symbol]
+
+    @cached_property
+    def _known(self) -> dict[Symbol, Array]:
+        return {}
 
 
 def _evaluated(found: Sequence[Rational], at: Array) -> Array:

@@ -30,9 +30,12 @@ def numbers(
 ) -> Array:
     """Values of several expressions: (expressions, *shape)."""
     known: dict[Generator, Any] = {}
+    wanted = tuple(expressions)
+    found = np.empty((len(wanted), *shape))
     with np.errstate(all="ignore"):
-        found = [np.broadcast_to(_of(e, values, known), shape) for e in expressions]
-    return np.array(found, dtype=float).reshape(len(found), *shape)
+        for place, expression in enumerate(wanted):
+            found[place] = _of(expression, values, known)
+    return found
 
 
 @dataclass(frozen=True, eq=False)
