@@ -172,9 +172,7 @@ def _try(original: Original, oracle: Oracle, mutant: Mutant, counts: Counts) -> 
 def _undetermined(asked: Asked) -> bool:
     """Whether the claim speaks of reactions that Newton's laws leave open."""
     forces = asked.equations.components.items()
-    free = {
-        reaction_symbol(name) for name, value in forces if value.symbol == reaction_symbol(name)
-    }
+    free = {Symbol(name) for name, value in forces if value.symbol == Symbol(name)}
     open_ = {reaction_symbol(name) for name, value in forces if free & value.symbols()}
     sides = (side for c in asked.components() for side in (c.left, c.right))
     return any(open_ & side.symbols() for side in sides)
