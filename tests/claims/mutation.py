@@ -10,7 +10,7 @@ from random import Random
 
 from claims.mutants import Mutant, mutants
 from claims.oracle import JUDGED, Oracle
-from polhode.algebra import Expr, Vector
+from polhode.algebra import Expr, Symbol, Vector
 from polhode.base import PolhodeError
 from polhode.catalogue import CATALOGUE, problem_set
 from polhode.claims import Answer, Claim, Document, Notation, read_document
