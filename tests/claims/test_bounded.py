@@ -123,8 +123,18 @@ def test_a_claim_that_takes_too_much_memory_is_told(gyroscope, alone, monkeypatc
 def test_what_is_refused_is_refused_in_its_own_words(gyroscope):
     with pytest.raises(ph.ParseError, match="context 'sometimes'"):
         ph.check(RIGHT, gyroscope, context="sometimes")
-    with pytest.raises(ph.NumericError, match="0 s to judge in"):
-        ph.check(RIGHT, gyroscope, seconds=0)
+    for seconds in (0, float("nan"), float("inf"), "5"):
+        with pytest.raises(ph.NumericError, match="s to judge in; expected some time, or None"):
+            ph.check(RIGHT, gyroscope, seconds=seconds)
+    with pytest.raises(ph.ParseError, match="an equation of type int; expected LaTeX"):
+        ph.check(5, gyroscope)
+
+
+def test_a_restriction_may_stand_alone(gyroscope):
+    listed = ph.check(r"\sin\theta = 1", gyroscope, given=["theta = pi/2"])
+    alone = ph.check(r"\sin\theta = 1", gyroscope, given="theta = pi/2")
+    assert alone == listed
+    assert alone.answer is Answer.HOLDS
 
 
 def test_where_a_process_cannot_be_parted_it_is_interrupted(gyroscope, monkeypatch):

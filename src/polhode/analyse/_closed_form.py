@@ -15,7 +15,7 @@ from polhode.analyse._reals import Array, Digits, Doubles, Reals
 from polhode.analyse._solution import Solution, Solvable
 from polhode.analyse._uniform import SteadySolution, Uniform, is_steady, uniform
 from polhode.base import ConstraintError, NumericError
-from polhode.derive import Equations
+from polhode.derive import Equations, equations_only
 
 #: Digits of a double, with one to round by.
 _DOUBLE = 17
@@ -218,6 +218,7 @@ def closed_form(
         DeclarationError, UnitError: for values that cannot be read.
         ConstraintError: for a start outside the side the equations were derived for.
     """
+    equations_only(equations, "the closed form")
     family = recognise(equations)
     data = exact_data(equations, parameters, start, digits or _DOUBLE)
     for sign in equations.assumed_positive:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from polhode.algebra import Expr, Matrix, Vector
 from polhode.base import Shown
-from polhode.derive import Equations
+from polhode.derive import Equations, equations_only
 from polhode.model import Body, Frame
 
 
@@ -48,6 +48,7 @@ def fictitious_force(
         element: from the centre of mass to the element, m.
         relative: velocity of the element relative to the frame, m/s.
     """
+    equations_only(equations, "a fictitious force")
     turning, change = _turning(equations, frame)
     acceleration = equations.kinetics.derivative(equations.kinetics.velocities[body][0])
     place = element.express(frame)
@@ -65,6 +66,7 @@ def fictitious_torque(equations: Equations, body: Body, frame: Frame) -> Fictiti
     With J = ∫ r r dm: centrifugal -Ω × IΩ, Coriolis -2 JΩ × ω', Euler -I Ω̇, where ω' is the
     rotation of the body relative to the frame.
     """
+    equations_only(equations, "a fictitious torque")
     turning, change = _turning(equations, frame)
     axes = body.axes
     spin = equations.kinetics.velocities[body][1] - turning

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, sqrt
 from polhode.base import DeclarationError, Shown
-from polhode.derive import Equations
+from polhode.derive import Equations, equations_only
 from polhode.model import Contact
 
 
@@ -33,6 +33,7 @@ def contact_forces(equations: Equations, name: str) -> ContactForces:
 
     Raises `DeclarationError` for a joint, which holds on both sides.
     """
+    equations_only(equations, "contact forces")
     element = equations.system.element(name)
     if not isinstance(element, Contact):
         raise DeclarationError(

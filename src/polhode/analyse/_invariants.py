@@ -11,7 +11,7 @@ from polhode.analyse._independence import Independent
 from polhode.analyse._linear_integrals import LinearIntegrals, linear_integrals
 from polhode.analyse._reduced import refuse_parts
 from polhode.base import NumericError, Shown, look_up
-from polhode.derive import Equations
+from polhode.derive import Equations, equations_only
 from polhode.model import Body, Contact
 
 
@@ -87,6 +87,7 @@ def invariants(equations: Equations, ansatz: Ansatz | None = None) -> Invariants
 
     Raises `NumericError` for equations in named parts.
     """
+    equations_only(equations, "invariants")
     refuse_parts(equations)
     chosen = ansatz or Ansatz()
     found: list[Invariant] = []

@@ -25,7 +25,7 @@ from polhode.algebra import (
 )
 from polhode.analyse._reduced import reduced
 from polhode.base import NumericError, Shown
-from polhode.derive import Equations
+from polhode.derive import Equations, equations_only
 
 
 @dataclass(frozen=True)
@@ -114,6 +114,7 @@ class LinearIntegrals(Shown):
 
 def linear_integrals(equations: Equations) -> LinearIntegrals | None:
     """Speeds that obey a linear equation in an essential angle; None where there are none."""
+    equations_only(equations, "linear integrals")
     system = reduced(equations)
     for angle in system.essential:
         rate = angle.derivative()

@@ -27,7 +27,7 @@ from polhode.algebra import (
 from polhode.analyse._conditions import Condition, positive
 from polhode.analyse._reduced import Reduced, reduced
 from polhode.base import NumericError, Shown
-from polhode.derive import Equations
+from polhode.derive import Equations, equations_only
 
 Values = Mapping[Symbol, Expr]
 
@@ -117,6 +117,7 @@ def steady(
 
     Raises `NumericError` where there is no steady motion.
     """
+    equations_only(equations, "steady motions")
     system = reduced(equations)
     given = {as_symbol(symbol): Expr.of(value) for symbol, value in (at or {}).items()}
     _refuse_strangers(equations, given)

@@ -6,13 +6,14 @@ import os
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
+from math import inf
 
-from polhode.base import NumericError
+from polhode.base import NumericError, ParseError
 from polhode.claims._asked import The
 from polhode.claims._check import Enquiry
 from polhode.claims._patience import Sitting, Tell, can_part, within
 from polhode.claims._verdict import Verdict
-from polhode.derive import Equations
+from polhode.derive import Equations, equations_only
 
 LONGEST = 60.0  # s of processor time
 
@@ -55,11 +56,14 @@ def check(
         ParseError: for an unknown context, a `let` of a known symbol, and unreadable restrictions.
         NumericError: for what cannot be decided in time, or takes too much memory.
     """
-    enquiry = Enquiry(latex, context, tuple(let), tuple(given), tuple(small))
+    if not isinstance(latex, str):
+        raise ParseError(f"an equation of type {type(latex).__name__}", expected="LaTeX, as a str")
+    equations_only(equations, "a claim about the motion")
+    enquiry = Enquiry(latex, context, _several(let), _several(given), _several(small))
     if seconds is None:
         return enquiry.judged(equations, tell)
-    if not seconds > 0:
-        raise NumericError(f"{seconds:g} s to judge in", expected="some time, or None for no bound")
+    if not isinstance(seconds, int | float) or not 0 < seconds < inf:
+        raise NumericError(f"{seconds!r} s to judge in", expected="some time, or None for no bound")
     ask = _asked if can_part() else _interruptible
     told: list[Verdict] = []
 
@@ -73,6 +77,11 @@ def check(
         if not told:
             raise
         return uncorrected(told[-1], seconds)
+
+
+def _several(texts: Iterable[str]) -> tuple[str, ...]:
+    """Several texts, or one by itself."""
+    return (texts,) if isinstance(texts, str) else tuple(texts)
 
 
 def uncorrected(failure: Verdict, seconds: float) -> Verdict:

@@ -48,6 +48,21 @@ def derive(system: System) -> Equations:
         return _derived(system, IN_PARTS)
 
 
+def equations_only(given: object, what: str) -> Equations:
+    """The equations that were given to learn something of.
+
+    Raises:
+        DeclarationError: for anything else.
+    """
+    if not isinstance(given, Equations):
+        raise DeclarationError(
+            f"{what} of a {type(given).__name__}",
+            expected="equations of motion",
+            advice="derive them first: ph.derive(system)",
+        )
+    return given
+
+
 def _derived(system: System, form: Form) -> Equations:
     motion = motion_of(system, form)
     needs = demands(motion)
