@@ -7,6 +7,7 @@ import signal
 from collections import deque
 from concurrent.futures import ThreadPoolExecutor
 from itertools import count
+from select import select
 
 import pytest
 
@@ -171,3 +172,15 @@ def test_a_motion_can_be_followed_there_after_one_was_followed_here():
 
     here = tilt("0.2 s")
     assert within(60, lambda tell: tilt("0.3 s"), advice="") == pytest.approx(here, rel=1e-12)
+
+
+def test_what_is_open_is_not_held_open_by_the_process_that_judges():
+    """Who reads from a pipe of ours hears of its end, though a copy of us waits for claims."""
+    anew = ph.derive(CATALOGUE["gyroscope"].build())
+    reading, writing = os.pipe()
+    assert ph.check(RIGHT, anew).answer is Answer.HOLDS
+    os.close(writing)
+    ready, _, _ = select([reading], [], [], 5.0)
+    assert ready
+    assert os.read(reading, 1) == b""
+    os.close(reading)

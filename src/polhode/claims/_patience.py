@@ -7,7 +7,7 @@ import os
 import signal
 import sys
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import closing, contextmanager, suppress
 from multiprocessing.connection import Connection, Pipe
 from threading import current_thread, main_thread
@@ -147,6 +147,7 @@ def _work(
     try:
         gc.freeze()  # what was loaded is shared as long as nobody touches it
         _settle()
+        _let_go({questions.fileno(), replies.fileno()})
         while True:
             question, seconds = questions.recv()
             _bound(seconds)
@@ -161,7 +162,14 @@ def _settle() -> None:
     for clock in _CLOCKS:
         signal.signal(getattr(signal, clock), signal.SIG_DFL)
     bound_growth(_MEMORY)
-    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # what libraries print as they break down
+
+
+def _let_go(kept: Collection[int]) -> None:
+    """Hold nothing open that the other process has: somebody may wait for its last end to close."""
+    nothing = os.open(os.devnull, os.O_RDWR)
+    for name in os.listdir("/dev/fd"):
+        if int(name) not in kept:
+            os.dup2(nothing, int(name))
 
 
 def _bound(seconds: float) -> None:
