@@ -48,8 +48,8 @@ def derive(system: System) -> Equations:
         return _derived(system, IN_PARTS)
 
 
-def equations_only(given: object, what: str) -> Equations:
-    """The equations that were given to learn something of.
+def equations_only(given: object, what: str) -> None:
+    """Refuse to learn something of anything but equations.
 
     Raises:
         DeclarationError: for anything else.
@@ -60,7 +60,6 @@ def equations_only(given: object, what: str) -> Equations:
             expected="equations of motion",
             advice="derive them first: ph.derive(system)",
         )
-    return given
 
 
 def _derived(system: System, form: Form) -> Equations:

@@ -78,9 +78,7 @@ def _by_number(place: Place, number: Fraction) -> Iterator[Edit]:
 
 
 def emptied(place: Place) -> Iterator[Edit]:
-    """Ways to write that a whole side vanishes: nothing there, or the rate of what is constant."""
-    if not place.is_side:
-        return
+    """Ways to write that a whole side vanishes: nothing there, or the rate of a constant."""
     is_letter = isinstance(place.node, Name | Dots)
     is_said = Number("0") in place.parent.parts
     if is_letter and is_said:

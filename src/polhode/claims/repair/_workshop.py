@@ -213,7 +213,7 @@ class Workshop:
             yield from self._vectors(place, kept)
         if response is not None:
             yield from self._scaled(place, response)
-            if 0 in set(simple_numbers(response)):
+            if place.is_side and 0 in set(simple_numbers(response)):
                 yield from (e for e in emptied(place) if self._holds_with(e, kept))
 
     def _holds_with(self, edit: Edit, kept: Collection[int]) -> bool:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import islice
 
 from polhode.algebra import Expr, Symbol, factors
+from polhode.algebra import length as terms_of
 from polhode.base import PolhodeError
 from polhode.claims.latex._tree import (
     Call,
@@ -21,7 +22,6 @@ from polhode.claims.latex._tree import (
     Quotient,
     Statement,
     Sum,
-    walk,
 )
 from polhode.claims.repair._edits import number_node
 from polhode.claims.repair._places import ZERO, Place, negated, over, raised, times
@@ -134,12 +134,8 @@ def _is_longer(polynomial: Expr, most: int) -> bool:
 
 def _are_about_as_long(one: Expr, other: Expr) -> bool:
     """Whether one may be a short multiple of the other."""
-    shorter, longer = sorted((_terms(one), _terms(other)))
+    shorter, longer = sorted((terms_of(one), terms_of(other)))
     return longer <= _FACTOR * shorter
-
-
-def _terms(expression: Expr) -> int:
-    return sum(1 for part in (expression.numerator, expression.denominator) for _ in part.terms())
 
 
 def _fraction(number: Fraction, above: Iterable[Node], below: Iterable[Node]) -> Node:
@@ -151,10 +147,10 @@ def repeats(work: Workpiece, place: Place, node: Node) -> bool:
     """Whether something new at a place brings in a whole side of the same chain, not a power."""
     sides = work.statement.relations[place.relation].sides
     others = {side for i, side in enumerate(sides) if i != place.path[1]} - {ZERO}
-    powers = [piece.base for piece in walk(node) if isinstance(piece, Power)]
-    return any(piece in others and not _among(piece, powers) for piece in walk(node))
+    return _stands_in(node, others)
 
 
-def _among(piece: Piece, pieces: Sequence[Piece]) -> bool:
-    """Whether it is one of these, not only equal to it."""
-    return any(piece is other for other in pieces)
+def _stands_in(piece: Piece, others: Collection[Piece]) -> bool:
+    """Whether one of these is the piece or stands in it, other than as the base of a power."""
+    inside = (*piece.base.parts, piece.exponent) if isinstance(piece, Power) else piece.parts
+    return piece in others or any(_stands_in(part, others) for part in inside)
