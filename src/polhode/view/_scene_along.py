@@ -26,13 +26,13 @@ def along(run: Trajectory, wanted: Wanted, count: int, t: Array) -> Array:
     """
     begins = np.array([segment.begin for segment in run.segments])
     which = np.clip(np.searchsorted(begins, t, "right") - 1, 0, None)
-    found = np.full((len(t), count), np.nan)
+    found = np.full((count, len(t)), np.nan)
     for i in np.unique(which):
         segment, here = run.segments[i], which == i
         expressions = wanted(cast(Equations, segment.dynamics.equations))
         if expressions is not None:
-            found[here] = segment.values(expressions, t[here]).T
-    return found
+            found[:, here] = segment.values(expressions, t[here])
+    return found.T
 
 
 def vectors(run: Trajectory, wanted: Callable[[Equations], Vector | None], t: Array) -> Array:

@@ -15,6 +15,8 @@ _AT_ONCE = 4096  # places: the coefficients of more would fill the memory
 def evaluated(coefficients: Array, which: NDArray[np.intp], places: Array) -> Array:
     """Values of polynomials, shape (rows, places).
 
+    Neighbours that read the same polynomial, as the nodes of a quadrature do, are read together.
+
     Args:
         coefficients: by rising power, shape (polynomials, rows, powers).
         which: the polynomial at each place.
@@ -22,17 +24,32 @@ def evaluated(coefficients: Array, which: NDArray[np.intp], places: Array) -> Ar
     """
     found = np.empty((coefficients.shape[1], len(places)))
     for here in _portions(len(places)):
-        chosen = coefficients[which[here]]
+        together = _together(which[here])
+        chosen = coefficients[which[here][::together]]
         powers = powers_of(places[here], chosen.shape[2] - 1)
+        powers = powers.reshape(len(powers), -1, together).swapaxes(0, 1)
         # what is added to the first term is summed up before, so that it is rounded only once
-        rest = np.einsum("prk,pk->pr", chosen[:, :, 1:], powers)
-        found[:, here] = (chosen[:, :, 0] + rest).T
+        values = chosen[:, :, :1] + chosen[:, :, 1:] @ powers
+        found[:, here] = values.swapaxes(0, 1).reshape(len(found), -1)
     return found
 
 
 def powers_of(values: Array, count: int) -> Array:
-    """The first, second, … power of each, shape (values, count)."""
-    return np.asarray(np.multiply.accumulate(np.repeat(values[:, None], count, axis=1), axis=1))
+    """The first, second, … power of each, shape (count, values)."""
+    powers = np.empty((count, len(values)))
+    powers[:1] = values
+    known = 1
+    while known < count:
+        new = powers[known : 2 * known]
+        np.multiply(powers[: len(new)], powers[known - 1], out=new)
+        known += len(new)
+    return powers
+
+
+def _together(which: NDArray[np.intp]) -> int:
+    """The most neighbours of whom it is true, all along, that they have the same polynomial."""
+    changes = np.flatnonzero(np.diff(which)) + 1
+    return int(np.gcd.reduce(np.append(changes, len(which))))
 
 
 def pieces_at(knots: Array, times: Array) -> NDArray[np.intp]:

@@ -45,7 +45,7 @@ class Steps:
         lengths = np.array(self._lengths)
         shares = np.array(self._series)
         with np.errstate(over="ignore", under="ignore", invalid="ignore"):
-            powers = powers_of(lengths, shares.shape[2] - 1)
+            powers = powers_of(lengths, shares.shape[2] - 1).T
             np.multiply(
                 shares[:, :, 1:], powers[:, None], out=shares[:, :, 1:], where=shares[:, :, 1:] != 0
             )
