@@ -15,6 +15,7 @@ SYSTEMS = [*CATALOGUE, "double pendulum"]
 NO_WEBGL = "HTMLCanvasElement.prototype.getContext = new Proxy(\
 HTMLCanvasElement.prototype.getContext, {apply: (get, canvas, asked) => \
 asked[0].startsWith('webgl') ? null : Reflect.apply(get, canvas, asked)})"
+TIPS = "e => [...e.querySelectorAll('line')].map(l => [l.x2, l.y2].map(v => v.baseVal.value))"
 MOST = 1_500_000  # bytes
 
 
@@ -41,6 +42,11 @@ def colours(pixels):
     return len(np.unique(pixels.reshape(-1, 3) // 16, axis=0))
 
 
+def vivid(pixels):
+    """Where there is the colour of an arrow or a body, none of the sky or the ground."""
+    return np.ptp(pixels, axis=2) > 90
+
+
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_every_system_is_seen(opened, written, tmp_path, name):
     path = written(name)
@@ -49,6 +55,7 @@ def test_every_system_is_seen(opened, written, tmp_path, name):
         before = shown.picture(tmp_path)
         shown.page.locator("input[type=range]").fill("713")
         after = shown.picture(tmp_path)
+        assert not np.any(vivid(before[:3])), "something leaves the picture at the top"
         assert colours(after[after.shape[0] // 6 : -after.shape[0] // 6]) > 30
         assert np.count_nonzero(np.abs(after - before).sum(axis=2) > 60) > 100
         assert shown.page.locator(".plot canvas").count() > 0
@@ -199,16 +206,30 @@ def test_who_asks_for_less_motion_gets_none_unasked(opened, written, tmp_path):
 def test_the_directions_turn_with_the_view(disk):
     triad = disk.page.locator(".triad")
     assert triad.locator("text").all_text_contents() == ["x", "y", "z"]
-    tips = "e => [...e.querySelectorAll('line')].map(l => [l.x2, l.y2].map(v => v.baseVal.value))"
-    before = np.array(triad.evaluate(tips))
+    before = np.array(triad.evaluate(TIPS))
     assert before[2][0] == pytest.approx(0, abs=0.1)
     assert before[2][1] < -10
     disk.page.locator(".picture").focus()
     disk.page.keyboard.press("ArrowLeft")
     disk.page.wait_for_timeout(150)
-    after = np.array(triad.evaluate(tips))
+    after = np.array(triad.evaluate(TIPS))
     assert np.abs(after - before)[:2].max() > 1
     assert after[2][0] == pytest.approx(0, abs=0.1)
+
+
+def test_pulling_sideways_turns_about_the_upright(disk):
+    triad = disk.page.locator(".triad")
+    before = np.array(triad.evaluate(TIPS))
+    box = disk.page.locator(".picture").bounding_box()
+    middle = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    disk.page.mouse.move(*middle)
+    disk.page.mouse.down()
+    disk.page.mouse.move(middle[0] + 120, middle[1], steps=4)
+    disk.page.mouse.up()
+    disk.page.wait_for_timeout(150)
+    after = np.array(triad.evaluate(TIPS))
+    assert np.abs(after - before)[:2].max() > 10
+    assert after[2] == pytest.approx(before[2], abs=0.1)
 
 
 @pytest.fixture(scope="module")

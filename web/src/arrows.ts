@@ -57,6 +57,7 @@ export class Arrow {
   private readonly along: Rows;
   private readonly buffer: number[] = [];
   private readonly vector = new Vector3();
+  private readonly from = new Vector3();
   private readonly turn = new Quaternion();
 
   /** @param group what it is drawn as, of this thickness. */
@@ -76,10 +77,14 @@ export class Arrow {
     return Math.hypot(...this.along.at(frame, this.buffer));
   }
 
+  /** Where it ends at most this far from its foot, m. */
+  tip(frame: number, most: number, out: Vector3): Vector3 {
+    return this.drawn(frame, out).clampLength(0, most).add(this.start(frame, this.from));
+  }
+
   update(frame: number): void {
-    if (this.foot.count) this.group.position.fromArray(this.foot.at(frame, this.buffer));
-    else this.body.placeAt(frame, this.group.position);
-    this.vector.fromArray(this.along.at(frame, this.buffer)).multiplyScalar(this.scale);
+    this.start(frame, this.group.position);
+    this.drawn(frame, this.vector);
     const length = this.vector.length();
     const hidden = length < 0.3 * this.thick || Number.isNaN(this.group.position.x);
     const tip = Math.min(1, length / (1.5 * HEAD * this.thick));
@@ -91,5 +96,14 @@ export class Arrow {
       shaft.scale.set(tip, Math.max(length - 0.9 * HEAD * this.thick * tip, 1e-9), tip);
     }
     if (!hidden) this.group.quaternion.copy(this.turn.setFromUnitVectors(UP, this.vector.normalize()));
+  }
+
+  private start(frame: number, out: Vector3): Vector3 {
+    return this.foot.count ? out.fromArray(this.foot.at(frame, this.buffer)) : this.body.placeAt(frame, out);
+  }
+
+  /** As long as it is drawn. */
+  private drawn(frame: number, out: Vector3): Vector3 {
+    return out.fromArray(this.along.at(frame, this.buffer)).multiplyScalar(this.scale);
   }
 }

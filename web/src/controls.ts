@@ -69,9 +69,9 @@ function speed(clock: Clock): HTMLElement {
 export function switches(stage: Stage, clock: Clock): HTMLElement {
   const arrows = stage.kinds.map((kind) => arrowSwitch(kind, stage, clock));
   const traces = toggle("Traces", stage.showsTraces, (on) => stage.showTraces(on));
-  const follow = toggle("Follow", stage.follow, (on) => stage.setFollow(on));
+  const follow = toggle("Follow", stage.eye.follow, (on) => stage.eye.setFollow(on));
   const home = make("button", { type: "button", class: "switch" }, "Reset view");
-  home.addEventListener("click", () => stage.home());
+  home.addEventListener("click", () => stage.eye.home());
   return make(
     "div",
     { class: "switches", role: "group", "aria-label": "What is shown" },
@@ -136,12 +136,12 @@ export function keys(
     End: () => clock.seek(clock.duration),
   };
   const turning: Record<string, () => void> = {
-    ArrowLeft: () => stage?.orbit(-TURN, 0),
-    ArrowRight: () => stage?.orbit(TURN, 0),
-    ArrowUp: () => stage?.orbit(0, -TURN),
-    ArrowDown: () => stage?.orbit(0, TURN),
-    "+": () => stage?.zoom(1 / 1.15),
-    "-": () => stage?.zoom(1.15),
+    ArrowLeft: () => stage?.eye.orbit(-TURN, 0),
+    ArrowRight: () => stage?.eye.orbit(TURN, 0),
+    ArrowUp: () => stage?.eye.orbit(0, -TURN),
+    ArrowDown: () => stage?.eye.orbit(0, TURN),
+    "+": () => stage?.eye.zoom(1 / 1.15),
+    "-": () => stage?.eye.zoom(1.15),
   };
   document.addEventListener("keydown", (event) => {
     const target = event.target as HTMLElement;

@@ -3,10 +3,12 @@
 import { LineSegments, type Material, Mesh, type Object3D, PCFShadowMap, PerspectiveCamera, Scene, WebGLRenderer } from "three";
 import { Lights } from "./lights";
 
+const FIELD = 32; // degrees that are seen from top to bottom
+
 export class House {
   readonly renderer = rendererOf();
   readonly world = new Scene();
-  readonly camera = new PerspectiveCamera();
+  readonly camera = new PerspectiveCamera(FIELD);
   readonly lights = new Lights(this.world, this.camera);
   private parts = new Map<string, Object3D[]>();
   private former = new Map<string, Object3D[]>();

@@ -1,9 +1,9 @@
 // The picture in three dimensions.
 
-import { type Object3D, type PerspectiveCamera, Plane, Quaternion, Raycaster, Vector2, Vector3 } from "three";
-import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { type Object3D, Vector2, Vector3 } from "three";
 import { Arrow, arrowObject, scales, usuallyShown } from "./arrows";
-import { extent } from "./extent";
+import { type Room, roomOf } from "./extent";
+import { Eye } from "./eye";
 import { House } from "./house";
 import { Link } from "./links";
 import { Pose } from "./pose";
@@ -14,27 +14,23 @@ import { boundless, paint, surfaceOf } from "./supports";
 import { Trace } from "./traces";
 import { Triad } from "./triad";
 
-const FAR = 5.5; // reaches of the body that are in view when it is followed
+const WANDERS = 7.7; // reaches: a motion that takes more room is followed
 const WIDE = 60; // reaches by which a sheet is wider while a hand pulls it
 const LIFT = 0.05; // of a floor below what stands on it, in reaches
 
 export class Stage {
   readonly arrows: Arrow[];
   readonly traces: Trace[];
-  follow: boolean;
+  readonly eye: Eye;
   private readonly house: House;
-  private readonly controls: OrbitControls;
   private readonly shown: Set<ArrowKind>;
   private readonly links: Link[];
   private readonly triad: Triad;
   private readonly moving: { pose: Pose; object: Object3D }[] = [];
   private readonly poses: Pose[];
   private readonly carriers: Object3D[] = [];
-  private readonly reach: number;
-  private readonly radius: number;
-  private readonly middle: Vector3;
-  private readonly up: Vector3;
-  private readonly place = new Vector3();
+  private readonly room: Room;
+  private readonly grid: number; // about how far the lines on the ground are apart, m
   private readonly fitting = new ResizeObserver(() => this.fit());
   private readonly sheets: { pose: Pose; object: Object3D; support: SupportData }[] = [];
   private dark = false;
@@ -55,65 +51,45 @@ export class Stage {
   ) {
     this.house = before?.house ?? new House();
     this.house.begin();
-    this.up = new Vector3(...scene.up);
     this.triad = new Triad(scene.directions);
     this.poses = scene.bodies.map((body) => new Pose(body.pose));
-    this.reach = Math.max(...scene.bodies.map(reach));
     this.links = scene.links.map((data) => new Link(data));
-    [this.middle, this.radius] = extent(this.poses, this.fixed(), this.scene.frames, this.reach);
-    this.follow = this.radius > 1.4 * FAR * this.reach && !this.isTied();
+    const reaches = Math.max(...scene.bodies.map(reach));
+    this.arrows = this.makeArrows(reaches);
+    this.shown = usuallyShown(this.kinds);
+    const first = this.arrows.filter(({ data }) => this.shown.has(data.kind));
+    this.room = roomOf(new Vector3(...scene.up), this.poses, reaches, this.fixed(), first, scene.frames);
+    const follow = this.room.radius > WANDERS * reaches && !this.isTied();
     this.addBodies();
-    this.addGrounds();
+    this.grid = 1.2 * Math.max(reaches, follow ? 0 : 0.35 * this.room.radius);
+    this.addGrounds(this.grid);
     this.traces = scene.traces.map((data) => new Trace(data));
     for (const trace of this.traces) this.carrier(trace).add(this.house.own(trace.line));
-    this.arrows = this.makeArrows();
-    this.shown = usuallyShown(this.kinds);
     for (const link of this.links) this.house.own(link.object);
     before?.leave();
-    this.controls = new OrbitControls(this.camera, holder);
-    this.controls.maxDistance = 40 * Math.max(this.radius, this.reach);
-    this.controls.minDistance = 1.5 * this.reach;
-    this.controls.addEventListener("change", () => this.draw());
-    this.open(keepsView ? before : undefined);
+    const from = this.house.camera.position.clone();
+    this.fit();
+    const body = (out: Vector3): Vector3 => this.poses[0].placeAt(this.frame, out);
+    this.eye = new Eye(this.house, holder, this.room, follow, body, () => this.draw());
+    this.open(from, keepsView ? before : undefined);
     holder.append(this.canvas, this.triad.element);
     this.fitting.observe(holder);
-    this.fit();
-  }
-
-  private get camera(): PerspectiveCamera {
-    return this.house.camera;
   }
 
   /** Show what is seen first, from where an earlier stage was looked at. */
-  private open(before?: Stage): void {
-    const eye = this.camera.position.clone();
-    this.camera.up.copy(this.up);
-    this.camera.near = this.reach / 8;
-    this.camera.far = 300 * Math.max(this.radius, this.reach);
-    this.camera.updateProjectionMatrix();
-    this.house.lights.fit(this.reach);
-    this.aim();
+  private open(from: Vector3, before?: Stage): void {
     if (before) this.inherit(before);
     for (const { data, group } of this.arrows) group.visible = this.shown.has(data.kind);
     this.showTraces(this.traced);
-    this.home();
-    if (before) this.look(before, eye);
+    this.eye.home();
+    if (before) this.eye.takeOver(before.eye, from);
   }
 
   /** What was switched on or off stays so. */
   private inherit(before: Stage): void {
-    this.follow = before.follow;
+    this.eye.follow = before.eye.follow;
     this.traced = before.traced;
     for (const kind of before.kinds) this.shown[before.shown.has(kind) ? "add" : "delete"](kind);
-  }
-
-  private look(before: Stage, eye: Vector3): void {
-    const moved = this.controls.target.clone().sub(before.controls.target);
-    if (!this.follow) moved.setScalar(0);
-    this.controls.target.copy(before.controls.target).add(moved);
-    this.camera.position.copy(eye).add(moved);
-    this.controls.enabled = before.controls.enabled;
-    this.controls.update();
   }
 
   private leave(): void {
@@ -121,22 +97,7 @@ export class Stage {
     this.stale = false;
     this.fitting.disconnect();
     this.triad.element.remove();
-    this.controls.dispose();
-  }
-
-  /** Whether pulling turns the view; where it does not, something else is pulled. */
-  set turns(turns: boolean) {
-    this.controls.enabled = turns;
-  }
-
-  /** The place on the level ground under a point of the screen, along the root frame; m. */
-  groundAt(x: number, y: number): Triple | null {
-    const box = this.holder.getBoundingClientRect();
-    const point = new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2);
-    const sight = new Raycaster();
-    sight.setFromCamera(point, this.camera);
-    const hit = sight.ray.intersectPlane(new Plane(this.up), this.place);
-    return hit && hit.toArray();
+    this.eye.leave();
   }
 
   /** Leave out what belongs to the motion as it was, on wide sheets: a hand makes another of it. */
@@ -145,9 +106,10 @@ export class Stage {
     for (const trace of this.traces) trace.line.removeFromParent();
     for (const sheet of this.sheets) {
       const { reach } = sheet.support;
-      const wide: [number, number] = [reach[0] + WIDE * this.reach, reach[1] + WIDE * this.reach];
+      const extra = WIDE * this.room.reach;
+      const wide: [number, number] = [reach[0] + extra, reach[1] + extra];
       sheet.object.visible = false;
-      sheet.object = this.house.own(surfaceOf({ ...sheet.support, reach: wide }, this.grid()));
+      sheet.object = this.house.own(surfaceOf({ ...sheet.support, reach: wide }, this.grid));
     }
     paint(this.house.world, this.dark);
   }
@@ -159,7 +121,7 @@ export class Stage {
       pose.apply(frame, this.moving[i].object);
     });
     this.frame = frame;
-    if (this.follow) this.chase();
+    this.eye.chase();
     this.draw();
   }
 
@@ -174,43 +136,6 @@ export class Stage {
 
   get canvas(): HTMLCanvasElement {
     return this.house.renderer.domElement;
-  }
-
-  /** Back to where the picture was first seen from. */
-  home(): void {
-    const [side, ahead] = this.horizontal();
-    const distance = (1.15 * this.seen()) / Math.tan((this.camera.fov * Math.PI) / 360);
-    this.target(this.controls.target);
-    this.camera.position
-      .copy(this.controls.target)
-      .addScaledVector(ahead, -0.82 * distance)
-      .addScaledVector(side, 0.36 * distance)
-      .addScaledVector(this.up, 0.44 * distance);
-    this.controls.update();
-    this.draw();
-  }
-
-  /** Turn the view about the upright and up or down, rad. */
-  orbit(round: number, over: number): void {
-    const offset = this.camera.position.clone().sub(this.controls.target);
-    offset.applyQuaternion(new Quaternion().setFromAxisAngle(this.up, round));
-    const aside = this.up.clone().cross(offset).normalize();
-    const tipped = offset.clone().applyQuaternion(new Quaternion().setFromAxisAngle(aside, over));
-    if (Math.abs(tipped.clone().normalize().dot(this.up)) < 0.995) offset.copy(tipped);
-    this.camera.position.copy(this.controls.target).add(offset);
-    this.controls.update();
-    this.draw();
-  }
-
-  zoom(factor: number): void {
-    this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
-    this.controls.update();
-    this.draw();
-  }
-
-  setFollow(follow: boolean): void {
-    this.follow = follow;
-    this.home();
   }
 
   get kinds(): ArrowKind[] {
@@ -247,7 +172,7 @@ export class Stage {
   seek(time: number): void {
     this.frame = (time / this.scene.duration) * (this.scene.frames - 1);
     this.seekFrame();
-    if (this.follow) this.chase();
+    this.eye.chase();
     this.draw();
   }
 
@@ -256,23 +181,6 @@ export class Stage {
     for (const arrow of this.arrows) arrow.update(this.frame);
     for (const link of this.links) link.update(this.frame);
     for (const trace of this.traces) trace.update(this.frame);
-  }
-
-  private chase(): void {
-    const before = this.controls.target.clone();
-    const step = this.target(this.controls.target).clone().sub(before);
-    this.camera.position.add(step);
-    this.controls.update();
-    this.aim();
-  }
-
-  private target(out: Vector3): Vector3 {
-    return this.follow ? this.poses[0].placeAt(this.frame, out) : out.copy(this.middle);
-  }
-
-  /** Radius of what is to be in view. */
-  private seen(): number {
-    return this.follow ? 0.55 * FAR * this.reach : Math.max(this.radius, 1.9 * this.reach);
   }
 
   private draw(): void {
@@ -287,16 +195,15 @@ export class Stage {
   drawNow(): void {
     this.stale = false;
     this.house.draw();
-    this.triad.update(this.camera);
+    this.triad.update(this.house.camera);
   }
 
   private fit(): void {
     const { clientWidth: width, clientHeight: height } = this.holder;
     if (!width || !height) return;
-    this.camera.aspect = width / height;
-    this.camera.fov = width < height ? 40 : 32;
-    this.camera.updateProjectionMatrix();
-    const { renderer } = this.house;
+    const { camera, renderer } = this.house;
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
     const before = renderer.getSize(new Vector2());
     if (before.x === width && before.y === height) return; // or what is drawn would be cleared
     renderer.setSize(width, height);
@@ -308,13 +215,6 @@ export class Stage {
     const feet = this.scene.arrows.map((arrow) => new Rows(arrow.foot));
     const ends = [...feet, ...this.links.flatMap((link) => link.ends)];
     return ends.filter(({ count }) => count === 1).map((end) => new Vector3().fromArray(end.at(0, [])));
-  }
-
-  /** Two level directions, to the right and away. */
-  private horizontal(): [Vector3, Vector3] {
-    const guess = Math.abs(this.up.z) > 0.9 ? new Vector3(0, 1, 0) : new Vector3(0, 0, 1);
-    const side = guess.clone().cross(this.up).normalize();
-    return [side, this.up.clone().cross(side)];
   }
 
   private addBodies(): void {
@@ -335,8 +235,7 @@ export class Stage {
     return this.carriers[trace.data.support] ?? this.house.world;
   }
 
-  private addGrounds(): void {
-    const grid = this.grid();
+  private addGrounds(grid: number): void {
     for (const support of this.scene.supports) {
       const { kind, middle, reach } = support;
       const object = this.house.part({ kind, middle, reach, grid }, () => surfaceOf(support, grid));
@@ -345,23 +244,18 @@ export class Stage {
       this.moving.push({ pose, object });
       if (kind !== "sheet") continue;
       this.sheets.push({ pose, object, support });
-      this.table(pose, Math.max(...reach) + this.radius, grid);
+      this.table(pose, Math.max(...reach) + this.room.radius, grid);
     }
     const { floor } = this.scene;
     if (floor === null) return;
     this.floor(floor, grid);
-    for (const post of posts(this.held(), floor, { up: this.up, middle: this.middle, reach: this.reach })) this.house.own(post);
-  }
-
-  /** About how far the lines on the ground are apart, m. */
-  private grid(): number {
-    return 1.2 * Math.max(this.reach, this.follow ? 0 : 0.35 * this.radius);
+    for (const post of posts(this.held(), floor, this.room)) this.house.own(post);
   }
 
   private table(pose: Pose, width: number, grid: number): void {
     const table = this.boundless(2.5 * width, grid);
     pose.apply(0, table);
-    table.position.addScaledVector(this.up, -LIFT * this.reach);
+    table.position.addScaledVector(this.room.up, -LIFT * this.room.reach);
   }
 
   private boundless(radius: number, grid: number): Object3D {
@@ -369,9 +263,10 @@ export class Stage {
   }
 
   private floor(height: number, grid: number): void {
-    const floor = this.boundless(7 * this.radius, grid);
-    floor.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), this.up);
-    floor.position.copy(this.middle).addScaledVector(this.up, height - this.middle.dot(this.up));
+    const { up, middle, radius } = this.room;
+    const floor = this.boundless(7 * radius, grid);
+    floor.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), up);
+    floor.position.copy(middle).addScaledVector(up, height - middle.dot(up));
   }
 
   /** Points in space that hold a body away from its middle. */
@@ -380,21 +275,17 @@ export class Stage {
       .map(({ foot, body }) => ({ foot: new Rows(foot), middle: this.poses[body].placeAt(0, new Vector3()) }))
       .filter(({ foot }) => foot.count === 1)
       .map(({ foot, middle }) => ({ point: new Vector3().fromArray(foot.at(0, [])), middle }))
-      .filter(({ point, middle }) => point.distanceTo(middle) >= 1e-6 * this.reach)
+      .filter(({ point, middle }) => point.distanceTo(middle) >= 1e-6 * this.room.reach)
       .map(({ point }) => point);
   }
 
-  private makeArrows(): Arrow[] {
-    const thick = 0.028 * this.reach;
-    const scale = scales(this.scene.arrows, this.reach);
+  private makeArrows(reach: number): Arrow[] {
+    const thick = 0.028 * reach;
+    const scale = scales(this.scene.arrows, reach);
     return this.scene.arrows.map((data) => {
       const { kind, body } = data;
       const object = this.house.part({ kind, thick }, () => arrowObject(kind, thick));
       return new Arrow(data, object, this.poses[body], scale(kind), thick);
     });
-  }
-
-  private aim(): void {
-    this.house.lights.aim(this.target(this.place), 1.2 * this.seen(), this.up, this.horizontal());
   }
 }

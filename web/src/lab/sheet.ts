@@ -77,7 +77,7 @@ export class SheetDrag {
   arm(on: boolean): void {
     this.button.setAttribute("aria-pressed", String(on));
     this.player.picture.classList.toggle("dragging", on);
-    if (this.player.stage) this.player.stage.turns = !on;
+    if (this.player.stage) this.player.stage.eye.turns = !on;
     if (on && !this.pulling) void this.follow(STILL);
   }
 
@@ -106,7 +106,7 @@ export class SheetDrag {
   /** Begin to pull at a point of the screen, if the ground is there. */
   private take(x: number, y: number): boolean {
     const { stage, clock } = this.player;
-    if (!stage?.groundAt(x, y)) return false;
+    if (!stage?.eye.groundAt(x, y)) return false;
     clock?.pause();
     clock?.seek(0);
     stage.bare();
@@ -125,8 +125,8 @@ export class SheetDrag {
   /** How far the sheet is from where it was gripped; a camera that follows the ball is of no account. */
   private moved(): Triple | null {
     const { stage } = this.player;
-    const from = stage?.groundAt(this.gripped.x, this.gripped.y);
-    const to = stage?.groundAt(this.hand.x, this.hand.y);
+    const from = stage?.eye.groundAt(this.gripped.x, this.gripped.y);
+    const to = stage?.eye.groundAt(this.hand.x, this.hand.y);
     return from && to ? [to[0] - from[0], to[1] - from[1], 0] : null;
   }
 
