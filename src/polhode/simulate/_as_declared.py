@@ -15,7 +15,7 @@ from polhode.simulate._values import idle_parameters, read_parameters
 from polhode.simulate.forcing._drive import Drive, drive_of
 from polhode.simulate.integrate._driver import integrate, stuck
 from polhode.simulate.integrate._flow import Flow, flow_of
-from polhode.simulate.integrate._integrators import Stepper
+from polhode.simulate.integrate._stepping import Stepper
 from polhode.simulate.integrate._watched import Stop
 
 

@@ -13,7 +13,7 @@ from polhode.base import Shown
 from polhode.simulate._dynamics import WORK
 from polhode.simulate._segment import Segment
 from polhode.simulate.integrate._ascending import ascending
-from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._stepping import Array
 
 _MOST_CHECKED = 20_000  # instants of a segment that are looked at
 

@@ -23,8 +23,9 @@ from polhode.simulate._trajectory import Trajectory
 from polhode.simulate._validity import pulling_contacts, refuse_lost_side
 from polhode.simulate._values import evaluate
 from polhode.simulate._watching import with_events
-from polhode.simulate.integrate._integrators import Array, chosen
+from polhode.simulate.integrate._integrators import chosen
 from polhode.simulate.integrate._numbers import DOUBLES, Precision, numbers_for
+from polhode.simulate.integrate._stepping import Array
 from polhode.simulate.precise._wanted import Wanted
 
 SAMPLES = 1001

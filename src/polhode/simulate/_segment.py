@@ -14,9 +14,9 @@ from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate._readable import moving
 from polhode.simulate.integrate._ascending import ascending, occurring
 from polhode.simulate.integrate._driver import Solution
-from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
 from polhode.simulate.integrate._rows import rows
+from polhode.simulate.integrate._stepping import Array
 
 _RECENT = 4  # sets of times whose states are remembered
 _FEW = 10_000  # times in one of them, at most

@@ -13,7 +13,7 @@ from polhode.simulate._dynamics import Dynamics
 from polhode.simulate._names import Name
 from polhode.simulate._segment import Segment
 from polhode.simulate._start import Start
-from polhode.simulate.integrate._integrators import Integrator
+from polhode.simulate.integrate._stepping import Integrator
 
 if TYPE_CHECKING:
     from polhode.simulate.contact._course import Change

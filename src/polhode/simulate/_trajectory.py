@@ -19,8 +19,8 @@ from polhode.simulate._readable import readable
 from polhode.simulate._segment import Segment
 from polhode.simulate.files._csv import write_csv
 from polhode.simulate.integrate._ascending import occurring
-from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
+from polhode.simulate.integrate._stepping import Array
 
 if TYPE_CHECKING:
     import pandas

@@ -10,7 +10,7 @@ from polhode.simulate._event import Event
 from polhode.simulate._segment import Segment
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate.integrate._crossing import roots
-from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._stepping import Array
 
 
 def with_events(trajectory: Trajectory, wanted: Mapping[str, Expr]) -> Trajectory:

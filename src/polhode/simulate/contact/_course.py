@@ -23,7 +23,7 @@ from polhode.simulate.contact._touching import Meeting
 from polhode.simulate.contact._transition import Leaving, Transitions
 from polhode.simulate.forcing._drive import Drive
 from polhode.simulate.integrate._driver import integrate
-from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._stepping import Array
 from polhode.simulate.integrate._tally import Tally
 from polhode.simulate.integrate._watched import Stop, Watched
 

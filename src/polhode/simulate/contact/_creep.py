@@ -18,7 +18,7 @@ from threadpoolctl import ThreadpoolController
 
 from polhode.base import NumericError
 from polhode.simulate.integrate._crossing import bisected
-from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._stepping import Array
 
 _STAGES = 9
 _RESOLVED = 1e-14  # last coefficients of a step, relative to the largest

@@ -14,8 +14,8 @@ from polhode.simulate._dynamics import WORK
 from polhode.simulate.contact._machine import Machine, ModeMachine, gap_symbol, slip_symbols
 from polhode.simulate.contact._place import Place
 from polhode.simulate.contact._touching import Meeting
-from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
+from polhode.simulate.integrate._stepping import Array
 
 
 @dataclass(frozen=True)

@@ -21,8 +21,8 @@ from polhode.simulate.contact._settle import painleve
 from polhode.simulate.contact._touching import Meeting
 from polhode.simulate.contact._transition import index_of
 from polhode.simulate.integrate._crossing import first_fall
-from polhode.simulate.integrate._integrators import Array, broken
 from polhode.simulate.integrate._rows import rows
+from polhode.simulate.integrate._stepping import Array, broken
 from polhode.simulate.integrate._watched import Stop
 
 _JAMMED = 1e-6  # of what sliding has in reserve before it jams: as good as none

@@ -17,9 +17,9 @@ from polhode.simulate.contact._place import Function, Place
 from polhode.simulate.contact._touching import Touching
 from polhode.simulate.forcing._drive import Drive
 from polhode.simulate.integrate._flow import Flow, flow_of
-from polhode.simulate.integrate._integrators import Array, Integrator, Stepper
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
 from polhode.simulate.integrate._rows import rows
+from polhode.simulate.integrate._stepping import Array, Integrator, Stepper
 
 Constants = Mapping[Symbol, float]
 

@@ -16,8 +16,8 @@ from polhode.simulate.contact._machine import ModeMachine
 from polhode.simulate.contact._polar import polar_shape
 from polhode.simulate.contact._settle import rates_along
 from polhode.simulate.integrate._driver import Solution
-from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.integrate._rows import rows
+from polhode.simulate.integrate._stepping import Array
 from polhode.simulate.integrate._watched import Stop
 
 _STIFF = 30.0  # ratio of the times of slipping and of turning the slip that explicit steps bear

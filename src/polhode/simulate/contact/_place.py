@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.integrate._numbers import DOUBLES
+from polhode.simulate.integrate._stepping import Array
 
 #: Of a state, a time, and the values of extra symbols.
 Function = Callable[[Array, float, Sequence[float]], Array]

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._stepping import Array
 
 STILL = 1e-14  # approach, relative to the velocities it is the difference of, that is none
 

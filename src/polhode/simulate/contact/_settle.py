@@ -15,7 +15,7 @@ from polhode.simulate.contact._entry import Entry, directions_of, entered
 from polhode.simulate.contact._machine import Machine, ModeMachine
 from polhode.simulate.contact._place import Place
 from polhode.simulate.contact._touching import Meeting
-from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._stepping import Array
 
 STILL = 1e-12  # slip, relative to the velocities it is the difference of, that is none
 _TOLERANCE = 1e-11  # relative, of forces at a limit

@@ -17,8 +17,8 @@ import numpy as np
 
 from polhode.base import NumericError
 from polhode.simulate.contact._turning import STICKS, Turning
-from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
+from polhode.simulate.integrate._stepping import Array
 
 _STRAIGHT = 1e-14  # of what an impulse does: what it does across the slip that is nothing
 _PHASES = 100

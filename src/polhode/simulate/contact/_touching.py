@@ -10,7 +10,7 @@ import numpy as np
 from polhode.algebra import Expr, linear_parts
 from polhode.derive import Automaton, Mode, Touch
 from polhode.simulate.contact._place import Function, Place
-from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._stepping import Array
 
 
 class Touching:

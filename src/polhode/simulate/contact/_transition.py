@@ -23,8 +23,8 @@ from polhode.simulate.contact._shock import (
     smooth_shock,
 )
 from polhode.simulate.contact._touching import Meeting
-from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.integrate._numbers import Numbers
+from polhode.simulate.integrate._stepping import Array
 
 _REBOUND = 1e-13  # of the hardest landing: a rebound that is none
 _INSTANT = 32  # steps of rounding of the time: a hop that is over sooner is none

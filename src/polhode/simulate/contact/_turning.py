@@ -16,9 +16,9 @@ import numpy as np
 
 from polhode.algebra import Expr, Kind, Program, Symbol, compile_program, sqrt
 from polhode.simulate.integrate._crossing import bisected
-from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
 from polhode.simulate.integrate._series import Launch, Series
+from polhode.simulate.integrate._stepping import Array
 
 STICKS = 1e-13  # slip, relative to the velocity before, that has vanished
 _LONGEST = 10**9  # τ, which grows but as the logarithm of a slip that vanishes

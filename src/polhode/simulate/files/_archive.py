@@ -10,8 +10,8 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from polhode.base import provenance
-from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.integrate._quadrature import resolved
+from polhode.simulate.integrate._stepping import Array
 
 _NODES = chebyshev.chebpts1(16)
 

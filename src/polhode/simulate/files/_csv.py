@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from polhode.base import provenance, write_whole
-from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._stepping import Array
 
 
 def write_csv(path: Path, columns: Mapping[str, Array], origin: Mapping[str, Any]) -> None:

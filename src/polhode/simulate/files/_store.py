@@ -18,7 +18,7 @@ import numpy as np
 
 from polhode.base import SCHEMA, StoreError, extra, write_whole
 from polhode.simulate.files._archive import Archive, Sampled, Stretch
-from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._stepping import Array
 
 _FORMAT = "polhode motion"
 _MOTION = "polhode.motion"

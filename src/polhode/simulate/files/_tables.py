@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from polhode.base import extra
 from polhode.simulate.files._archive import Sampled
-from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._stepping import Array
 
 if TYPE_CHECKING:
     import pandas

@@ -12,7 +12,7 @@ from numpy.polynomial import chebyshev
 
 from polhode.base import NumericError
 from polhode.simulate.forcing._pieces import Pieces
-from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._stepping import Array
 
 Function = Callable[[float], float]
 

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from polhode.base import NumericError
-from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._stepping import Array
 
 _ROUNDING = 1e-13  # change of velocity, over the largest one, that is none
 

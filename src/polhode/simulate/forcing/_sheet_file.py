@@ -15,7 +15,7 @@ import numpy as np
 from polhode.base import ParseError, StoreError
 from polhode.simulate.forcing._pieces import Pieces
 from polhode.simulate.forcing._spline import sampled
-from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._stepping import Array
 
 _NEEDED = ("t", "x", "y")
 _OPTIONAL = ("angle", "segment")

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from polhode.base import NumericError
 from polhode.simulate.forcing._pieces import Pieces
-from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._stepping import Array
 
 _LEAST_TO_SMOOTH = 3
 _SOFTEST, _STIFFEST = -12.0, 12.0  # decades of the penalty on curvature, time in mean steps

@@ -15,9 +15,9 @@ from polhode.base import NumericError, Progress
 from polhode.simulate.integrate._ascending import ascending, occurring
 from polhode.simulate.integrate._crossing import bisected
 from polhode.simulate.integrate._flow import Flow, Stage
-from polhode.simulate.integrate._integrators import Array, Leg, Stepper, broken, looks_along
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
 from polhode.simulate.integrate._quadrature import integral
+from polhode.simulate.integrate._stepping import Array, Leg, Stepper, broken, looks_along
 from polhode.simulate.integrate._watched import StepWatch, Stop, Watched
 
 _FEW = 10_000  # times for which states are remembered

@@ -20,8 +20,8 @@ from polhode.simulate.integrate._balls import (
     term,
     working,
 )
-from polhode.simulate.integrate._integrators import broken
 from polhode.simulate.integrate._series import Launch, Series, Watch
+from polhode.simulate.integrate._stepping import broken
 
 
 class PowerSeries:

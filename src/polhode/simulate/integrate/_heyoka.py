@@ -21,7 +21,7 @@ import numpy as np
 from polhode.algebra import Arithmetic, Kind, Program
 from polhode.base import StoreError, cache
 from polhode.simulate.integrate._flow import Flow
-from polhode.simulate.integrate._integrators import Array, Leg, Stepper, Watch, broken, looks_along
+from polhode.simulate.integrate._stepping import Array, Leg, Stepper, Watch, broken, looks_along
 from polhode.simulate.integrate._taylor import Steps
 
 _LONG = 3000  # operations

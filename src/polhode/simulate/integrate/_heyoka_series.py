@@ -12,9 +12,9 @@ import numpy as np
 
 from polhode.algebra import Program
 from polhode.simulate.integrate._heyoka import library, rates_of
-from polhode.simulate.integrate._integrators import broken
 from polhode.simulate.integrate._numbers import LongDoubles, Numbers, number
 from polhode.simulate.integrate._series import Launch, Series, Watch, limbs_of
+from polhode.simulate.integrate._stepping import broken
 
 _SPARE_DIGITS = 8
 _QUADRUPLE_BITS = 113

@@ -10,7 +10,7 @@ from scipy.integrate import DOP853, OdeSolution
 
 from polhode.algebra import Compiled
 from polhode.simulate.integrate._flow import Flow
-from polhode.simulate.integrate._integrators import Array, Leg, Stepper, Watch, broken, looks_along
+from polhode.simulate.integrate._stepping import Array, Leg, Stepper, Watch, broken, looks_along
 
 _TIGHTEST = 1e-13  # relative; below it rounding rules the choice of steps
 _ABSOLUTE = 1e-15

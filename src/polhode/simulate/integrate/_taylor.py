@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.integrate._polynomials import evaluated, pieces_at, powers_of
+from polhode.simulate.integrate._stepping import Array
 
 
 class Steps:

@@ -19,7 +19,8 @@ from polhode.simulate._dynamics import EquationsOfMotion
 from polhode.simulate._names import Name, by_name, published
 from polhode.simulate._values import read_values
 from polhode.simulate.contact._checks import can_be_followed
-from polhode.simulate.integrate._integrators import Array, chosen
+from polhode.simulate.integrate._integrators import chosen
+from polhode.simulate.integrate._stepping import Array
 from polhode.simulate.many._company import Group, Starts
 from polhode.simulate.many._sightings import Sightings
 from polhode.simulate.many._starts import Beginning, filled

@@ -14,7 +14,7 @@ from polhode.derive import Guard
 from polhode.model import Phase
 from polhode.simulate._names import Name
 from polhode.simulate.contact._entry import Entry
-from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._stepping import Array
 from polhode.simulate.many._launch import NONE, Arrivals, Launch
 from polhode.simulate.many._sightings import LAST, Rows, Sightings
 from polhode.simulate.many._stay import STILL, Stay

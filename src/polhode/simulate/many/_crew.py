@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._stepping import Array
 from polhode.simulate.many._launch import Arrivals, Launch
 from polhode.simulate.many._stretches import Timetable
 

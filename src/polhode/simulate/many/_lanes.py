@@ -14,8 +14,8 @@ import numpy as np
 from polhode.algebra import Arithmetic, Expr, Matrix, Symbol
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate.integrate._heyoka import library
-from polhode.simulate.integrate._integrators import LOOKS, Array
 from polhode.simulate.integrate._rows import rows
+from polhode.simulate.integrate._stepping import LOOKS, Array
 from polhode.simulate.many._crew import Crew, Ended, Places, Work
 from polhode.simulate.many._launch import Arrivals, Launch
 from polhode.simulate.many._stretches import Stretches, Timetable

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polhode.algebra import Symbol
-from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._stepping import Array
 from polhode.simulate.many._stay import Quantity, Stay
 from polhode.simulate.many._stretches import Stretches
 

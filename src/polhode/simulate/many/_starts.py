@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from polhode.algebra import Expr, Matrix, Symbol
 from polhode.model import Contact, Coulomb
 from polhode.simulate._dynamics import Dynamics
-from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.integrate._rows import rows
+from polhode.simulate.integrate._stepping import Array
 
 _ROUNDING = 1e-9  # relative, of principal moments that a flat body is at the limit of
 

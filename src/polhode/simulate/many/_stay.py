@@ -12,8 +12,8 @@ from polhode.algebra import ZERO, Expr, Matrix, Symbol
 from polhode.base import look_up
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
 from polhode.simulate._readable import readable
-from polhode.simulate.integrate._integrators import Array
 from polhode.simulate.integrate._rows import rows
+from polhode.simulate.integrate._stepping import Array
 from polhode.simulate.many._endings import Ending
 from polhode.simulate.many._lanes import Lanes
 from polhode.simulate.many._launch import Arrivals, Launch

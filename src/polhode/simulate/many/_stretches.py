@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from polhode.algebra import Symbol
 from polhode.simulate.forcing._drive import Drive
 from polhode.simulate.forcing._pieces import Pieces
-from polhode.simulate.integrate._integrators import Array
+from polhode.simulate.integrate._stepping import Array
 
 _SMOOTH = 1e-9  # change of an acceleration, over the largest one, that no force notices
 

@@ -18,7 +18,7 @@ from polhode.simulate._values import idle_parameters, read_parameters
 from polhode.simulate.contact._checks import check_numbers
 from polhode.simulate.contact._machine import Machine
 from polhode.simulate.forcing._drive import drive_of
-from polhode.simulate.integrate._integrators import Integrator
+from polhode.simulate.integrate._stepping import Integrator
 from polhode.simulate.many._company import Company, Phases, Starts
 from polhode.simulate.many._endings import endings_of, sides_of
 from polhode.simulate.many._pilot import Pilot

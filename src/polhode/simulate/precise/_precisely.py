@@ -19,9 +19,9 @@ from polhode.simulate.contact._course import Course
 from polhode.simulate.contact._machine import Machine
 from polhode.simulate.contact._place import Place
 from polhode.simulate.forcing._pieces import Pieces
-from polhode.simulate.integrate._integrators import broken
 from polhode.simulate.integrate._numbers import Numbers
 from polhode.simulate.integrate._series import SeriesIntegrator
+from polhode.simulate.integrate._stepping import broken
 from polhode.simulate.integrate._watched import Stop, Watched
 from polhode.simulate.precise._given import Given, exactly, read_exactly
 from polhode.simulate.precise._precise_walk import PreciseWalk

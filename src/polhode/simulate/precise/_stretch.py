@@ -14,9 +14,9 @@ from polhode.simulate._dynamics import Dynamics
 from polhode.simulate._segment import Part
 from polhode.simulate.integrate._driver import Solution
 from polhode.simulate.integrate._flow import Flow, flow_of
-from polhode.simulate.integrate._integrators import Array, looks_along
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
 from polhode.simulate.integrate._series import Launch, Series, SeriesIntegrator
+from polhode.simulate.integrate._stepping import Array, looks_along
 from polhode.simulate.integrate._watched import StepWatch, Stop, Watched
 
 State = Mapping[Symbol, Any]
