@@ -44,6 +44,7 @@ BELIEFS = [
     ),
     ("spinning-coin", r"\dot E = -1", "motion", r"\dot{E} = 0"),
     ("marble-on-turntable", r"\dot\omega_z = 1", "motion", r"\dot{\omega}_{z} = 0"),
+    ("gyroscope/held", r"F_z = M g / 2", "motion", r"F_{z} = M g - F'_{z}"),
 ]
 
 #: Beliefs that no short formula could replace, where a false friend would be easily found.
@@ -81,3 +82,9 @@ def test_a_quantity_that_a_claim_is_about_keeps_its_letter():
     verdict = judged("rolling-disk", r"T = \frac12 m v^2", "motion")
     assert verdict.correction is not None
     assert verdict.correction.latex.startswith("T = ")
+
+
+def test_a_belief_about_what_nothing_determines_is_refuted_by_both_and_told_to_be_open():
+    verdict = judged("gyroscope/held", "F_z = M g / 2", "motion")
+    assert verdict.confirmation.agrees
+    assert "leave F_z open" in " ".join(verdict.remarks)

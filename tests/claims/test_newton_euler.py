@@ -41,3 +41,14 @@ def test_a_motion_may_have_any_acceleration_that_the_constraints_allow():
     for speed, value in equations.dependent.items():
         rate = value.chain(equations.kinetics.rate)
         assert found[speed.derivative()] == pytest.approx(number(rate, found))
+
+
+def test_a_redundant_support_may_be_known_to_supply_something():
+    equations = ph.derive(CATALOGUE["gyroscope/held"].build())
+    state = state_of(equations, 5)
+    hand = reaction_symbol("Fprime_z")
+    found = true_motion(equations.system, state | {hand: 0.25})
+    assert found[hand] == pytest.approx(0.25)
+    weight = state[Symbol("M")] * state[Symbol("g")]
+    assert found[reaction_symbol("F_z")] == pytest.approx(weight - 0.25)
+    assert found[reaction_symbol("F_rho")] == pytest.approx(-found[reaction_symbol("Fprime_rho")])

@@ -133,6 +133,4 @@ def _numbers(point: Point, states: Circumstances) -> dict[Symbol, float]:
         return drawn | constrained_motion(
             system, state, {s: drawn[s] for s in wanted if s in drawn}
         )
-    open_ = {reaction_symbol(name) for name in states.equations.undetermined}
-    found = true_motion(system, state)
-    return {**drawn, **{s: v for s, v in found.items() if s not in open_ or s not in drawn}}
+    return drawn | true_motion(system, state)

@@ -11,6 +11,7 @@ from polhode.algebra import ONE
 from polhode.claims._asked import Asked
 from polhode.claims._circumstances import AnyState, Circumstances, TrueMotion
 from polhode.claims._components import Component
+from polhode.claims._declared import reaction_symbol
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 
 
@@ -64,10 +65,23 @@ def _failure(alike: Sequence[Component], states: Circumstances) -> Failure | Non
 
 def failed(found: Sequence[Failure], context: str) -> Verdict:
     """The verdict on a claim with these failures, refuted at a state."""
-    residuals = tuple(f.residual for f in found)
     return Refuted(
-        Answer.FAILS, context, _reason(found), residuals, evidence=partial(_evidence, found[0])
+        Answer.FAILS,
+        context,
+        _reason(found),
+        residuals=tuple(f.residual for f in found),
+        remarks=tuple(_left_open(found[0])),
+        evidence=partial(_evidence, found[0]),
     )
+
+
+def _left_open(failure: Failure) -> Iterator[str]:
+    """Which reactions that are spoken of no motion determines."""
+    component, equations = failure.component, failure.states.equations
+    spoken = component.left.symbols() | component.right.symbols()
+    names = [name for name in equations.undetermined if reaction_symbol(name) in spoken]
+    if names:
+        yield f"Newton's laws leave {', '.join(names)} open: more holds the body than is needed"
 
 
 def _evidence(worst: Failure) -> Evidence:

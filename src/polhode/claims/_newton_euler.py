@@ -2,12 +2,12 @@
 
 Works from the declaration alone and shares nothing with `derive`: every body keeps all its
 degrees of freedom, constraints are differentiated by jets, and one linear system gives all rates
-of speeds and all reactions. Redundant supports are met by the least reactions.
+of speeds and all reactions. Redundant supports are met by the least reactions, or as it is said.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
@@ -29,7 +29,8 @@ def true_motion(system: System, state: Mapping[Symbol, float]) -> Numbers:
 
     Args:
         system: the declaration.
-        state: parameters, coordinates, and enough speeds to fix all others.
+        state: parameters, coordinates, enough speeds to fix all others, and reactions of redundant
+            supports that are known.
 
     Raises `NumericError` where supports contradict one another or the state leaves speeds open.
     """
@@ -37,6 +38,10 @@ def true_motion(system: System, state: Mapping[Symbol, float]) -> Numbers:
     speeds = _speeds(known, state)
     trial = _trials(known, state, speeds)
     rows, right = _joined(_kinematic(trial), _balances(known, trial))
+    symbols = [*speeds, *(reaction_symbol(r.name) for r in known.restraints)]
+    given = {s: state[s] for s in symbols[len(speeds) :] if s in state}
+    rows = np.vstack([rows, _held(given, symbols)])
+    right = np.concatenate([right, list(given.values())])
     found = _solve(rows, right, "supports that contradict one another")
     reactions = {
         reaction_symbol(r.name): float(force)
@@ -54,8 +59,7 @@ def constrained_motion(
     trial = _trials(known, state, speeds)
     rows, right = _kinematic(trial)
     fixed = {s: a for s in speeds if (a := accelerations.get(s.derivative())) is not None}
-    held = [[float(s == given) for s in speeds] for given in fixed]
-    rows = np.vstack([rows, np.reshape(held, (len(fixed), len(speeds)))])
+    rows = np.vstack([rows, _held(fixed, list(speeds))])
     right = np.concatenate([right, list(fixed.values())])
     found = _solve(rows, right, "accelerations that the constraints rule out")
     return _numbers(trial, state, speeds, found)
@@ -67,8 +71,7 @@ def _speeds(known: Declared, state: Mapping[Symbol, float]) -> Numbers:
     trial = Trial(known, state, dict(zip(known.speeds, steps, strict=True)), {})
     slips, _ = trial.slips()
     given = {s: state[s] for s in known.speeds if s in state}
-    held = [[float(s == g) for s in known.speeds] for g in given]
-    rows = np.vstack([slips[:, 1:] - slips[:, :1], np.reshape(held, (len(given), len(steps)))])
+    rows = np.vstack([slips[:, 1:] - slips[:, :1], _held(given, known.speeds)])
     right = np.concatenate([-slips[:, 0], list(given.values())])
     found = _solve(rows, right, "speeds that the constraints rule out")
     return dict(zip(known.speeds, map(float, found), strict=True))
@@ -83,6 +86,12 @@ def _trials(known: Declared, state: Mapping[Symbol, float], speeds: Numbers) -> 
 
 def _steps(count: int) -> Array:
     return np.hstack([np.zeros((count, 1)), np.eye(count)])
+
+
+def _held(given: Collection[Symbol], symbols: Sequence[Symbol]) -> Array:
+    """Rows over all symbols that pick out those given."""
+    rows = [[float(s == g) for s in symbols] for g in given]
+    return np.reshape(rows, (len(given), len(symbols)))
 
 
 def _kinematic(trial: Trial) -> tuple[Array, Array]:

@@ -15,6 +15,7 @@ from polhode.claims.latex._tree import (
     Derivative,
     Dots,
     Name,
+    Negative,
     Node,
     Number,
     Piece,
@@ -105,6 +106,8 @@ def _product(
         node = plain.get(factor)
         if node is None and -factor in plain:
             node, number = plain[-factor], number * (-1) ** (power % 2)
+        elif node is None and number < 0 and power % 2 and _subtracts(factor):
+            factor, number = -factor, -number
         node = node or _sum(factor, plain)
         if node is None:
             return None
@@ -124,7 +127,13 @@ def _sum(factor: Expr, plain: Mapping[Expr, Node]) -> Node | None:
         above = [raised(node, power) for node, power in nodes if node is not None]
         term = _fraction(abs(Fraction(coefficient)), above, ())
         terms.append(negated(term) if coefficient < 0 else term)
+    if isinstance(terms[0], Negative):
+        terms.sort(key=lambda term: isinstance(term, Negative))
     return Sum(tuple(terms))
+
+
+def _subtracts(polynomial: Expr) -> bool:
+    return any(coefficient < 0 for _, coefficient in polynomial.terms())
 
 
 def _is_longer(polynomial: Expr, most: int) -> bool:
