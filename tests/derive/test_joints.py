@@ -98,6 +98,8 @@ def test_a_door_on_two_pivots_does_not_tell_which_bears_its_weight() -> None:
     assert equations.components["F_x"] + equations.components["G_x"] == push(equations)
     assert equations.components["F_x"] - equations.components["G_x"] == 2 * m * g * a / h
     assert equations.reactions["top"].undetermined == ("G_z",)
+    assert str(equations.reactions["top"]).startswith("Reaction of 'top' on 'door': force (")
+    assert str(equations.reactions["top"]).endswith("; not determined: G_z")
 
 
 def push(equations: Equations) -> ph.Expr:

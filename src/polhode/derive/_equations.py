@@ -30,7 +30,7 @@ from polhode.derive._textbook import without_idle_factors
 from polhode.model import Body, System
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Reaction(Shown):
     """What one contact or joint does to its body.
 
@@ -49,6 +49,14 @@ class Reaction(Shown):
     couple: Vector
     arm: Vector
     undetermined: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        told = [f"force {self.force}", f"arm {self.arm}"]
+        if not self.couple.is_zero:
+            told.append(f"couple {self.couple}")
+        if self.undetermined:
+            told.append(f"not determined: {', '.join(self.undetermined)}")
+        return f"Reaction of {self.name!r} on {self.body.name!r}: {'; '.join(told)}"
 
 
 @dataclass(frozen=True, repr=False)
