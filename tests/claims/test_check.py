@@ -179,4 +179,4 @@ def test_a_verdict_is_shown_in_latex():
 
 def test_a_failure_tells_how_letters_were_read():
     verdict = ph.check(r"L_z = I_1\omega_1", ph.derive(CATALOGUE["gyroscope"].build()))
-    assert any("L_z as angular momentum about cm" in remark for remark in verdict.remarks)
+    assert any("L_z as angular momentum about cm along z" in remark for remark in verdict.remarks)

@@ -14,16 +14,18 @@ def read_as(statement: Statement, vocabulary: Vocabulary) -> str:
     phrases = dict(automatic(vocabulary.mechanics))
     names = dict.fromkeys(piece for piece in walk(statement) if isinstance(piece, Name))
     open_ = (n for n in names if n not in vocabulary.told and n not in vocabulary.declared)
-    told = ((n, next((phrases[f] for f in _forms(n) if f in phrases), "")) for n in open_)
-    return ", ".join(f"{spelled(name)} as {phrase}" for name, phrase in told if phrase)
+    phrased = {
+        n: next((phrases[f] + part for f, part in _forms(n) if f in phrases), "") for n in open_
+    }
+    return ", ".join(f"{spelled(name)} as {phrase}" for name, phrase in phrased.items() if phrase)
 
 
-def _forms(name: Name) -> Iterator[Name]:
-    """A letter as printed, as a vector, and as the vector that it is a component of."""
+def _forms(name: Name) -> Iterator[tuple[Name, str]]:
+    """A letter as printed, as a vector, and as the vector of which it is a component."""
     if name.decoration == "hat":
         return
-    yield name
-    yield replace(name, decoration="vector")
+    yield name, ""
+    yield replace(name, decoration="vector"), ""
     whole, _, label = name.subscript.rpartition(",")
     if label:
-        yield replace(name, subscript=whole, decoration="vector")
+        yield replace(name, subscript=whole, decoration="vector"), f" along {label}"
