@@ -19,10 +19,6 @@ export class Pose {
     this.axis = new Vector3(...data.axis);
   }
 
-  get moves(): boolean {
-    return this.place.count > 1;
-  }
-
   placeAt(frame: number, out: Vector3): Vector3 {
     return out.fromArray(this.place.at(frame, this.buffer));
   }

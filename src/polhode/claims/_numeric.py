@@ -54,11 +54,6 @@ class Rational:
         """Values, one unknown for each entry of the shape."""
         return np.asarray(np.polyval(self.above, at) / np.polyval(self.below, at))
 
-    @property
-    def is_linear(self) -> bool:
-        """Whether it changes evenly with the unknown."""
-        return len(self.above) <= 2 and len(self.below) == 1
-
 
 def rationals(
     expressions: Iterable[Expr],

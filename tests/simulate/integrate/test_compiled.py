@@ -7,6 +7,7 @@ import sys
 import pytest
 
 import polhode as ph
+from polhode import base
 
 heyoka = pytest.importorskip("heyoka")
 
@@ -43,6 +44,12 @@ def test_two_processes_share_it_and_a_damaged_one_is_made_anew(tmp_path):
     for file in kept:
         file.write_bytes(b"no data base" * 100)
     assert ended(started(tmp_path)) == found
+
+
+def test_what_is_kept_on_disk_is_bounded():
+    from polhode.simulate.integrate._heyoka import library
+
+    assert library().llvm_state.get_diskcache_limit() == base.cache.LIMIT
 
 
 def rolling() -> ph.System:

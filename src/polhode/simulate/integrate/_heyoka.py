@@ -121,6 +121,7 @@ def library() -> Any:
         kept = cache.folder("heyoka")
         _drop_damaged(kept / "cache.db")
         heyoka.llvm_state.set_diskcache_path(kept)
+        heyoka.llvm_state.set_diskcache_limit(cache.LIMIT)
     except StoreError:
         heyoka.llvm_state.set_diskcache_enabled(False)
     return heyoka
