@@ -14,13 +14,13 @@ from polhode.algebra import Expr, Symbol, Vector
 from polhode.base import PolhodeError
 from polhode.catalogue import CATALOGUE, problem_set
 from polhode.claims import Answer, Claim, Document, Notation, read_document
-from polhode.claims._asked import Asked
 from polhode.claims._check import judged_claim
-from polhode.claims._circumstances import AnyState
-from polhode.claims._components import Relation, Side
-from polhode.claims._declared import reaction_symbol
 from polhode.claims._typed import with_start
+from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.latex import Statement, read_latex, write_latex
+from polhode.claims.meaning._components import Relation, Side
+from polhode.claims.states._asked import Asked
+from polhode.claims.states._circumstances import AnyState
 from polhode.derive import Equations, derive
 
 

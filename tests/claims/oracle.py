@@ -19,9 +19,9 @@ from derive.states import evaluator
 from oracles import balls, disks, gyroscopes
 from polhode.algebra import Expr, Symbol
 from polhode.base import PolhodeError
-from polhode.claims._asked import Asked
-from polhode.claims._components import Component
-from polhode.claims._newton_euler import constrained_motion
+from polhode.claims.balance._newton_euler import constrained_motion
+from polhode.claims.meaning._components import Component
+from polhode.claims.states._asked import Asked
 
 Values = dict[str, float]
 Motion = Callable[[Mapping[str, float]], Mapping[str, float]]

@@ -12,15 +12,15 @@ from claims.transcript import document
 from polhode.algebra import Expr, Vector, read_expression
 from polhode.base import ParseError
 from polhode.catalogue import CATALOGUE
-from polhode.claims._bindings import Bound, bind
-from polhode.claims._document import Definition, Part
-from polhode.claims._meaning import BindingError, Meaning
-from polhode.claims._mechanics import Mechanics
 from polhode.claims._notation import Notation, letter
-from polhode.claims._phrases import quantity
-from polhode.claims._vocabulary import automatic, name_of, spelled
+from polhode.claims.document._document import Definition, Part
 from polhode.claims.latex import read_latex
 from polhode.claims.latex._tree import Name
+from polhode.claims.meaning._bindings import Bound, bind
+from polhode.claims.meaning._meaning import BindingError, Meaning
+from polhode.claims.meaning._mechanics import Mechanics
+from polhode.claims.meaning._phrases import quantity
+from polhode.claims.meaning._vocabulary import automatic, name_of, spelled
 from polhode.derive import Equations
 
 

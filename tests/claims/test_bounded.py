@@ -13,7 +13,8 @@ import pytest
 
 import polhode as ph
 from polhode.catalogue import CATALOGUE
-from polhode.claims import Answer, Enquiry, Verdict, _bounded, within
+from polhode.claims import Answer, Enquiry, Verdict, within
+from polhode.claims.processes import _bounded
 
 WRONG = r"F_z = Mg + Ma(\ddot\theta\sin\theta + \dot\theta^2\cos\theta)"
 RIGHT = r"\dot\omega_1 = 0"

@@ -7,9 +7,9 @@ import pytest
 from claims.transcript import NEARBY, digest, document, proof, proven, quoted, transcript
 from polhode.base import ParseError
 from polhode.catalogue import CATALOGUE
-from polhode.claims._document import Claim, Definition, Part
 from polhode.claims._notation import Notation
-from polhode.claims._read_document import read_document
+from polhode.claims.document._document import Claim, Definition, Part
+from polhode.claims.document._read_document import read_document
 from polhode.claims.latex import read_latex
 from polhode.derive import derive
 

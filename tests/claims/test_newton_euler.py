@@ -9,9 +9,9 @@ import pytest
 import polhode as ph
 from polhode.algebra import Symbol
 from polhode.catalogue import CATALOGUE
-from polhode.claims._declared import declared, reaction_symbol
-from polhode.claims._newton_euler import constrained_motion, true_motion
-from polhode.claims._numeric import number
+from polhode.claims.balance._declared import declared, reaction_symbol
+from polhode.claims.balance._newton_euler import constrained_motion, true_motion
+from polhode.claims.states._numeric import number
 
 
 def state_of(equations: ph.Equations, seed: int) -> dict[Symbol, float]:

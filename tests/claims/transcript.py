@@ -13,8 +13,8 @@ from hashlib import sha256
 from pathlib import Path
 
 from polhode.catalogue import problem_set
-from polhode.claims._document import Document
-from polhode.claims._read_document import read_document
+from polhode.claims.document._document import Document
+from polhode.claims.document._read_document import read_document
 
 PROOF = Path(__file__).with_name("transcript.sha256")
 #: Where a checkout may have the transcript beside it.

@@ -7,49 +7,49 @@ it needs.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from polhode.claims._bindings import Bound as Bound
-from polhode.claims._bindings import BoundRelation as BoundRelation
-from polhode.claims._bounded import check as check
-from polhode.claims._bounded import uncorrected as uncorrected
 from polhode.claims._check import Enquiry as Enquiry
-from polhode.claims._document import Claim as Claim
-from polhode.claims._document import Definition as Definition
-from polhode.claims._document import Document as Document
-from polhode.claims._document import Part as Part
-from polhode.claims._meaning import BindingError as BindingError
 from polhode.claims._notation import Notation as Notation
-from polhode.claims._patience import Tell as Tell
-from polhode.claims._patience import within as within
 from polhode.claims._verdict import Answer as Answer
 from polhode.claims._verdict import Confirmation as Confirmation
 from polhode.claims._verdict import Correction as Correction
 from polhode.claims._verdict import Counterexample as Counterexample
 from polhode.claims._verdict import Residual as Residual
 from polhode.claims._verdict import Verdict as Verdict
+from polhode.claims.document._document import Claim as Claim
+from polhode.claims.document._document import Definition as Definition
+from polhode.claims.document._document import Document as Document
+from polhode.claims.document._document import Part as Part
 from polhode.claims.latex import Statement as Statement
 from polhode.claims.latex import read_latex as read_latex
 from polhode.claims.latex import write_latex as write_latex
+from polhode.claims.meaning._bindings import Bound as Bound
+from polhode.claims.meaning._bindings import BoundRelation as BoundRelation
+from polhode.claims.meaning._meaning import BindingError as BindingError
+from polhode.claims.processes._bounded import check as check
+from polhode.claims.processes._bounded import uncorrected as uncorrected
+from polhode.claims.processes._patience import Tell as Tell
+from polhode.claims.processes._patience import within as within
 
 if TYPE_CHECKING:
-    from polhode.claims._apart import Limits as Limits
-    from polhode.claims._apart import audit_apart as audit_apart
     from polhode.claims._audit import audit as audit
-    from polhode.claims._read_document import read_document as read_document
-    from polhode.claims._report import Consequence as Consequence
-    from polhode.claims._report import Judged as Judged
-    from polhode.claims._report import Report as Report
-    from polhode.claims._report import told as told
+    from polhode.claims.document._read_document import read_document as read_document
+    from polhode.claims.document._report import Consequence as Consequence
+    from polhode.claims.document._report import Judged as Judged
+    from polhode.claims.document._report import Report as Report
+    from polhode.claims.document._report import told as told
+    from polhode.claims.processes._apart import Limits as Limits
+    from polhode.claims.processes._apart import audit_apart as audit_apart
     from polhode.claims.repair import tidied as tidied
 
 _LATE = {
-    "Limits": "_apart",
-    "audit_apart": "_apart",
+    "Limits": "processes._apart",
+    "audit_apart": "processes._apart",
     "audit": "_audit",
-    "read_document": "_read_document",
-    "Consequence": "_report",
-    "Judged": "_report",
-    "Report": "_report",
-    "told": "_report",
+    "read_document": "document._read_document",
+    "Consequence": "document._report",
+    "Judged": "document._report",
+    "Report": "document._report",
+    "told": "document._report",
     "tidied": "repair",
 }
 

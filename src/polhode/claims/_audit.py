@@ -9,11 +9,11 @@ from time import perf_counter
 
 from polhode.base import PolhodeError
 from polhode.claims._check import judged_claim
-from polhode.claims._document import Claim, Document, Part
 from polhode.claims._notation import Notation
-from polhode.claims._report import Judged, Report
 from polhode.claims._typed import with_start
 from polhode.claims._verdict import Answer, Verdict
+from polhode.claims.document._document import Claim, Document, Part
+from polhode.claims.document._report import Judged, Report
 from polhode.derive import Equations
 
 Resolver = Callable[[str], Equations]

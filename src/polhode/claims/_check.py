@@ -7,16 +7,16 @@ from dataclasses import dataclass, replace
 from functools import reduce
 
 from polhode.base import ParseError, PolhodeError
-from polhode.claims._asked import Asked
-from polhode.claims._contexts import CONTEXTS, holds, judge
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims._notation import Notation
-from polhode.claims._read_as import read_as
 from polhode.claims._typed import with_given, with_let, with_small
 from polhode.claims._verdict import Answer, Correction, Verdict
-from polhode.claims._vocabulary import spelled
+from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, read_latex, write_latex
 from polhode.claims.latex._tree import Node, Statement
+from polhode.claims.meaning._read_as import read_as
+from polhode.claims.meaning._vocabulary import spelled
+from polhode.claims.states._asked import Asked
 from polhode.derive import Equations
 
 

@@ -7,8 +7,8 @@ from fractions import Fraction
 
 from polhode.algebra import Expr, Generator, Symbol
 from polhode.base import PURE, TIME, Dimension, PolhodeError
-from polhode.claims._asked import Asked
-from polhode.claims._components import Component
+from polhode.claims.meaning._components import Component
+from polhode.claims.states._asked import Asked
 
 
 def dimensions_at_odds(asked: Asked) -> str:

@@ -8,16 +8,16 @@ from functools import cached_property
 
 from polhode.algebra import Expr, Symbol, as_symbol
 from polhode.base import ParseError
-from polhode.claims._asked import Asked, Small
-from polhode.claims._bindings import EQUAL, Bound, BoundRelation, bind, restrictions
-from polhode.claims._components import Side
-from polhode.claims._document import Claim, Definition, Part
-from polhode.claims._evaluate import Evaluator
-from polhode.claims._meaning import BindingError, Meaning, as_scalar, signed, sort
-from polhode.claims._phrases import quantity
-from polhode.claims._vocabulary import Vocabulary, constant, name_of, spelled
+from polhode.claims.document._document import Claim, Definition, Part
 from polhode.claims.latex import read_latex
 from polhode.claims.latex._tree import Node, Statement
+from polhode.claims.meaning._bindings import EQUAL, Bound, BoundRelation, bind, restrictions
+from polhode.claims.meaning._components import Side
+from polhode.claims.meaning._evaluate import Evaluator
+from polhode.claims.meaning._meaning import BindingError, Meaning, as_scalar, signed, sort
+from polhode.claims.meaning._phrases import quantity
+from polhode.claims.meaning._vocabulary import Vocabulary, constant, name_of, spelled
+from polhode.claims.states._asked import Asked, Small
 from polhode.derive import Equations
 
 #: A binding of this name tells the frame that components in a bracket are along.

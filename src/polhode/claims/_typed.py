@@ -10,12 +10,12 @@ from dataclasses import replace
 
 from polhode.algebra import Expr, pi, read_expression
 from polhode.base import ParseError, UnitError, read_quantity
-from polhode.claims._asked import Small
-from polhode.claims._bindings import BoundRelation
-from polhode.claims._document import Definition
-from polhode.claims._meaning import BindingError
 from polhode.claims._notation import Notation
-from polhode.claims._vocabulary import name_of, spelled
+from polhode.claims.document._document import Definition
+from polhode.claims.meaning._bindings import BoundRelation
+from polhode.claims.meaning._meaning import BindingError
+from polhode.claims.meaning._vocabulary import name_of, spelled
+from polhode.claims.states._asked import Small
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 

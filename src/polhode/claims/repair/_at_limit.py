@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from polhode.algebra import Expr
-from polhode.claims._asked import Asked
-from polhode.claims._components import Side
-from polhode.claims._scaling import vanished
+from polhode.claims.contexts._scaling import vanished
 from polhode.claims.latex._tree import Node, Statement
+from polhode.claims.meaning._components import Side
 from polhode.claims.repair._reading import Reading
+from polhode.claims.states._asked import Asked
 
 
 @dataclass(frozen=True)

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from polhode.base import NumericError
-from polhode.claims._numeric import Array
 from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._tree import Node, Piece
+from polhode.claims.states._numeric import Array
 
 
 @dataclass(frozen=True, eq=False)

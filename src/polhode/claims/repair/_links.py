@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection
 from functools import cached_property
 
-from polhode.claims._asked import Asked
 from polhode.claims.latex._tree import Cases, Statement, walk
 from polhode.claims.repair._places import Place
+from polhode.claims.states._asked import Asked
 
 #: Relation of a statement, and number of a side in it.
 Side = tuple[int, int]

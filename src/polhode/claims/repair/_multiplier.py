@@ -10,8 +10,8 @@ from itertools import compress
 
 import numpy as np
 
-from polhode.claims._numeric import Array
 from polhode.claims.latex._tree import Node
+from polhode.claims.states._numeric import Array
 
 _CLOSE = 1e-8
 _STEPS = 25

@@ -7,7 +7,6 @@ from fractions import Fraction
 from itertools import islice
 
 from polhode.base import PolhodeError
-from polhode.claims._asked import Asked
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims.latex._tree import Call, Dots, Name, Node, Number, Power, Statement
 from polhode.claims.repair._edits import Edit, edits, replaced, turned
@@ -15,6 +14,7 @@ from polhode.claims.repair._multiplier import Match
 from polhode.claims.repair._places import Place, places, raised
 from polhode.claims.repair._reading import Reading
 from polhode.claims.repair._repaired import Repaired, smallest
+from polhode.claims.states._asked import Asked
 
 #: Contexts in which there is no residual that could be fitted.
 JUDGED_WHOLE = ("threshold", "limit", "number")

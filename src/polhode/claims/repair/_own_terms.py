@@ -7,11 +7,11 @@ from itertools import combinations
 
 import numpy as np
 
-from polhode.claims._numeric import Array
 from polhode.claims.latex._tree import Number
 from polhode.claims.repair._edits import Edit, edits
 from polhode.claims.repair._multiplier import Match, Response, simple_number
 from polhode.claims.repair._places import Place
+from polhode.claims.states._numeric import Array
 
 _CLOSE = 1e-8
 _INDEPENDENT = 1e-10

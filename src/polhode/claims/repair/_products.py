@@ -11,9 +11,9 @@ from itertools import combinations_with_replacement
 
 import numpy as np
 
-from polhode.claims._numeric import Array
 from polhode.claims.latex._tree import Node
 from polhode.claims.repair._multiplier import Match, simple_number
+from polhode.claims.states._numeric import Array
 
 _CLOSE = 1e-8
 _MOST_LETTERS = 40

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from typing import Protocol
 
 from polhode.algebra import Expr
-from polhode.claims._asked import Asked
-from polhode.claims._components import Side
 from polhode.claims.latex._tree import Node, Statement
+from polhode.claims.meaning._components import Side
+from polhode.claims.states._asked import Asked
 
 
 class Reading(Protocol):

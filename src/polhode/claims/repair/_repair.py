@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import chain, pairwise
 
 from polhode.base import PolhodeError
-from polhode.claims._asked import Asked
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims.latex._tree import Statement
 from polhode.claims.repair._at_limit import AtLimit
@@ -17,6 +16,7 @@ from polhode.claims.repair._reading import Reading
 from polhode.claims.repair._repaired import Repaired, smallest
 from polhode.claims.repair._trials import FITTED
 from polhode.claims.repair._workshop import ENOUGH, STAGES, Workshop
+from polhode.claims.states._asked import Asked
 
 Holds = Callable[[Asked], bool]
 

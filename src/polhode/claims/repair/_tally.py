@@ -9,16 +9,16 @@ import numpy as np
 
 from polhode.algebra import Expr, Triad, Vector
 from polhode.base import NumericError, PolhodeError
-from polhode.claims._asked import Asked
-from polhode.claims._bench import Bench
-from polhode.claims._components import Relation, Side, triad_of
-from polhode.claims._meaning import Tensor
-from polhode.claims._numeric import Array
 from polhode.claims.latex._tree import Node, Statement
+from polhode.claims.meaning._components import Relation, Side, triad_of
+from polhode.claims.meaning._meaning import Tensor
 from polhode.claims.repair._figures import Figure, carried, formed, is_arithmetic, scalar, together
 from polhode.claims.repair._links import Links
 from polhode.claims.repair._places import Place
 from polhode.claims.repair._reading import Reading
+from polhode.claims.states._asked import Asked
+from polhode.claims.states._bench import Bench
+from polhode.claims.states._numeric import Array
 
 _CLOSE = 1e-7
 

@@ -6,11 +6,11 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 
 from polhode.algebra import Expr
-from polhode.claims._asked import Asked
-from polhode.claims._bench import Bench, bench
-from polhode.claims._circumstances import AnyState, Circumstances, TrueMotion
-from polhode.claims._steady import solved_members
-from polhode.claims._steady_states import steady_states
+from polhode.claims.contexts._steady import solved_members
+from polhode.claims.states._asked import Asked
+from polhode.claims.states._bench import Bench, bench
+from polhode.claims.states._circumstances import AnyState, Circumstances, TrueMotion
+from polhode.claims.states._steady_states import steady_states
 
 _CLOSE = 1e-7
 
@@ -73,7 +73,7 @@ def _steady(asked: Asked) -> Trials:
 
 
 def _launch(asked: Asked) -> Trials:
-    from polhode.claims._launch import bench_along  # it needs the simulator
+    from polhode.claims.contexts._launch import bench_along  # it needs the simulator
 
     states, bench = bench_along(asked)
     return Trials(states, bench, _differences)

@@ -9,9 +9,8 @@ from functools import cached_property, reduce
 import numpy as np
 
 from polhode.algebra import Expr, Kind, Vector
-from polhode.claims._components import Side
-from polhode.claims._numeric import Array
 from polhode.claims.latex._tree import Cross, Derivative, Dots, Name, Node, Statement
+from polhode.claims.meaning._components import Side
 from polhode.claims.repair._edits import letters, relabelled, turned
 from polhode.claims.repair._figures import Figure, together
 from polhode.claims.repair._places import Place, places, put
@@ -19,6 +18,7 @@ from polhode.claims.repair._products import Products
 from polhode.claims.repair._reading import Reading
 from polhode.claims.repair._tally import UNKNOWN, Tally
 from polhode.claims.repair._trials import Trials
+from polhode.claims.states._numeric import Array
 
 _CLOSE = 1e-7
 _MOST_VECTORS = 40

@@ -10,7 +10,6 @@ from itertools import product
 import numpy as np
 
 from polhode.algebra import ZERO, Expr, Symbol
-from polhode.claims._numeric import Array
 from polhode.claims.latex._tree import (
     Call,
     Dots,
@@ -34,6 +33,7 @@ from polhode.claims.repair._rewritten import may_be_rewritten, rewritten
 from polhode.claims.repair._tally import UNKNOWN, Tally
 from polhode.claims.repair._trials import Trials, trials
 from polhode.claims.repair._workpiece import Workpiece
+from polhode.claims.states._numeric import Array
 
 Changing = Callable[[Array], Array]
 

@@ -1,0 +1,1 @@
+"""The balance of every body by numbers: what a second opinion is made of."""

@@ -1,0 +1,218 @@
+"""Trial motions by numbers: how all bodies move for given speeds and rates of speeds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Any
+
+import numpy as np
+
+from polhode.algebra import Compiled, Expr, Symbol, Vector, compile_program, variables
+from polhode.claims.balance._declared import Declared
+from polhode.claims.balance._jets import JETS, Array, Jet
+from polhode.model import Body, Frame, Restraint
+
+#: Three jets: the components of a vector along the root frame.
+Jets = Any
+
+
+@dataclass(frozen=True, eq=False)
+class Moving:
+    """How one body moves, along the root frame, in inertial space.
+
+    Attributes:
+        velocity: of the centre of mass, m/s.
+        angular: angular velocity, rad/s.
+    """
+
+    velocity: Jets
+    angular: Jets
+
+
+class Trial:
+    """Several motions at once through one configuration.
+
+    Args:
+        known: the declaration.
+        state: parameters, coordinates and prescribed functions with their rates.
+        speeds: of every declared speed, an array over the motions.
+        rates: of every declared speed likewise; zero where not given.
+    """
+
+    def __init__(
+        self,
+        known: Declared,
+        state: Mapping[Symbol, float],
+        speeds: Mapping[Symbol, Array],
+        rates: Mapping[Symbol, Array],
+    ) -> None:
+        self._known = known
+        self.size = len(next(iter(speeds.values()), np.zeros(1)))
+        self._nothing = np.zeros(self.size)
+        table: dict[Symbol, Jet] = {s: Jet.of(v) for s, v in state.items()}
+        for symbol in known.functions:
+            table |= _prescribed(symbol, state)
+        for symbol, speed in speeds.items():
+            table[symbol] = Jet(speed, rates.get(symbol, self._nothing), self._nothing)
+        self._table = table
+        self._let_coordinates_move(state)
+
+    def _let_coordinates_move(self, state: Mapping[Symbol, float]) -> None:
+        """Give every coordinate its two rates: first the first, then with it the second."""
+        known = self._known
+        for q in known.coordinates:
+            self._table[q] = Jet(self._nothing + state[q], self._nothing, self._nothing)
+        for _ in range(2):
+            for q, rate in self._rates().items():
+                first, second = self._wide(rate.value), self._wide(rate.rate)
+                self._table[q] = Jet(self._nothing + state[q], first, second)
+                self._table[q.derivative()] = Jet(first, second, self._nothing)
+
+    def _rates(self) -> dict[Symbol, Jet]:
+        declared = self._known.rates
+        bare = {
+            q: self._table[q.derivative()] for q in self._known.coordinates if q not in declared
+        }
+        return bare | dict(zip(declared, self.scalars(declared.values()), strict=True))
+
+    def _wide(self, array: Array) -> Array:
+        return self._nothing + array
+
+    # -- reading --------------------------------------------------------------------------------
+
+    @property
+    def coordinates(self) -> tuple[Symbol, ...]:
+        """All coordinates."""
+        return self._known.coordinates
+
+    def number(self, symbol: Symbol) -> Jet:
+        """One symbol."""
+        return self._table[symbol]
+
+    def scalars(self, expressions: Iterable[Expr]) -> list[Jet]:
+        """Several expressions."""
+        arguments, function = _compiled(tuple(expressions))
+        return [Jet.of(x) for x in function(*(self._table[s] for s in arguments))]
+
+    def scalar(self, expression: Expr) -> Jet:
+        """One expression."""
+        return self.scalars([expression])[0]
+
+    def vector(self, vector: Vector) -> Jets:
+        """Components along the root frame."""
+        return np.array(self.scalars(_along(vector, self._root)), dtype=object)
+
+    def now(self, vector: Vector) -> Array:
+        """The same by value, in the first of the motions."""
+        return np.array([float(self._wide(c.value)[0]) for c in self.vector(vector)])
+
+    @property
+    def _root(self) -> Frame:
+        return self._known.system.root
+
+    # -- moving ---------------------------------------------------------------------------------
+
+    @cached_property
+    def _carried(self) -> Jets:
+        return self.vector(self._root.angular_velocity)
+
+    @cached_property
+    def bodies(self) -> dict[Body, Moving]:
+        """How every body moves."""
+        return {body: self._moving(body) for body in self._known.system.bodies}
+
+    def _moving(self, body: Body) -> Moving:
+        velocity = self._inertial_rate(self.vector(self._known.places[body]))
+        return Moving(velocity, self.vector(body.angular_velocity))
+
+    def acceleration(self, body: Body) -> Jets:
+        """Of its centre of mass, in inertial space, m/s²."""
+        return self._inertial_rate(self.bodies[body].velocity)
+
+    def spin_rate(self, body: Body) -> Jets:
+        """Rate of its angular momentum about the centre of mass, in inertial space, N m."""
+        return self._inertial_rate(self._angular_momentum(body))
+
+    def _inertial_rate(self, vector: Jets) -> Jets:
+        return np.array([c.dt for c in vector], dtype=object) + _cross(self._carried, vector)
+
+    def _angular_momentum(self, body: Body) -> Jets:
+        angular = self.bodies[body].angular
+        found = np.array(self.scalars(_axes_and_moments(body, self._root)), dtype=object)
+        axes, moments = found.reshape(2, 3, 3)
+        along = [_dot(axis, angular) for axis in axes]
+        return sum(axis * _dot(row, along) for axis, row in zip(axes, moments, strict=True))
+
+    def slip(self, restraint: Restraint, direction: Vector) -> Jet:
+        """Relative velocity that a restraint rules out, along a direction."""
+        relative = self._point(restraint.body, restraint.arm) - self.vector(restraint.velocity)
+        if restraint.other is not None:
+            relative = relative - self._point(restraint.other, restraint.other_arm)
+        return _dot(relative, self.vector(direction))
+
+    def _point(self, body: Body, arm: Vector | None) -> Jets:
+        moving = self.bodies[body]
+        if arm is None:
+            return moving.angular
+        return moving.velocity + _cross(moving.angular, self.vector(arm))
+
+    def slips(self) -> tuple[Array, Array]:
+        """All ruled-out relative velocities and their rates: (restraints, motions) each."""
+        found = [self.slip(r, r.direction) for r in self._known.restraints]
+        shape = (len(found), self.size)
+        values = np.array([self._wide(s.value) for s in found]).reshape(shape)
+        return values, np.array([self._wide(s.rate) for s in found]).reshape(shape)
+
+    def values(self, jets: Jets) -> Array:
+        """Values of several jets: (jets, motions)."""
+        return np.array([self._wide(jet.value) for jet in jets])
+
+
+_PI = Symbol("pi")
+
+
+@lru_cache(maxsize=4096)
+def _along(vector: Vector, root: Frame) -> tuple[Expr, ...]:
+    return vector.express(root).components
+
+
+@lru_cache(maxsize=64)
+def _axes_and_moments(body: Body, root: Frame) -> tuple[Expr, ...]:
+    """Components of a body's axes, one after another, and then the rows of its inertia."""
+    axes = [_along(body.axes[label], root) for label in body.axes.labels]
+    return tuple(entry for row in (*axes, *body.inertia.rows) for entry in row)
+
+
+@lru_cache(maxsize=4096)
+def _compiled(expressions: tuple[Expr, ...]) -> tuple[tuple[Symbol, ...], Compiled]:
+    arguments = tuple(sorted(variables(expressions) - {_PI}, key=lambda s: s.published))
+    return arguments, compile_program(expressions, arguments).function(JETS)
+
+
+def _prescribed(function: Symbol, state: Mapping[Symbol, float]) -> dict[Symbol, Jet]:
+    orders = [function]
+    for _ in range(3):
+        orders.append(orders[-1].derivative())
+    at, first, second, third = (np.array(state.get(s, 0.0)) for s in orders)
+    return {
+        orders[0]: Jet(at, first, second),
+        orders[1]: Jet(first, second, third),
+        orders[2]: Jet(second, third, np.zeros(())),
+    }
+
+
+def _dot(a: Any, b: Any) -> Jet:
+    return Jet.of(a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
+
+
+def _cross(a: Jets, b: Jets) -> Jets:
+    return np.array(
+        [
+            a[1] * b[2] - a[2] * b[1],
+            a[2] * b[0] - a[0] * b[2],
+            a[0] * b[1] - a[1] * b[0],
+        ],
+        dtype=object,
+    )

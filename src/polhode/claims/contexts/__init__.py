@@ -1,0 +1,1 @@
+"""The contexts of claims, and how a claim is judged in each."""

@@ -1,0 +1,136 @@
+"""A state that refutes a claim, with exact values of both sides and a second opinion by numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from math import isclose
+from operator import ne
+
+from polhode.algebra import Expr, Symbol
+from polhode.base import PolhodeError
+from polhode.claims._verdict import Confirmation, Counterexample, Residual
+from polhode.claims.balance._declared import declared, reaction_symbol
+from polhode.claims.balance._newton_euler import constrained_motion, true_motion
+from polhode.claims.meaning._components import Component
+from polhode.claims.states._circumstances import AnyState, Circumstances
+from polhode.claims.states._numeric import number
+from polhode.claims.states._points import Point, points
+
+_TRIES = 20
+_ROUNDING = 1e-7
+
+
+def refutation(
+    component: Component,
+    residual: Residual,
+    states: Circumstances,
+    refutes: Callable[[Expr, Expr], bool] = ne,
+) -> tuple[Counterexample | None, Confirmation | None]:
+    """A counterexample and its confirmation, as far as they can be found.
+
+    Args:
+        component: what is refuted.
+        residual: of that component, exactly.
+        states: where it is asked to hold.
+        refutes: whether values of the two sides do so; if they differ, by default.
+    """
+    sides = (states.on(component.left), states.on(component.right))
+    for point in _drawn(sides, states):
+        try:
+            if not _is_allowed(point, states):
+                continue
+            left, right = map(point, sides)
+            if refutes(left, right):
+                found = Counterexample(_described(point, states), left, right, residual)
+                return found, _confirmed(point, component, states, found)
+        except (PolhodeError, ArithmeticError, ValueError):
+            continue
+    return None, None
+
+
+def _drawn(sides: tuple[Expr, Expr], states: Circumstances) -> Iterator[Point]:
+    used = [*sides, *states.settled_relations, *map(states.on, states.signs)]
+    used += states.equations.accelerations.values()
+    symbols = {s for e in used for s in e.symbols()} | _state(states)
+    return (points(used, symbols, seed) for seed in range(_TRIES))
+
+
+def _state(states: Circumstances) -> set[Symbol]:
+    equations = states.equations
+    orders = [s for f in equations.functions for s in _with_rates(f)]
+    known = declared(equations.system).parameters
+    return {*equations.coordinates, *equations.speeds, *equations.parameters, *known, *orders}
+
+
+def _with_rates(function: Symbol) -> Iterator[Symbol]:
+    for _ in range(4):
+        yield function
+        function = function.derivative()
+
+
+def _is_allowed(point: Point, states: Circumstances) -> bool:
+    """Whether what the derivation took for positive is so."""
+    values = point.floats()
+    return all(number(states.on(e), values) > 0 for e in states.signs)
+
+
+def _described(point: Point, states: Circumstances) -> dict[str, str]:
+    """The state in full, with what the circumstances determine."""
+    values = point.described()
+    for symbol in _state(states):
+        image = states.of(symbol)
+        if image != Expr.generator(symbol):
+            values[symbol.published] = str(point(image))
+    return dict(sorted(values.items()))
+
+
+def _confirmed(
+    point: Point, component: Component, states: Circumstances, found: Counterexample
+) -> Confirmation | None:
+    """Both sides with accelerations and reactions from the numeric balance of every body."""
+    try:
+        numbers = _with_rates_of_forces(_numbers(point, states), component, states)
+        left, right = (float(number(s, numbers)) for s in (component.left, component.right))
+    except (PolhodeError, ArithmeticError, ValueError, KeyError):
+        return None
+    scale = max(abs(left), abs(right), 1e-12)
+    expected = (number(found.left, {}), number(found.right, {}))
+    agrees = all(
+        isclose(one, other, rel_tol=_ROUNDING, abs_tol=_ROUNDING * scale)
+        for one, other in zip((left, right), expected, strict=True)
+    )
+    used = {*component.left.symbols(), *component.right.symbols()}
+    named = {
+        s.published: numbers[s] for s in sorted(used, key=lambda s: s.published) if s in numbers
+    }
+    return Confirmation(named, left, right, agrees)
+
+
+def _with_rates_of_forces(
+    numbers: dict[Symbol, float], component: Component, states: Circumstances
+) -> dict[Symbol, float]:
+    """With the first rates of reactions that the sides speak of."""
+    used = component.left.symbols() | component.right.symbols()
+    forces = {reaction_symbol(name) for name in states.equations.components}
+    rates = {s for s in used - numbers.keys() if s.order == 1 and s.base() in forces}
+    if not rates:
+        return numbers
+    from polhode.claims.contexts._own_motion import rate_along_motion  # SciPy takes its time
+
+    system, speeds = states.equations.system, states.equations.speeds
+    return numbers | {s: rate_along_motion(system, numbers, speeds, s.base()) for s in rates}
+
+
+def _numbers(point: Point, states: Circumstances) -> dict[Symbol, float]:
+    drawn = point.floats()
+    state = dict(drawn)
+    for symbol in _state(states):
+        image = states.of(symbol)
+        state[symbol] = number(image, drawn)
+    system = states.equations.system
+    if isinstance(states, AnyState):
+        wanted = states.equations.acceleration_symbols
+        return drawn | constrained_motion(
+            system, state, {s: drawn[s] for s in wanted if s in drawn}
+        )
+    return drawn | true_motion(system, state)

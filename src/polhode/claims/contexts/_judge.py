@@ -1,0 +1,100 @@
+"""Whether relations hold on given states, member by member and component by component."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from math import prod
+
+from polhode.algebra import ONE
+from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
+from polhode.claims.balance._declared import reaction_symbol
+from polhode.claims.meaning._components import Component
+from polhode.claims.states._asked import Asked
+from polhode.claims.states._circumstances import AnyState, Circumstances, TrueMotion
+
+
+@dataclass(frozen=True)
+class Failure:
+    """One component of a claim that does not hold on some states."""
+
+    component: Component
+    states: Circumstances
+    residual: Residual
+
+
+def judged_identity(asked: Asked) -> Verdict:
+    """For all states obeying the constraints, accelerations free."""
+    states = asked.states(AnyState)
+    return judged(asked, [states], "identity")
+
+
+def judged_motion(asked: Asked) -> Verdict:
+    """On every true motion."""
+    states = asked.states(TrueMotion)
+    return judged(asked, [states], "motion")
+
+
+def judged(asked: Asked, all_states: Sequence[Circumstances], context: str) -> Verdict:
+    """The verdict on equations: holds, or fails with evidence."""
+    found = list(failures(asked, all_states))
+    return failed(found, context) if found else Verdict(Answer.HOLDS, context)
+
+
+def failures(asked: Asked, all_states: Iterable[Circumstances]) -> Iterator[Failure]:
+    """Every component that does not vanish on every set of states.
+
+    Of the branches of a ± one must hold at every state: the product of their residuals vanishes.
+    """
+    every = [asked.components(branch) for branch in range(len(asked.branches))]
+    states = tuple(all_states)
+    for alike in zip(*every, strict=True):
+        found = next((f for s in states if (f := _failure(alike, s)) is not None), None)
+        if found is not None:
+            yield found
+
+
+def _failure(alike: Sequence[Component], states: Circumstances) -> Failure | None:
+    left = prod((states.on(component.difference) for component in alike), start=ONE)
+    first = alike[0]
+    if not left:
+        return None
+    return Failure(first, states, Residual(first.member, first.label, left))
+
+
+def failed(found: Sequence[Failure], context: str) -> Verdict:
+    """The verdict on a claim with these failures, refuted at a state."""
+    return Refuted(
+        Answer.FAILS,
+        context,
+        _reason(found),
+        residuals=tuple(f.residual for f in found),
+        remarks=tuple(_left_open(found[0])),
+        evidence=partial(_evidence, found[0]),
+    )
+
+
+def _left_open(failure: Failure) -> Iterator[str]:
+    """Which reactions that are spoken of no motion determines."""
+    component, equations = failure.component, failure.states.equations
+    spoken = component.left.symbols() | component.right.symbols()
+    names = [name for name in equations.undetermined if reaction_symbol(name) in spoken]
+    if names:
+        yield f"Newton's laws leave {', '.join(names)} open: more holds the body than is needed"
+
+
+def _evidence(worst: Failure) -> Evidence:
+    from polhode.claims.contexts._counterexample import refutation  # numbers are for failures alone
+
+    return refutation(worst.component, worst.residual, worst.states)
+
+
+def _reason(found: Sequence[Failure]) -> str:
+    where = "; ".join(dict.fromkeys(_place(f.component) for f in found))
+    return f"the sides differ in {where}"
+
+
+def _place(component: Component) -> str:
+    member = f"member {component.member + 1}"
+    return f"component {component.label} of {member}" if component.label else member

@@ -1,0 +1,59 @@
+"""Numbers that a text prints, judged within their digits."""
+
+from __future__ import annotations
+
+from polhode.algebra import ZERO, Expr
+from polhode.base import ParseError
+from polhode.claims._verdict import Answer, Residual, Verdict
+from polhode.claims.meaning._components import Component
+from polhode.claims.states._asked import Asked
+from polhode.claims.states._circumstances import TrueMotion
+from polhode.claims.states._numeric import number
+
+
+def judged_number(asked: Asked) -> Verdict:
+    """Whether both sides agree within half a unit of the last printed digit.
+
+    Raises `ParseError` where parameters are left without a value.
+    """
+    states = asked.states(TrueMotion)
+    for component in asked.components():
+        left, right = states.on(component.left), states.on(component.right)
+        half = states.on(asked.digits.get(component.member, ZERO))
+        if not _is_close(left, right, half):
+            return _wrong(component, left, right)
+    return Verdict(Answer.HOLDS, "number")
+
+
+def _is_close(left: Expr, right: Expr, half: Expr) -> bool:
+    difference = left - right
+    if not difference:
+        return True
+    ratio = difference / half if half else difference
+    if open_ := sorted(s.published for s in ratio.symbols() if s.name != "pi"):
+        raise ParseError(
+            f"a number that depends on {', '.join(open_)}",
+            expected="a value for each of them",
+            advice="say --given " + " --given ".join(f"{name}=..." for name in open_),
+        )
+    if not half:
+        return abs(float(number(difference, {}))) <= 1e-12 * abs(float(number(right, {})))
+    return abs(float(number(ratio, {}))) <= 1 + 1e-12
+
+
+def _wrong(component: Component, left: Expr, right: Expr) -> Verdict:
+    residual = Residual(component.member, component.label, left - right)
+    return Verdict(
+        Answer.FAILS,
+        "number",
+        reason=f"the left side is {left}, about {_short(left)}; the text has {_short(right)}",
+        residuals=(residual,),
+    )
+
+
+def _short(value: Expr) -> str:
+    return f"{float(number(value, {})):.6g}" if _is_plain(value) else str(value)
+
+
+def _is_plain(value: Expr) -> bool:
+    return all(symbol.name == "pi" for symbol in value.symbols())

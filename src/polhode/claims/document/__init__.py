@@ -1,0 +1,1 @@
+"""Documents of claims, and what came of their audit."""

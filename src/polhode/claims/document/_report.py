@@ -1,0 +1,203 @@
+"""What came of an audit: verdicts, what a failure feeds, a table and a document of them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from textwrap import shorten
+from typing import Any
+
+from polhode.base import SCHEMA, Shown
+from polhode.claims._verdict import Answer, Verdict
+from polhode.claims.document._document import Claim, Document, Part
+
+_WIDEST = 110  # letters of a line of the table
+
+
+@dataclass(frozen=True)
+class Judged:
+    """One claim with its verdict.
+
+    Attributes:
+        claim: of the document.
+        system: name of the system it is about.
+        verdict: the judgement.
+        fed_by: failed claims that it follows from, directly or through others.
+    """
+
+    claim: Claim
+    system: str
+    verdict: Verdict
+    fed_by: tuple[str, ...] = ()
+
+    @property
+    def answer(self) -> Answer:
+        """Holds, fails, or what else the verdict is."""
+        return self.verdict.answer
+
+
+@dataclass(frozen=True)
+class Consequence:
+    """What is drawn from a claim that fails.
+
+    Attributes:
+        failed: id of that claim.
+        feeds: ids of the judged claims drawn from it, directly or through others.
+        results: those of them from which nothing more is drawn.
+        surviving: those of the results that hold all the same.
+    """
+
+    failed: str
+    feeds: tuple[str, ...]
+    results: tuple[str, ...]
+    surviving: tuple[str, ...]
+
+    def __str__(self) -> str:
+        return f"({self.failed}) {self.told}"
+
+    @property
+    def told(self) -> str:
+        """What it feeds, and which results survive, in words."""
+        if not self.feeds:
+            return "feeds no other claim"
+        lost = [id for id in self.results if id not in self.surviving]
+        said = f"feeds {_listed(self.feeds)}"
+        if self.surviving:
+            said += f"; what survives: {_listed(self.surviving)}"
+        return said + (f"; what does not: {_listed(lost)}" if lost else "")
+
+
+@dataclass(frozen=True)
+class Report(Shown):
+    """The verdicts on the claims of a document, in its order.
+
+    Attributes:
+        document: what the text states.
+        judged: the claims judged.
+        left: ids of those that were asked for, but not reached before an interruption.
+        seconds: that judging took.
+    """
+
+    document: Document
+    judged: tuple[Judged, ...]
+    left: tuple[str, ...] = ()
+    seconds: float = 0.0
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many claims got each answer."""
+        return counted(self.judged)
+
+    @property
+    def failures(self) -> tuple[Judged, ...]:
+        """The claims that fail."""
+        return tuple(j for j in self.judged if j.answer is Answer.FAILS)
+
+    @property
+    def consequences(self) -> tuple[Consequence, ...]:
+        """What is drawn from every claim that fails."""
+        return tuple(self._consequence(j.claim.id) for j in self.failures)
+
+    def _consequence(self, failed: str) -> Consequence:
+        verdicts = {j.claim.id: j.verdict for j in self.judged}
+        feeds = tuple(id for id in self.document.consequences(failed) if id in verdicts)
+        results = tuple(id for id in feeds if not self.document.consequences(id))
+        return Consequence(failed, feeds, results, tuple(i for i in results if verdicts[i].holds))
+
+    def by_part(self) -> tuple[tuple[Part, tuple[Judged, ...]], ...]:
+        """The judged claims of each part of the text that has some."""
+        grouped = (
+            (part, tuple(j for j in self.judged if j.claim.part == part.id))
+            for part in self.document.parts
+        )
+        return tuple((part, found) for part, found in grouped if found)
+
+    def table(self) -> str:
+        """One line for each claim, then consequences and totals."""
+        rows = [_row(judged) for judged in self.judged]
+        drawn = [f"  {consequence}" for consequence in self.consequences if consequence.feeds]
+        if drawn:
+            rows += ["", "What the failures feed:", *drawn]
+        return "\n".join([*rows, "", self.total()])
+
+    def short_table(self) -> str:
+        """Totals for each part of the text, then the claims that fail, with corrections."""
+        grouped = {part.title or part.id: found for part, found in self.by_part()}
+        width = max(map(len, grouped), default=0)
+        rows = [f"{title:<{width}}  {told(group)}" for title, group in grouped.items()]
+        fails = [_row(judged) for judged in self.failures]
+        return "\n".join([*rows, *(["", "What fails:", *fails] if fails else []), "", self.total()])
+
+    def total(self) -> str:
+        """How many claims got each answer, in a line."""
+        said = f"{len(self.judged)} claims: {told(self.judged)}"
+        return said + (f"; {len(self.left)} not reached" if self.left else "")
+
+    def __str__(self) -> str:
+        return self.table()
+
+    def to_json(self) -> dict[str, Any]:
+        """The report as plain data: claims, counts, consequences, seconds."""
+        return {
+            "schema": SCHEMA,
+            "title": self.document.title,
+            "source": self.document.source,
+            "claims": [_plain(judged) for judged in self.judged],
+            "counts": self.counts,
+            "consequences": [
+                {
+                    "failed": c.failed,
+                    "feeds": list(c.feeds),
+                    "results": list(c.results),
+                    "surviving": list(c.surviving),
+                }
+                for c in self.consequences
+            ],
+            "left": list(self.left),
+            "seconds": self.seconds,
+        }
+
+
+def counted(judged: Sequence[Judged]) -> dict[str, int]:
+    """How many claims got each answer."""
+    found = Counter(j.answer for j in judged)
+    return {answer.value: found[answer] for answer in Answer}
+
+
+def told(judged: Sequence[Judged]) -> str:
+    """How many claims got each answer, in a line."""
+    return ", ".join(f"{count} {name}" for name, count in counted(judged).items() if count)
+
+
+def _row(judged: Judged) -> str:
+    claim, verdict = judged.claim, judged.verdict
+    start = f"{claim.id:>8}  {judged.system:<25} {verdict.answer.value:<11} "
+    said = verdict.reason
+    if verdict.correction is not None:
+        said = f"{verdict.correction.what}: {verdict.correction.latex}"
+    if not verdict.holds and judged.fed_by:
+        said += f" [drawn from {_listed(judged.fed_by)}]"
+    return start + shorten(said, _WIDEST, placeholder=" …") if said else start.rstrip()
+
+
+def _plain(judged: Judged) -> dict[str, Any]:
+    claim, verdict = judged.claim, judged.verdict
+    correction = verdict.correction
+    return {
+        "id": claim.id,
+        "system": judged.system,
+        "context": claim.context,
+        "latex": claim.latex or claim.means,
+        "words": claim.words,
+        "read_as": claim.read_as,
+        "verdict": verdict.answer.value,
+        "correction": correction and correction.to_json(),
+        "reason": verdict.reason,
+        "follows_from": list(claim.follows_from),
+        "fed_by": list(judged.fed_by),
+    }
+
+
+def _listed(ids: Sequence[str]) -> str:
+    return ", ".join(f"({id})" for id in ids)

@@ -1,0 +1,1 @@
+"""What the letters and phrases of a text mean in a model."""

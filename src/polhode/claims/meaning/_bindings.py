@@ -1,0 +1,278 @@
+"""A statement that was read, bound to a model: its members as relations of exact quantities."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from polhode.algebra import ZERO, Expr, Vector
+from polhode.claims.latex import _tree as tree
+from polhode.claims.latex._tree import Node, Relation, Span, Statement, walk
+from polhode.claims.meaning._components import Side
+from polhode.claims.meaning._evaluate import FORWARD, TIME, Evaluator
+from polhode.claims.meaning._meaning import (
+    BindingError,
+    Meaning,
+    Tensor,
+    as_scalar,
+    over,
+    rate,
+    zero_like,
+)
+from polhode.claims.meaning._vocabulary import Vocabulary
+
+EQUAL = ("=", "≡")
+COMPARED = (*EQUAL, "≈", "≠", "<", ">", "≤", "≥", "≪", "≫", "∝")
+
+
+@dataclass(frozen=True)
+class BoundRelation:
+    """One member of a claim.
+
+    Attributes:
+        left: what stands left of the sign.
+        sign: one of = ≡ ≈ ≠ < > ≤ ≥ ≪ ≫ ∝.
+        right: what stands right of it.
+        span: first and one past the last character of the member in its LaTeX.
+    """
+
+    left: Side
+    sign: str
+    right: Side
+    span: Span = (0, 0)
+
+
+@dataclass(frozen=True)
+class Bound:
+    """A statement with all its symbols given a meaning.
+
+    Attributes:
+        branches: the members; twice, for the upper and the lower sign, where it says ±.
+        defined: letters that it defines, bound by nothing else, with what they stand for.
+        conditions: relations in brackets that restrict it.
+        digits: for members with a decimal number on the right, half a unit of its last digit.
+    """
+
+    branches: tuple[tuple[BoundRelation, ...], ...]
+    defined: Mapping[Node, Meaning]
+    conditions: tuple[BoundRelation, ...]
+    digits: Mapping[int, Expr]
+
+    @property
+    def relations(self) -> tuple[BoundRelation, ...]:
+        """The members, with the upper sign of ±."""
+        return self.branches[0]
+
+    @property
+    def is_definition(self) -> bool:
+        """Whether all it does is define."""
+        return bool(self.defined) and not self.relations
+
+
+def bind(statement: Statement, vocabulary: Vocabulary) -> Bound:
+    """Give every symbol of a statement its meaning.
+
+    Raises:
+        BindingError: for a symbol that stands for nothing, naming it and what resembles it, and
+            for scalars and vectors that do not go together.
+    """
+    pieces = list(walk(statement))
+    signs = (True, False) if any(isinstance(p, tree.PlusMinus) for p in pieces) else (True,)
+    per_time = any(isinstance(p, tree.Differential) and p.of == TIME for p in pieces)
+    readers = [_Binder(Evaluator(vocabulary, upper, per_time)) for upper in signs]
+    branches = tuple(tuple(reader.members(statement.relations)) for reader in readers)
+    first = readers[0]
+    conditions = tuple(first.members(statement.conditions))
+    return Bound(branches, first.defined, conditions, first.digits)
+
+
+class _Binder:
+    """Binds the relations of one statement in their order; later ones know what earlier define."""
+
+    def __init__(self, evaluator: Evaluator) -> None:
+        self._evaluator = evaluator
+        self.defined: dict[Node, Meaning] = {}
+        self.digits: dict[int, Expr] = {}
+        self._count = 0
+
+    def members(self, relations: Sequence[Relation]) -> Iterator[BoundRelation]:
+        """All members of some chains."""
+        for relation in relations:
+            for chain in _by_cases(relation):
+                yield from self._chain(chain)
+
+    def _chain(self, relation: Relation) -> Iterator[BoundRelation]:
+        sides = relation.sides
+        if relation.signs and relation.signs[0] in EQUAL and self._is_new(sides[0]):
+            self._define(sides[0], self._evaluator.value(sides[1]))
+            relation = replace(relation, sides=sides[1:], signs=relation.signs[1:])
+        for left, sign, right in zip(
+            relation.sides, relation.signs, relation.sides[1:], strict=False
+        ):
+            if sign != "↔":
+                yield self._member(left, sign, right)
+
+    def _is_new(self, node: Node) -> bool:
+        letter = isinstance(node, tree.Name | tree.Differential | tree.At)
+        self._refuse_primes(node)
+        return letter and not self._evaluator.vocabulary.has(node) and not self._reads(node)
+
+    def _refuse_primes(self, node: Node) -> None:
+        """Two primes on a quantity of the system are no new letter but a rate."""
+        vocabulary = self._evaluator.vocabulary
+        if not isinstance(node, tree.Name) or node.primes < 2 or vocabulary.has(node):
+            return
+        if vocabulary.has(replace(node, primes=0)):
+            raise BindingError(
+                f"{node.primes} primes on {node.letter}",
+                expected="dots for time derivatives",
+                advice=r"write \ddot{...}, or define the letter with --let",
+            )
+
+    def _reads(self, node: Node) -> bool:
+        """Whether a node that is no known letter has a meaning by its parts."""
+        if isinstance(node, tree.Name):
+            return False
+        try:
+            self._evaluator.value(node)
+        except BindingError:
+            return False
+        return True
+
+    def _define(self, node: Node, value: Meaning) -> None:
+        self.defined[node] = value
+        vocabulary = self._evaluator.vocabulary.saying({node: value})
+        self._evaluator = replace(self._evaluator, vocabulary=vocabulary)
+
+    def _member(self, left: Node, sign: str, right: Node) -> BoundRelation:
+        if sign not in COMPARED:
+            raise BindingError(f"the sign {sign}", expected=f"one of {' '.join(COMPARED)}")
+        one, other = self._sides(left, right)
+        half = self._half_unit(right)
+        if half is not None:
+            self.digits[self._count] = half
+        self._count += 1
+        return BoundRelation(one, sign, other, (left.span[0], right.span[1]))
+
+    def _sides(self, left: Node, right: Node) -> tuple[Side, Side]:
+        if _says_constant(right):
+            changing = rate(self._evaluator.value(left))
+            return _side(changing), _side(zero_like(changing))
+        for node, other in ((left, right), (right, left)):
+            inverse = _inverse(node)
+            if inverse is not None:
+                return self._undone(node, inverse, other)
+        one, two = self._evaluator.value(left), self._evaluator.value(right)
+        return _side(one), _side(two)
+
+    def _undone(self, node: Node, inverse: tree.Call, other: Node) -> tuple[Side, Side]:
+        """c artanh x = y read as x = tanh(y/c)."""
+        value = self._evaluator.value
+        factor = value(_without(node, inverse))
+        inside = as_scalar(over(value(other), factor), inverse.function)
+        return _side(value(inverse.argument)), FORWARD[inverse.function](inside)
+
+    def _half_unit(self, node: Node) -> Expr | None:
+        numbers = [p for p in walk(node) if isinstance(p, tree.Number) and "." in p.text]
+        if len(numbers) != 1:
+            return None
+        (number,) = numbers
+        half = Fraction(1, 2 * 10 ** len(number.text.partition(".")[2]))
+        unit = as_scalar(self._evaluator.value(_replaced(node, number, "1")), "a number")
+        none = as_scalar(self._evaluator.value(_replaced(node, number, "0")), "a number")
+        return (unit - none) * half
+
+
+def _by_cases(relation: Relation) -> Iterator[Relation]:
+    """ω ≈ A (slow) or B (fast) as ω(slow) ≈ A and ω(fast) ≈ B."""
+    *before, last = relation.sides
+    if not isinstance(last, tree.Cases):
+        yield relation
+        return
+    for case in last.cases:
+        sides = tuple(_labelled(side, case.words) for side in before)
+        yield replace(relation, sides=(*sides, case.value))
+
+
+def _labelled(node: Node, words: str) -> Node:
+    if not isinstance(node, tree.Name) or not words:
+        return node
+    return replace(node, subscript=",".join(filter(None, (node.subscript, words))))
+
+
+def _says_constant(node: Node) -> bool:
+    words = {tree.Name: "letter", tree.Words: "text"}.get(type(node), "")
+    said = str(getattr(node, words, "")).strip(" .,") if words else ""
+    return said in ("constant", "const", "constant vector")
+
+
+def _inverse(node: Node) -> tree.Call | None:
+    """The inverse function that a side consists of, but for factors."""
+    match node:
+        case tree.Call(function) if function in FORWARD:
+            return node
+        case tree.Product(factors):
+            found = [f for f in factors if isinstance(f, tree.Call) and f.function in FORWARD]
+            return found[0] if len(found) == 1 else None
+        case tree.Negative(of):
+            return _inverse(of)
+    return None
+
+
+def _without(node: Node, inverse: tree.Call) -> Node:
+    one = tree.Number("1")
+
+    def change(piece: Node) -> Node:
+        return one if piece is inverse else tree.mapped(piece, change)
+
+    return change(node)
+
+
+def _replaced(node: Node, number: tree.Number, text: str) -> Node:
+    def change(piece: Node) -> Node:
+        if piece is number:
+            return tree.Number(text)
+        return tree.mapped(piece, change)
+
+    return change(node)
+
+
+def _side(meaning: Meaning) -> Side:
+    if isinstance(meaning, Tensor):
+        raise BindingError("a tensor on one side", expected="a scalar or a vector")
+    return meaning
+
+
+def restrictions(
+    relations: Sequence[BoundRelation],
+) -> tuple[dict[Expr, Expr], tuple[Expr, ...]]:
+    """Equalities taken as given: symbols with their values, and what else vanishes.
+
+    Raises `BindingError` for an inequality.
+    """
+    values: dict[Expr, Expr] = {}
+    vanishing: list[Expr] = []
+    for relation in relations:
+        if relation.sign not in EQUAL:
+            raise BindingError(
+                f"the condition with {relation.sign}", expected="an equality such as θ = π/2"
+            )
+        for left, right in _scalars(relation.left, relation.right):
+            if left.symbol is not None and left.symbol not in right.symbols():
+                values[left] = right
+            elif left != right:
+                vanishing.append(left - right)
+    return values, tuple(vanishing)
+
+
+def _scalars(left: Side, right: Side) -> Iterator[tuple[Expr, Expr]]:
+    match left, right:
+        case Expr(), Expr():
+            yield left, right
+        case Vector(), Vector():
+            yield from zip(left.components, right.express(left.triad).components, strict=True)
+        case Vector(), Expr() if not right:
+            yield from ((component, ZERO) for component in left.components)
+        case _:
+            raise BindingError("a scalar set equal to a vector", expected="two of a kind")

@@ -1,0 +1,260 @@
+"""Quantities of a model, formed from its declaration.
+
+All declared speeds, all rates and the reaction components stay symbols: what a text says of a
+quantity is then a statement about the declaration, and not about equations derived from it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from polhode.algebra import ZERO, Expr, Kind, Vector, linear_parts, solve, symbols
+from polhode.base import DeclarationError
+from polhode.claims.balance._declared import Declared, declared, reaction_symbol
+from polhode.claims.meaning._meaning import Tensor
+from polhode.derive import Equations
+from polhode.model import Body, Frame, Gravity, Restraint
+
+
+@dataclass(frozen=True, eq=False)
+class Mechanics:
+    """The quantities of one system; where no body is named, its first one is meant.
+
+    A point is "cm", "origin", the name of a body (its centre of mass) or of a contact or joint
+    (the point of the body where it acts). Vectors are in inertial space, in SI units.
+
+    Args:
+        equations: of the system.
+    """
+
+    equations: Equations
+
+    @cached_property
+    def scalars(self) -> dict[str, Expr]:
+        """Parameters, coordinates, speeds, rates, prescribed functions and reactions by name."""
+        known = self.declared
+        rates = [symbol.derivative() for symbol in (*known.coordinates, *known.speeds)]
+        second = [coordinate.derivative().derivative() for coordinate in known.coordinates]
+        driven = [symbol for f in known.functions for symbol in (f, f.derivative())]
+        every = (*known.parameters, *known.coordinates, *known.speeds, *rates, *second, *driven)
+        found = {symbol.published: Expr.generator(symbol) for symbol in every}
+        return found | {line.name: _reaction(line.name) for line in self.equations.lines}
+
+    @cached_property
+    def declared(self) -> Declared:
+        """The declaration with every body placed."""
+        return declared(self.equations.system)
+
+    # -- bodies, points and frames --------------------------------------------------------------
+
+    @property
+    def body(self) -> Body:
+        """The body meant where none is named."""
+        return self.equations.system.bodies[0]
+
+    def _body(self, name: str) -> Body:
+        return self.equations.system.body(name) if name else self.body
+
+    @cached_property
+    def frames(self) -> dict[str, Frame]:
+        """All frames by name, those of the first body before those of others."""
+        bodies = self.equations.system.bodies
+        fixed = [b.fixed_axes for b in bodies if b.fixed_axes is not None]
+        chains = [frame for axes in (*(b.axes for b in bodies), *fixed) for frame in axes.lineage]
+        named = {frame.name: frame for frame in reversed(chains)}
+        return {"lab": self.body.axes.root, "body": self.body.fixed_axes or self.body.axes, **named}
+
+    def frame(self, name: str = "") -> Frame:
+        """The frame with a name; the axes of the first body where none is named."""
+        if not name:
+            return self.body.axes
+        if name not in self.frames:
+            raise DeclarationError(f"frame {name!r}", expected=f"one of {', '.join(self.frames)}")
+        return self.frames[name]
+
+    def axis(self, label: str, of: str = "") -> Vector:
+        """The unit vector with a label: of the body's axes, of the laboratory, or between."""
+        axes = self.body.axes
+        order = (self.frame(of),) if of else (axes, axes.root, *axes.lineage)
+        for frame in order:
+            if label in frame.labels:
+                return frame[label]
+        labels = dict.fromkeys(label for frame in order for label in frame.labels)
+        raise DeclarationError(f"axis {label!r}", expected=f"one of {', '.join(labels)}")
+
+    def fixed(self, of: str) -> Vector:
+        """Any vector fixed in a frame: three constants as its components."""
+        return Vector.along(self.frame(of), symbols("c_1 c_2 c_3"))
+
+    def _place(self, point: str) -> tuple[Body, Vector]:
+        """A body and the vector from its centre of mass to one of its points."""
+        system = self.equations.system
+        if point in ("", "cm"):
+            return self.body, self.body.axes.zero
+        if any(body.name == point for body in system.bodies):
+            return system.body(point), system.body(point).axes.zero
+        restraint = self._restraints(point)[0]
+        return restraint.body, restraint.arm or restraint.body.axes.zero
+
+    def _restraints(self, element: str) -> tuple[Restraint, ...]:
+        known = {name: found for name, found in self.equations.kinetics.restraints.items() if found}
+        if element not in known:
+            raise DeclarationError(f"point {element!r}", expected=f"one of cm, {', '.join(known)}")
+        return known[element]
+
+    # -- motion ---------------------------------------------------------------------------------
+
+    def position(self, of: str = "") -> Vector:
+        """From the origin of the laboratory, m."""
+        if of == "origin":
+            return self.equations.system.root.zero
+        body, arm = self._place(of)
+        return self.declared.places[body] + arm
+
+    def arm(self, of: str) -> Vector:
+        """From the centre of mass to where a contact or joint acts, m."""
+        return self._place(of)[1]
+
+    def velocity(self, of: str = "") -> Vector:
+        """Of a material point, m/s."""
+        body, arm = self._place(of)
+        return self.declared.places[body].dt() + body.angular_velocity.cross(arm)
+
+    def acceleration(self, of: str = "") -> Vector:
+        """Of a centre of mass, m/s²."""
+        return self.declared.places[self._place(of)[0]].dt().dt()
+
+    def angular_velocity(self, of: str = "") -> Vector:
+        """Of a body or a frame, rad/s."""
+        if of in self.frames:
+            return self.frames[of].angular_velocity
+        return self._body(of).angular_velocity
+
+    # -- momenta and forces ---------------------------------------------------------------------
+
+    def inertia(self, of: str = "") -> Tensor:
+        """The inertia tensor about the centre of mass, kg m²."""
+        body = self._body(of)
+        return Tensor(body.inertia, body.axes)
+
+    def moment_of_inertia(self, axis: str) -> Expr:
+        """A principal moment about the centre of mass, kg m²."""
+        position = self.body.axes.position(axis)
+        return self.body.inertia[position, position]
+
+    def momentum(self, of: str = "") -> Vector:
+        """Linear momentum of one body or of all, kg m/s."""
+        bodies = (self._body(of),) if of else self.equations.system.bodies
+        parts = (self.declared.places[body].dt() * body.mass for body in bodies)
+        return sum(parts, self.equations.system.root.zero)
+
+    def angular_momentum(self, about: str = "", relative: str = "") -> Vector:
+        """Of all bodies about a point, kg m²/s; rotations as a frame sees them if one is named."""
+        centre, places = self.position(about), self.declared.places
+        turning = self.frame(relative).angular_velocity if relative else self.body.axes.zero
+        total = self.body.axes.zero
+        for body in self.equations.system.bodies:
+            orbital = (places[body] - centre).cross(places[body].dt()) * body.mass
+            total = total + self.inertia(body.name).of(body.angular_velocity - turning) + orbital
+        return total
+
+    def force(self, of: str) -> Vector:
+        """The force of one contact or joint on its body, N."""
+        names = {restraint.name for restraint in self._restraints(of) if not restraint.is_couple}
+        return self._sum_of_reactions(names)
+
+    def total_force(self) -> Vector:
+        """Of all contacts, joints and loads, N."""
+        outside = {
+            line.name
+            for line in self.equations.lines
+            if line.restraint.other is None and not line.restraint.is_couple
+        }
+        return sum((a.force for a in self.declared.actions), self._sum_of_reactions(outside))
+
+    def _sum_of_reactions(self, names: set[str]) -> Vector:
+        shares = (
+            line.direction * _reaction(line.name)
+            for line in self.equations.lines
+            if line.name in names
+        )
+        return sum(shares, self.body.axes.zero)
+
+    def torque(self, about: str = "") -> Vector:
+        """Of all that acts from outside, about a point, N m."""
+        centre, places = self.position(about), self.declared.places
+        total = self.body.axes.zero
+        for line in self.equations.lines:
+            restraint, share = line.restraint, line.direction * _reaction(line.name)
+            if restraint.other is None:
+                lever = places[restraint.body] + restraint.arm - centre if restraint.arm else None
+                total = total + (lever.cross(share) if lever else share)
+        for action in self.declared.actions:
+            lever = places[action.body] + action.arm - centre
+            total = total + lever.cross(action.force) + action.couple
+        return total
+
+    def gravity(self) -> Vector:
+        """Acceleration of gravity, m/s²."""
+        system, known = self.equations.system, self.declared
+        for load in system.loads:
+            if isinstance(load, Gravity):
+                velocities = {b: (known.places[b].dt(), b.angular_velocity) for b in system.bodies}
+                first = load.actions(system.bodies, known.places, velocities)[0]
+                return first.force / first.body.mass
+        raise DeclarationError("gravity", expected="a system with the load Gravity")
+
+    # -- energies -------------------------------------------------------------------------------
+
+    def translational_energy(self) -> Expr:
+        """Kinetic energy of the motion of the centres of mass, J."""
+        velocities = ((b.mass, self.declared.places[b].dt()) for b in self.equations.system.bodies)
+        return sum((mass * v.dot(v) / 2 for mass, v in velocities), ZERO)
+
+    def rotational_energy(self) -> Expr:
+        """Kinetic energy of the rotation about the centres of mass, J."""
+        bodies = self.equations.system.bodies
+        pairs = ((body.angular_velocity, self.inertia(body.name)) for body in bodies)
+        return sum((w.dot(tensor.of(w)) / 2 for w, tensor in pairs), ZERO)
+
+    def kinetic_energy(self) -> Expr:
+        """Both together, J."""
+        return self.translational_energy() + self.rotational_energy()
+
+    def potential_energy(self) -> Expr:
+        """Of all loads that have one, J."""
+        return self.equations.potential_energy
+
+    def energy(self) -> Expr:
+        """Kinetic and potential energy, J."""
+        return self.kinetic_energy() + self.potential_energy()
+
+    def lagrangian(self) -> Expr:
+        """Kinetic less potential energy, J."""
+        return self.kinetic_energy() - self.potential_energy()
+
+    def conjugate(self, coordinate: str) -> Expr:
+        """The momentum conjugate to a coordinate: ∂L/∂q̇."""
+        known = {symbol.published: symbol for symbol in self.declared.coordinates}
+        if coordinate not in known:
+            raise DeclarationError(
+                f"coordinate {coordinate!r}", expected=f"one of {', '.join(known)}"
+            )
+        return self.in_rates(self.lagrangian()).diff(known[coordinate].derivative())
+
+    def in_rates(self, expression: Expr) -> Expr:
+        """With speeds such as ω₃ put in terms of the rates of the coordinates."""
+        rates = self.declared.rates
+        found = {s for rate in rates.values() for s in rate.symbols() if s.kind is Kind.SPEED}
+        speeds = sorted(found, key=lambda symbol: symbol.published)
+        if not speeds or len(speeds) != len(rates):
+            return expression
+        parts = [(q, *linear_parts(rate, speeds)) for q, rate in rates.items()]
+        right = [Expr.generator(q.derivative()) - rest for q, _, rest in parts]
+        values = solve([row for _, row, _ in parts], right)
+        return expression.subs(dict(zip(speeds, values, strict=True)))
+
+
+def _reaction(name: str) -> Expr:
+    return Expr.generator(reaction_symbol(name))

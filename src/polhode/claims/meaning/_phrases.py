@@ -1,0 +1,139 @@
+"""Quantities by name: "axis 3", "angular momentum about pivot", "kinetic energy"."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from difflib import get_close_matches
+from functools import lru_cache
+
+from polhode.algebra import Expr, Vector, read_expression, time
+from polhode.base import DeclarationError, ParseError
+from polhode.claims.meaning._meaning import BindingError, Meaning
+from polhode.claims.meaning._mechanics import Mechanics
+from polhode.claims.meaning._motions import precession, radius_of_curvature, uniform_velocity
+
+
+@lru_cache(maxsize=4096)
+def quantity(mechanics: Mechanics, phrase: str) -> Meaning:
+    """The quantity of a model that a phrase names; docs/claims-format.md lists all of them.
+
+    Raises `BindingError` for a phrase that names none, or something the system does not have.
+    """
+    words = " ".join(phrase.split())
+    for pattern, method in _PHRASES:
+        match = pattern.fullmatch(words)
+        if match:
+            return _found(words, method, mechanics, match.groupdict(default=""))
+    return _spelled(mechanics, words)
+
+
+def _found(words: str, method: _Method, mechanics: Mechanics, named: dict[str, str]) -> Meaning:
+    try:
+        return method(mechanics, **named)
+    except DeclarationError as error:
+        raise BindingError(
+            f"{words!r}: {error.given}", expected=error.expected, advice=error.advice
+        ) from None
+
+
+def _spelled(mechanics: Mechanics, words: str) -> Meaning:
+    """An expression of published names."""
+    try:
+        return read_expression(words, mechanics.scalars)
+    except ParseError as error:
+        near = get_close_matches(words, _EXAMPLES, n=2, cutoff=0.5) or _EXAMPLES[:3]
+        raise BindingError(
+            f"{words!r}, which names no quantity of {mechanics.equations.system.name}",
+            expected=f"something like {', '.join(map(repr, near))}, or an expression",
+            advice=f"as an expression: {error}",
+        ) from None
+
+
+def _components(mechanics: Mechanics, entries: str, along: str) -> Vector:
+    parts = [read_expression(entry, mechanics.scalars) for entry in entries.split(",")]
+    if len(parts) != 3:
+        raise DeclarationError(f"({entries})", expected="three components with commas between")
+    return Vector.along(mechanics.frame(along), parts)
+
+
+def _least(mechanics: Mechanics, name: str) -> Expr:
+    least = mechanics.equations.least
+    if name not in least:
+        raise DeclarationError(f"reaction {name!r}", expected=f"one of {', '.join(least)}")
+    return least[name]
+
+
+def _time(_: Mechanics) -> Expr:
+    return time
+
+
+def _radius_of_curvature(mechanics: Mechanics) -> Vector:
+    return radius_of_curvature(mechanics.position())
+
+
+def _uniform_velocity(mechanics: Mechanics) -> Vector:
+    return uniform_velocity(mechanics.equations, mechanics.velocity())
+
+
+def _fictitious(mechanics: Mechanics, kind: str, frame: str) -> Vector:
+    from polhode.analyse import fictitious_torque  # few texts speak of them
+
+    equations, turning = mechanics.equations, mechanics.frame(frame)
+    torques = fictitious_torque(equations, mechanics.body, turning)
+    found: Vector = getattr(torques, kind.lower())
+    return found
+
+
+def _precession(mechanics: Mechanics, pace: str, coordinate: str) -> Expr:
+    rate = mechanics.scalars.get(f"{coordinate}_dot")
+    if rate is None:
+        raise DeclarationError(f"coordinate {coordinate!r}", expected="one of the system")
+    return precession(mechanics.equations, rate, slower=pace == "slow")
+
+
+_Method = Callable[..., Meaning]
+_OF = r"(?: of (?P<of>.+))?"
+_PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
+    (re.compile(pattern), method)
+    for pattern, method in (
+        (rf"axis (?P<label>\S+){_OF}", Mechanics.axis),
+        (r"fixed vector of (?P<of>.+)", Mechanics.fixed),
+        (rf"position{_OF}", Mechanics.position),
+        (r"arm of (?P<of>.+)", Mechanics.arm),
+        (rf"velocity{_OF}", Mechanics.velocity),
+        (rf"acceleration{_OF}", Mechanics.acceleration),
+        (rf"angular velocity{_OF}", Mechanics.angular_velocity),
+        (rf"inertia{_OF}", Mechanics.inertia),
+        (r"moment of inertia (?P<axis>\S+)", Mechanics.moment_of_inertia),
+        (rf"momentum{_OF}", Mechanics.momentum),
+        (
+            r"angular momentum(?: about (?P<about>.+?))?(?: relative to (?P<relative>.+))?",
+            Mechanics.angular_momentum,
+        ),
+        (r"force of (?P<of>.+)", Mechanics.force),
+        (r"total force", Mechanics.total_force),
+        (r"torque(?: about (?P<about>.+))?", Mechanics.torque),
+        (r"gravity", Mechanics.gravity),
+        (r"translational kinetic energy", Mechanics.translational_energy),
+        (r"rotational kinetic energy", Mechanics.rotational_energy),
+        (r"kinetic energy", Mechanics.kinetic_energy),
+        (r"potential energy", Mechanics.potential_energy),
+        (r"energy", Mechanics.energy),
+        (r"lagrangian", Mechanics.lagrangian),
+        (r"momentum conjugate to (?P<coordinate>\S+)", Mechanics.conjugate),
+        (r"\((?P<entries>.*,.*)\) along (?P<along>.+)", _components),
+        (r"(?P<kind>Coriolis|centrifugal|Euler) torque in (?P<frame>.+)", _fictitious),
+        (r"least (?P<name>\w+)", _least),
+        (r"time", _time),
+        (r"radius of curvature", _radius_of_curvature),
+        (r"uniform velocity", _uniform_velocity),
+        (r"(?P<pace>slow|fast) steady (?P<coordinate>\w+?)_dot", _precession),
+    )
+)
+
+_EXAMPLES = (
+    *("axis 3", "angular velocity", "angular momentum about cm", "kinetic energy"),
+    *("angular velocity of axes", "velocity of cm", "force of contact", "torque about cm"),
+    *("potential energy", "lagrangian", "momentum conjugate to phi", "position", "inertia"),
+)

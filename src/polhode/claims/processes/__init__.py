@@ -1,0 +1,1 @@
+"""Judging in processes of their own, which end where it takes too much."""

@@ -1,0 +1,1 @@
+"""The states on which a claim is asked to hold."""

@@ -1,0 +1,63 @@
+"""Steady motions as the states on which a claim is asked to hold."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+from polhode.algebra import ZERO, Expr, Symbol, eliminate
+from polhode.analyse import SteadyMotion, steady
+from polhode.claims.meaning._the import The
+from polhode.claims.states._asked import Asked
+from polhode.claims.states._circumstances import TrueMotion
+from polhode.derive import Equations
+
+_KEPT = 64
+
+
+@dataclass(frozen=True)
+class SteadyStates(TrueMotion):
+    """The states of one family: its fixed values, its relations, all accelerations zero."""
+
+    family: SteadyMotion | None = None
+
+    def _settled(self, expression: Expr) -> Expr:
+        return super()._settled(expression.subs(self._at_rest)).subs(self._fixed)
+
+    @cached_property
+    def _fixed(self) -> dict[Symbol, Expr]:
+        return dict(self.family.fixed) if self.family else {}
+
+    @cached_property
+    def _at_rest(self) -> dict[Symbol, Expr]:
+        """Accelerations of all independent speeds."""
+        return dict.fromkeys(self.equations.acceleration_symbols, ZERO)
+
+
+def steady_states(asked: Asked) -> tuple[SteadyStates, ...]:
+    """Every family of steady motions that obeys the claim's own restrictions.
+
+    Families where the coordinates are singular are left out: a rate of precession means nothing
+    about an upright axis.
+    """
+    given = tuple(asked.given.items())
+    return _families(The(asked.equations), given, asked.relations, asked.positive)
+
+
+@lru_cache(maxsize=_KEPT)
+def _families(
+    the: The,
+    given: tuple[tuple[Symbol, Expr], ...],
+    relations: tuple[Expr, ...],
+    positive: tuple[Expr, ...],
+) -> tuple[SteadyStates, ...]:
+    return tuple(
+        SteadyStates(the.equations, dict(given), (*family.relations, *relations), positive, family)
+        for family in steady(the.equations, dict(given))
+        if not _is_singular(the.equations, family)
+    )
+
+
+def _is_singular(equations: Equations, family: SteadyMotion) -> bool:
+    rows = [[entry.subs(family.fixed) for entry in row] for row in equations.mass.rows]
+    return bool(rows) and bool(eliminate(rows, [ZERO] * len(rows)).free)
