@@ -9,15 +9,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.special import ellipkm1
 
-from polhode.analyse._elliptic import (
+from polhode.analyse.closed._elliptic import (
     first_kind,
     jacobi,
     quarter_period,
     third_kind,
     third_kind_complete,
 )
-from polhode.analyse._phase import Phase
-from polhode.analyse._reals import Digits, Doubles
+from polhode.analyse.closed._phase import Phase
+from polhode.analyse.closed._reals import Digits, Doubles
 
 DOUBLES = Doubles()
 CONTEXT = mpmath.MPContext()

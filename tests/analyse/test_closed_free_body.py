@@ -13,7 +13,7 @@ import polhode as ph
 from analyse.systems import equations
 from analyse.textbook import assert_obeys, euler, integrated
 from polhode.algebra import Expr, sqrt
-from polhode.analyse._closed_form import ClosedForm, closed_form
+from polhode.analyse.closed._closed_form import ClosedForm, closed_form
 from polhode.base import NumericError
 from polhode.derive import derive
 

@@ -9,7 +9,7 @@ from scipy.special import ellipk
 from analyse.systems import equations
 from analyse.textbook import assert_obeys, gyrocompass, integrated
 from polhode.algebra import Expr, pi, sqrt
-from polhode.analyse._closed_form import ClosedForm, closed_form
+from polhode.analyse.closed._closed_form import ClosedForm, closed_form
 from polhode.base import NumericError
 
 #: I₂ + M a² = 2 and M g a = 2: θ̈ = sin θ.

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from polhode.analyse._closed_form import ClosedForm
+from polhode.analyse.closed._closed_form import ClosedForm
 
 Rates = Callable[[Any, Sequence[Any]], Sequence[Any]]
 

@@ -12,8 +12,8 @@ from flint import fmpq
 
 from polhode.algebra._generators import Generator, Rate, Symbol
 from polhode.algebra._given import decimal, is_numpy_scalar
-from polhode.algebra._printed import Printed
 from polhode.algebra._ring import CONSTANTS, Polynomial, Ring, ring_of, union
+from polhode.algebra.printing._printed import Printed
 from polhode.base import DeclarationError, NumericError
 
 #: What is accepted wherever an expression is wanted: also SymPy's expressions.

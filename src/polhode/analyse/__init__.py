@@ -1,9 +1,6 @@
 """What follows from the equations exactly: integrals, steady motions, stability."""
 
 from polhode.analyse._ansatz import Ansatz as Ansatz
-from polhode.analyse._closed_form import ClosedForm as ClosedForm
-from polhode.analyse._closed_form import closed_form as closed_form
-from polhode.analyse._closed_form import recognise as recognise
 from polhode.analyse._conditions import ALWAYS as ALWAYS
 from polhode.analyse._conditions import Condition as Condition
 from polhode.analyse._conditions import Truth as Truth
@@ -31,3 +28,6 @@ from polhode.analyse._stability import stability as stability
 from polhode.analyse._steady import Branch as Branch
 from polhode.analyse._steady import SteadyMotion as SteadyMotion
 from polhode.analyse._steady import steady as steady
+from polhode.analyse.closed._closed_form import ClosedForm as ClosedForm
+from polhode.analyse.closed._closed_form import closed_form as closed_form
+from polhode.analyse.closed._closed_form import recognise as recognise

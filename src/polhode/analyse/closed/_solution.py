@@ -6,8 +6,8 @@ from abc import ABC, abstractmethod
 from typing import Any, ClassVar
 
 from polhode.algebra import Expr, Kind, Symbol
-from polhode.analyse._exact_data import Data
-from polhode.analyse._reals import Array, Reals
+from polhode.analyse.closed._exact_data import Data
+from polhode.analyse.closed._reals import Array, Reals
 from polhode.derive import Equations
 
 

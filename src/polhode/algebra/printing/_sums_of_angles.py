@@ -8,9 +8,9 @@ from fractions import Fraction
 from itertools import combinations
 from operator import le, sub
 
-from polhode.algebra._arrange import factor_rank
 from polhode.algebra._functions import CIRCULAR, Even
 from polhode.algebra._ring import Monomial, Polynomial, Ring, ring_of
+from polhode.algebra.printing._arrange import factor_rank
 
 #: Longer polynomials are printed as they are.
 _LONGEST = 80

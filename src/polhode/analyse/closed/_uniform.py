@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from polhode.algebra import Expr, Kind, Symbol
-from polhode.analyse._exact_data import Data
-from polhode.analyse._reals import Array, Reals
 from polhode.analyse._reduced import reduced
-from polhode.analyse._solution import Solution
+from polhode.analyse.closed._exact_data import Data
+from polhode.analyse.closed._reals import Array, Reals
+from polhode.analyse.closed._solution import Solution
 from polhode.derive import Equations
 
 

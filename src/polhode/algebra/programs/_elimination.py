@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from polhode.algebra._tape import Tape, Value
+from polhode.algebra.programs._tape import Tape, Value
 from polhode.base import NumericError
 
 

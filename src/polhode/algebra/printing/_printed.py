@@ -19,25 +19,25 @@ class Printed:
         return str(self)
 
     def __str__(self) -> str:
-        from polhode.algebra._text import text
+        from polhode.algebra.printing._text import text
 
         return text(self._whole)
 
     def pretty(self) -> str:
         """One line with Greek letters, dots and superscripts."""
-        from polhode.algebra._text import pretty
+        from polhode.algebra.printing._text import pretty
 
         return pretty(self._whole)
 
     def latex(self) -> str:
         """LaTeX as a text would print it."""
-        from polhode.algebra._latex import latex
+        from polhode.algebra.printing._latex import latex
 
         return latex(self._whole)
 
     def mathml(self) -> str:
         """Presentation MathML."""
-        from polhode.algebra._latex import mathml
+        from polhode.algebra.printing._latex import mathml
 
         return mathml(self.latex())
 

@@ -9,11 +9,11 @@ from functools import cached_property
 from typing import Any
 
 from polhode.algebra import Expr, Symbol
-from polhode.analyse import _coin, _free_body, _gyrocompass, _heavy_top, _marble, _pendulum
-from polhode.analyse._exact_data import Data, exact_data
-from polhode.analyse._reals import Array, Digits, Doubles, Reals
-from polhode.analyse._solution import Solution, Solvable
-from polhode.analyse._uniform import SteadySolution, Uniform, is_steady, uniform
+from polhode.analyse.closed import _coin, _free_body, _gyrocompass, _heavy_top, _marble, _pendulum
+from polhode.analyse.closed._exact_data import Data, exact_data
+from polhode.analyse.closed._reals import Array, Digits, Doubles, Reals
+from polhode.analyse.closed._solution import Solution, Solvable
+from polhode.analyse.closed._uniform import SteadySolution, Uniform, is_steady, uniform
 from polhode.base import ConstraintError, NumericError
 from polhode.derive import Equations, equations_only
 

@@ -15,9 +15,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from polhode.analyse._elliptic import first_kind
-from polhode.analyse._phase import Phase, Point
-from polhode.analyse._reals import Array, Reals
+from polhode.analyse.closed._elliptic import first_kind
+from polhode.analyse.closed._phase import Phase, Point
+from polhode.analyse.closed._reals import Array, Reals
 
 
 class Quotient(NamedTuple):

@@ -9,7 +9,14 @@ from functools import lru_cache
 from operator import add
 from typing import Any
 
-from polhode.algebra._arrange import (
+from polhode.algebra._expression import ZERO, Expr
+from polhode.algebra._factored import Factored, factorised, powers_of, products, terms
+from polhode.algebra._functions import Elementary, Exponential
+from polhode.algebra._generators import Generator, Symbol
+from polhode.algebra._parts import under_letters
+from polhode.algebra._ring import Monomial, Polynomial, Ring
+from polhode.algebra._squares import in_shortest_squares
+from polhode.algebra.printing._arrange import (
     ABSOLUTE_VALUE,
     CONSTANT_SUM,
     EXPONENTIAL,
@@ -20,11 +27,7 @@ from polhode.algebra._arrange import (
     radical_rank,
     term_rank,
 )
-from polhode.algebra._expression import ZERO, Expr
-from polhode.algebra._factored import Factored, factorised, powers_of, products, terms
-from polhode.algebra._functions import Elementary, Exponential
-from polhode.algebra._generators import Generator, Symbol
-from polhode.algebra._nodes import (
+from polhode.algebra.printing._nodes import (
     Call,
     Name,
     Node,
@@ -36,12 +39,9 @@ from polhode.algebra._nodes import (
     product,
     total,
 )
-from polhode.algebra._parts import under_letters
-from polhode.algebra._quotient import shortest_quotient
-from polhode.algebra._radicals import Radicals, gathered
-from polhode.algebra._ring import Monomial, Polynomial, Ring
-from polhode.algebra._squares import in_shortest_squares
-from polhode.algebra._sums_of_angles import in_sums_of_angles
+from polhode.algebra.printing._quotient import shortest_quotient
+from polhode.algebra.printing._radicals import Radicals, gathered
+from polhode.algebra.printing._sums_of_angles import in_sums_of_angles
 
 #: Terms are collected by constants, as in I₁(θ̇² + φ̇² sin²θ), only if so much is saved by it.
 _MUCH = 0.85

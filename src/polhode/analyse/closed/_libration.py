@@ -13,7 +13,7 @@ from functools import cached_property
 from itertools import islice
 from typing import Any, NamedTuple
 
-from polhode.analyse._reals import Array, Reals
+from polhode.analyse.closed._reals import Array, Reals
 from polhode.base import NumericError
 
 #: Nodes at first and at most.

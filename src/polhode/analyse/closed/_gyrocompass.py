@@ -7,11 +7,11 @@ from itertools import permutations
 from typing import Any
 
 from polhode.algebra import ZERO, Expr, Symbol, cos, sin
-from polhode.analyse._exact_data import Data
-from polhode.analyse._reals import Array, Reals
-from polhode.analyse._solution import Solution, Solvable, is_constant, rates
-from polhode.analyse._swing_solution import SwingSolution
-from polhode.analyse._swing_start import Swinging, swinging
+from polhode.analyse.closed._exact_data import Data
+from polhode.analyse.closed._reals import Array, Reals
+from polhode.analyse.closed._solution import Solution, Solvable, is_constant, rates
+from polhode.analyse.closed._swing_solution import SwingSolution
+from polhode.analyse.closed._swing_start import Swinging, swinging
 from polhode.derive import Equations
 
 

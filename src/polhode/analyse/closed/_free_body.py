@@ -13,10 +13,10 @@ from itertools import combinations
 from typing import Any
 
 from polhode.algebra import ZERO, Expr, Symbol
-from polhode.analyse._exact_data import Data
-from polhode.analyse._phase import Phase
-from polhode.analyse._reals import Array, Reals
-from polhode.analyse._solution import Solution, Solvable, is_constant
+from polhode.analyse.closed._exact_data import Data
+from polhode.analyse.closed._phase import Phase
+from polhode.analyse.closed._reals import Array, Reals
+from polhode.analyse.closed._solution import Solution, Solvable, is_constant
 from polhode.derive import Equations
 
 Three = tuple[Any, ...]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import permutations
 
 from polhode.algebra import ZERO, Expr, Symbol, cos, sin
-from polhode.analyse._solution import is_constant, rates
+from polhode.analyse.closed._solution import is_constant, rates
 from polhode.derive import Equations
 
 

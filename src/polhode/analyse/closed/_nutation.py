@@ -16,11 +16,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from polhode.algebra import Expr
-from polhode.analyse._axle import Names
-from polhode.analyse._exact_data import Data
-from polhode.analyse._phase import Phase
-from polhode.analyse._reals import Array, Reals
-from polhode.analyse._solution import Solution
+from polhode.analyse.closed._axle import Names
+from polhode.analyse.closed._exact_data import Data
+from polhode.analyse.closed._phase import Phase
+from polhode.analyse.closed._reals import Array, Reals
+from polhode.analyse.closed._solution import Solution
 from polhode.base import NumericError
 
 Pair = tuple[Any, Any]

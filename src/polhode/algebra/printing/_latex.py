@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from polhode.algebra._expression import Expr
 from polhode.algebra._generators import Symbol
-from polhode.algebra._layout import layout
-from polhode.algebra._names import GREEK, Spelling
-from polhode.algebra._nodes import Call, Fraction, Name, Node, Number, Power, Product, Sum
+from polhode.algebra.printing._layout import layout
+from polhode.algebra.printing._names import GREEK, Spelling
+from polhode.algebra.printing._nodes import Call, Fraction, Name, Node, Number, Power, Product, Sum
 
 
 def latex(expression: Expr) -> str:

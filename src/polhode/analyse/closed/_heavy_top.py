@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from polhode.algebra import Expr, Symbol, cos, sin
-from polhode.analyse._axle import Axle, axles
-from polhode.analyse._exact_data import Data
-from polhode.analyse._nutation import Integrals, Nutation, Release, nutation
-from polhode.analyse._solution import Solvable, is_constant
+from polhode.analyse.closed._axle import Axle, axles
+from polhode.analyse.closed._exact_data import Data
+from polhode.analyse.closed._nutation import Integrals, Nutation, Release, nutation
+from polhode.analyse.closed._solution import Solvable, is_constant
 from polhode.base import NumericError
 from polhode.derive import Equations
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from polhode.analyse._reals import Array, Reals
+from polhode.analyse.closed._reals import Array, Reals
 
 #: Moves sn off its zero, where the recurrence divides by it, by less than anything can tell.
 _NUDGE = 1e-100

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from polhode.algebra import ZERO, Expr, Symbol, cos, sin
-from polhode.analyse._axle import Axle, Names, axles
-from polhode.analyse._exact_data import Data
-from polhode.analyse._libration import Libration
-from polhode.analyse._reals import Array, Reals
-from polhode.analyse._solution import Solution, Solvable, is_constant
+from polhode.analyse.closed._axle import Axle, Names, axles
+from polhode.analyse.closed._exact_data import Data
+from polhode.analyse.closed._libration import Libration
+from polhode.analyse.closed._reals import Array, Reals
+from polhode.analyse.closed._solution import Solution, Solvable, is_constant
 from polhode.base import NumericError
 from polhode.derive import Equations
 

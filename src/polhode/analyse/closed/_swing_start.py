@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from polhode.algebra import Expr, cos, sin
-from polhode.analyse._exact_data import Data
-from polhode.analyse._phase import Phase
-from polhode.analyse._reals import Array, Digits, Reals
-from polhode.analyse._swing import Across, AcrossWell, Beside, Half, Over, OverWell, Swing
+from polhode.analyse.closed._exact_data import Data
+from polhode.analyse.closed._phase import Phase
+from polhode.analyse.closed._reals import Array, Digits, Reals
+from polhode.analyse.closed._swing import Across, AcrossWell, Beside, Half, Over, OverWell, Swing
 from polhode.base import NumericError
 
 

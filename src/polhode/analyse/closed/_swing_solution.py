@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from polhode.algebra import Symbol
-from polhode.analyse._reals import Array, Reals
-from polhode.analyse._solution import Solution
-from polhode.analyse._swing_start import Swinging
+from polhode.analyse.closed._reals import Array, Reals
+from polhode.analyse.closed._solution import Solution
+from polhode.analyse.closed._swing_start import Swinging
 
 
 @dataclass(frozen=True)

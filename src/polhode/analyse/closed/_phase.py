@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from polhode.analyse._elliptic import (
+from polhode.analyse.closed._elliptic import (
     first_kind,
     jacobi,
     quarter_period,
     third_kind,
     third_kind_complete,
 )
-from polhode.analyse._reals import Array, Reals
+from polhode.analyse.closed._reals import Array, Reals
 
 
 class Point(NamedTuple):

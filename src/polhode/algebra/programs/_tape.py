@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from polhode.algebra._generators import Symbol
-from polhode.algebra._program import Instruction, Op, Program
+from polhode.algebra.programs._program import Instruction, Op, Program
 
 
 class Value(NamedTuple):

@@ -7,9 +7,9 @@ from itertools import combinations
 from typing import Any
 
 from polhode.algebra import Expr, Symbol
-from polhode.analyse._exact_data import Data
-from polhode.analyse._reals import Array, Reals
-from polhode.analyse._solution import Solution, Solvable, is_constant, rates
+from polhode.analyse.closed._exact_data import Data
+from polhode.analyse.closed._reals import Array, Reals
+from polhode.analyse.closed._solution import Solution, Solvable, is_constant, rates
 from polhode.base import NumericError
 from polhode.derive import Equations
 

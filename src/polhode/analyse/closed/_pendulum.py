@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from polhode.algebra import ZERO, Expr, Symbol, sin
-from polhode.analyse._exact_data import Data
-from polhode.analyse._solution import Solution, Solvable, is_constant, rates
-from polhode.analyse._swing_solution import SwingSolution
-from polhode.analyse._swing_start import swinging
+from polhode.analyse.closed._exact_data import Data
+from polhode.analyse.closed._solution import Solution, Solvable, is_constant, rates
+from polhode.analyse.closed._swing_solution import SwingSolution
+from polhode.analyse.closed._swing_start import swinging
 from polhode.derive import Equations
 
 

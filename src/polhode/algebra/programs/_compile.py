@@ -11,8 +11,6 @@ from typing import Any, NamedTuple, TypeAlias
 
 from flint import fmpq
 
-from polhode.algebra._centred import centred
-from polhode.algebra._elimination import solve_on
 from polhode.algebra._expression import ONE, ZERO, Expr
 from polhode.algebra._factored import extracted
 from polhode.algebra._forms import shortest
@@ -21,11 +19,13 @@ from polhode.algebra._generators import Generator, Symbol
 from polhode.algebra._half_angles import Factors, lowest
 from polhode.algebra._linear import Matrix, Row, length
 from polhode.algebra._parts import Part
-from polhode.algebra._program import Op, Program
 from polhode.algebra._ring import Polynomial, Ring
 from polhode.algebra._roots import Root
 from polhode.algebra._special import PI
-from polhode.algebra._tape import Tape, Value
+from polhode.algebra.programs._centred import centred
+from polhode.algebra.programs._elimination import solve_on
+from polhode.algebra.programs._program import Op, Program
+from polhode.algebra.programs._tape import Tape, Value
 from polhode.base import DeclarationError, NumericError
 
 

@@ -7,7 +7,7 @@ from functools import lru_cache
 
 from polhode.algebra._functions import Elementary, Even
 from polhode.algebra._generators import Generator, Kind, Symbol
-from polhode.algebra._names import Spelling
+from polhode.algebra.printing._names import Spelling
 
 Rank = tuple[object, ...]
 

@@ -1,0 +1,1 @@
+"""How expressions print: laid out once, then written as text or LaTeX."""

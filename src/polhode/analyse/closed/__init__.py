@@ -1,0 +1,1 @@
+"""Closed forms of motions, and how equations are recognised that have one."""
