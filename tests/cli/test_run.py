@@ -77,6 +77,16 @@ def test_people_are_told_where_it_ends_and_how_exact_that_is(polhode):
         assert f"\n  {word} " in out
 
 
+def test_times_of_events_are_told_like_all_other_numbers(polhode):
+    code, out, _ = polhode(
+        *("run", "ball-on-paper", "--mu", "0.2", "--duration", "0.2s", "--events"),
+        *("--set", "X=0", "--set", "Y=0", "--start", "v_x=0.7", "--start", "omega_y=0"),
+    )
+    assert code == 0
+    sticks = 0.7 / (3.5 * 0.2 * 9.81)
+    assert f"  {sticks:<14.9g} s  sticks: sliding to rolling\n" in out
+
+
 def test_without_a_duration_the_catalogues_is_taken(document):
     assert document("run", "spinning-coin")["duration"] == 1.0
 

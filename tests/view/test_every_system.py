@@ -12,7 +12,7 @@ from polhode.view import figures as view
 
 SYSTEMS = list(CATALOGUE)
 LABEL = re.compile(
-    r"(?P<what>.+) \((?P<unit>deg|turns|[mµn]?(m|s|N|J|W|N m|m/s|rad/s|rad/s²|m/s²)|kg.*)\)"
+    r"(?P<what>.+) \((?P<unit>deg|turns|[kMmµn]?(m|s|N|J|W|N m|m/s|rad/s|rad/s²|m/s²)|kg.*)\)"
 )
 PURE = {r"$|E - E_0 - W|\,/\,E_{\rm max}$", r"friction / normal force"}
 

@@ -5,11 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import polhode as ph
 from polhode.base import DeclarationError, UnitError
 from polhode.view import figures as view
+from polhode.view._quantities import scale_for
 from polhode.view.figures._globe import View
 from polhode.view.figures._nutation import _VIEW as SKY
 from polhode.view.figures._polhodes import _polhode, _separatrices
+from polhode.view.figures._style import line_style
 
 
 def test_a_history_is_the_quantity_in_the_unit_of_the_label(run_of):
@@ -241,3 +244,89 @@ def test_the_view_is_a_rotation():
     assert np.linalg.det(square) == pytest.approx(1)
     assert flat[0, 2] == 0
     assert flat[1, 2] > 0
+
+
+# --- what is asked for ---
+
+
+def test_quantities_are_called_by_names_or_by_symbols(run_of):
+    run, theta = run_of("gyroscope"), ph.coordinate("theta")
+    assert len(ph.plot(run, theta, (theta, "phi")).axes) == len(ph.plot(run, "theta", "phi").axes)
+    assert view.history(run, theta)[0].axes.get_ylabel() == r"$\theta$ (deg)"
+    shown = ph.scene(run, plots=["theta", (theta, "phi")])
+    assert [s.name for s in shown.panels[0].series] == ["theta"]
+    assert ph.scene(run, plots="theta").panels[0].series[0].name == "theta"
+
+
+def test_what_cannot_be_plotted_is_refused(run_of):
+    run = run_of("gyroscope")
+    for wanted in (5, 2 * ph.coordinate("theta")):
+        with pytest.raises(DeclarationError, match="is no quantity of gyroscope"):
+            ph.plot(run, wanted)
+    with pytest.raises(DeclarationError, match="a plot of nothing; expected names"):
+        view.history(run)
+    with pytest.raises(DeclarationError, match="the rate of F_z; expected a coordinate"):
+        view.phase_portrait(run, "F_z")
+
+
+def test_lines_of_one_panel_are_unlike():
+    styles = [line_style(i) for i in range(16)]
+    assert all(styles.index(style) == i for i, style in enumerate(styles))
+
+
+@pytest.mark.parametrize(
+    ("largest", "shown"),
+    [(3e-5, "30 µN"), (0.05, "50 mN"), (9999, "9999 N"), (2e5, "200 kN"), (1e10, "10 GN")],
+)
+def test_no_unit_is_tiny_or_huge(largest, shown):
+    scale = scale_for("N", largest)
+    assert f"{largest * scale.factor:.4g} {scale.unit}" == shown
+
+
+# --- forces that come and go ---
+
+
+@pytest.fixture(scope="module")
+def bouncing():
+    """A ball that begins in flight, lands, slides and rolls; and nothing else takes a force."""
+    m, a, g = ph.symbols("m a g", positive=True)
+    lab = ph.Frame("lab")
+    ball = ph.sphere("ball", mass=m, radius=a, axes=lab)
+    floor = ph.Coulomb(ball, on=ph.Plane(lab), mu=0.2, name="floor")
+    return ph.System(floor, ph.Gravity(g)), {m: 0.1, a: 0.02, g: 9.81}
+
+
+def test_the_ranges_are_of_the_forces_of_all_modes(bouncing):
+    run = ph.simulate(*bouncing, {"z": 0.03, "v_x": 1.0}, 0.5)
+    axes = view.reaction_ranges(run).axes
+    told = [text.get_text() for text in axes.get_yticklabels()]
+    assert sorted(told) == ["$F_x$", "$F_y$", "$F_z$"]
+    (bars,) = axes.collections
+    ends = dict(zip(told, (bar[:, 0] for bar in bars.get_segments()), strict=True))
+    np.testing.assert_allclose(ends["$F_z$"], [0, 0.981], rtol=1e-12)
+    np.testing.assert_allclose(ends["$F_x$"], [-0.2 * 0.981, 0], rtol=1e-9, atol=1e-12)
+
+
+def test_in_flight_there_are_no_forces_to_draw(bouncing):
+    run = ph.simulate(*bouncing, {"z": 0.5, "v_x": 1.0}, 0.1)
+    with pytest.raises(
+        DeclarationError, match="expected a motion on which something takes a force"
+    ):
+        view.reaction_ranges(run)
+    with pytest.raises(DeclarationError, match="the force of 'floor', which takes none"):
+        view.reactions(run, "floor")
+
+
+def test_rounding_is_no_work():
+    """What rolling takes from the slip it leaves, some 1e-34 J, is not a line of its own."""
+    M, b, g, I_1, I_3 = ph.symbols("M b g I_1 I_3", positive=True)
+    theta, phi = ph.coordinates("theta phi")
+    lab = ph.Frame("lab")
+    axes = lab.rotated(phi, "z").rotated(theta, "x", labels="1 2 3")
+    ring = ph.Body("ring", mass=M, inertia=(I_1, I_1, I_3), axes=axes, spin_about="3", rim=b)
+    system = ph.System(ph.Rolling(ring, on=ph.Plane(lab)), ph.Gravity(g), name="ring")
+    numbers = {M: 0.2, b: 0.03, I_1: 0.9e-4, I_3: 1.8e-4, g: 9.81}
+    run = ph.simulate(system, numbers, {theta: "80 deg", "omega_3": 40}, "0.01 s")
+    assert 0 < np.max(np.abs(run["work"])) < 1e-30
+    labels = [line.get_label() for line in view.energies(run)]
+    assert labels == [r"$\Delta T$", r"$\Delta V$", r"$\Delta T + \Delta V$"]

@@ -8,7 +8,7 @@ import pytest
 from PIL import Image
 
 import polhode as ph
-from polhode.base import NumericError, StoreError, UnitError
+from polhode.base import DeclarationError, NumericError, StoreError, UnitError
 from polhode.view._scene import Pose, SceneBody, Shape
 from polhode.view.stills._bodies import body_mesh
 from polhode.view.stills._camera import between, camera_of, place_at, rotation, turn_at
@@ -110,6 +110,44 @@ def test_what_cannot_be_drawn_is_refused(shown, tmp_path):
         ph.still(shown, tmp_path / "top.png", time="3 m")
     with pytest.raises(NumericError, match="expected positive ones"):
         ph.movie(shown, tmp_path / "top.gif", speed=0)
+    with pytest.raises(StoreError, match="cannot be written"):
+        ph.still(shown, tmp_path / f"{300 * 'x'}.png", size=SMALL)
+
+
+@pytest.mark.parametrize("size", [(0, 0), (-5, 10), (10**6, 10), (100,), "big", (1.5, 10)])
+def test_a_size_that_cannot_be_drawn_is_refused(shown, tmp_path, size):
+    for make, ending in ((ph.still, "png"), (ph.movie, "gif")):
+        with pytest.raises(NumericError, match="whole numbers from 1 to 10000"):
+            make(shown, tmp_path / f"top.{ending}", size=size)
+
+
+def test_arrows_are_called_by_their_kinds(shown, tmp_path):
+    with pytest.raises(DeclarationError, match="arrows 'forces'; expected some of force, load"):
+        ph.still(shown, tmp_path / "top.png", size=SMALL, arrows=("forces",))
+    for arrows, name in ((("omega",), "several"), ("omega", "one")):
+        ph.still(shown, tmp_path / f"{name}.png", size=SMALL, arrows=arrows)
+    assert np.array_equal(pixels(tmp_path / "several.png"), pixels(tmp_path / "one.png"))
+
+
+def test_a_movie_that_would_never_end_is_refused(shown, tmp_path):
+    with pytest.raises(
+        NumericError, match=r"2\.5e\+11 frames; expected at most 5000; give a higher"
+    ):
+        ph.movie(shown, tmp_path / "top.mp4", speed=1e-9)
+    for rate in (60, 1e-3):
+        with pytest.raises(NumericError, match=r"0\.01 to 50"):
+            ph.movie(shown, tmp_path / "top.gif", rate=rate, size=SMALL)
+
+
+def test_a_gif_keeps_time_though_it_counts_hundredths(shown, tmp_path):
+    """30 frames a second are 33.3 ms each: 3 or 4 hundredths, 100 of them in a second."""
+    ph.movie(shown, tmp_path / "disk.gif", speed=10, rate=30, size=(48, 32))
+    movie = Image.open(tmp_path / "disk.gif")
+    lasts = 0
+    for frame in range(movie.n_frames):
+        movie.seek(frame)
+        lasts += movie.info["duration"]
+    assert lasts == 1000
 
 
 # --- parts ---

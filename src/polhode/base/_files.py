@@ -16,12 +16,9 @@ def write_whole(path: Path, content: bytes) -> None:
     Raises:
         StoreError: where it cannot be written; what was there before is kept.
     """
-    if path.exists() and not (path.is_file() or path.is_dir()):
-        raise StoreError(
-            f"{path} cannot be written (it is a device or a pipe)", expected="the name of a file"
-        )
     part = None
     try:
+        _refuse_devices(path)
         descriptor, part = tempfile.mkstemp(suffix=".part", dir=path.parent)
         with os.fdopen(descriptor, "wb") as stream:
             stream.write(content)
@@ -36,3 +33,10 @@ def write_whole(path: Path, content: bytes) -> None:
         if part is not None:
             with suppress(FileNotFoundError):
                 os.unlink(part)
+
+
+def _refuse_devices(path: Path) -> None:
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        raise StoreError(
+            f"{path} cannot be written (it is a device or a pipe)", expected="the name of a file"
+        )

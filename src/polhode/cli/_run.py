@@ -257,7 +257,7 @@ def _events(events: Sequence[Mapping[str, Any]], everything: bool) -> Iterator[s
         yield "events"
         for event in events:
             modes = " to ".join(mode for mode in (event["from"], event["to"]) if mode)
-            yield f"  {float(event['time']):<22.15g} s  {event['kind']}: {modes}"
+            yield f"  {float(event['time']):<14.9g} s  {event['kind']}: {modes}"
         return
     told = [f"{float(event['time']):g} s {event['kind']}," for event in events[:_SHOWN]]
     rest = [f"and {len(events) - _SHOWN} more (--events)"] if len(events) > _SHOWN else []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from base64 import b64encode
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from functools import cache
 from hashlib import sha256
 from html import escape
@@ -13,6 +13,7 @@ from pathlib import Path
 
 from polhode.base import StoreError, write_whole
 from polhode.simulate import Trajectory
+from polhode.view._quantities import Groups
 from polhode.view._scene import Judgement, Scene
 from polhode.view._scene_build import scene
 
@@ -51,7 +52,7 @@ def page(
     *,
     title: str = "",
     about: str = "",
-    plots: Sequence[Sequence[str]] = (),
+    plots: Groups = (),
     meanings: Mapping[str, str] | None = None,
     judgements: Iterable[Judgement] = (),
 ) -> None:
@@ -66,7 +67,8 @@ def page(
         path: of the file.
         title: heading; the system's name by default.
         about: the problem in a few sentences.
-        plots: groups of names of quantities to plot; coordinates, speeds and reactions by default.
+        plots: names of quantities to plot, or groups of names; by default coordinates, speeds
+            and reactions.
         meanings: what parameters are, by name.
         judgements: verdicts on claims about the system.
 

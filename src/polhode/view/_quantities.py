@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import cast
 
@@ -15,6 +15,12 @@ from polhode.derive import Equations
 from polhode.simulate import Trajectory
 
 Array = NDArray[np.float64]
+
+#: A quantity by its published name, or as a symbol of the system.
+Named = str | Symbol | Expr
+
+#: Quantities to plot, a panel for each and for each group of them.
+Groups = Iterable[Named | Sequence[Named]]
 
 FORCE = MASS * LENGTH / TIME**2
 ENERGY = FORCE * LENGTH
@@ -32,7 +38,18 @@ UNITS = {
     ENERGY: "N m",
     ENERGY / TIME: "W",
 }
-_PREFIXES = ((1e-2, 1e-3, "m"), (1e-5, 1e-6, "µ"), (1e-8, 1e-9, "n"), (1e-11, 1e-12, "p"))
+# Largest first: from what a value on, and the size of the unit it is shown in.
+_PREFIXES = (
+    (1e12, 1e12, "T"),
+    (1e9, 1e9, "G"),
+    (1e6, 1e6, "M"),
+    (1e4, 1e3, "k"),
+    (1e-1, 1.0, ""),
+    (1e-3, 1e-3, "m"),
+    (1e-6, 1e-6, "µ"),
+    (1e-9, 1e-9, "n"),
+    (1e-12, 1e-12, "p"),
+)
 _TURN = 2 * np.pi
 _FINE = 4001  # instants that a smooth curve is drawn through, at least
 
@@ -69,12 +86,29 @@ def label(symbol: str, scale: Scale) -> str:
     return f"{symbol} ({scale.unit})" if scale.unit else symbol
 
 
-def quantity(run: Trajectory, name: str) -> Quantity:
-    """The quantity of that published name.
+def grouped(wanted: Groups) -> list[list[str]]:
+    """What is to share a panel, as published names: groups, or names by themselves."""
+    several = [wanted] if isinstance(wanted, str) else wanted
+    groups = [
+        [one] if isinstance(one, str) or not isinstance(one, Sequence) else list(one)
+        for one in several
+    ]
+    return [[published(name) for name in group] for group in groups if group]
+
+
+def published(name: Named) -> str:
+    """The published name of a quantity that is given by it, or as a symbol of the system."""
+    symbol = name.symbol if isinstance(name, Expr) else name
+    return symbol.published if isinstance(symbol, Symbol) else str(symbol or name)
+
+
+def quantity(run: Trajectory, named: Named) -> Quantity:
+    """The quantity of that published name, or symbol.
 
     Raises:
         DeclarationError: for a name the run does not have.
     """
+    name = published(named)
     if name in _WORDS:
         letter, unit = _WORDS[name]
         return Quantity(name, f"${letter}$", unit)
@@ -110,9 +144,12 @@ def common_unit(quantities: Sequence[Quantity]) -> str:
     """The unit that all of them have.
 
     Raises:
+        DeclarationError: where there are no quantities.
         UnitError: where they have none in common.
     """
     units = dict.fromkeys(q.unit for q in quantities)
+    if not units:
+        raise DeclarationError("a plot of nothing", expected="names of quantities")
     if len(units) > 1:
         named = ", ".join(f"{q.name} in {q.unit or 'no unit'}" for q in quantities)
         raise UnitError(
@@ -127,10 +164,10 @@ def scale_for(unit: str, largest: float) -> Scale:
     """A unit in which the largest value is neither tiny nor huge."""
     if unit == "rad":
         return Scale("turns", 1 / _TURN) if largest > 5 * _TURN else Scale("deg", 360 / _TURN)
-    if not unit or unit.startswith("kg") or not 0 < largest < 0.1:
+    if not unit or unit.startswith("kg"):
         return Scale(unit, 1.0)
     for least, size, prefix in _PREFIXES:
-        if largest >= least * 0.1:
+        if largest >= least:
             return Scale(prefix + unit, 1 / size)
     return Scale(unit, 1.0)
 

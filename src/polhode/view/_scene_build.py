@@ -12,7 +12,7 @@ from polhode.algebra import Vector
 from polhode.derive import Equations
 from polhode.model import Body
 from polhode.simulate import Trajectory
-from polhode.view._quantities import Array, equations_of
+from polhode.view._quantities import Array, Groups, equations_of, grouped
 from polhode.view._scene import (
     Account,
     Judgement,
@@ -52,7 +52,7 @@ def scene(
     *,
     title: str = "",
     about: str = "",
-    plots: Sequence[Sequence[str]] = (),
+    plots: Groups = (),
     meanings: Mapping[str, str] | None = None,
     judgements: Iterable[Judgement] = (),
 ) -> Scene:
@@ -62,7 +62,8 @@ def scene(
         run: the motion.
         title: heading; the system's name by default.
         about: the problem in a few sentences.
-        plots: groups of names of quantities to plot; coordinates, speeds and reactions by default.
+        plots: names of quantities to plot, or groups of names; by default coordinates, speeds
+            and reactions.
         meanings: what parameters are, by name.
         judgements: verdicts on claims about the system.
 
@@ -77,12 +78,12 @@ def scene(
 def account(
     run: Trajectory,
     *,
-    plots: Sequence[Sequence[str]] = (),
+    plots: Groups = (),
     meanings: Mapping[str, str] | None = None,
 ) -> Account:
     """What there is to read of a motion: the arguments are those of `scene`."""
     return Account(
-        panels=panels_of(run, plots or everything(run)),
+        panels=panels_of(run, grouped(plots) or everything(run)),
         motion=motion_of(run),
         reactions=reactions_of(run),
         parameters=parameters_of(run, meanings or {}),

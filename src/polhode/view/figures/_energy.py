@@ -74,7 +74,7 @@ def _changes(run: Trajectory, t: Array) -> dict[str, Array]:
     if float(np.ptp(potential)):
         changes[r"\Delta V"] = potential - potential[0]
         changes[r"\Delta T + \Delta V"] = kinetic + potential - kinetic[0] - potential[0]
-    return changes | ({"W": work} if np.any(work) else {})
+    return changes | ({"W": work} if largest(work) > _CONSTANT * _size(run, t) else {})
 
 
 def _departure(run: Trajectory, t: Array) -> Array:

@@ -10,6 +10,7 @@ import numpy as np
 from polhode.simulate import Trajectory
 from polhode.view._quantities import (
     Array,
+    Named,
     Quantity,
     common_unit,
     instants,
@@ -39,20 +40,20 @@ _DISPARATE = 25.0  # ratio of sizes that do not share an axis
 
 
 @house_style()
-def history(run: Trajectory, *names: str, ax: Axes | None = None) -> list[Line2D]:
+def history(run: Trajectory, *names: Named, ax: Axes | None = None) -> list[Line2D]:
     """Named quantities of one unit against time; angles in degrees, or turns where many.
 
     Of a single quantity that hardly changes only the change since the start is shown.
 
     Raises:
-        DeclarationError: for a name the run does not have.
+        DeclarationError: for a name the run does not have, or for none.
         UnitError: for quantities of different units.
     """
-    axes = axes_or_new(ax)
     quantities = [quantity(run, name) for name in names]
-    t = instants(run)
-    values = [run.evaluate(name, t) for name in names]
     unit = common_unit(quantities)
+    axes = axes_or_new(ax)
+    t = instants(run)
+    values = [run.evaluate(q.name, t) for q in quantities]
     shown = _SHARED.get(unit, ", ".join(q.symbol for q in quantities))
     if len(values) == 1:
         shown = quantities[0].symbol

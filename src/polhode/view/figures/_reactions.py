@@ -8,19 +8,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from polhode.algebra import Expr, Symbol
+from polhode.base import DeclarationError
 from polhode.derive import Equations
 from polhode.model import Frame
 from polhode.simulate import Trajectory
 from polhode.view._quantities import (
     Array,
-    Quantity,
-    common_unit,
-    equations_of,
     instants,
     largest,
     math,
     modes_of,
-    quantity,
     scale_for,
 )
 from polhode.view._scene_along import along
@@ -47,7 +44,8 @@ def reactions(
         ax: axes to draw in.
 
     Raises:
-        DeclarationError: for a contact or joint the system does not have.
+        DeclarationError: for a contact or joint that the system does not have, or that takes no
+            force along the motion.
         NumericError: where Newton's laws leave a component open.
     """
     element = run.system.element(contact)
@@ -55,6 +53,11 @@ def reactions(
         return _along_triad(run, element.name, triad, ax)
     restraints = [r for e in modes_of(run) for r in e.kinetics.restraints.get(element.name, ())]
     names = dict.fromkeys(r.name for r in restraints if not r.is_couple)
+    if not names:
+        raise DeclarationError(
+            f"the force of {element.name!r}, which takes none",
+            expected="a contact or joint that holds a point",
+        )
     return history(run, *names, ax=ax)
 
 
@@ -83,37 +86,48 @@ def _along_triad(run: Trajectory, name: str, triad: Frame, ax: Axes | None) -> l
 def reaction_ranges(run: Trajectory, *, ax: Axes | None = None) -> LineCollection:
     """Least to greatest value of every force component along the motion, N; a dot at the start.
 
-    Components that Newton's laws leave open are given by the least-force choice, with a ring.
+    Components that Newton's laws leave open are given by the least-force choice, with a ring; a
+    contact that is open has none.
+
+    Raises:
+        DeclarationError: for a motion on which no contact or joint takes a force.
     """
     forces = _forces(run)
     axes = axes_or_new(ax, 0.7 + 0.32 * len(forces))
-    unit = common_unit([one for one, _ in forces])
-    scale = scale_for(unit, largest(*(values for _, values in forces)))
+    scale = scale_for("N", largest(*forces.values()))
     rows = np.arange(len(forces))[::-1]
-    shown = [values * scale.factor for _, values in forces]
+    shown = [values * scale.factor for values in forces.values()]
     bars = axes.hlines(
         rows, [np.min(v) for v in shown], [np.max(v) for v in shown], color=COLOURS[0], linewidth=5
     )
-    open_ = run.equations.undetermined
-    for row, (one, _), values in zip(rows, forces, shown, strict=True):
-        face = "none" if one.name in open_ else COLOURS[0]
+    open_ = {name for equations in modes_of(run) for name in equations.undetermined}
+    for row, name, values in zip(rows, forces, shown, strict=True):
+        face = "none" if name in open_ else COLOURS[0]
         axes.plot(values[0], row, "o", markersize=7, color=COLOURS[0], markerfacecolor=face)
     axes.axvline(0, color=MUTED, linewidth=0.8, zorder=0)
-    axes.set_yticks(rows, [one.symbol for one, _ in forces])
+    axes.set_yticks(rows, [math(Expr.generator(Symbol(name))) for name in forces])
     axes.grid(visible=False, axis="y")
     axes.margins(x=0.08, y=0.12)
     axes.set_xlabel(f"force on the body ({scale.unit})")
     return bars
 
 
-def _forces(run: Trajectory) -> list[tuple[Quantity, Array]]:
-    equations = equations_of(run)
-    t = instants(run)
-    names = [line.name for line in equations.lines if not line.restraint.is_couple]
-    return [(_named(run, name), run.evaluate(equations.least[name], t)) for name in names]
+def _forces(run: Trajectory) -> dict[str, Array]:
+    """Components of all contact modes along the motion, by name."""
+    names = list(dict.fromkeys(name for e in modes_of(run) for name in _force_names(e)))
+    if not names:
+        raise DeclarationError(
+            f"forces of contacts and joints on {run.system.name}",
+            expected="a motion on which something takes a force",
+        )
+    zero = Expr.of(0)
+
+    def least(equations: Equations) -> list[Expr]:
+        return [equations.least.get(name, zero) for name in names]
+
+    return dict(zip(names, along(run, least, len(names), instants(run)).T, strict=True))
 
 
-def _named(run: Trajectory, name: str) -> Quantity:
-    if name in run.equations.undetermined:
-        return Quantity(name, math(Expr.generator(Symbol(name))), "N")
-    return quantity(run, name)
+def _force_names(equations: Equations) -> list[str]:
+    couples = {line.name for line in equations.lines if line.restraint.is_couple}
+    return [name for name in equations.least if name not in couples]

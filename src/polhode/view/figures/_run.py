@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from polhode.simulate import Trajectory
+from polhode.view._quantities import Named, grouped
 from polhode.view._scene_text import everything
 from polhode.view.figures._history import history, panels
 from polhode.view.figures._style import house_style, new_figure
@@ -18,7 +19,7 @@ _FOOT = 0.45
 _LEAST = 2.3
 
 
-def plot(run: Trajectory, *quantities: str | Sequence[str]) -> Figure:
+def plot(run: Trajectory, *quantities: Named | Sequence[Named]) -> Figure:
     """A figure of quantities against time: a panel for each name, or for each group of names.
 
     `plot(run, "theta", ("F_x", "F_z"), "energy")`; `.savefig("run.pdf")` writes it. Without
@@ -27,8 +28,7 @@ def plot(run: Trajectory, *quantities: str | Sequence[str]) -> Figure:
     Raises:
         DeclarationError: for a name the run does not have.
     """
-    groups = [(q,) if isinstance(q, str) else tuple(q) for q in quantities]
-    return figure_of_run(run, groups or everything(run))
+    return figure_of_run(run, grouped(quantities) or everything(run))
 
 
 @house_style()

@@ -108,10 +108,11 @@ def axes_or_new(ax: Axes | None, height: float = 2.6) -> Axes:
 
 
 def line_style(number: int) -> dict[str, Any]:
-    """Colour and dashes of the line with this number in a panel."""
+    """Colour and dashes of the line with this number in a panel; the first sixteen are unlike."""
+    again = number // len(COLOURS)
     return {
         "color": COLOURS[number % len(COLOURS)],
-        "linestyle": DASHES[number % len(DASHES)],
+        "linestyle": DASHES[(number + again) % len(DASHES)],
     }
 
 

@@ -16,6 +16,7 @@ from polhode.simulate import Trajectory
 from polhode.view._scene import Scene
 from polhode.view._scene_build import scene
 from polhode.view.figures import new_figure, save_figure
+from polhode.view.stills._asked import count_of_frames, kinds, pixels
 from polhode.view.stills._picture import SKY, picture
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 
 _DOTS = 100  # of an inch
 _SMOOTH = 2  # dots drawn for each dot of a movie
+_GIF_LEAST, _GIF_MOST = 0.01, 50  # frames per second
 
 
 def still(
@@ -47,12 +49,15 @@ def still(
         arrows: kinds of arrows to draw: force, load, torque, omega, momentum.
 
     Raises:
-        NumericError: for a time outside the motion.
+        DeclarationError: for a kind of arrow that there is not.
+        NumericError: for a time outside the motion, or a size that cannot be drawn.
         StoreError: for another ending, or where the file cannot be written.
     """
     target = Path(path)
+    wide_high, drawn = pixels(size), kinds(arrows)
+    seconds = to_si(time, TIME, "time")
     shown = _scene(run)
-    figure = _drawn(shown, _frame(shown, to_si(time, TIME, "time")), size, arrows)
+    figure = _drawn(shown, _frame(shown, seconds), wide_high, drawn)
     save_figure(figure, target, origin=json.dumps(dict(shown.origin), sort_keys=True))
 
 
@@ -78,21 +83,22 @@ def movie(
         arrows: kinds of arrows to draw: force, load, torque, omega, momentum.
 
     Raises:
-        NumericError: for a speed or rate that is not positive.
+        DeclarationError: for a kind of arrow that there is not.
+        NumericError: for a speed or rate that is not positive, for more than some thousands of
+            frames, or a size that cannot be drawn.
         StoreError: for another ending, where ffmpeg is not there, or where the file cannot be
             written.
     """
     target = Path(path)
-    if not (speed > 0 and rate > 0):
-        raise NumericError(f"speed {speed} at {rate} frames per second", expected="positive ones")
     write = _WRITERS.get(target.suffix.lower())
     if write is None:
         raise StoreError(f"a movie as {target.name}", expected="a name that ends in .gif or .mp4")
+    wide_high, drawn = pixels(size), kinds(arrows)
+    count = count_of_frames(run.duration, speed, rate)
     shown = _scene(run)
-    count = max(2, round(shown.duration / speed * rate))
     instants = np.arange(count) / count * (shown.frames - 1)
-    images = (_image(shown, float(frame), size, arrows) for frame in instants)
-    write_whole(target, write(images, rate, size))
+    images = (_image(shown, float(frame), wide_high, drawn) for frame in instants)
+    write_whole(target, write(images, rate, wide_high))
 
 
 def _scene(run: Trajectory | Scene) -> Scene:
@@ -131,10 +137,22 @@ def _image(shown: Scene, frame: float, size: tuple[int, int], arrows: Collection
 def _gif(images: Iterator[Image], rate: float, size: tuple[int, int]) -> bytes:
     from PIL import Image
 
+    if not _GIF_LEAST <= rate <= _GIF_MOST:
+        raise NumericError(
+            f"a GIF with {rate:g} frames per second",
+            expected=f"{_GIF_LEAST} to {_GIF_MOST}, which browsers show as they are meant",
+            advice="write an .mp4, or give another rate",
+        )
     first, *others = (image.quantize(128, dither=Image.Dither.NONE) for image in images)
+    ends = np.rint(np.arange(len(others) + 2) * 100 / rate).astype(int)  # GIFs count 1/100 s
     buffer = io.BytesIO()
     first.save(
-        buffer, "GIF", save_all=True, append_images=others, duration=round(1000 / rate), loop=0
+        buffer,
+        "GIF",
+        save_all=True,
+        append_images=others,
+        duration=[10 * int(n) for n in np.diff(ends)],
+        loop=0,
     )
     return buffer.getvalue()
 

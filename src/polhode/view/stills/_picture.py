@@ -24,7 +24,7 @@ _SHADOW = "#cfccc2"
 _LIGHT = np.array([0.35, -0.45, 0.82])  # along right, away from the eye, and up
 _AMBIENT = 0.5
 _TRACES = {"contact": "#c2410c", "centre": "#2563a8", "axis": "#7a3e93"}
-_ARROWS = {
+ARROWS = {
     "force": "#d55e00",
     "load": "#8a6d00",
     "torque": "#a8518f",
@@ -177,7 +177,7 @@ def _draw_arrow(
         return
     tail, tip = camera.project(np.array([start, start + along]))
     style = {"arrowstyle": "-|>,head_width=0.22,head_length=0.45", "linewidth": 1.6}
-    style |= {"color": _ARROWS[arrow.kind], "shrinkA": 0, "shrinkB": 0}
+    style |= {"color": ARROWS[arrow.kind], "shrinkA": 0, "shrinkB": 0}
     ax.annotate("", tip, tail, arrowprops=style, zorder=4)
 
 
