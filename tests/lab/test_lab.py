@@ -65,6 +65,14 @@ def test_what_is_read_is_of_the_picture_and_not_computed_again():
     assert len(seen.arrows) == len(whole.arrows)
 
 
+@pytest.mark.parametrize("name", ["marble-on-turntable/tilted", "ball-on-paper"])
+def test_without_friction_the_support_still_moves(name):
+    """The body does not feel it, but it is seen."""
+    desk = Desk(CATALOGUE[name])
+    played = desk.play(Wish(name, "smooth", duration="0.2 s"))
+    assert len(scenery(played.run).supports[0].pose.turn) > 1 or name == "ball-on-paper"
+
+
 def test_contacts_are_switched(ask):
     kinds = {}
     for contact in ("rolling", "smooth", "friction"):

@@ -330,3 +330,25 @@ def test_rounding_is_no_work():
     assert 0 < np.max(np.abs(run["work"])) < 1e-30
     labels = [line.get_label() for line in view.energies(run)]
     assert labels == [r"$\Delta T$", r"$\Delta V$", r"$\Delta T + \Delta V$"]
+
+
+@pytest.mark.parametrize("name", ["Fußboden", "_under", "$x^$", r"100 % of {0} \frac"])
+def test_a_name_is_text_wherever_it_is_shown(name, tmp_path):
+    m, a, g = ph.symbols("m a g", positive=True)
+    lab = ph.Frame("lab")
+    ball = ph.sphere("ball", mass=m, radius=a, axes=lab)
+    floor = ph.Coulomb(ball, on=ph.Plane(lab), mu=0.2, name=name)
+    numbers, start = {m: 0.1, a: 0.02, g: 9.81}, {"v_x": 1.0, "omega_y": 0.0}
+    run = ph.simulate(ph.System(floor, ph.Gravity(g), name=name), numbers, start, 0.1)
+    lines = view.power_balance(run)
+    told = lines[0].axes.get_legend().get_texts()[-1].get_text()
+    assert told.strip().replace(r"\$", "$") == name
+    assert view.svg_of(lines[0].get_figure())
+    ph.page(run, tmp_path / "named.html", title=name)
+
+
+def test_what_stands_for_the_direction_of_a_slip_is_told(bouncing):
+    shown = ph.scene(ph.simulate(*bouncing, {"v_x": 1.0, "omega_y": 0.0}, 0.05))
+    spoken = [formula.spoken for formula in shown.motion]
+    assert "directionₓ_floor = (vₓ − a ω_y)/slip_floor" in spoken
+    assert any(text.startswith("slip_floor = √(vₓ²") for text in spoken)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -27,7 +27,7 @@ from polhode.derive._form import IN_PARTS
 from polhode.derive._motion import Motion
 from polhode.derive._reactions import Line, Reactions, solve_reactions
 from polhode.derive._textbook import without_idle_factors
-from polhode.model import Body, System
+from polhode.model import Body, Contact, System
 
 
 @dataclass(frozen=True, repr=False)
@@ -296,12 +296,12 @@ class Equations(Shown):
 
     @cached_property
     def parameters(self) -> tuple[Symbol, ...]:
-        """Constants that occur, in alphabetical order."""
+        """Constants that occur, also in how supports move, in alphabetical order."""
         return self._of_kind(Kind.PARAMETER)
 
     @cached_property
     def functions(self) -> tuple[Symbol, ...]:
-        """Prescribed functions of time that occur, without their derivatives."""
+        """Prescribed functions of time that occur likewise, without their derivatives."""
         found = (s.base() for s in self._of_kind(Kind.FUNCTION))
         return tuple(dict.fromkeys(found))
 
@@ -321,10 +321,17 @@ class Equations(Shown):
         }
         return units.infer(units.uses_of(self.kinetics, energy, forces))
 
+    def _motion_of_supports(self) -> Iterator[Expr]:
+        """How what is touched moves, whether the contact feels it or not."""
+        for element in self.kinetics.elements:
+            if isinstance(element, Contact):
+                yield from (element.on.turning, *element.on.drift.components)
+
     def _of_kind(self, kind: Kind) -> tuple[Symbol, ...]:
         needs = (v for need in self.demands.values() for v in (need.force, need.couple))
         balances = [component for vector in needs for component in vector.components]
         rates = self.kinematics.values()
-        used = variables((*self.rows, *balances, self.energy, *rates, *self.closures))
+        own = (*self.rows, *balances, self.energy, *rates, *self.closures)
+        used = variables((*own, *self._motion_of_supports()))
         found = (s for s in used if s.kind is kind and s.name != "pi")
         return tuple(sorted(found, key=lambda s: s.published))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass
@@ -15,6 +16,8 @@ from polhode.model._checks import not_negative, of_type, positive
 from polhode.model._element import Element, Friction, Places, Restraint
 from polhode.model._supports import Plane
 from polhode.model._surface import Surface
+
+_ODD = re.compile(r"[^A-Za-z0-9_ ]")  # in a name that is to be part of a symbol's
 
 
 @dataclass(frozen=True, init=False)
@@ -115,6 +118,11 @@ class Contact(Element):
 
     def assumed_positive(self) -> tuple[Expr, ...]:
         return self._surface().assumed_positive(self.body.axes, self.on.up)
+
+    @property
+    def spelled(self) -> str:
+        """Its name as part of a symbol's, in ASCII: other letters are spelled as code points."""
+        return _ODD.sub(lambda found: f"u{ord(found[0]):04x}", self.name)
 
     def component(self, label: str) -> str:
         """Name of the reaction's component along a direction of the support."""

@@ -114,19 +114,19 @@ class Sliding(Contact):
     def direction(self) -> tuple[Symbol, Symbol]:
         """Components of the unit vector along the slip velocity."""
         first, second = (
-            Symbol(f"direction_{label}_{self.name}", Kind.SPEED) for label in self.on.tangents
+            Symbol(f"direction_{label}_{self.spelled}", Kind.SPEED) for label in self.on.tangents
         )
         return first, second
 
     @property
     def slip_speed(self) -> Symbol:
         """Magnitude of the slip velocity, m/s."""
-        return Symbol(f"slip_{self.name}", Kind.SPEED)
+        return Symbol(f"slip_{self.spelled}", Kind.SPEED)
 
     @property
     def slowness(self) -> Symbol:
         """What the law of Stribeck leaves of the static friction."""
-        return Symbol(f"slowness_{self.name}", Kind.SPEED)
+        return Symbol(f"slowness_{self.spelled}", Kind.SPEED)
 
     def friction(self, places: Places) -> tuple[Friction, ...]:
         first, second = (Expr.generator(symbol) for symbol in self.direction)

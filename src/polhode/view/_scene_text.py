@@ -8,9 +8,10 @@ from typing import cast
 
 import numpy as np
 
-from polhode.algebra import ZERO, Expr, Kind, Symbol
+from polhode.algebra import ZERO, Expr, Kind, Symbol, sqrt
 from polhode.base import PURE, provenance
 from polhode.derive import Equations
+from polhode.model import Sliding
 from polhode.simulate import Trajectory
 from polhode.view._mathml import equation, symbol
 from polhode.view._quantities import (
@@ -99,7 +100,28 @@ def _motion(equations: Equations) -> list[Formula]:
         for rate, value in equations.kinematics.items()
         if value != Expr.generator(rate)
     ]
-    return [*rows, *rates]
+    return [*rows, *rates, *_slips(equations)]
+
+
+def _slips(equations: Equations) -> list[Formula]:
+    """What the symbols of contacts that slide stand for."""
+    sliding = [e for e in equations.kinetics.elements if isinstance(e, Sliding)]
+    meanings = [pair for element in sliding for pair in _meanings(equations, element)]
+    return [equation("", Expr.generator(letter), meaning) for letter, meaning in meanings]
+
+
+def _meanings(equations: Equations, element: Sliding) -> list[tuple[Symbol, Expr]]:
+    motion = equations.kinetics
+    slips = [
+        motion.slip(element.restraint(label, motion.places)).dot(element.on.axes[label])
+        for label in element.on.tangents
+    ]
+    size = Expr.generator(element.slip_speed)
+    told = list(zip(element.direction, (slip / size for slip in slips), strict=True))
+    told.append((element.slip_speed, sqrt(slips[0] ** 2 + slips[1] ** 2)))
+    if element.law.stribeck is not None:
+        told.append((element.slowness, element.law.slowness(size)))
+    return told
 
 
 def _reactions(equations: Equations) -> list[Formula]:

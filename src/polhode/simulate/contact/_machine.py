@@ -315,14 +315,14 @@ class ModeMachine:
 def slip_symbols(contact: Contact) -> tuple[Symbol, Symbol]:
     """The slip velocity of a sliding contact, carried along."""
     first, second = (
-        Symbol(f"slip_{label}_{contact.name}", Kind.SPEED) for label in contact.on.tangents
+        Symbol(f"slip_{label}_{contact.spelled}", Kind.SPEED) for label in contact.on.tangents
     )
     return first, second
 
 
 def gap_symbol(contact: Contact) -> Symbol:
     """The height of a body above its support, carried along."""
-    return Symbol(f"gap_{contact.name}", Kind.COORDINATE)
+    return Symbol(f"gap_{contact.spelled}", Kind.COORDINATE)
 
 
 def singular(time: float) -> NumericError:

@@ -6,7 +6,7 @@ from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
 from polhode.simulate import Trajectory
-from polhode.view.figures._style import INK, SHADES, house_style
+from polhode.view.figures._style import INK, SHADES, house_style, worded
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,7 +34,7 @@ def modes(run: Trajectory, *, ax: Axes) -> list[Polygon | Rectangle]:
             "facecolor": SHADES[i % len(SHADES)],
             "hatch": _HATCHES[i % len(_HATCHES)],
         }
-        labels = [name, *["_"] * (len(spans) - 1)]
+        labels = [worded(name), *["_"] * (len(spans) - 1)]
         drawn += [
             ax.axvspan(*span, label=label, **style)
             for span, label in zip(spans, labels, strict=True)

@@ -12,7 +12,7 @@ from polhode.simulate import Trajectory
 from polhode.view._quantities import Array, instants, largest, modes_of, scale_for
 from polhode.view._scene_along import along
 from polhode.view.figures._history import legend_above, time_axis, widen
-from polhode.view.figures._style import INK, axes_or_new, house_style, line_style
+from polhode.view.figures._style import INK, axes_or_new, house_style, line_style, worded
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -41,7 +41,7 @@ def power_balance(run: Trajectory, *, ax: Axes | None = None) -> list[Line2D]:
     )
     working = {name: power for name, power in shares.items() if largest(power) > _TINY * size}
     for i, (name, power) in enumerate(working.items()):
-        lines += axes.plot(t, power * scale.factor, label=name, **line_style(i))
+        lines += axes.plot(t, power * scale.factor, label=worded(name), **line_style(i))
     widen(axes, np.concatenate([total, *working.values()]) * scale.factor)
     time_axis(axes, t)
     axes.set_ylabel(f"power ({scale.unit})")

@@ -22,7 +22,7 @@ from polhode.view._quantities import (
 )
 from polhode.view._scene_along import along
 from polhode.view.figures._history import history, legend_above, time_axis, widen
-from polhode.view.figures._style import COLOURS, MUTED, axes_or_new, house_style, line_style
+from polhode.view.figures._style import COLOURS, MUTED, axes_or_new, house_style, line_style, worded
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -77,7 +77,7 @@ def _along_triad(run: Trajectory, name: str, triad: Frame, ax: Axes | None) -> l
     ]
     widen(axes, values * scale.factor)
     time_axis(axes, t)
-    axes.set_ylabel(f"force at {name} ({scale.unit})")
+    axes.set_ylabel(f"force at {worded(name)} ({scale.unit})")
     legend_above(axes)
     return lines
 

@@ -116,6 +116,12 @@ def line_style(number: int) -> dict[str, Any]:
     }
 
 
+def worded(name: str) -> str:
+    """A name that somebody gave, as a legend shows it: no formula, and not hidden."""
+    plain = name.replace("$", r"\$")
+    return f" {plain}" if plain.startswith("_") else plain
+
+
 def for_dark_pages(svg: str) -> str:
     """The same picture for a dark background."""
     for light, dark in _DARK.items():
