@@ -266,6 +266,19 @@ def test_everything_is_reached_by_the_keyboard(coin):
     assert page.locator("[role=tab][aria-selected=true]").inner_text() == "Equations"
 
 
+def test_the_keyboard_stays_where_it_is_when_sliders_are_made_anew(coin):
+    page = coin.page
+    focused = "document.activeElement.value || document.activeElement.textContent"
+    page.locator(".contact input:checked").focus()
+    with answered(coin):
+        page.keyboard.press("ArrowRight")
+    assert page.evaluate(focused) == "friction"
+    page.get_by_role("button", name="Usual numbers").focus()
+    with answered(coin):
+        page.keyboard.press("Enter")
+    assert page.evaluate(focused) == "Usual numbers"
+
+
 def test_a_file_is_saved(coin, tmp_path):
     with coin.page.expect_download() as started:
         coin.page.get_by_label("Save as a file").select_option("csv")

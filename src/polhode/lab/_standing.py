@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from math import isfinite, prod
 from typing import Any
 
 import numpy as np
 
-from polhode.algebra import FLOATS, Expr, Generator, Symbol, compile_program, mathml
+from polhode.algebra import FLOATS, Expr, Generator, Symbol, compile_program
 from polhode.analyse import Branch, Condition, Stability, SteadyMotion, Truth, stability, steady
 from polhode.base import NumericError, PolhodeError
 from polhode.derive import Equations
 from polhode.lab._controls import unit_of
+from polhode.view import typeset
 
 _LARGEST = 1e15
+_REMEMBERED = 512  # formulas
 _LONGEST = 1500  # letters of a formula that is still shown
 Values = Mapping[str, float]
 
@@ -128,8 +130,9 @@ def _named(expression: Expr, here: Values) -> dict[str, Any]:
     return {"formula": _formula(expression.latex()), "value": value}
 
 
+@lru_cache(_REMEMBERED)
 def _formula(latex: str) -> str:
-    return mathml(latex) if len(latex) <= _LONGEST else ""
+    return typeset(latex) if len(latex) <= _LONGEST else ""
 
 
 def _value(expression: Expr, known: Values) -> float:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from math import ceil
+from math import ceil, isfinite
 
 import numpy as np
 
 from polhode.algebra import Vector
+from polhode.base import NumericError
 from polhode.derive import Equations
 from polhode.model import Body
 from polhode.simulate import Trajectory
@@ -69,6 +70,7 @@ def scene(
 
     Raises:
         DeclarationError: for the name of a quantity that the run does not have.
+        NumericError: for a motion beyond all numbers.
     """
     read = account(run, plots=plots, meanings=meanings)
     seen = scenery(run, title=title, about=about)
@@ -131,6 +133,12 @@ def _frames(run: Trajectory) -> int:
     bodies = run.equations.system.bodies
     coarse = np.linspace(0.0, run.duration, _COARSE)
     fastest = max(_fastest(run, body, coarse) for body in bodies)
+    if not isfinite(fastest):
+        raise NumericError(
+            f"{equations_of(run).system.name} turns faster than numbers can be squared",
+            expected="a motion that can be drawn",
+            advice="end it earlier, or check the sizes of the parameters and of the start",
+        )
     wanted = ceil(run.duration * fastest / _TURN)
     most = max(_MOST // len(bodies), _FEWEST)
     return 1 + min(max(wanted, _LEAST), most)

@@ -8,6 +8,7 @@ import type { SceneData } from "../scene";
 import { sections } from "../text";
 import { ask, Asker, askForNumbers } from "./ask";
 import { asking, Claims, said } from "./claims";
+import { keepingFocus } from "./focus";
 import { keeping } from "./keep";
 import { Player } from "./player";
 import { SheetDrag } from "./sheet";
@@ -101,6 +102,10 @@ class Lab {
   }
 
   private describe(found: Description): void {
+    keepingFocus([this.contact, this.panel], () => this.offer(found));
+  }
+
+  private offer(found: Description): void {
     this.forget();
     document.title = `${found.title} · polhode lab`;
     this.title.textContent = found.title;
