@@ -16,6 +16,7 @@ from polhode.lab import Own
 from polhode.lab._app import app_of
 from polhode.lab._describe import plots_of, read
 from polhode.lab._desk import Desk
+from polhode.lab._files import KINDS
 from polhode.lab._wish import Wish
 from polhode.view import scene, scenery
 
@@ -190,7 +191,8 @@ def test_files_are_made(ask, kind, begins):
     response = ask("export", system="gyroscope", duration="0.05 s", kind=kind)
     assert response.status_code == 200
     assert response.content.startswith(begins)
-    assert response.headers["content-disposition"].startswith("attachment; filename=")
+    called = response.headers["content-disposition"]
+    assert called == f'attachment; filename="gyroscope.{KINDS[kind].ending}"'
 
 
 def test_the_table_is_of_the_motion_that_was_asked_for(ask):

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import polhode as ph
-from polhode.base import DeclarationError, UnitError
+from polhode.base import DeclarationError, NumericError, UnitError
+from polhode.catalogue import CATALOGUE
 from polhode.view import figures as view
 from polhode.view._quantities import scale_for
 from polhode.view.figures._globe import View
@@ -352,3 +353,14 @@ def test_what_stands_for_the_direction_of_a_slip_is_told(bouncing):
     spoken = [formula.spoken for formula in shown.motion]
     assert "directionₓ_floor = (vₓ − a ω_y)/slip_floor" in spoken
     assert any(text.startswith("slip_floor = √(vₓ²") for text in spoken)
+
+
+def test_a_motion_that_ends_as_it_begins_is_told():
+    """A disk on its back is flat from the start."""
+    entry = CATALOGUE["rolling-disk"]
+    numbers, start = {"m": 0.2, "a": 0.03, "g": 9.81}, {"theta": np.pi, "phi_dot": 1, "omega_3": 40}
+    run = ph.simulate(entry.build(), numbers, start, "1 s")
+    assert run.duration == 0
+    for draw in (ph.scene, ph.plot, view.energies, view.support_trace):
+        with pytest.raises(NumericError, match=r"ends as it begins \(goes flat\)"):
+            draw(run)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import re
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from html import escape
@@ -35,6 +36,7 @@ _PURPOSES = {  # of the worker that a task is for
     "check": "claims",
     "export": "files",
 }
+_NOT_PLAIN = re.compile(r"[^A-Za-z0-9._]+")  # in the name of a file
 _PACKETS = ("run", "read", "follow")  # answered with a packet
 _PAGE = """<!DOCTYPE html>
 <html lang="en">
@@ -144,8 +146,10 @@ def _whole(task: str, body: bytes, reply: bytes) -> Response:
         return Response(content, media_type="application/octet-stream")
     if task != "export":
         return Response(content, media_type="application/json")
-    file = KINDS[Fields.read(body).text("kind")]
-    headers = {"content-disposition": f'attachment; filename="polhode.{file.ending}"'}
+    asked = Fields.read(body)
+    file = KINDS[asked.text("kind")]
+    name = _NOT_PLAIN.sub("-", asked.text("system")).strip("-") or "polhode"
+    headers = {"content-disposition": f'attachment; filename="{name}.{file.ending}"'}
     return Response(content, headers=headers, media_type=file.media)
 
 

@@ -10,7 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polhode.algebra import Expr, Symbol, dimension_of
-from polhode.base import LENGTH, MASS, PURE, TIME, DeclarationError, Dimension, UnitError
+from polhode.base import (
+    LENGTH,
+    MASS,
+    PURE,
+    TIME,
+    DeclarationError,
+    Dimension,
+    NumericError,
+    UnitError,
+)
 from polhode.derive import Equations
 from polhode.simulate import Trajectory
 
@@ -173,11 +182,32 @@ def scale_for(unit: str, largest: float) -> Scale:
 
 
 def instants(run: Trajectory) -> Array:
-    """Times to draw curves through: the samples, or finer ones over the same stretch, s."""
+    """Times to draw curves through: the samples, or finer ones over the same stretch, s.
+
+    Raises:
+        NumericError: for a motion that does not last.
+    """
+    refuse_an_instant(run)
     if len(run.t) >= _FINE:
         return run.t
     fine: Array = np.linspace(run.t[0], run.t[-1], _FINE)
     return fine
+
+
+def refuse_an_instant(run: Trajectory) -> None:
+    """Refuse a motion that ends as it begins, such as that of a disk that lies flat.
+
+    Raises:
+        NumericError: for a motion that does not last.
+    """
+    if run.duration <= 0:
+        kinds = [event.kind for event in run.events[1:-1]]
+        raise NumericError(
+            f"a motion of {run.equations.system.name} that ends as it begins"
+            f" ({', '.join(kinds) or 'at once'})",
+            expected="one that lasts, to be drawn",
+            advice="start elsewhere",
+        )
 
 
 def largest(*values: Array) -> float:

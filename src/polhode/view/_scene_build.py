@@ -13,7 +13,7 @@ from polhode.base import NumericError
 from polhode.derive import Equations
 from polhode.model import Body
 from polhode.simulate import Trajectory
-from polhode.view._quantities import Array, Groups, equations_of, grouped
+from polhode.view._quantities import Array, Groups, equations_of, grouped, refuse_an_instant
 from polhode.view._scene import (
     Account,
     Judgement,
@@ -70,7 +70,7 @@ def scene(
 
     Raises:
         DeclarationError: for the name of a quantity that the run does not have.
-        NumericError: for a motion beyond all numbers.
+        NumericError: for a motion beyond all numbers, or that does not last.
     """
     read = account(run, plots=plots, meanings=meanings)
     seen = scenery(run, title=title, about=about)
@@ -83,7 +83,8 @@ def account(
     plots: Groups = (),
     meanings: Mapping[str, str] | None = None,
 ) -> Account:
-    """What there is to read of a motion: the arguments are those of `scene`."""
+    """What there is to read of a motion: the arguments and errors are those of `scene`."""
+    refuse_an_instant(run)
     return Account(
         panels=panels_of(run, grouped(plots) or everything(run)),
         motion=motion_of(run),
@@ -96,7 +97,12 @@ def account(
 
 
 def scenery(run: Trajectory, *, title: str = "", about: str = "") -> Scene:
-    """What there is to look at: a scene without an account, which takes its time."""
+    """What there is to look at: a scene without an account, which takes its time.
+
+    Raises:
+        NumericError: for a motion beyond all numbers, or that does not last.
+    """
+    refuse_an_instant(run)
     equations = equations_of(run)
     t = np.linspace(0.0, run.duration, _frames(run))
     links = links_of(run, t)
