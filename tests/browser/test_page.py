@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import polhode as ph
 from browser.conftest import PHONE, SMALL
 from browser.runs import HOSTILE
 from polhode.catalogue import CATALOGUE
@@ -180,6 +181,21 @@ def test_dark_pages_are_dark(disk):
         means[scheme] = np.mean([int(part) for part in colour[4:-1].split(",")])
     assert means["light"] > 200
     assert means["dark"] < 50
+
+
+@pytest.mark.parametrize("duration", [1e-6, 1e6])
+def test_a_motion_of_any_length_can_be_watched(opened, tmp_path, duration):
+    """It takes 9 s or more of one's time, and not more than half a minute."""
+    m, a, g = ph.symbols("m a g", positive=True)
+    lab = ph.Frame("lab")
+    ball = ph.sphere("ball", mass=m, radius=a, axes=lab)
+    system = ph.System(ph.Rolling(ball, on=ph.Plane(lab)), ph.Gravity(g), name="ball")
+    run = ph.simulate(ph.derive(system), {m: 1, a: 1, g: 9.81}, {"v_x": 1 / duration}, duration)
+    ph.page(run, tmp_path / "ball.html")
+    with opened(tmp_path / "ball.html", viewport=SMALL) as shown:
+        speed = float(shown.page.get_by_label("Speed").input_value())
+        assert 9 <= duration / speed < 30
+        assert shown.complaints == []
 
 
 def test_nothing_moves_by_itself(disk, tmp_path):

@@ -351,8 +351,8 @@ def test_a_name_is_text_wherever_it_is_shown(name, tmp_path):
 def test_what_stands_for_the_direction_of_a_slip_is_told(bouncing):
     shown = ph.scene(ph.simulate(*bouncing, {"v_x": 1.0, "omega_y": 0.0}, 0.05))
     spoken = [formula.spoken for formula in shown.motion]
-    assert "directionₓ_floor = (vₓ − a ω_y)/slip_floor" in spoken
-    assert any(text.startswith("slip_floor = √(vₓ²") for text in spoken)
+    assert "eₓ_floor = (vₓ − a ω_y)/vₛₗᵢₚ_floor" in spoken
+    assert any(text.startswith("vₛₗᵢₚ_floor = √(vₓ²") for text in spoken)
 
 
 def test_a_motion_that_ends_as_it_begins_is_told():
@@ -364,3 +364,20 @@ def test_a_motion_that_ends_as_it_begins_is_told():
     for draw in (ph.scene, ph.plot, view.energies, view.support_trace):
         with pytest.raises(NumericError, match=r"ends as it begins \(goes flat\)"):
             draw(run)
+
+
+def test_rates_of_turning_have_no_thousands():
+    assert scale_for("rad/s", 4e4).unit == "rad/s"
+    assert scale_for("rad/s", 4e-3).unit == "mrad/s"
+
+
+def test_a_start_at_rest_is_told_as_rest():
+    """The evaluation leaves some 4e-15 rad/s of zero where 36 rad/s are reached."""
+    m, r, g = ph.symbols("m r g", positive=True)
+    lab = ph.Frame("lab")
+    ball = ph.sphere("ball", mass=m, radius=r, axes=lab)
+    system = ph.System(ph.Coulomb(ball, on=ph.Plane(lab), mu=0.3), ph.Gravity(g))
+    start = {"v_x": 1.0, "omega_y": 0.0}
+    run = ph.simulate(system, {m: 0.05, r: 0.02, g: 9.81}, start, 1.0)
+    assert 1e-15 < abs(run.evaluate("omega_y", 0.0)) < 1e-13
+    assert {number.name: number.value for number in ph.scene(run).start}["omega_y"] == 0

@@ -61,7 +61,8 @@ export class Clock {
   }
 }
 
-const RATES = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100];
+// From a billionth of the true speed to a billion times it.
+const RATES = Array.from({ length: 55 }, (_, i) => Number(`${[1, 2, 5][i % 3]}e${Math.floor(i / 3) - 9}`));
 const SHOW = 9; // s that a whole motion should take at least
 
 /** Speeds to offer, and the fastest of them that leaves time to watch. */

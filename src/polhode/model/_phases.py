@@ -114,14 +114,14 @@ class Sliding(Contact):
     def direction(self) -> tuple[Symbol, Symbol]:
         """Components of the unit vector along the slip velocity."""
         first, second = (
-            Symbol(f"direction_{label}_{self.spelled}", Kind.SPEED) for label in self.on.tangents
+            Symbol(f"e_{label}_{self.spelled}", Kind.SPEED) for label in self.on.tangents
         )
         return first, second
 
     @property
     def slip_speed(self) -> Symbol:
         """Magnitude of the slip velocity, m/s."""
-        return Symbol(f"slip_{self.spelled}", Kind.SPEED)
+        return Symbol(f"v_slip_{self.spelled}", Kind.SPEED)
 
     @property
     def slowness(self) -> Symbol:

@@ -175,6 +175,8 @@ def scale_for(unit: str, largest: float) -> Scale:
         return Scale("turns", 1 / _TURN) if largest > 5 * _TURN else Scale("deg", 360 / _TURN)
     if not unit or unit.startswith("kg"):
         return Scale(unit, 1.0)
+    if unit.startswith("rad") and largest >= 1:
+        return Scale(unit, 1.0)
     for least, size, prefix in _PREFIXES:
         if largest >= least:
             return Scale(prefix + unit, 1 / size)

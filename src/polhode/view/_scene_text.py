@@ -150,16 +150,21 @@ def parameters_of(run: Trajectory, meanings: Mapping[str, str]) -> tuple[Number,
 def start_of(run: Trajectory) -> tuple[Number, ...]:
     """Coordinates and speeds at the start."""
     names = [s.published for s in (*run.equations.coordinates, *run.equations.speeds)]
-    values = run.table(names, 0.0)
+    values, along = run.table(names, 0.0), run.table(names)
     return tuple(
-        Number(name, _letter(run, name), _settled(values[name]), quantity(run, name).unit)
+        Number(
+            name,
+            _letter(run, name),
+            _settled(values[name], largest(along[name])),
+            quantity(run, name).unit,
+        )
         for name in names
     )
 
 
-def _settled(value: Array) -> float:
+def _settled(value: Array, greatest: float) -> float:
     """Without what the evaluation of a series leaves of zero."""
-    return float(value) if abs(float(value)) > _NOTHING else 0.0
+    return float(value) if abs(float(value)) > _NOTHING * max(greatest, 1.0) else 0.0
 
 
 def evidence_of(run: Trajectory) -> tuple[Number, ...]:
