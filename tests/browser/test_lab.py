@@ -92,6 +92,11 @@ def differing(one, other):
     return np.count_nonzero(np.abs(one - other).sum(axis=2) > 60)
 
 
+def dark(pixels):
+    """How much of a picture is in the dark colours that only bodies have."""
+    return np.count_nonzero(pixels.max(axis=2) < 130)
+
+
 def test_the_body_is_seen_and_plays(coin, tmp_path):
     before = coin.picture(tmp_path)
     middle = before[before.shape[0] // 4 : -before.shape[0] // 4]
@@ -111,6 +116,14 @@ def test_a_slider_changes_the_motion_and_the_picture(coin, tmp_path):
     assert float(coin.value()) == pytest.approx(36, abs=0.1)
     assert differing(coin.picture(tmp_path), before) > 500
     assert "start=theta%3D36+deg" in coin.page.url
+
+
+def test_a_larger_body_is_seen_from_farther_away(coin, tmp_path):
+    before = coin.picture(tmp_path)
+    with answered(coin):
+        field(coin, "a").fill("0.1 m")
+        field(coin, "a").press("Enter")
+    assert 0.8 * dark(before) < dark(coin.picture(tmp_path)) < 1.25 * dark(before)
 
 
 WATCH_SIZES = """() => {

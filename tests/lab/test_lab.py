@@ -104,6 +104,19 @@ def test_without_friction_it_starts_as_if_it_rolled(ask):
     assert places["smooth"][:2] == pytest.approx(places["rolling"][:2], abs=1e-4)
 
 
+def test_a_start_without_friction_is_as_the_sliders_say(ask):
+    described = answer(ask("describe", system="ball-on-paper", contact="smooth"))
+    told = {c["name"]: c["text"] for c in described["start"]}
+    begun = opened(ask("read", system="ball-on-paper", contact="smooth"))["account"]["start"]
+    values = {number["name"]: number["value"] for number in begun}
+    assert abs(values["omega_y"]) > 1
+    assert float(told["omega_y"].split()[0]) == pytest.approx(values["omega_y"])
+    still = {**told, "omega_y": "0"}
+    begun = opened(ask("read", system="ball-on-paper", contact="smooth", start=still))
+    values = {number["name"]: number["value"] for number in begun["account"]["start"]}
+    assert values["omega_y"] == 0
+
+
 def test_friction_slips_where_rolling_needs_too_much(ask):
     numbers = {"settings": {"mu": "0.05"}, "contact": "friction", "duration": "0.6 s"}
     path = [[t / 60, 0.1 * (1 - math.cos(t / 4)), 0] for t in range(30)]

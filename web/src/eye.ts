@@ -50,12 +50,11 @@ export class Eye {
     this.controls.enabled = turns;
   }
 
-  /** Look from where an earlier eye did. */
-  takeOver({ controls }: Eye, from: Vector3): void {
-    const moved = this.controls.target.clone().sub(controls.target);
-    if (!this.follow) moved.setScalar(0);
-    this.controls.target.copy(controls.target).add(moved);
-    this.camera.position.copy(from).add(moved);
+  /** Look from where an earlier eye did, as far away as goes with the size of the bodies. */
+  takeOver({ controls, room }: Eye, from: Vector3): void {
+    const offset = from.clone().sub(controls.target).multiplyScalar(this.room.reach / room.reach);
+    if (!this.follow && this.room.reach === room.reach) this.controls.target.copy(controls.target);
+    this.camera.position.copy(this.controls.target).add(offset);
     this.controls.enabled = controls.enabled;
     this.controls.update();
   }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ import numpy as np
 from polhode.algebra import FLOATS, Expr, compile_program
 from polhode.base import PURE, DeclarationError, NumericError, Progress, to_si
 from polhode.catalogue import Entry, Numbers, numbers_of
+from polhode.lab._controls import unit_of
 from polhode.lab._sheet import sheet_path
 from polhode.lab._variants import MU, Variant, declared_contact, variant
 from polhode.lab._wish import Wish
@@ -45,7 +46,10 @@ class Desk:
     def variant(self, contact: str) -> Variant:
         """The system with its contacts of a kind, derived once."""
         if contact not in self._variants:
-            self._variants[contact] = variant(self.entry, contact)
+            made = variant(self.entry, contact)
+            if contact == "smooth" != declared_contact(self.entry.build()):
+                made = self._begun_as_if_rolling(made)
+            self._variants[contact] = made
         return self._variants[contact]
 
     def numbers(self, wish: Wish) -> Numbers:
@@ -67,10 +71,7 @@ class Desk:
         parameters = dict(found.parameters)
         if friction:
             parameters[MU.name] = to_si(friction, PURE, MU.name)
-        start = dict(found.start)
-        if self._begins_as_if_rolling(wish.contact):
-            start = self._rolling_speeds(wish, found, chosen) | start
-        return Numbers(parameters, found.forcing, start, found.duration)
+        return replace(found, parameters=parameters)
 
     def play(self, wish: Wish, progress: Progress | None = None) -> Played:
         """The motion that is asked for; the last one is kept, as it is asked for again to be read.
@@ -103,19 +104,18 @@ class Desk:
             self._experiments.popitem(last=False)
         return self._experiments[key]
 
-    def _begins_as_if_rolling(self, contact: str) -> bool:
-        return contact == "smooth" and declared_contact(self.variant("").system) != "smooth"
-
-    def _rolling_speeds(self, wish: Wish, numbers: Numbers, chosen: Variant) -> dict[str, float]:
-        """Speeds that rolling implies, for a start that only friction's absence tells apart."""
+    def _begun_as_if_rolling(self, smooth: Variant) -> Variant:
+        """With the usual start as rolling has it, so that only friction's absence is seen."""
         rolling = self.variant("").equations
-        free = {symbol.published for symbol in chosen.equations.speeds}
-        wanted = {s.published: e for s, e in rolling.dependent.items() if s.published in free}
-        if not wanted:
-            return {}
-        forcing = numbers_of(self.entry, rolling, wish.settings, {}, wish.duration).forcing
-        known = {**numbers.parameters, **numbers.start, **_rates(forcing)}
-        return {name: _value(e, known) for name, e in wanted.items()}
+        usual = numbers_of(self.entry, rolling)
+        known = {**usual.parameters, **usual.start, **_rates(usual.forcing)}
+        implied = {
+            symbol.published: f"{_value(rolling.dependent[symbol], known):.9g} {unit}"
+            for symbol in smooth.equations.speeds
+            if symbol in rolling.dependent
+            for unit in [unit_of(symbol, smooth.equations)]
+        }
+        return replace(smooth, entry=replace(smooth.entry, start={**implied, **smooth.entry.start}))
 
 
 def _rates(forcing: Mapping[str, Expr]) -> dict[str, float]:
