@@ -5,6 +5,7 @@ import re
 from collections import Counter
 from dataclasses import replace
 from html.parser import HTMLParser
+from itertools import pairwise
 from xml.etree import ElementTree
 
 import pytest
@@ -170,7 +171,7 @@ def unescaped(expression):
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_every_system_is_told_whole(tour, name):
     entry, found = CATALOGUE[name], section(tour, name)
-    headings = re.findall("<h3>(.*?)</h3>", found)
+    headings = re.findall('<h[23] class="part">(.*?)</h[23]>', found)
     assert headings == [
         "In motion",
         "Declaration",
@@ -287,3 +288,10 @@ def test_a_folder_that_cannot_be_made_is_an_error(tmp_path, monkeypatch):
     monkeypatch.setattr("polhode.tour._tour.CATALOGUE", {})
     with pytest.raises(StoreError, match="cannot be made"):
         write_tour(tmp_path / "tour", SilentProgress())
+
+
+def test_headings_go_down_by_one_level_at_a_time(tour):
+    for page in tour.pages.values():
+        levels = [int(level) for level in re.findall(r"<h(\d)", page)]
+        assert levels[0] == 1
+        assert all(after <= before + 1 for before, after in pairwise(levels))

@@ -72,8 +72,8 @@ def problem_page(problem: Problem, all_problems: Sequence[Problem]) -> str:
         tag("nav", *_links(problem, all_problems), aria_label="problems"),
         tag(
             "main",
-            _section(first, "h1"),
-            *(_section(variant, "h2") for variant in variants),
+            _section(first, 1),
+            *(_section(variant, 2) for variant in variants),
             verdicts(problem.claims),
         ),
         tag("footer", *_closing(problem.systems)),
@@ -152,9 +152,9 @@ def _links(problem: Problem, all_problems: Sequence[Problem]) -> Iterable[Markup
             yield tag("a", other.title, href=f"{other.name}.html")
 
 
-def _section(worked: Worked, heading: str) -> Markup:
+def _section(worked: Worked, level: int) -> Markup:
     shown = (picture(worked, drawing, FIGURES) for drawing in worked.drawings)
-    return section(worked, tag("div", *shown, class_="figures"), heading)
+    return section(worked, tag("div", *shown, class_="figures"), level)
 
 
 def _closing(everything: Sequence[Worked]) -> tuple[Markup, ...]:

@@ -26,32 +26,39 @@ _IDEALS = {
 ZERO = Expr.constant(0)
 
 
-def section(worked: Worked, figures: Markup, heading: str) -> Markup:
-    """All of one system, under a heading of its level."""
+def section(worked: Worked, figures: Markup, level: int) -> Markup:
+    """All of one system, under a heading of its level (1 for that of the page)."""
     entry = worked.entry
     return tag(
         "section",
-        tag(heading, entry.title),
+        tag(f"h{level}", entry.title),
         tag("p", tag("code", f"polhode run {entry.name}", class_="command")),
         tag("p", with_formulas(entry.about)),
-        tag("h3", "In motion"),
-        player(worked),
-        tag("h3", "Declaration"),
-        tag("pre", tag("code", source_of(entry.build)), tabindex="0"),
-        *_assumptions(worked),
-        *_kinematics(worked),
-        tag("h3", "Equations of motion"),
-        *(equation(row, ZERO) for row in worked.equations.motion),
-        *_reactions(worked),
-        *_energy(worked),
-        *_conserved(worked),
-        tag("h3", "The default run"),
-        _numbers(worked),
-        figures,
-        tag("h3", "Checks"),
-        _checks(worked),
+        *_headed(_parts(worked, figures), level + 1),
         id=anchor(worked),
     )
+
+
+def _parts(worked: Worked, figures: Markup) -> Iterator[tuple[str, Iterable[Markup]]]:
+    yield "In motion", [player(worked)]
+    yield "Declaration", [tag("pre", tag("code", source_of(worked.entry.build)), tabindex="0")]
+    yield "Assumptions", _assumptions(worked)
+    yield "Coordinates and speeds", _kinematics(worked)
+    yield "Equations of motion", (equation(row, ZERO) for row in worked.equations.motion)
+    yield "Reactions", _reactions(worked)
+    yield "Energy", _energy(worked)
+    yield "Conserved", _conserved(worked)
+    yield "The default run", [_numbers(worked), figures]
+    yield "Checks", [_checks(worked)]
+
+
+def _headed(parts: Iterable[tuple[str, Iterable[Markup]]], level: int) -> Iterator[Markup]:
+    """Each part under a heading, but for those that are empty."""
+    for title, content in parts:
+        shown = joined(content)
+        if shown:
+            yield tag(f"h{level}", title, class_="part")
+            yield shown
 
 
 def anchor(worked: Worked) -> str:
@@ -119,13 +126,11 @@ def _assumptions(worked: Worked) -> Iterator[Markup]:
         tag("li", inline(positive), " is taken to be positive.")
         for positive in equations.assumed_positive
     ]
-    yield tag("h3", "Assumptions")
     yield tag("ul", tag("li", "All bodies are rigid."), *told)
 
 
 def _kinematics(worked: Worked) -> Iterator[Markup]:
     equations = worked.equations
-    yield tag("h3", "Coordinates and speeds")
     yield tag(
         "p",
         "Coordinates ",
@@ -142,7 +147,6 @@ def _kinematics(worked: Worked) -> Iterator[Markup]:
 def _reactions(worked: Worked) -> Iterator[Markup]:
     equations = worked.equations
     components = equations.components
-    yield tag("h3", "Reactions")
     for element, restraints in equations.kinetics.restraints.items():
         yield tag("p", f"On the {restraints[0].body.name}, by ", tag("em", element), ":")
         yield from _assigned({r.name: components[r.name] for r in restraints})
@@ -165,7 +169,6 @@ def _assigned(values: dict[str, Expr]) -> Iterator[Markup]:
 
 def _energy(worked: Worked) -> Iterator[Markup]:
     equations = worked.equations
-    yield tag("h3", "Energy")
     yield equation(symbol("T"), equations.kinetic_energy)
     if equations.potential_energy:
         yield equation(symbol("V"), equations.potential_energy)
@@ -178,8 +181,6 @@ def _energy(worked: Worked) -> Iterator[Markup]:
 
 def _conserved(worked: Worked) -> Iterator[Markup]:
     speeds = {i.name: s for i in worked.conserved if (s := i.expression.symbol)}
-    if len(worked.conserved):
-        yield tag("h3", "Conserved")
     for invariant in worked.conserved:
         if invariant.name not in speeds:
             yield equation(symbol(invariant.name), invariant.expression)

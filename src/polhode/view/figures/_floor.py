@@ -114,6 +114,9 @@ def _drawn(ax: Axes | None, paths: dict[str, Array], plane: Plane) -> list[Line2
     if across > up and not axes.xaxis_inverted():
         axes.invert_xaxis()
     legend_above(axes)
+    figure = axes.get_figure(root=True)
+    if ax is None and figure is not None:
+        figure.draw_without_rendering()  # equal scales may need wider labels
     return lines
 
 

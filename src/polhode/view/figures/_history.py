@@ -23,6 +23,7 @@ from polhode.view.figures._style import axes_or_new, house_style, line_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.legend import Legend
     from matplotlib.lines import Line2D
 
 _SHARED = {
@@ -35,7 +36,7 @@ _SHARED = {
 }
 _ROUNDING = 1e-11  # relative spread below which a quantity counts as constant
 _SLIGHT = 1e-3  # relative spread below which only the change is worth showing
-_IN_A_ROW = 4  # entries of a legend
+_ROOM = 1.1  # widths of the axes that a legend may take
 _DISPARATE = 25.0  # ratio of sizes that do not share an axis
 
 
@@ -80,10 +81,15 @@ def time_axis(axes: Axes, t: Array) -> None:
 
 
 def legend_above(axes: Axes) -> None:
-    """A legend above the axes, out of the way of the lines; in two rows where it is long."""
+    """A legend above the axes, out of the way of the lines; in two rows where one is too wide."""
     handles, _ = axes.get_legend_handles_labels()
-    columns = len(handles) if len(handles) <= _IN_A_ROW else (len(handles) + 1) // 2
-    axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=columns)
+    legend = _legend(axes, len(handles))
+    if len(handles) > 1 and legend.get_window_extent().width > _ROOM * axes.bbox.width:
+        _legend(axes, (len(handles) + 1) // 2)
+
+
+def _legend(axes: Axes, columns: int) -> Legend:
+    return axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=columns)
 
 
 def panels(run: Trajectory, names: Sequence[str]) -> list[list[str]]:
