@@ -10,7 +10,7 @@ from nbclient import NotebookClient
 
 import polhode as ph
 from polhode.catalogue import CATALOGUE
-from polhode.view import html_of
+from polhode.view import html_of, page_of
 
 CELLS = (
     "import polhode as ph\n"
@@ -175,3 +175,48 @@ def test_derivatives_and_fits_are_tables():
     measured = {"theta": ph.simulate(disk, numbers, start, "0.05 s").evaluate("theta", times)}
     best = ph.fit(disk, numbers | {"a": 0.031}, start, times, measured, vary=["a"])
     assert "<td>a</td><td>0.03</td>" in best._repr_html_()
+
+
+PARTS = {
+    f"{name}: {type(part).__name__}": part
+    for name in sorted(CATALOGUE)
+    for system in [CATALOGUE[name].build()]
+    for part in (*system.bodies, *system.elements, *system.loads)
+}
+
+
+@pytest.mark.parametrize("part", PARTS.values(), ids=PARTS)
+def test_a_part_of_a_declaration_is_a_table_of_its_fields(part):
+    html = part._repr_html_()
+    assert f"<caption>{type(part).__name__} {part.name}</caption>" in html
+    for name, value in part.parts:
+        assert f"<td>{name}</td>" in html
+        if isinstance(value, ph.Expr):
+            assert f"<td>{name}</td><td><math" in html
+
+
+def test_supports_points_and_frames_are_shown():
+    lab = ph.Frame("lab")
+    theta = ph.coordinates("theta")[0]
+    axes = lab.rotated(theta, "x", labels="1 2 3", name="<tilted>")
+    ball = ph.sphere("ball", mass=1, radius=2, axes=lab)
+    turning = ph.Turntable(lab, ph.symbol("Omega"))._repr_html_()
+    assert "<td>Omega</td><td><math" in turning
+    assert "<td>body</td><td>ball</td>" in ball.point()._repr_html_()
+    shown = axes._repr_html_()
+    assert "out of lab (x y z)" in shown
+    assert "&lt;tilted&gt; (1 2 3)</td><td><math" in shown
+    assert "</td><td>x</td>" in shown
+    assert "<strong>Frame lab (x y z)</strong></div>" in lab._repr_html_()
+
+
+def test_a_scene_is_played_as_its_motion_is():
+    numbers = {"M": 0.5, "a": 0.06, "I_1": 6.25e-4, "I_2": 3.5e-4, "g": 9.81}
+    start = {"theta": "60 deg", "omega_1": 150}
+    run = ph.simulate(CATALOGUE["gyroscope"].build(), numbers, start, "0.1 s")
+    scene = ph.scene(run, title="it's a top")
+    html = scene._repr_html_()
+    assert html.startswith('<iframe title="it&#x27;s a top, played" sandbox=')
+    (inner,) = framed(html)
+    assert inner == page_of(scene)
+    assert repr(scene) == f'Scene "it\'s a top": gyroscope, {scene.frames} frames over 0.1 s'

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 from polhode.algebra import Expr, ExprLike, Matrix, Vector
 from polhode.base import DeclarationError
 from polhode.model._checks import of_type, quantity
+from polhode.model._declared import Declared
 from polhode.model._frame import Frame
 from polhode.model._inertia import InertiaLike, check_inertia, check_mass, is_symmetric
 from polhode.model._spin import About, Spin, WithAxes
@@ -16,7 +18,7 @@ from polhode.model._surface import Rim, Surface
 
 
 @dataclass(frozen=True)
-class Body:
+class Body(Declared):
     """A rigid body.
 
     Args:
@@ -95,6 +97,24 @@ class Body:
     def __repr__(self) -> str:
         return f"Body {self.name!r}: mass {self.mass}, inertia {self._moments} along {self.axes}"
 
+    def __str__(self) -> str:
+        return repr(self)
+
+    @property
+    def brief(self) -> str:
+        """Its name."""
+        return self.name
+
+    @property
+    def parts(self) -> Iterator[tuple[str, object]]:
+        """What it was made with; principal moments where there are such."""
+        yield "mass", self.mass
+        yield "inertia", self._moments
+        yield "axes", self.axes
+        yield "spin", self.spin
+        if self.surface is not None:
+            yield "surface", self.surface
+
     @property
     def _moments(self) -> Matrix | tuple[Expr, ...]:
         principal = tuple(self.inertia[i, i] for i in range(3))
@@ -132,11 +152,16 @@ class Body:
 
 
 @dataclass(frozen=True)
-class BodyPoint:
+class BodyPoint(Declared):
     """A point of a body, by its vector from the centre of mass (m)."""
 
     body: Body
     offset: Vector
+
+    @property
+    def brief(self) -> str:
+        """The body and the place."""
+        return f"point {self.offset} of {self.body.name}"
 
     def require_fixed(self, what: str) -> None:
         """Refuse a point that moves through the body.

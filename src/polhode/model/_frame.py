@@ -20,13 +20,13 @@ from polhode.algebra import (
     sin,
     zero_vector,
 )
-from polhode.base import DeclarationError
+from polhode.base import DeclarationError, Shown
 
 IDENTITY = Matrix.diagonal([1, 1, 1])
 
 
 @dataclass(frozen=True)
-class Frame:
+class Frame(Shown):
     """Three orthonormal directions, for vectors to be resolved along.
 
     A frame without a parent is a root: the laboratory. `turned` is the angular velocity of a root

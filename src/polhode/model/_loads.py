@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from polhode.algebra import ZERO, Expr, ExprLike, Vector
 from polhode.model._body import Body, BodyPoint
 from polhode.model._checks import not_negative, of_type, quantity, unit_vector
+from polhode.model._declared import Declared
 from polhode.model._element import Places
 
 #: Velocity of the centre of mass and angular velocity of every body.
@@ -41,7 +42,7 @@ class Action:
         return self.force.dot(point) + self.couple.dot(angular)
 
 
-class Load(ABC):
+class Load(Declared, ABC):
     """A load; conservative where it has a potential."""
 
     name: str

@@ -8,11 +8,12 @@ from dataclasses import dataclass
 from polhode.algebra import ZERO, Expr, ExprLike, Vector
 from polhode.base import DeclarationError
 from polhode.model._checks import quantity
+from polhode.model._declared import Declared
 from polhode.model._frame import Frame
 
 
 @dataclass(frozen=True, init=False)
-class Plane:
+class Plane(Declared):
     """A plane at rest in a frame, through the frame's origin.
 
     Args:
@@ -30,6 +31,11 @@ class Plane:
         tilted = axes.rotated(tilt, first, name="slope") if Expr.of(tilt) else axes
         object.__setattr__(self, "axes", tilted)
         object.__setattr__(self, "normal", normal)
+
+    @property
+    def brief(self) -> str:
+        """Its kind and the frame that it is at rest or moves in."""
+        return f"{type(self).__name__} in {self.axes}, {self.normal} up"
 
     @property
     def up(self) -> Vector:

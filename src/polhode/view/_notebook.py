@@ -26,6 +26,7 @@ from polhode.study import Ensemble
 from polhode.view._markup import folded, framed, rows, table
 from polhode.view._mathml import equation, positive, symbol
 from polhode.view._page import page_of
+from polhode.view._scene import Scene
 from polhode.view._scene_build import scene
 
 _ZERO = Expr.of(0)
@@ -110,9 +111,18 @@ def _(thing: Ensemble) -> str:
 
 @html_of.register
 def _(thing: Trajectory) -> str:
+    return _played(scene(thing))
+
+
+@html_of.register
+def _(thing: Scene) -> str:
+    return _played(thing)
+
+
+def _played(shown: Scene) -> str:
     """A page in a frame of its own, which can neither reach the notebook nor any network."""
-    inner = page_of(scene(thing)).replace("&", "&amp;").replace("'", "&#39;")
-    title = escape(f"{thing.system.name}, played", quote=True)
+    inner = page_of(shown).replace("&", "&amp;").replace("'", "&#39;")
+    title = escape(f"{shown.title}, played", quote=True)
     return (
         f"<iframe title=\"{title}\" sandbox='allow-scripts' srcdoc='{inner}' "
         f"style='width:{_WIDE};height:{_TALL}px;border:0'></iframe>"

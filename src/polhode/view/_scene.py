@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from polhode.base import Shown
 from polhode.claims import Answer, Verdict
 from polhode.view._quantities import Array
 from polhode.view._typeset import typeset
@@ -297,7 +298,7 @@ class Account:
 
 
 @dataclass(frozen=True)
-class Scene:
+class Scene(Shown):
     """All there is to see of a motion; `as_json` gives the document that a page is made of.
 
     Attributes:
@@ -339,6 +340,10 @@ class Scene:
     happenings: tuple[Happening, ...] = ()
     judgements: tuple[Judgement, ...] = ()
     origin: Mapping[str, Any] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        bodies = ", ".join(body.name for body in self.bodies)
+        return f"Scene {self.title!r}: {bodies}, {self.frames} frames over {self.duration:g} s"
 
     def as_json(self) -> dict[str, Any]:
         """As plain data under the names of the attributes.
