@@ -1,7 +1,8 @@
 """Runs the examples of every page of the documents, shows the figures that they make, and lists
 all public names.
 
-MkDocs calls `on_files` and `on_page_markdown`; the tests call `run_page` and `all_names`.
+MkDocs calls `on_files`, `on_page_markdown` and `on_page_content`; the tests call `run_page` and
+`all_names`.
 """
 
 from __future__ import annotations
@@ -19,6 +20,8 @@ import polhode
 
 _BLOCK = re.compile(r"^```(python|text)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _ALL_NAMES = "{{ all names }}"
+_DOTTED = re.compile("<[^>]*>|(.)([\u0307\u0308])")
+_DOTS = {"\u0307": "\u02d9", "\u0308": "\u00a8"}
 
 
 class ExampleError(Exception):
@@ -71,6 +74,11 @@ def on_page_markdown(markdown: str, **_: Any) -> str:
     )
 
 
+def on_page_content(html: str, **_: Any) -> str:
+    """Set the dots of time derivatives over their letters, which fonts for code seldom do."""
+    return _DOTTED.sub(_dotted, html)
+
+
 def all_names() -> Iterator[tuple[str, str, str]]:
     """Every public name, where it lives, and the first sentence or two that are said of it."""
     import griffe
@@ -82,6 +90,13 @@ def all_names() -> Iterator[tuple[str, str, str]]:
             said = package[f"{home}.{name}".removeprefix("polhode.")].docstring
             summary = said.value.partition("\n\n")[0] if said else ""
             yield name, f"{home}.{name}", " ".join(summary.split()).replace("|", r"\|")
+
+
+def _dotted(found: re.Match[str]) -> str:
+    letter, dots = found.groups()
+    if not dots:  # a tag, within which nothing is set
+        return found[0]
+    return f'<span class="dotted" data-dots="{_DOTS[dots]}">{letter}<span>{dots}</span></span>'
 
 
 def _made_by(text: str, name: str) -> Iterator[tuple[str, bytes]]:
