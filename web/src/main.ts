@@ -20,13 +20,10 @@ function show(scene: SceneData): void {
   document.body.append(main, footer(scene));
 
   theatre.append(transport(clock));
-  const drawn = new Plots(plots);
-  drawn.show(scene.panels, clock);
   const dark = matchMedia("(prefers-color-scheme: dark)");
-  dark.addEventListener("change", () => drawn.theme());
 
-  // What takes its time comes after the words and plots are on the screen.
-  void painted().then(() => {
+  // What takes its time comes after the words are on the screen: the picture, then the plots.
+  void painted().then(async () => {
     const stage = staged(scene, picture);
     keys(clock, picture, stage);
     if (stage) {
@@ -35,7 +32,11 @@ function show(scene: SceneData): void {
       stage.theme(dark.matches);
       dark.addEventListener("change", () => stage.theme(dark.matches));
       stage.drawNow();
+      await painted();
     }
+    const drawn = new Plots(plots);
+    drawn.show(scene.panels, clock);
+    dark.addEventListener("change", () => drawn.theme());
     document.body.dataset.ready = "yes";
   });
 }
