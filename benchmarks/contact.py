@@ -136,7 +136,7 @@ def draw(rows: list[Any], file: Path) -> None:
         panel.set(title=TITLES[task], xlabel="processor time of one motion, s")
         panel.grid(alpha=0.3)
     panels[0].set_ylabel("error of the last place and velocity, SI")
-    panels[0].legend(loc="lower left")
+    panels[-1].legend(loc="lower right")  # away from all that is drawn
     figure.tight_layout()
     figure.savefig(file, metadata={"Date": None})
 
