@@ -18,6 +18,7 @@ from polhode.catalogue import CATALOGUE
 WIDE = {"width": 1000, "height": 640}
 SMALL = {"width": 520, "height": 480}
 PHONE = {"width": 390, "height": 844}
+AXE = Path(__file__).parent / "node_modules" / "axe-core" / "axe.min.js"
 
 
 @dataclass

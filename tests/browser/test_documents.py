@@ -10,10 +10,9 @@ from threading import Thread
 
 import pytest
 
-from browser.conftest import PHONE, WIDE
+from browser.conftest import AXE, PHONE, WIDE
 
 ROOT = Path(__file__).parents[2]
-AXE = Path(__file__).parent / "node_modules" / "axe-core" / "axe.min.js"
 #: A front page, examples with figures, a reference with tables of parameters.
 CHOSEN = ("index.md", "tutorials/spinning-coin.md", "reference/simulating.md")
 

@@ -5,14 +5,12 @@ import re
 import subprocess
 import sys
 from contextlib import contextmanager
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from browser.conftest import PHONE, WIDE, Opened
+from browser.conftest import AXE, PHONE, WIDE, Opened
 
-AXE = Path(__file__).parent / "node_modules" / "axe-core" / "axe.min.js"
 PATIENCE = 60_000  # ms
 COIN = "#system=spinning-coin"
 

@@ -1,17 +1,15 @@
 """A page in a browser: it plays, it can be steered, and it keeps to itself."""
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import polhode as ph
-from browser.conftest import PHONE, SMALL
+from browser.conftest import AXE, PHONE, SMALL
 from browser.runs import HOSTILE
 from polhode.catalogue import CATALOGUE
 
-AXE = Path(__file__).parent / "node_modules" / "axe-core" / "axe.min.js"
 SYSTEMS = [*CATALOGUE, "double pendulum"]
 NO_WEBGL = "HTMLCanvasElement.prototype.getContext = new Proxy(\
 HTMLCanvasElement.prototype.getContext, {apply: (get, canvas, asked) => \

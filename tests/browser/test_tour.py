@@ -3,14 +3,11 @@
 import subprocess
 import sys
 from importlib.resources import files
-from pathlib import Path
 
 import pytest
 
-from browser.conftest import PHONE, WIDE
+from browser.conftest import AXE, PHONE, WIDE
 from polhode.view import typeset
-
-AXE = Path(__file__).parent / "node_modules" / "axe-core" / "axe.min.js"
 
 LONG = r"\frac{" + " + ".join([r"4\dot\theta^2\cos\theta"] * 9) + "}{8}"
 

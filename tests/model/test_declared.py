@@ -3,14 +3,7 @@
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
-
-PARTS = {
-    f"{name}: {type(part).__name__}": part
-    for name in sorted(CATALOGUE)
-    for system in [CATALOGUE[name].build()]
-    for part in (*system.bodies, *system.elements, *system.loads)
-}
+from model.parts import PARTS
 
 
 @pytest.mark.parametrize("part", PARTS.values(), ids=PARTS)

@@ -9,6 +9,7 @@ import pytest
 from nbclient import NotebookClient
 
 import polhode as ph
+from model.parts import PARTS
 from polhode.catalogue import CATALOGUE
 from polhode.view import html_of, page_of
 
@@ -175,14 +176,6 @@ def test_derivatives_and_fits_are_tables():
     measured = {"theta": ph.simulate(disk, numbers, start, "0.05 s").evaluate("theta", times)}
     best = ph.fit(disk, numbers | {"a": 0.031}, start, times, measured, vary=["a"])
     assert "<td>a</td><td>0.03</td>" in best._repr_html_()
-
-
-PARTS = {
-    f"{name}: {type(part).__name__}": part
-    for name in sorted(CATALOGUE)
-    for system in [CATALOGUE[name].build()]
-    for part in (*system.bodies, *system.elements, *system.loads)
-}
 
 
 @pytest.mark.parametrize("part", PARTS.values(), ids=PARTS)

@@ -2,6 +2,7 @@
 
 import "uplot/dist/uPlot.min.css";
 import "./page.css";
+import { makeBlind } from "./blind";
 import { Clock, rates } from "./clock";
 import { keys, switches, transport } from "./controls";
 import { make, painted } from "./dom";
@@ -50,13 +51,7 @@ function staged(scene: SceneData, picture: HTMLElement): Stage | null {
   try {
     return new Stage(scene, picture);
   } catch {
-    picture.removeAttribute("tabindex");
-    picture.setAttribute("role", "note");
-    picture.removeAttribute("aria-label");
-    picture.classList.add("blind");
-    picture.append(
-      make("p", {}, "No picture in three dimensions: this browser offers no WebGL. Plots, slider and numbers work without it."),
-    );
+    makeBlind(picture, "Plots, slider and numbers");
     return null;
   }
 }

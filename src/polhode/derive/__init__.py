@@ -9,3 +9,4 @@ from polhode.derive._equations import Equations as Equations
 from polhode.derive._equations import Reaction as Reaction
 from polhode.derive._guards import Guard as Guard
 from polhode.derive._touch import Touch as Touch
+from polhode.derive._touch import slips_along as slips_along

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from polhode.algebra import Expr
 from polhode.derive._equations import Equations
+from polhode.derive._motion import Motion
 from polhode.model import Contact, Phase
 
 
@@ -39,12 +41,17 @@ def touch_of(equations: Equations, declared: Contact, phase: Phase) -> Touch:
     contact = _where(declared, phase)
     place = motion.places[contact.body]
     gap = (place + contact.arm).dot(contact.on.up)
-    slips = [
-        motion.slip(contact.restraint(label, motion.places)).dot(contact.on.axes[label])
-        for label in (*contact.on.tangents, contact.on.normal)
-    ]
+    slips = slips_along(motion, contact, (*contact.on.tangents, contact.on.normal))
     reserve = declared.on.reserve(place + contact.arm)
     return Touch(contact, reserve, gap, slips[2], (slips[0], slips[1]))
+
+
+def slips_along(motion: Motion, contact: Contact, labels: Iterable[str]) -> list[Expr]:
+    """Velocity of a body against its support where they touch, along axes of the support, m/s."""
+    return [
+        motion.slip(contact.restraint(label, motion.places)).dot(contact.on.axes[label])
+        for label in labels
+    ]
 
 
 def _where(contact: Contact, phase: Phase) -> Contact:

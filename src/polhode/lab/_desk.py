@@ -47,7 +47,7 @@ class Desk:
         """The system with its contacts of a kind, derived once."""
         if contact not in self._variants:
             made = variant(self.entry, contact)
-            if contact == "smooth" != declared_contact(self.entry.build()):
+            if contact == "smooth" != declared_contact(self.variant("").system):
                 made = self._begun_as_if_rolling(made)
             self._variants[contact] = made
         return self._variants[contact]
@@ -106,14 +106,13 @@ class Desk:
 
     def _begun_as_if_rolling(self, smooth: Variant) -> Variant:
         """With the usual start as rolling has it, so that only friction's absence is seen."""
-        rolling = self.variant("").equations
+        rolling, sliding = self.variant("").equations, smooth.equations
         usual = numbers_of(self.entry, rolling)
         known = {**usual.parameters, **usual.start, **_rates(usual.forcing)}
         implied = {
-            symbol.published: f"{_value(rolling.dependent[symbol], known):.9g} {unit}"
-            for symbol in smooth.equations.speeds
-            if symbol in rolling.dependent
-            for unit in [unit_of(symbol, smooth.equations)]
+            s.published: f"{_value(rolling.dependent[s], known):.9g} {unit_of(s, sliding)}"
+            for s in sliding.speeds
+            if s in rolling.dependent
         }
         return replace(smooth, entry=replace(smooth.entry, start={**implied, **smooth.entry.start}))
 

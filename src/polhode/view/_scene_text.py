@@ -10,7 +10,7 @@ import numpy as np
 
 from polhode.algebra import ZERO, Expr, Kind, Symbol, sqrt
 from polhode.base import PURE, provenance
-from polhode.derive import Equations
+from polhode.derive import Equations, slips_along
 from polhode.model import Sliding
 from polhode.simulate import Trajectory
 from polhode.view._mathml import equation, symbol
@@ -111,11 +111,7 @@ def _slips(equations: Equations) -> list[Formula]:
 
 
 def _meanings(equations: Equations, element: Sliding) -> list[tuple[Symbol, Expr]]:
-    motion = equations.kinetics
-    slips = [
-        motion.slip(element.restraint(label, motion.places)).dot(element.on.axes[label])
-        for label in element.on.tangents
-    ]
+    slips = slips_along(equations.kinetics, element, element.on.tangents)
     size = Expr.generator(element.slip_speed)
     told = list(zip(element.direction, (slip / size for slip in slips), strict=True))
     told.append((element.slip_speed, sqrt(slips[0] ** 2 + slips[1] ** 2)))
@@ -150,21 +146,16 @@ def parameters_of(run: Trajectory, meanings: Mapping[str, str]) -> tuple[Number,
 def start_of(run: Trajectory) -> tuple[Number, ...]:
     """Coordinates and speeds at the start."""
     names = [s.published for s in (*run.equations.coordinates, *run.equations.speeds)]
-    values, along = run.table(names, 0.0), run.table(names)
     return tuple(
-        Number(
-            name,
-            _letter(run, name),
-            _settled(values[name], largest(along[name])),
-            quantity(run, name).unit,
-        )
-        for name in names
+        Number(name, _letter(run, name), _first(values), quantity(run, name).unit)
+        for name, values in run.table(names).items()
     )
 
 
-def _settled(value: Array, greatest: float) -> float:
-    """Without what the evaluation of a series leaves of zero."""
-    return float(value) if abs(float(value)) > _NOTHING * max(greatest, 1.0) else 0.0
+def _first(values: Array) -> float:
+    """The value at the start, without what the evaluation of a series leaves of zero."""
+    first = float(values[0])
+    return first if abs(first) > _NOTHING * max(largest(values), 1.0) else 0.0
 
 
 def evidence_of(run: Trajectory) -> tuple[Number, ...]:

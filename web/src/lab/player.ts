@@ -1,5 +1,6 @@
 // The picture with its clock and plots: another motion takes the place of the one that plays.
 
+import { makeBlind } from "../blind";
 import { Clock, rates } from "../clock";
 import { keys, switches, transport } from "../controls";
 import { make } from "../dom";
@@ -73,11 +74,7 @@ export class Player {
       return new Stage(scene, this.picture, this.stage ?? undefined, same);
     } catch {
       this.blind = true;
-      this.picture.removeAttribute("tabindex");
-      this.picture.setAttribute("role", "note");
-      this.picture.removeAttribute("aria-label");
-      this.picture.classList.add("blind");
-      this.picture.append(make("p", {}, "No picture in three dimensions: this browser offers no WebGL. Plots, sliders and numbers work without it."));
+      makeBlind(this.picture, "Plots, sliders and numbers");
       return null;
     }
   }

@@ -7,7 +7,7 @@ of speeds and all reactions. Redundant supports are met by the least reactions, 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -40,8 +40,7 @@ def true_motion(system: System, state: Mapping[Symbol, float]) -> Numbers:
     rows, right = _joined(_kinematic(trial), _balances(known, trial))
     symbols = [*speeds, *(reaction_symbol(r.name) for r in known.restraints)]
     given = {s: state[s] for s in symbols[len(speeds) :] if s in state}
-    rows = np.vstack([rows, _held(given, symbols)])
-    right = np.concatenate([right, list(given.values())])
+    rows, right = _holding((rows, right), given, symbols)
     found = _solve(rows, right, "supports that contradict one another")
     reactions = {
         reaction_symbol(r.name): float(force)
@@ -59,8 +58,7 @@ def constrained_motion(
     trial = _trials(known, state, speeds)
     rows, right = _kinematic(trial)
     fixed = {s: a for s in speeds if (a := accelerations.get(s.derivative())) is not None}
-    rows = np.vstack([rows, _held(fixed, list(speeds))])
-    right = np.concatenate([right, list(fixed.values())])
+    rows, right = _holding((rows, right), fixed, list(speeds))
     found = _solve(rows, right, "accelerations that the constraints rule out")
     return _numbers(trial, state, speeds, found)
 
@@ -71,8 +69,8 @@ def _speeds(known: Declared, state: Mapping[Symbol, float]) -> Numbers:
     trial = Trial(known, state, dict(zip(known.speeds, steps, strict=True)), {})
     slips, _ = trial.slips()
     given = {s: state[s] for s in known.speeds if s in state}
-    rows = np.vstack([slips[:, 1:] - slips[:, :1], _held(given, known.speeds)])
-    right = np.concatenate([-slips[:, 0], list(given.values())])
+    constraints = slips[:, 1:] - slips[:, :1], -slips[:, 0]
+    rows, right = _holding(constraints, given, known.speeds)
     found = _solve(rows, right, "speeds that the constraints rule out")
     return dict(zip(known.speeds, map(float, found), strict=True))
 
@@ -88,10 +86,14 @@ def _steps(count: int) -> Array:
     return np.hstack([np.zeros((count, 1)), np.eye(count)])
 
 
-def _held(given: Collection[Symbol], symbols: Sequence[Symbol]) -> Array:
-    """Rows over all symbols that pick out those given."""
-    rows = [[float(s == g) for s in symbols] for g in given]
-    return np.reshape(rows, (len(given), len(symbols)))
+def _holding(
+    equations: tuple[Array, Array], given: Mapping[Symbol, float], symbols: Sequence[Symbol]
+) -> tuple[Array, Array]:
+    """Rows over symbols and right-hand sides, and below them what holds those given."""
+    rows, right = equations
+    held = [[float(s == g) for s in symbols] for g in given]
+    below = np.reshape(held, (len(given), len(symbols)))
+    return np.vstack([rows, below]), np.concatenate([right, list(given.values())])
 
 
 def _kinematic(trial: Trial) -> tuple[Array, Array]:

@@ -24,8 +24,9 @@ def evaluated(coefficients: Array, which: NDArray[np.intp], places: Array) -> Ar
     """
     found = np.empty((coefficients.shape[1], len(places)))
     for here in _portions(len(places)):
-        together = _together(which[here])
-        chosen = coefficients[which[here][::together]]
+        asked = which[here]
+        together = _together(asked)
+        chosen = coefficients[asked[::together]]
         powers = powers_of(places[here], chosen.shape[2] - 1)
         powers = powers.reshape(len(powers), -1, together).swapaxes(0, 1)
         # what is added to the first term is summed up before, so that it is rounded only once
