@@ -179,7 +179,9 @@ def _undetermined(asked: Asked) -> bool:
 
 
 def _verdict(original: Original, latex: str):
-    return judged_claim(latex, original.notation, original.claim.context, original.claim.when)
+    return judged_claim(
+        latex, original.notation.choosing, original.claim.context, original.claim.when
+    )
 
 
 def _is_original(original: Original, latex: str) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from functools import cache
+from itertools import chain
 
 import pytest
 
@@ -17,10 +18,11 @@ from polhode.claims.document._document import Definition, Part
 from polhode.claims.latex import read_latex
 from polhode.claims.latex._tree import Name
 from polhode.claims.meaning._bindings import Bound, bind
+from polhode.claims.meaning._letters import letters
 from polhode.claims.meaning._meaning import BindingError, Meaning
 from polhode.claims.meaning._mechanics import Mechanics
 from polhode.claims.meaning._phrases import quantity
-from polhode.claims.meaning._vocabulary import automatic, name_of, spelled
+from polhode.claims.meaning._spelling import name_of, spelled
 from polhode.derive import Equations
 
 
@@ -140,7 +142,7 @@ def test_names_are_taken_apart_as_they_are_printed() -> None:
 @pytest.mark.parametrize("name", CATALOGUE)
 def test_every_letter_known_by_itself_stands_for_something(name: str) -> None:
     mechanics = Mechanics(equations(name))
-    for _, phrase in automatic(mechanics):
+    for phrase in chain.from_iterable(letters(mechanics).values()):
         quantity(mechanics, phrase)
 
 

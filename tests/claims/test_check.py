@@ -177,6 +177,11 @@ def test_a_verdict_is_shown_in_latex():
     assert verdict._repr_latex_().startswith(r"$\displaystyle \begin{array}{l} \text{fails}")
 
 
-def test_a_failure_tells_how_letters_were_read():
-    verdict = ph.check(r"L_z = I_1\omega_1", ph.derive(CATALOGUE["gyroscope"].build()))
-    assert any("L_z as angular momentum about cm along z" in remark for remark in verdict.remarks)
+@pytest.mark.parametrize(
+    "latex", [r"L_{cm,z} = I_1\omega_1", r"L_{cm,z} = \mathbf L_{cm}\cdot\hat{\mathbf z}"]
+)
+def test_every_verdict_says_how_letters_were_read(latex: str) -> None:
+    verdict = ph.check(latex, ph.derive(CATALOGUE["gyroscope"].build()))
+    meant = {reading.letter: reading.meaning for reading in verdict.readings}
+    assert meant[r"\mathbf{L}_{\mathrm{cm}}"] == "angular momentum about cm"
+    assert meant[r"\hat{\mathbf{z}}"] == "axis z of lab"

@@ -13,7 +13,9 @@ def verdict_on(id: str, old: str = "", new: str = "", when: str | None = None) -
     claim = original.claim
     assert old in claim.formula
     formula = claim.formula.replace(old, new, 1) if old else claim.formula
-    return judged_claim(formula, original.notation, "launch", claim.when if when is None else when)
+    return judged_claim(
+        formula, original.notation.choosing, "launch", claim.when if when is None else when
+    )
 
 
 @pytest.mark.parametrize("id", ["12", "13", "w51", "w65", "w71", "w75"])
@@ -48,7 +50,9 @@ def test_a_slip_in_a_closed_form_is_corrected(id, old, new, slip):
     assert correction is not None
     assert correction.what == slip
     original = Original.of(document().claim(id))
-    assert judged_claim(correction.latex, original.notation, "launch").answer is Answer.HOLDS
+    assert (
+        judged_claim(correction.latex, original.notation.choosing, "launch").answer is Answer.HOLDS
+    )
 
 
 def test_letters_that_vanish_from_the_start_alone_have_a_number():
@@ -77,6 +81,6 @@ def test_what_never_happens_does_not_happen_sometimes():
 
 def test_terms_of_different_dimensions_are_named():
     original = Original.of(document().claim("147"))
-    verdict = judged_claim(original.claim.formula, original.notation, "motion")
+    verdict = judged_claim(original.claim.formula, original.notation.choosing, "motion")
     assert verdict.answer is Answer.FAILS
     assert "terms of different dimensions: kg m/s^2 and m/s^2 in member 1" in verdict.reason

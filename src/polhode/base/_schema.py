@@ -3,7 +3,7 @@
 from functools import cache
 from typing import TypedDict
 
-SCHEMA = 1
+SCHEMA = 2
 """Number of the layout of every JSON document, file, page and store."""
 
 LIBRARIES = ("python-flint", "numpy", "scipy", "heyoka", "sympy", "matplotlib", "latex2mathml")

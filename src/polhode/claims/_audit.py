@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache, reduce
+from functools import cache, lru_cache, partial, reduce
 from time import perf_counter
 
 from polhode.base import PolhodeError
 from polhode.claims._check import judged_claim
 from polhode.claims._notation import Notation
+from polhode.claims._readings import Chosen
 from polhode.claims._typed import with_start
 from polhode.claims._verdict import Answer, Verdict
 from polhode.claims.document._document import Claim, Document, Part
 from polhode.claims.document._report import Judged, Report
+from polhode.claims.latex import Statement, read_latex
+from polhode.claims.latex._tree import Name
 from polhode.derive import Equations
 
 Resolver = Callable[[str], Equations]
@@ -28,7 +31,9 @@ class Desk:
     """
 
     resolver: Resolver
-    _notations: dict[str, Notation] = field(default_factory=dict)
+    _notations: dict[tuple[str, frozenset[tuple[Name, str]]], Notation] = field(
+        default_factory=dict
+    )
 
     def verdict(
         self,
@@ -41,17 +46,38 @@ class Desk:
         A failure is told before a correction is looked for.
         """
         try:
-            notation = self._notation(part).of_claim(claim)
-            start = (f"{name} = {value}" for name, value in claim.start.items())
-            notation = reduce(with_start, start, notation)
-            return judged_claim(claim.formula, notation, claim.context, claim.when, tell)
+            return judged_claim(
+                claim.formula,
+                partial(self._notation, part, claim),
+                claim.context,
+                claim.when,
+                partial(_spoken, part, claim),
+                tell,
+            )
         except PolhodeError as error:
             return Verdict(Answer.UNREAD, claim.context, reason=str(error))
 
-    def _notation(self, part: Part) -> Notation:
-        if part.id not in self._notations:
-            self._notations[part.id] = Notation.of_part(self.resolver(part.system), part)
-        return self._notations[part.id]
+    def _notation(self, part: Part, claim: Claim, chosen: Chosen) -> Notation:
+        start = (f"{name} = {value}" for name, value in claim.start.items())
+        return reduce(with_start, start, self._of_part(part, chosen).of_claim(claim))
+
+    def _of_part(self, part: Part, chosen: Chosen) -> Notation:
+        key = part.id, frozenset(chosen.items())
+        if key not in self._notations:
+            self._notations[key] = Notation.of_part(self.resolver(part.system), part, chosen)
+        return self._notations[key]
+
+
+def _spoken(part: Part, claim: Claim) -> Iterator[Statement]:
+    """What a document says besides the claim, in formulas."""
+    definitions = (d.latex for d in (*part.definitions, *claim.definitions))
+    for text in (*definitions, *part.positive, *part.given, *claim.given, *claim.small):
+        yield _read(text)
+
+
+@lru_cache(maxsize=512)
+def _read(text: str) -> Statement:
+    return read_latex(text)
 
 
 def audit(document: Document, resolver: Resolver, *, only: Iterable[str] = ()) -> Report:

@@ -4,18 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from functools import reduce
+from functools import partial, reduce
 
 from polhode.base import ParseError, PolhodeError
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims._notation import Notation
-from polhode.claims._typed import with_given, with_let, with_small
+from polhode.claims._readings import (
+    Chosen,
+    JudgedReading,
+    choices,
+    judged_in_every_reading,
+    with_readings,
+)
+from polhode.claims._typed import spoken, with_given, with_let, with_reading, with_small
 from polhode.claims._verdict import Answer, Correction, Verdict
 from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, read_latex, write_latex
-from polhode.claims.latex._tree import Node, Statement
-from polhode.claims.meaning._read_as import read_as
-from polhode.claims.meaning._vocabulary import spelled
+from polhode.claims.latex._tree import Node, Piece, Statement
+from polhode.claims.meaning._spelling import spelled
 from polhode.claims.states._asked import Asked
 from polhode.derive import Equations
 
@@ -30,6 +36,7 @@ class Enquiry:
         let: new symbols of the text.
         given: restrictions.
         small: small quantities with the order to be kept.
+        read: letters of several meanings, each with the one that is meant.
     """
 
     latex: str
@@ -37,6 +44,7 @@ class Enquiry:
     let: tuple[str, ...] = ()
     given: tuple[str, ...] = ()
     small: tuple[str, ...] = ()
+    read: tuple[str, ...] = ()
 
     def judged(
         self, equations: Equations, tell: Callable[[Verdict], object] = lambda verdict: None
@@ -47,42 +55,83 @@ class Enquiry:
         """
         if self.context not in CONTEXTS:
             raise ParseError(f"context {self.context!r}", expected=f"one of {', '.join(CONTEXTS)}")
-        notation = Notation.of(equations)
+        said = [*self.let, *self.given, *self.small]
+        return judged_claim(
+            self.latex,
+            partial(self._notation, equations),
+            self.context,
+            spoken=lambda: [piece for text in said for piece in spoken(text)],
+            tell=tell,
+        )
+
+    def _notation(self, equations: Equations, chosen: Chosen) -> Notation:
+        """With what is said besides, letters of several meanings read as chosen."""
+        notation = reduce(with_reading, self.read, Notation.of(equations)).choosing(chosen)
         for say, texts in (
             (with_let, self.let),
             (with_given, self.given),
             (with_small, self.small),
         ):
             notation = reduce(say, texts, notation)
-        return judged_claim(self.latex, notation, self.context, tell=tell)
+        return notation
 
 
 def judged_claim(
     latex: str,
-    notation: Notation,
+    notation: Callable[[Chosen], Notation],
     context: str,
     when: str = "",
+    spoken: Callable[[], Iterable[Piece]] = tuple,
     tell: Callable[[Verdict], object] = lambda verdict: None,
 ) -> Verdict:
-    """The verdict on a claim read in some notation, with a correction where it fails.
+    """The verdict on a claim in every reading of its letters, with a correction where it fails.
 
     A failure is told as soon as it is found, for a correction may take long.
+
+    Args:
+        latex: the claim.
+        notation: of the text, letters of several meanings read as chosen.
+        context: where it is to hold.
+        when: at which times of a motion.
+        spoken: what else is said with the claim, whose letters may be read in several ways too.
+        tell: called with a failure.
+
+    Raises `ParseError` where what is said besides cannot be read.
     """
+    likeliest = notation({})
     try:
         statement = read_latex(latex)
-        bound = notation.bound(statement)
-        if bound.is_definition:
-            return Verdict(Answer.DEFINITION, context, reason=_defined(bound.defined))
-        asked = replace(notation.asked(statement, {}), when=when)
+        ways = choices(likeliest.vocabulary, (statement, *spoken()))
     except (PolhodeError, ZeroDivisionError) as error:
         return Verdict(Answer.UNREAD, context, reason=f"{error}{_hint(latex)}")
-    verdict = _judged(asked, context)
+
+    def judge(chosen: Chosen) -> JudgedReading:
+        return _judged_reading(statement, chosen, notation(chosen), context, when, _hint(latex))
+
+    found = judged_in_every_reading(ways, judge)
+    if isinstance(found, Verdict):
+        return with_readings(found, likeliest.vocabulary, [statement])
+    verdict = with_readings(found.verdict, found.notation.vocabulary, [statement])
     if verdict.answer is not Answer.FAILS:
         return verdict
-    if understood := read_as(statement, notation.vocabulary):
-        verdict = replace(verdict, remarks=(*verdict.remarks, f"read {understood}"))
     tell(verdict)
-    return verdict if when else _corrected(verdict, statement, notation)
+    return verdict if when else _corrected(verdict, statement, found.notation)
+
+
+def _judged_reading(
+    statement: Statement, chosen: Chosen, notation: Notation, context: str, when: str, hint: str
+) -> JudgedReading:
+    """The verdict under one reading, without a correction."""
+    try:
+        bound = notation.bound(statement)
+        if bound.is_definition:
+            verdict = Verdict(Answer.DEFINITION, context, reason=_defined(bound.defined))
+            return JudgedReading(chosen, notation, None, verdict)
+        asked = replace(notation.asked(statement, {}), when=when)
+    except (PolhodeError, ZeroDivisionError) as error:
+        unread = Verdict(Answer.UNREAD, context, reason=f"{error}{hint}")
+        return JudgedReading(chosen, notation, None, unread)
+    return JudgedReading(chosen, notation, asked, _judged(asked, context))
 
 
 def _hint(latex: str) -> str:
@@ -97,10 +146,23 @@ def _judged(asked: Asked, context: str) -> Verdict:
     """The verdict, with terms of different dimensions named where it does not hold."""
     try:
         verdict = judge(asked, context).proved()
+        if (second := verdict.confirmation) is not None and not second.agrees:
+            return Verdict(Answer.UNREAD, context, reason=_at_odds(verdict))
         odd = "" if verdict.holds else dimensions_at_odds(asked)
     except (PolhodeError, ZeroDivisionError) as error:
         return Verdict(Answer.UNREAD, context, reason=str(error))
     return replace(verdict, reason=f"{verdict.reason}; {odd}") if odd else verdict
+
+
+def _at_odds(verdict: Verdict) -> str:
+    """What two judgements that share nothing say differently; then neither is to be trusted."""
+    example, second = verdict.counterexample, verdict.confirmation
+    exact = f"{example.left} and {example.right}" if example else "a failure"
+    numeric = f"{second.left:.9g} and {second.right:.9g}" if second else "nothing"
+    return (
+        f"read, but not decided: of the two sides, exact algebra finds {exact}, and "
+        f"the numeric balance of every body {numeric}"
+    )
 
 
 def _defined(letters: Iterable[Node]) -> str:

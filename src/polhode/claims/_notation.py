@@ -10,13 +10,14 @@ from polhode.algebra import Expr, Symbol, as_symbol
 from polhode.base import ParseError
 from polhode.claims.document._document import Claim, Definition, Part
 from polhode.claims.latex import read_latex
-from polhode.claims.latex._tree import Node, Statement
+from polhode.claims.latex._tree import Name, Node, Statement
 from polhode.claims.meaning._bindings import EQUAL, Bound, BoundRelation, bind, restrictions
 from polhode.claims.meaning._components import Side
 from polhode.claims.meaning._evaluate import Evaluator
 from polhode.claims.meaning._meaning import BindingError, Meaning, as_scalar, signed, sort
 from polhode.claims.meaning._phrases import quantity
-from polhode.claims.meaning._vocabulary import Vocabulary, constant, name_of, spelled
+from polhode.claims.meaning._spelling import name_of, spelled
+from polhode.claims.meaning._vocabulary import Vocabulary, constant
 from polhode.claims.states._asked import Asked, Small
 from polhode.derive import Equations
 
@@ -46,7 +47,9 @@ class Notation:
         return cls(Vocabulary.of(equations))
 
     @classmethod
-    def of_part(cls, equations: Equations, part: Part) -> Notation:
+    def of_part(
+        cls, equations: Equations, part: Part, chosen: Mapping[Name, str] | None = None
+    ) -> Notation:
         """Of one part of a document.
 
         Raises:
@@ -55,6 +58,7 @@ class Notation:
         """
         return (
             cls.of(equations)
+            .choosing(chosen or {})
             .binding(part.bindings)
             .with_constants(part.constants)
             .taking_positive(part.positive)
@@ -72,6 +76,10 @@ class Notation:
         )
 
     # -- saying more ----------------------------------------------------------------------------
+
+    def choosing(self, chosen: Mapping[Name, str]) -> Notation:
+        """With letters of several meanings read as quantities of the model."""
+        return replace(self, vocabulary=self.vocabulary.choosing(chosen)) if chosen else self
 
     def binding(self, bindings: Mapping[str, str]) -> Notation:
         """With letters, as LaTeX, bound to quantities of the model."""

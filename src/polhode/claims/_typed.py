@@ -10,14 +10,47 @@ from dataclasses import replace
 
 from polhode.algebra import Expr, pi, read_expression
 from polhode.base import ParseError, UnitError, read_quantity
-from polhode.claims._notation import Notation
+from polhode.claims._notation import Notation, letter
 from polhode.claims.document._document import Definition
+from polhode.claims.latex import read_latex
+from polhode.claims.latex._tree import Dots, Name, Piece
 from polhode.claims.meaning._bindings import BoundRelation
 from polhode.claims.meaning._meaning import BindingError
-from polhode.claims.meaning._vocabulary import name_of, spelled
+from polhode.claims.meaning._spelling import name_of, spelled
 from polhode.claims.states._asked import Small
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+
+
+def spoken(text: str) -> tuple[Piece, ...]:
+    """The letters of a text that goes with a claim, or the statement that it makes in LaTeX."""
+    if _is_latex(text):
+        return (read_latex(text),)
+    letters = map(name_of, _NAME.findall(text))
+    return tuple(node for node in letters if isinstance(node, Name | Dots))
+
+
+def with_reading(notation: Notation, text: str) -> Notation:
+    """With a letter of several meanings read as one of them: `L = about pivot`.
+
+    Raises `ParseError` for a letter that stands for nothing, and for what it cannot mean.
+    """
+    left, right = _sides(text, "a letter and the quantity it means")
+    named = letter(left) if _is_latex(left) else name_of(left)
+    vocabulary = notation.vocabulary
+    reading = vocabulary.reading_of(named) if isinstance(named, Name) else None
+    if reading is None:
+        raise ParseError(
+            f"the reading {text!r}",
+            expected=f"a letter of several meanings in {vocabulary.system}, such as L or v",
+            advice="define a new letter with let",
+        )
+    meant = [p for p in reading.phrases if p == right] or [
+        p for p in reading.phrases if p.endswith(f" {right}")
+    ]
+    if len(meant) != 1:
+        raise ParseError(f"{right!r} for {left}", expected=f"one of: {'; '.join(reading.phrases)}")
+    return notation.choosing({reading.letter: meant[0]})
 
 
 def with_let(notation: Notation, text: str) -> Notation:

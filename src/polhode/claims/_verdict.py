@@ -17,10 +17,28 @@ class Answer(Enum):
     """What a claim turned out to be."""
 
     HOLDS = "holds"
+    AMBIGUOUS = "ambiguous"
     APPROXIMATE = "approximate"
     DEFINITION = "definition"
     FAILS = "fails"
     UNREAD = "unread"
+
+
+@dataclass(frozen=True)
+class Read:
+    """What a letter of a claim was taken to mean.
+
+    Attributes:
+        letter: as LaTeX.
+        meaning: the quantity, such as "angular momentum about cm".
+    """
+
+    letter: str
+    meaning: str
+
+    def to_json(self) -> dict[str, str]:
+        """As it stands in a JSON document."""
+        return {"letter": self.letter, "meaning": self.meaning}
 
 
 @dataclass(frozen=True)
@@ -99,7 +117,7 @@ class Verdict(Shown):
     """The judgement on one claim.
 
     Attributes:
-        answer: holds, approximate, definition, fails or unread.
+        answer: holds, ambiguous, approximate, definition, fails or unread.
         context: where the claim was asked to hold.
         reason: the judgement in a sentence.
         residuals: every component that does not vanish, exactly.
@@ -110,6 +128,7 @@ class Verdict(Shown):
         order: for an approximation, the highest order to which it is true.
         dropped: for an approximation, the first term left out.
         remarks: what else was noticed, such as roots that are not covered.
+        readings: what letters that mean the same in most texts were taken to mean.
     """
 
     answer: Answer
@@ -123,6 +142,7 @@ class Verdict(Shown):
     order: int | None = None
     dropped: Expr | None = None
     remarks: tuple[str, ...] = field(default=())
+    readings: tuple[Read, ...] = ()
 
     @property
     def holds(self) -> bool:

@@ -18,7 +18,7 @@ Said = tuple[int, str]
 
 _LONGEST = 60.0  # s of computing
 _ADVICE = "judge its members one by one, or restrict it with --given"
-_CODES = {Answer.FAILS: 1, Answer.UNREAD: 2}
+_CODES = {Answer.FAILS: 1, Answer.UNREAD: 2, Answer.AMBIGUOUS: 2}
 
 
 def configure(parser: Parser) -> None:
@@ -35,15 +35,16 @@ def configure(parser: Parser) -> None:
         ("--let", "a new symbol: --let 'epsilon = theta - pi/2'"),
         ("--given", "a restriction: --given 'theta = pi/2'"),
         ("--small", "a small quantity and the order kept: --small epsilon:1"),
+        ("--read", "a letter of several meanings: --read 'L = about pivot'"),
     ):
         parser.add_argument(option, action="append", default=[], help=example)
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 
 def run(options: Namespace) -> int:
-    """Judge one equation and print the verdict; 0 where it holds, 1 where it fails, 2 unread."""
+    """Judge one equation and print the verdict; 0 where it holds, 1 where it fails, else 2."""
     system = entry_of(options.name).build()
-    extra = (tuple(said) for said in (options.let, options.given, options.small))
+    extra = (tuple(said) for said in (options.let, options.given, options.small, options.read))
     enquiry = Enquiry(options.latex, options.context, *extra)
 
     said = _in_json if options.json else _in_words
@@ -89,6 +90,7 @@ def _document(verdict: Verdict) -> dict[str, Any]:
         ],
         "reason": verdict.reason,
         "remarks": list(verdict.remarks),
+        "readings": [reading.to_json() for reading in verdict.readings],
     }
 
 
@@ -127,3 +129,5 @@ def _told(verdict: Verdict) -> Iterator[str]:
     if verdict.dropped is not None:
         yield f"  left out: {verdict.dropped}"
     yield from (f"  {remark}" for remark in verdict.remarks)
+    if verdict.readings:
+        yield f"  read: {'; '.join(f'{r.letter} as {r.meaning}' for r in verdict.readings)}"

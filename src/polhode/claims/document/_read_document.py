@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from polhode.base import SCHEMA, ParseError
+from polhode.base import ParseError
 from polhode.claims.document._document import CONTEXTS, QUANTIFIERS, Claim, Document, Part
 from polhode.claims.document._document_table import Table, tables
 
@@ -22,6 +22,8 @@ _CLAIM = (
     *("id", "part", "context", "latex", "words", "means", "when", "read_as", "reason", "where"),
     *("follows_from", "bindings", "let", "given", "small", "start"),
 )
+
+_SCHEMAS = (1, 2)  # what a document may hold is the same in both
 
 
 def read_document(source: str | Path) -> Document:
@@ -74,11 +76,11 @@ def _toml(text: str) -> dict[str, Any]:
 
 
 def _refuse_strangers(content: dict[str, Any]) -> None:
-    schema = content.get("schema", SCHEMA)
-    if schema != SCHEMA:
+    schema = content.get("schema", _SCHEMAS[-1])
+    if schema not in _SCHEMAS:
         raise ParseError(
             f"a document of schema {schema!r}",
-            expected=f"schema = {SCHEMA}",
+            expected=f"schema = {_SCHEMAS[-1]}",
             advice="it was written for another version of polhode",
         )
     for name in content.keys() - {"schema", "document", "part", "claim"}:

@@ -13,11 +13,11 @@ from polhode.base import NumericError
 from polhode.claims.latex import _tree as tree
 from polhode.claims.meaning import _meaning as meanings
 from polhode.claims.meaning._meaning import BindingError, Meaning, as_scalar, as_vector
-from polhode.claims.meaning._vocabulary import Vocabulary, spelled
+from polhode.claims.meaning._spelling import spelled
+from polhode.claims.meaning._vocabulary import LAGRANGIAN, Vocabulary
 
 TIME = tree.Name("t")
 _EULER = tree.Name("e")
-_LAGRANGIAN = tree.Name("L")  # where it is no angular momentum
 
 _FUNCTIONS: dict[str, Callable[[Expr], Expr]] = {
     "sin": sin,
@@ -114,8 +114,8 @@ class Evaluator:
             change = self._seen_from_axes if node.partial else meanings.rate
             return reduce(lambda value, _: change(value), range(node.order), found)
         variable = as_symbol(self.scalar(node.by))
-        if node.partial and node.of == _LAGRANGIAN and isinstance(found, Vector):
-            found = self.value(replace(_LAGRANGIAN, letter="cal L"))
+        if node.partial and node.of == LAGRANGIAN and isinstance(found, Vector):
+            found = self.value(replace(LAGRANGIAN, letter="cal L"))
         whole = as_scalar(found, "what is differentiated")
         if node.partial:
             whole = self.vocabulary.mechanics.in_rates(whole)

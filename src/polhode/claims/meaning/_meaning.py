@@ -211,6 +211,18 @@ def _unwrapped(generator: Generator, positive: Collection[Expr]) -> Expr | None:
     return next((f for f in (inside, -inside) if f in positive), None)
 
 
+def alike(one: Meaning, other: Meaning) -> bool:
+    """Whether two meanings are the same quantity, exactly."""
+    match one, other:
+        case Expr(), Expr():
+            return one == other
+        case Vector(), Vector():
+            return (one - other).is_zero
+        case Tensor(), Tensor() if one.triad == other.triad:
+            return one.matrix == other.matrix
+    return False
+
+
 def zero_like(meaning: Meaning) -> Meaning:
     """The zero that goes with a scalar or a vector."""
     return zero_vector(meaning.triad) if isinstance(meaning, Vector) else Expr.of(0)

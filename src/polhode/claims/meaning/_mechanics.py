@@ -12,7 +12,7 @@ from functools import cached_property
 from polhode.algebra import ZERO, Expr, Kind, Vector, linear_parts, solve, symbols
 from polhode.base import DeclarationError
 from polhode.claims.balance._declared import Declared, declared, reaction_symbol
-from polhode.claims.meaning._meaning import Tensor
+from polhode.claims.meaning._meaning import Meaning, Tensor
 from polhode.derive import Equations
 from polhode.model import Body, Frame, Gravity, Restraint
 
@@ -21,7 +21,7 @@ from polhode.model import Body, Frame, Gravity, Restraint
 class Mechanics:
     """The quantities of one system; where no body is named, its first one is meant.
 
-    A point is "cm", "origin", the name of a body (its centre of mass) or of a contact or joint
+    A point is "cm" (of all bodies), "origin", the name of a body (its centre of mass) or of a contact or joint
     (the point of the body where it acts). Vectors are in inertial space, in SI units.
 
     Args:
@@ -74,9 +74,9 @@ class Mechanics:
         return self.frames[name]
 
     def axis(self, label: str, of: str = "") -> Vector:
-        """The unit vector with a label: of the body's axes, of the laboratory, or between."""
+        """The unit vector with a label: of the laboratory, of the body's axes, or between."""
         axes = self.body.axes
-        order = (self.frame(of),) if of else (axes, axes.root, *axes.lineage)
+        order = (self.frame(of),) if of else (axes.root, axes, *axes.lineage)
         for frame in order:
             if label in frame.labels:
                 return frame[label]
@@ -109,21 +109,39 @@ class Mechanics:
         """From the origin of the laboratory, m."""
         if of == "origin":
             return self.equations.system.root.zero
+        if of == "cm":
+            return self._mass_centre
         body, arm = self._place(of)
         return self.declared.places[body] + arm
+
+    @cached_property
+    def _mass_centre(self) -> Vector:
+        """Of all bodies, from the origin of the laboratory, m."""
+        places = self.declared.places
+        if len(places) == 1:
+            return places[self.body]
+        bodies = self.equations.system.bodies
+        moments = (places[body] * body.mass for body in bodies)
+        mass = sum((body.mass for body in bodies), ZERO)
+        return sum(moments, self.equations.system.root.zero) / mass
 
     def arm(self, of: str) -> Vector:
         """From the centre of mass to where a contact or joint acts, m."""
         return self._place(of)[1]
 
     def velocity(self, of: str = "") -> Vector:
-        """Of a material point, m/s."""
+        """Of a material point, or of the centre of mass of all bodies, m/s."""
+        if of == "cm":
+            return self._mass_centre.dt()
         body, arm = self._place(of)
         return self.declared.places[body].dt() + body.angular_velocity.cross(arm)
 
     def acceleration(self, of: str = "") -> Vector:
         """Of a centre of mass, m/s²."""
-        return self.declared.places[self._place(of)[0]].dt().dt()
+        return self.velocity(of).dt() if of == "cm" else self._acceleration_of(self._place(of)[0])
+
+    def _acceleration_of(self, body: Body) -> Vector:
+        return self.declared.places[body].dt().dt()
 
     def angular_velocity(self, of: str = "") -> Vector:
         """Of a body or a frame, rad/s."""
@@ -149,9 +167,9 @@ class Mechanics:
         parts = (self.declared.places[body].dt() * body.mass for body in bodies)
         return sum(parts, self.equations.system.root.zero)
 
-    def angular_momentum(self, about: str = "", relative: str = "") -> Vector:
+    def angular_momentum(self, about: str = "cm", relative: str = "") -> Vector:
         """Of all bodies about a point, kg m²/s; rotations as a frame sees them if one is named."""
-        centre, places = self.position(about), self.declared.places
+        centre, places = self.position(about or "cm"), self.declared.places
         turning = self.frame(relative).angular_velocity if relative else self.body.axes.zero
         total = self.body.axes.zero
         for body in self.equations.system.bodies:
@@ -181,9 +199,9 @@ class Mechanics:
         )
         return sum(shares, self.body.axes.zero)
 
-    def torque(self, about: str = "") -> Vector:
+    def torque(self, about: str = "cm") -> Vector:
         """Of all that acts from outside, about a point, N m."""
-        centre, places = self.position(about), self.declared.places
+        centre, places = self.position(about or "cm"), self.declared.places
         total = self.body.axes.zero
         for line in self.equations.lines:
             restraint, share = line.restraint, line.direction * _reaction(line.name)
@@ -242,6 +260,16 @@ class Mechanics:
                 f"coordinate {coordinate!r}", expected=f"one of {', '.join(known)}"
             )
         return self.in_rates(self.lagrangian()).diff(known[coordinate].derivative())
+
+    def in_speeds(self, quantity: Meaning) -> Meaning:
+        """With rates of coordinates such as ẏ put in terms of the speeds that are declared."""
+        rates = {q.derivative(): rate for q, rate in self.declared.rates.items()}
+        match quantity:
+            case Expr():
+                return quantity.subs(rates)
+            case Vector(components, triad):
+                return Vector(tuple(c.subs(rates) for c in components), triad)
+        return quantity
 
     def in_rates(self, expression: Expr) -> Expr:
         """With speeds such as ω₃ put in terms of the rates of the coordinates."""

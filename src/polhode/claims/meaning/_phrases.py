@@ -64,6 +64,21 @@ def _least(mechanics: Mechanics, name: str) -> Expr:
     return least[name]
 
 
+def _component(mechanics: Mechanics, vector: str, label: str, of: str) -> Expr:
+    """Of a vector along an axis."""
+    whole = quantity(mechanics, vector)
+    if not isinstance(whole, Vector):
+        raise DeclarationError(f"{vector!r} along an axis", expected="a vector")
+    return whole.dot(mechanics.axis(label, of))
+
+
+def _published(mechanics: Mechanics, name: str) -> Expr:
+    """The symbol that the declaration has under a name."""
+    if name not in mechanics.scalars:
+        raise DeclarationError(f"the symbol {name!r}", expected="one of the declaration")
+    return mechanics.scalars[name]
+
+
 def _time(_: Mechanics) -> Expr:
     return time
 
@@ -97,6 +112,8 @@ _OF = r"(?: of (?P<of>.+))?"
 _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
     (re.compile(pattern), method)
     for pattern, method in (
+        (rf"(?P<vector>.+) along axis (?P<label>\S+){_OF}", _component),
+        (r"declared (?P<name>\w+)", _published),
         (rf"axis (?P<label>\S+){_OF}", Mechanics.axis),
         (r"fixed vector of (?P<of>.+)", Mechanics.fixed),
         (rf"position{_OF}", Mechanics.position),

@@ -2,23 +2,49 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, lru_cache
 from itertools import chain
 
 from polhode.algebra import Expr, Kind, Symbol, Vector, pi, time
-from polhode.claims.latex._tree import At, Call, Component, Differential, Dots, Name, Node, Number
-from polhode.claims.meaning._meaning import BindingError, Meaning, dot, positive_root
+from polhode.claims.latex._tree import At, Call, Component, Derivative, Name, Node, Piece, walk
+from polhode.claims.meaning._letters import letters
+from polhode.claims.meaning._meaning import BindingError, Meaning, alike, dot, positive_root
 from polhode.claims.meaning._mechanics import Mechanics
 from polhode.claims.meaning._phrases import quantity
+from polhode.claims.meaning._spelling import name_of, spelled
 from polhode.claims.meaning._the import The
 from polhode.derive import Equations
-from polhode.model import Contact, Element, Gravity, Pivot
+
+LAGRANGIAN = Name("L")  # where it is no angular momentum
 
 _VECTOR, _HAT = "vector", "hat"
 _KEPT = 16
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What a letter of a text was taken to mean.
+
+    Attributes:
+        letter: as printed, such as **L** or ẑ.
+        phrase: the quantity, such as "angular momentum about cm".
+        phrases: all quantities of the system that the field uses the letter for.
+    """
+
+    letter: Name
+    phrase: str
+    phrases: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Sense:
+    """What a letter stands for, and the readings that this rests on: of **L** and ẑ for L_z."""
+
+    meaning: Meaning
+    readings: tuple[Reading, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,12 +56,14 @@ class Vocabulary:
         told: what the text says its letters stand for; goes before what is known by itself.
         positive: quantities that the text takes as positive.
         columns: name of the frame that components in a bracket are along.
+        chosen: letters that the field uses for several quantities, with the one that is meant.
     """
 
     mechanics: Mechanics
     told: Mapping[Node, Meaning] = field(default_factory=dict)
     positive: tuple[Expr, ...] = ()
     columns: str = ""
+    chosen: Mapping[Name, str] = field(default_factory=dict)
 
     @cached_property
     def found(self) -> dict[tuple[Node, bool, bool], Meaning]:
@@ -56,13 +84,28 @@ class Vocabulary:
         """Letters that the declaration itself uses, with their dots; they have their meaning."""
         return _declared(self.mechanics)
 
-    @property
-    def _known(self) -> dict[Node, Callable[[], Meaning]]:
-        return _known(self.mechanics)
+    def choosing(self, chosen: Mapping[Name, str]) -> Vocabulary:
+        """With letters of several meanings read as quantities of the model."""
+        return replace(self, chosen={**self.chosen, **chosen}) if chosen else self
 
     def has(self, node: Node) -> bool:
         """Whether a letter stands for something."""
         return self.find(node) is not None
+
+    def readings(self, pieces: Iterable[Piece]) -> tuple[Reading, ...]:
+        """What the letters of some pieces of text were taken to mean, by the field's usage."""
+        senses = (self.sense(name) for piece in pieces for name in _names(piece))
+        found = (reading for sense in senses if sense for reading in sense.readings)
+        return tuple(dict.fromkeys(found))
+
+    def reading_of(self, letter: Name) -> Reading | None:
+        """The reading of a letter that has several, printed with or without hat or boldness."""
+        for decoration in (letter.decoration, _VECTOR, _HAT):
+            sense = self._exactly(replace(letter, decoration=decoration))
+            for reading in sense.readings if sense else ():
+                if len(reading.phrases) > 1:
+                    return reading
+        return None
 
     def meaning(self, node: Node) -> Meaning:
         """What a letter stands for.
@@ -75,25 +118,37 @@ class Vocabulary:
         return found
 
     def find(self, node: Node) -> Meaning | None:
-        """What a letter stands for, or None.
+        """What a letter stands for, or None."""
+        sense = self.sense(node)
+        return sense and sense.meaning
+
+    def sense(self, node: Node) -> Sense | None:
+        """What a letter stands for and on which readings that rests, or None.
 
         Transcripts lose boldness and hats: a plain letter may be a vector, and the reverse.
         """
         if isinstance(node, Name):
             return self._named(node)
         if node in self.told:
-            return self.told[node]
+            return Sense(self.told[node])
         if isinstance(node, At) and node.argument == Name("t"):
-            return self.find(node.of)
+            return self.sense(node.of)
         return None
 
-    def _named(self, name: Name) -> Meaning | None:
-        return next((found for found in self._candidates(name) if found is not None), None)
+    def _named(self, name: Name) -> Sense | None:
+        if name not in self._senses:
+            self._senses[name] = next(filter(None, self._candidates(name)), None)
+        return self._senses[name]
 
-    def _candidates(self, name: Name) -> Iterator[Meaning | None]:
+    @cached_property
+    def _senses(self) -> dict[Name, Sense | None]:
+        """What letters were found to stand for."""
+        return {}
+
+    def _candidates(self, name: Name) -> Iterator[Sense | None]:
         """What a letter may mean, likeliest first: what the text says goes before what is known."""
-        yield self.told.get(name)
-        yield self._component(name, self.told.get)
+        yield self._said(name)
+        yield self._component(name, self._said)
         yield self._exactly(name)
         for form in _FORMS[name.decoration]:
             found = self._exactly(replace(name, decoration=form))
@@ -102,27 +157,62 @@ class Vocabulary:
         if name.letter == "e":  # e_z for a unit vector
             yield self._exactly(Name(name.subscript, decoration=_HAT))
 
-    def _exactly(self, name: Name) -> Meaning | None:
+    def _said(self, name: Name) -> Sense | None:
+        return Sense(self.told[name]) if name in self.told else None
+
+    def _exactly(self, name: Name) -> Sense | None:
+        """What a letter itself is known as, be it by the text, the declaration or the field.
+
+        Where it has the label of an axis below, it may be meant as a component all the same: F_z
+        that is declared along a rod which swings is not F·ẑ.
+        """
         if name in self.told:
-            return self.told[name]
-        return self._known[name]() if name in self._known else None
+            return Sense(self.told[name])
+        if name in self.chosen:
+            return self._read(name, (self.chosen[name],))
+        phrases = _phrases(self.mechanics).get(name, ())
+        if name in self._plain:
+            phrases = (f"declared {spelled(name)}",)
+        component = self._component(name, self._exactly) if phrases else None
+        if component is not None and len(component.readings) == 2:
+            vector, axis = component.readings
+            if axis.phrase.startswith("axis "):  # and no length of a vector taken out
+                phrases = (*phrases, f"{vector.phrase} along {axis.phrase}")
+        if len(phrases) == 1 and name in self._plain:
+            return Sense(self._plain[name])
+        return self._read(name, phrases) if phrases else None
 
-    def _unit(self, meaning: Meaning | None) -> Meaning | None:
-        if not isinstance(meaning, Vector):
+    def _read(self, name: Name, phrases: tuple[str, ...]) -> Sense:
+        distinct = _distinct(self.mechanics, phrases)
+        meaning = quantity(self.mechanics, distinct[0])
+        if name in self._plain and len(distinct) == 1:
+            return Sense(meaning)
+        return Sense(meaning, (Reading(name, distinct[0], distinct),))
+
+    @property
+    def _plain(self) -> dict[Node, Expr]:
+        return _plain(self.mechanics)
+
+    def _unit(self, sense: Sense | None) -> Sense | None:
+        if sense is None or not isinstance(sense.meaning, Vector):
             return None
-        return meaning / positive_root(meaning.dot(meaning), self.positive)
+        length = positive_root(sense.meaning.dot(sense.meaning), self.positive)
+        return replace(sense, meaning=sense.meaning / length)
 
-    def _component(self, name: Name, known: Callable[[Name], Meaning | None]) -> Meaning | None:
+    def _component(self, name: Name, known: Callable[[Name], Sense | None]) -> Sense | None:
         """L_z, F_ρ, τ_1: a vector with the label of an axis below."""
         whole, _, label = name.subscript.rpartition(",")
         vector = known(replace(name, subscript=whole, decoration=_VECTOR)) if label else None
-        if not isinstance(vector, Vector):
+        if vector is None or not isinstance(vector.meaning, Vector):
             return None
         axis = self._named(Name(label, decoration=_HAT))
-        return dot(vector, axis) if isinstance(axis, Vector) else None
+        if axis is None or not isinstance(axis.meaning, Vector):
+            return None
+        return Sense(dot(vector.meaning, axis.meaning), (*vector.readings, *axis.readings))
 
     def _unknown(self, node: Node) -> BindingError:
-        names = {spelled(known): known for known in (*self.told, *self._known)}
+        known = (*self.told, *_phrases(self.mechanics), *self._plain)
+        names = {spelled(node): node for node in known}
         near = tuple(get_close_matches(spelled(node), names, n=3, cutoff=0.6))
         return BindingError(
             f"{spelled(node)}, which stands for nothing in {self.system}",
@@ -152,10 +242,23 @@ class Vocabulary:
 
     def vectors(self) -> Iterator[Node]:
         """Letters of vectors that a text on this system may use, those of the text first."""
-        named = (node for node, _ in automatic(self.mechanics))
+        named = _phrases(self.mechanics)
         for node in dict.fromkeys([*self.told, *named]):
             if isinstance(node, Name) and node.decoration != _HAT:
                 yield node
+
+
+def _names(piece: Piece) -> Iterator[Name]:
+    """The letters of a piece of text; the L of ∂L/∂q̇ is a Lagrangian whatever L means elsewhere."""
+    pieces = list(walk(piece))
+    lagrangians = {
+        id(p.of) for p in pieces if isinstance(p, Derivative) and p.partial and p.of == LAGRANGIAN
+    }
+    for found in pieces:
+        if isinstance(found, Name) and id(found) not in lagrangians:
+            yield found
+        if isinstance(found, Component):
+            yield Name(found.subscript, decoration=_HAT)
 
 
 @lru_cache(maxsize=_KEPT)
@@ -170,13 +273,25 @@ def _declared(mechanics: Mechanics) -> dict[Node, Expr]:
 
 
 @lru_cache(maxsize=_KEPT)
-def _known(mechanics: Mechanics) -> dict[Node, Callable[[], Meaning]]:
-    found: dict[Node, Callable[[], Meaning]] = {
-        node: partial(quantity, mechanics, phrase) for node, phrase in automatic(mechanics)
-    }
-    fixed = {**_declared(mechanics), Name("pi"): pi, Name("t"): time}
-    plain = {node: value for node, value in fixed.items() if isinstance(node, Name)}
-    return found | {node: partial(Expr.of, value) for node, value in plain.items()}
+def _plain(mechanics: Mechanics) -> dict[Node, Expr]:
+    """Letters that stand for a symbol: those of the declaration, π and the time."""
+    return {**_declared(mechanics), Name("pi"): pi, Name("t"): time}
+
+
+@lru_cache(maxsize=_KEPT)
+def _phrases(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
+    return letters(mechanics)
+
+
+@lru_cache(maxsize=4096)
+def _distinct(mechanics: Mechanics, phrases: tuple[str, ...]) -> tuple[str, ...]:
+    """Those of some phrases that name different quantities."""
+    found: dict[str, Meaning] = {}
+    for phrase in phrases:
+        meaning = mechanics.in_speeds(quantity(mechanics, phrase))
+        if not any(alike(meaning, other) for other in found.values()):
+            found[phrase] = meaning
+    return tuple(found)
 
 
 #: How else a letter may have been printed, likeliest first.
@@ -189,130 +304,6 @@ _FORMS: dict[str, tuple[str, ...]] = {
     "bar vector": ("bar",),
     "tilde vector": ("tilde",),
 }
-
-
-def automatic(mechanics: Mechanics) -> Iterator[tuple[Node, str]]:
-    """Letters that mean the same in most texts, with the quantity of the model.
-
-    Of two entries for one letter the later holds.
-    """
-    yield from _energies(mechanics)
-    yield from _elements(mechanics)
-    yield from _motion(mechanics)
-    yield from _directions(mechanics)
-
-
-def _energies(mechanics: Mechanics) -> Iterator[tuple[Node, str]]:
-    yield from {
-        Name("T"): "kinetic energy",
-        Name("V"): "potential energy",
-        Name("U"): "potential energy",
-        Name("E"): "energy",
-        Name("cal L"): "lagrangian",
-        Name("T", "rot"): "rotational kinetic energy",
-        Name("T", "cm"): "translational kinetic energy",
-    }.items()
-    for symbol in mechanics.equations.coordinates:
-        name = name_of(symbol.published)
-        for letter in ("P", "p"):
-            label = name.letter if isinstance(name, Name) and not name.subscript else symbol.name
-            yield Name(letter, label), f"momentum conjugate to {symbol.published}"
-
-
-def _motion(mechanics: Mechanics) -> Iterator[tuple[Node, str]]:
-    yield from {
-        Name("omega", decoration=_VECTOR): "angular velocity",
-        Name("omega", "total", decoration=_VECTOR): "angular velocity",
-        Name("v", decoration=_VECTOR): "velocity",
-        Name("v", "cm", decoration=_VECTOR): "velocity",
-        Name("a", "cm", decoration=_VECTOR): "acceleration",
-        Name("r", decoration=_VECTOR): "position",
-        Name("r", "cm", decoration=_VECTOR): "position",
-        Name("P", decoration=_VECTOR): "momentum",
-        Name("p", decoration=_VECTOR): "momentum",
-        Name("L", decoration=_VECTOR): "angular momentum about cm",
-        Name("L", "cm", decoration=_VECTOR): "angular momentum about cm",
-        Name("tau", decoration=_VECTOR): "torque about cm",
-        Name("tau", "cm", decoration=_VECTOR): "torque about cm",
-        Name("I", decoration=_VECTOR): "inertia",
-        Name("I", "cm", decoration=_VECTOR): "inertia",
-        Name("F", "total", decoration=_VECTOR): "total force",
-    }.items()
-    if any(isinstance(load, Gravity) for load in mechanics.equations.system.loads):
-        yield Name("g", decoration=_VECTOR), "gravity"
-    for label in mechanics.body.axes.labels:
-        yield Name("I", label), f"moment of inertia {label}"
-
-
-def _elements(mechanics: Mechanics) -> Iterator[tuple[Node, str]]:
-    """Velocity, force and moments of contacts and pivots; a plain F is that of the first."""
-    kinetics = mechanics.equations.kinetics
-    for element in reversed(kinetics.elements):
-        forces = [r for r in kinetics.restraints[element.name] if not r.is_couple]
-        if not forces:
-            continue
-        letter = name_of(forces[0].name)
-        if isinstance(letter, Name):
-            plain = replace(letter, subscript="", decoration=_VECTOR)
-            yield plain, f"force of {element.name}"
-        for label in (element.name, *_labels(element)):
-            yield Name("F", label, decoration=_VECTOR), f"force of {element.name}"
-            yield Name("v", label, decoration=_VECTOR), f"velocity of {element.name}"
-            yield Name("L", label, decoration=_VECTOR), f"angular momentum about {element.name}"
-            yield Name("tau", label, decoration=_VECTOR), f"torque about {element.name}"
-
-
-def _labels(element: Element) -> tuple[str, ...]:
-    """What texts write below a letter for the kind of contact or joint."""
-    kinds = ((Contact, ("contact",)), (Pivot, ("pivot", "p")))
-    return next((labels for kind, labels in kinds if isinstance(element, kind)), ())
-
-
-def _directions(mechanics: Mechanics) -> Iterator[tuple[Node, str]]:
-    axes = mechanics.body.axes
-    for frame in dict.fromkeys((*reversed(axes.lineage), axes.root, axes)):
-        for label in frame.labels:
-            yield Name(label, decoration=_HAT), f"axis {label} of {frame.name}"
-        short = all(len(label) == 1 for label in frame.labels)
-        joined = "".join(frame.labels) if short else " ".join(frame.labels)
-        for subscript in (joined, f"({','.join(frame.labels)})", ",".join(frame.labels)):
-            yield Name("omega", subscript, decoration=_VECTOR), f"angular velocity of {frame.name}"
-
-
-_DOTS = {"_dot": 1, "_ddot": 2, "_dddot": 3}
-
-
-def name_of(published: str) -> Node:
-    """The letter that a published name is printed as: `Fprime_rho`, `theta_ddot`."""
-    for ending, count in _DOTS.items():
-        if published.endswith(ending):
-            return Dots(name_of(published.removesuffix(ending)), count)
-    stem, *subscripts = published.rstrip("_").split("_")
-    letter = stem
-    while letter.endswith("prime") and letter != "prime":
-        letter = letter.removesuffix("prime")
-    primes = (len(stem) - len(letter)) // len("prime")
-    return Name(letter, ",".join(subscripts), primes)
-
-
-def spelled(node: Node) -> str:
-    """A letter in ASCII for messages: `omega_3`, `theta_dot`, `hat 3`, `vector L_cm`."""
-    match node:
-        case Name(letter, subscript, primes, decoration):
-            below = f"_{subscript}" if subscript else ""
-            prefix = f"{decoration} " if decoration else ""
-            return f"{prefix}{letter}{'prime' * primes}{below}"
-        case Number(text):
-            return text
-        case Dots(of, count):
-            return f"{spelled(of)}_{'d' * (count > 1) * (count - 1)}dot"
-        case Differential(of, sign):
-            return f"{sign}{spelled(of)}"
-        case At(of, argument):
-            return f"{spelled(of)}({spelled(argument)})"
-        case Component(of, subscript):
-            return f"({spelled(of)})_{subscript}"
-    return type(node).__name__.lower()
 
 
 def constant(node: Node) -> Expr:

@@ -29,6 +29,7 @@ def check(
     let: Iterable[str] = (),
     given: Iterable[str] = (),
     small: Iterable[str] = (),
+    read: Iterable[str] = (),
     seconds: float | None = LONGEST,
     tell: Callable[[Verdict], object] = lambda verdict: None,
 ) -> Verdict:
@@ -45,12 +46,15 @@ def check(
         let: new symbols of the text, in published names or LaTeX: ``epsilon = theta - pi/2``.
         given: restrictions, such as ``theta = pi/2``.
         small: small quantities with the order to be kept, such as ``epsilon:1``.
+        read: letters that the field uses for several quantities, each with the one that is meant:
+            ``L = about pivot``.
         seconds: of processor time that it may take; None for as long as it takes, in this process.
         tell: called with a failure as soon as it is found; a correction may take longer.
 
     Returns:
-        The verdict with its evidence; ``unread`` for what cannot be read or bound. A failure for
-        which no correction was found in time says so.
+        The verdict with its evidence and with what its letters were taken to mean; ``unread`` for
+        what cannot be read or bound, ``ambiguous`` where readings that the field allows lead to
+        different verdicts. A failure for which no correction was found in time says so.
 
     Raises:
         ParseError: for an unknown context, a `let` of a known symbol, and unreadable restrictions.
@@ -59,7 +63,8 @@ def check(
     if not isinstance(latex, str):
         raise ParseError(f"an equation of type {type(latex).__name__}", expected="LaTeX, as a str")
     equations_only(equations, "a claim about the motion")
-    enquiry = Enquiry(latex, context, _several(let), _several(given), _several(small))
+    said = map(_several, (let, given, small, read))
+    enquiry = Enquiry(latex, context, *said)
     if seconds is None:
         return enquiry.judged(equations, tell)
     if not isinstance(seconds, int | float) or not 0 < seconds < inf:

@@ -1,0 +1,163 @@
+"""Letters that mean the same in most texts, each with the quantities of a model it may stand for.
+
+Where the field uses a letter for more than one quantity of a system, all of them are listed, the
+likeliest first: **L** is about the centre of mass or about a fixed point, **v** is that of one
+body or of another. Unit vectors x, y, z are those of frames at rest, never those of a frame that
+turns with the body and happens to keep their labels.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+
+from polhode.algebra import Vector
+from polhode.claims.latex._tree import Name, Node
+from polhode.claims.meaning._mechanics import Mechanics
+from polhode.claims.meaning._spelling import name_of
+from polhode.model import Contact, Element, Frame, Gravity, Pivot
+
+_VECTOR, _HAT = "vector", "hat"
+
+#: A letter with phrases for the quantities it may stand for, the likeliest first.
+Entry = tuple[Node, tuple[str, ...]]
+
+
+def letters(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
+    """Phrases for what each letter may stand for, the likeliest first."""
+    found: dict[Node, dict[str, None]] = {}
+    for node, phrases in _entries(mechanics):
+        found.setdefault(node, {}).update(dict.fromkeys(phrases))
+    return {node: tuple(phrases) for node, phrases in found.items()}
+
+
+def _entries(mechanics: Mechanics) -> Iterator[Entry]:
+    yield from _energies(mechanics)
+    yield from _elements(mechanics)
+    yield from _motion(mechanics)
+    yield from _directions(mechanics)
+
+
+def _energies(mechanics: Mechanics) -> Iterator[Entry]:
+    yield from {
+        Name("T"): ("kinetic energy",),
+        Name("V"): ("potential energy",),
+        Name("U"): ("potential energy",),
+        Name("E"): ("energy",),
+        Name("cal L"): ("lagrangian",),
+        Name("T", "rot"): ("rotational kinetic energy",),
+        Name("T", "cm"): ("translational kinetic energy",),
+    }.items()
+    for symbol in mechanics.equations.coordinates:
+        name = name_of(symbol.published)
+        for letter in ("P", "p"):
+            label = name.letter if isinstance(name, Name) and not name.subscript else symbol.name
+            yield Name(letter, label), (f"momentum conjugate to {symbol.published}",)
+
+
+def _motion(mechanics: Mechanics) -> Iterator[Entry]:
+    bodies = mechanics.equations.system.bodies
+    total = Name("omega", "total", decoration=_VECTOR)
+    if len(bodies) == 1:
+        yield total, ("angular velocity",)
+        yield Name("I", "cm", decoration=_VECTOR), ("inertia",)
+        for label in mechanics.body.axes.labels:
+            yield Name("I", label), (f"moment of inertia {label}",)
+    for letter, quantity in (
+        ("omega", "angular velocity"),
+        ("v", "velocity"),
+        ("r", "position"),
+        ("I", "inertia"),
+    ):
+        yield Name(letter, decoration=_VECTOR), _of_each(quantity, mechanics)
+    yield from {
+        Name("v", "cm", decoration=_VECTOR): ("velocity of cm",),
+        Name("a", "cm", decoration=_VECTOR): ("acceleration of cm",),
+        Name("r", "cm", decoration=_VECTOR): ("position of cm",),
+        Name("P", decoration=_VECTOR): ("momentum",),
+        Name("p", decoration=_VECTOR): ("momentum",),
+        Name("L", decoration=_VECTOR): _about_points("angular momentum", mechanics),
+        Name("L", "cm", decoration=_VECTOR): ("angular momentum about cm",),
+        Name("tau", decoration=_VECTOR): _about_points("torque", mechanics),
+        Name("tau", "cm", decoration=_VECTOR): ("torque about cm",),
+        Name("F", "total", decoration=_VECTOR): ("total force",),
+    }.items()
+    if any(isinstance(load, Gravity) for load in mechanics.equations.system.loads):
+        yield Name("g", decoration=_VECTOR), ("gravity",)
+
+
+def _of_each(quantity: str, mechanics: Mechanics) -> tuple[str, ...]:
+    """The quantity of the body, or of each of several."""
+    bodies = mechanics.equations.system.bodies
+    return (quantity,) if len(bodies) == 1 else tuple(f"{quantity} of {b.name}" for b in bodies)
+
+
+def _about_points(quantity: str, mechanics: Mechanics) -> tuple[str, ...]:
+    """The quantity about the centre of mass, and about every point that a pivot keeps at rest."""
+    fixed = (e.name for e in mechanics.equations.kinetics.elements if _keeps_at_rest(e))
+    return tuple(f"{quantity} about {point}" for point in ("cm", *fixed))
+
+
+def _keeps_at_rest(element: Element) -> bool:
+    if not isinstance(element, Pivot) or not isinstance(element.to, Vector):
+        return False
+    root = element.body.axes.root
+    moving = {s for c in element.to.express(root).components for s in c.symbols() if s.kind.varies}
+    return set(element.only) == set(element.along.labels) and not moving
+
+
+def _elements(mechanics: Mechanics) -> Iterator[Entry]:
+    """Velocity, force and moments of contacts and pivots; a plain letter is that of any of them."""
+    kinetics = mechanics.equations.kinetics
+    for element in kinetics.elements:
+        forces = [r for r in kinetics.restraints[element.name] if not r.is_couple]
+        if not forces:
+            continue
+        letter = name_of(forces[0].name)
+        if isinstance(letter, Name):
+            plain = replace(letter, subscript="", decoration=_VECTOR)
+            yield plain, (f"force of {element.name}",)
+        for label in (element.name, *_labels(element)):
+            yield Name("F", label, decoration=_VECTOR), (f"force of {element.name}",)
+            yield Name("v", label, decoration=_VECTOR), (f"velocity of {element.name}",)
+            yield Name("L", label, decoration=_VECTOR), (f"angular momentum about {element.name}",)
+            yield Name("tau", label, decoration=_VECTOR), (f"torque about {element.name}",)
+
+
+def _labels(element: Element) -> tuple[str, ...]:
+    """What texts write below a letter for the kind of contact or joint."""
+    kinds = ((Contact, ("contact",)), (Pivot, ("pivot", "p")))
+    return next((labels for kind, labels in kinds if isinstance(element, kind)), ())
+
+
+def _directions(mechanics: Mechanics) -> Iterator[Entry]:
+    """Unit vectors: of frames at rest, then of the body's axes, then of the frames between."""
+    axes = mechanics.body.axes
+    named = mechanics.frames  # of two frames with one name a phrase could mean either
+    chain = tuple(f for f in reversed(axes.lineage) if named[f.name] == f)
+    at_rest = [f for f in chain if _is_fixed(f)]
+    known: set[str] = set()
+    for labels, frames in ((axes.root.labels, at_rest), (axes.labels, [axes]), ((), chain)):
+        for frame in frames:
+            for label in labels or set(frame.labels) - known:
+                if label in frame.labels and label not in known:
+                    yield Name(label, decoration=_HAT), (f"axis {label} of {frame.name}",)
+        known.update(labels)
+    for frame in reversed(chain):
+        for subscript in _triad_names(frame):
+            yield (
+                Name("omega", subscript, decoration=_VECTOR),
+                (f"angular velocity of {frame.name}",),
+            )
+
+
+def _is_fixed(frame: Frame) -> bool:
+    """Whether a frame keeps its directions in the root frame: all its angles are constant."""
+    return not any(s.kind.varies for f in frame.lineage for s in f.angle.symbols())
+
+
+def _triad_names(frame: Frame) -> Iterable[str]:
+    """What texts write below an ω for a triad: 123, (1,2,3) or 1,2,3."""
+    short = all(len(label) == 1 for label in frame.labels)
+    joined = "".join(frame.labels) if short else " ".join(frame.labels)
+    return joined, f"({','.join(frame.labels)})", ",".join(frame.labels)
