@@ -90,7 +90,7 @@ ONE_X = {"is": "expression", "over": [{"#": 0}], "above": [[[1], 1, 1]], "below"
 
 
 def document(*parts):
-    return json.dumps({"format": "polhode declaration", "schema": 1, "parts": list(parts)})
+    return json.dumps({"format": "polhode declaration", "schema": 2, "parts": list(parts)})
 
 
 def test_the_examples_below_are_bad_only_where_they_differ():

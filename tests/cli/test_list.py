@@ -55,4 +55,4 @@ def test_it_starts_without_numerical_or_symbolic_libraries():
     )
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert run.stderr == "0\n"
-    assert json.loads(run.stdout)["schema"] == 1
+    assert json.loads(run.stdout)["schema"] == 2

@@ -24,7 +24,7 @@ def test_a_sweep_tells_its_members(store, capsys):
     assert told["failed"] == 0
     assert told["store"] == store
     assert told["seconds"] > 0
-    assert told["schema"] == 1
+    assert told["schema"] == 2
 
 
 def test_a_map_is_drawn(store, tmp_path, capsys):

@@ -64,7 +64,7 @@ def test_the_store_tells_what_it_was_made_with(whole):
     assert origin["versions"]["heyoka"]
     assert origin["parameters"] == NUMBERS
     assert origin["batch"]["shape"] == [5, 6]
-    assert origin["schema"] == 1
+    assert origin["schema"] == 2
 
 
 def test_killed_and_gone_on_with_it_ends_with_the_same_bits(whole, tmp_path):

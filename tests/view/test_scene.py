@@ -168,7 +168,7 @@ def test_numbers_are_those_of_the_run(run_of):
     (mass,) = (number for number in scene.parameters if number.name == "m")
     assert (mass.value, mass.unit, mass.meaning) == (0.2, "kg", "mass of the disk")
     assert scene.evidence[0].value == run_of("rolling-disk").drift.energy
-    assert scene.origin["schema"] == 1
+    assert scene.origin["schema"] == 2
 
 
 def test_arrays_survive_the_packing(scene_of):

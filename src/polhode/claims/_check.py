@@ -131,7 +131,24 @@ def _judged_reading(
     except (PolhodeError, ZeroDivisionError) as error:
         unread = Verdict(Answer.UNREAD, context, reason=f"{error}{hint}")
         return JudgedReading(chosen, notation, None, unread)
-    return JudgedReading(chosen, notation, asked, _judged(asked, context))
+    verdict = _judged(asked, context)
+    if verdict.answer in (Answer.HOLDS, Answer.FAILS) and not when:
+        verdict = _read_twice(verdict, asked, statement, notation)
+    return JudgedReading(chosen, notation, asked, verdict)
+
+
+def _read_twice(
+    verdict: Verdict, asked: Asked, statement: Statement, notation: Notation
+) -> Verdict:
+    """The verdict, unless a reader that shares nothing with the first one reads otherwise."""
+    from polhode.claims.contexts._read_anew import disputed  # NumPy, for what was bound alone
+
+    vocabulary = notation.vocabulary
+    points = {r.letter: r.phrase.partition(" about ")[2] for r in vocabulary.readings([statement])}
+    dispute = disputed(verdict.answer, asked, verdict.context, statement, vocabulary.told, points)
+    if not dispute:
+        return verdict
+    return Verdict(Answer.UNREAD, verdict.context, reason=f"read in two ways: {dispute}")
 
 
 def _hint(latex: str) -> str:

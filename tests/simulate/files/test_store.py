@@ -42,7 +42,7 @@ ARCHIVE = Archive(
         "mu": Sampled("", TIMES),
     },
     details={"integrator": "heyoka", "assumed": {"x": 0.0}},
-    origin={"schema": 1, "versions": {"polhode": "0"}, "seed": None},
+    origin={"schema": 2, "versions": {"polhode": "0"}, "seed": None},
 )
 
 

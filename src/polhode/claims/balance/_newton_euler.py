@@ -49,6 +49,14 @@ def true_motion(system: System, state: Mapping[Symbol, float]) -> Numbers:
     return _numbers(trial, state, speeds, found) | reactions
 
 
+def trial_of(system: System, numbers: Mapping[Symbol, float]) -> Trial:
+    """The motion of all bodies with these numbers: of speeds, their rates, and all else."""
+    known = declared(system)
+    speeds = {s: np.array([numbers[s]]) for s in known.speeds}
+    rates = {s: np.array([numbers[s.derivative()]]) for s in known.speeds}
+    return Trial(known, numbers, speeds, rates)
+
+
 def constrained_motion(
     system: System, state: Mapping[Symbol, float], accelerations: Mapping[Symbol, float]
 ) -> Numbers:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
@@ -55,7 +55,7 @@ class Trial:
         for symbol in known.functions:
             table |= _prescribed(symbol, state)
         for symbol, speed in speeds.items():
-            table[symbol] = Jet(speed, rates.get(symbol, self._nothing), self._nothing)
+            table[symbol] = Jet(speed, rates.get(symbol, self._nothing), _UNKNOWN)
         self._table = table
         self._let_coordinates_move(state)
 
@@ -68,7 +68,7 @@ class Trial:
             for q, rate in self._rates().items():
                 first, second = self._wide(rate.value), self._wide(rate.rate)
                 self._table[q] = Jet(self._nothing + state[q], first, second)
-                self._table[q.derivative()] = Jet(first, second, self._nothing)
+                self._table[q.derivative()] = Jet(first, second, _UNKNOWN)
 
     def _rates(self) -> dict[Symbol, Jet]:
         declared = self._known.rates
@@ -86,6 +86,16 @@ class Trial:
     def coordinates(self) -> tuple[Symbol, ...]:
         """All coordinates."""
         return self._known.coordinates
+
+    @property
+    def symbols(self) -> Collection[Symbol]:
+        """All that have a number."""
+        return self._table.keys()
+
+    @property
+    def restraints(self) -> tuple[Restraint, ...]:
+        """What supports prescribe."""
+        return self._known.restraints
 
     def number(self, symbol: Symbol) -> Jet:
         """One symbol."""
@@ -124,25 +134,34 @@ class Trial:
         return {body: self._moving(body) for body in self._known.system.bodies}
 
     def _moving(self, body: Body) -> Moving:
-        velocity = self._inertial_rate(self.vector(self._known.places[body]))
+        velocity = self.inertial_rate(self.vector(self._known.places[body]))
         return Moving(velocity, self.vector(body.angular_velocity))
 
     def acceleration(self, body: Body) -> Jets:
         """Of its centre of mass, in inertial space, m/s²."""
-        return self._inertial_rate(self.bodies[body].velocity)
+        return self.inertial_rate(self.bodies[body].velocity)
 
     def spin_rate(self, body: Body) -> Jets:
         """Rate of its angular momentum about the centre of mass, in inertial space, N m."""
-        return self._inertial_rate(self._angular_momentum(body))
+        return self.inertial_rate(self.angular_momentum(body))
 
-    def _inertial_rate(self, vector: Jets) -> Jets:
+    def place(self, body: Body) -> Jets:
+        """Of its centre of mass, from the origin of the root frame, m."""
+        return self.vector(self._known.places[body])
+
+    def inertial_rate(self, vector: Jets) -> Jets:
+        """Rate of a vector in inertial space."""
         return np.array([c.dt for c in vector], dtype=object) + _cross(self._carried, vector)
 
-    def _angular_momentum(self, body: Body) -> Jets:
-        angular = self.bodies[body].angular
+    def angular_momentum(self, body: Body) -> Jets:
+        """About its centre of mass, kg m²/s."""
+        return self.mapped_by_inertia(body, self.bodies[body].angular)
+
+    def mapped_by_inertia(self, body: Body, vector: Jets) -> Jets:
+        """What the inertia tensor of a body about its centre of mass maps a vector to."""
         found = np.array(self.scalars(_axes_and_moments(body, self._root)), dtype=object)
         axes, moments = found.reshape(2, 3, 3)
-        along = [_dot(axis, angular) for axis in axes]
+        along = [_dot(axis, vector) for axis in axes]
         return sum(axis * _dot(row, along) for axis, row in zip(axes, moments, strict=True))
 
     def slip(self, restraint: Restraint, direction: Vector) -> Jet:
@@ -171,6 +190,8 @@ class Trial:
 
 
 _PI = Symbol("pi")
+#: A second rate that nothing determines: of speeds, whose first rates alone are given.
+_UNKNOWN = np.array(np.nan)
 
 
 @lru_cache(maxsize=4096)
@@ -199,7 +220,7 @@ def _prescribed(function: Symbol, state: Mapping[Symbol, float]) -> dict[Symbol,
     return {
         orders[0]: Jet(at, first, second),
         orders[1]: Jet(first, second, third),
-        orders[2]: Jet(second, third, np.zeros(())),
+        orders[2]: Jet(second, third, _UNKNOWN),
     }
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from math import isclose
 from operator import ne
 
@@ -48,7 +48,18 @@ def refutation(
     return None, None
 
 
-def _drawn(sides: tuple[Expr, Expr], states: Circumstances) -> Iterator[Point]:
+def drawn_numbers(sides: Sequence[Expr], states: Circumstances) -> dict[Symbol, float] | None:
+    """Numbers of every quantity at some state that the circumstances allow, forces included."""
+    for point in _drawn([states.on(side) for side in sides], states):
+        try:
+            if _is_allowed(point, states):
+                return _numbers(point, states)
+        except (PolhodeError, ArithmeticError, ValueError):
+            continue
+    return None
+
+
+def _drawn(sides: Sequence[Expr], states: Circumstances) -> Iterator[Point]:
     used = [*sides, *states.settled_relations, *map(states.on, states.signs)]
     used += states.equations.accelerations.values()
     symbols = {s for e in used for s in e.symbols()} | _state(states)

@@ -21,8 +21,8 @@ from polhode.model import Body, Frame, Gravity, Restraint
 class Mechanics:
     """The quantities of one system; where no body is named, its first one is meant.
 
-    A point is "cm" (of all bodies), "origin", the name of a body (its centre of mass) or of a contact or joint
-    (the point of the body where it acts). Vectors are in inertial space, in SI units.
+    A point is "cm" (of all bodies), "origin", the name of a body (its centre of mass) or of a
+    contact or joint (the point of the body where it acts). Vectors are in inertial space, SI.
 
     Args:
         equations: of the system.

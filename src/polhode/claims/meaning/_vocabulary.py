@@ -120,7 +120,7 @@ class Vocabulary:
     def find(self, node: Node) -> Meaning | None:
         """What a letter stands for, or None."""
         sense = self.sense(node)
-        return sense and sense.meaning
+        return None if sense is None else sense.meaning
 
     def sense(self, node: Node) -> Sense | None:
         """What a letter stands for and on which readings that rests, or None.

@@ -1,0 +1,283 @@
+"""Both sides of a claim by numbers, from its letters on: a second reading that shares no first.
+
+A state alone does not find out that a letter was misread. Here the LaTeX tree is read anew, with a
+table of letters and rules for signs and rates of its own: vectors are three numbers along the root
+frame, unit vectors rows of its matrices, rates are carried along as jets. What this table does not
+have is left unread; nothing is guessed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import reduce, singledispatchmethod
+from typing import Any
+
+import numpy as np
+
+from polhode.algebra import Expr, Op, Symbol, Vector
+from polhode.claims.balance._jets import JETS, Jet
+from polhode.claims.balance._second_letters import Inertia, Letters, UnreadError, cross, dot
+from polhode.claims.balance._trial import Jets, Trial
+from polhode.claims.latex import _tree as tree
+from polhode.model import System
+
+_EQUAL = ("=", "≡")
+_CONSTANT = ("constant", "const")
+
+_sin, _cos = JETS.functions[Op.SIN], JETS.functions[Op.COS]
+_sinh, _cosh = JETS.functions[Op.SINH], JETS.functions[Op.COSH]
+_exp, _sqrt = JETS.functions[Op.EXP], JETS.functions[Op.SQRT]
+_FUNCTIONS: dict[str, Callable[[Any], Any]] = {
+    "sin": _sin,
+    "cos": _cos,
+    "tan": lambda x: _sin(x) / _cos(x),
+    "sec": lambda x: 1.0 / _cos(x),
+    "csc": lambda x: 1.0 / _sin(x),
+    "cot": lambda x: _cos(x) / _sin(x),
+    "sinh": _sinh,
+    "cosh": _cosh,
+    "tanh": lambda x: _sinh(x) / _cosh(x),
+    "sech": lambda x: 1.0 / _cosh(x),
+    "exp": _exp,
+}
+
+
+@dataclass(frozen=True)
+class Sides:
+    """Numbers of the two sides of one member: of a scalar one, of a vector three."""
+
+    left: tuple[float, ...]
+    right: tuple[float, ...]
+
+    @property
+    def differ_by(self) -> float:
+        """The largest difference, against the size of the sides or 1."""
+        size = max(1.0, *map(abs, (*self.left, *self.right)))
+        return max(abs(a - b) for a, b in zip(self.left, self.right, strict=True)) / size
+
+    @property
+    def is_known(self) -> bool:
+        """Whether all are numbers; a second rate that nothing determines is none."""
+        return bool(np.all(np.isfinite([*self.left, *self.right])))
+
+
+def read_members(
+    statement: tree.Statement,
+    system: System,
+    numbers: Mapping[Symbol, float],
+    trial: Trial,
+    told: Mapping[tree.Node, object],
+    points: Mapping[tree.Name, str],
+) -> Iterator[Sides | None]:
+    """The sides of every member of a statement that claims an equality; None where it is not read.
+
+    Args:
+        statement: the claim.
+        system: the declaration.
+        numbers: reactions, by symbol.
+        trial: the motion of all bodies.
+        told: letters that the text defines, as expressions and vectors.
+        points: of moments that may be about several points, which is meant.
+    """
+    reader = _Reader(system, numbers, trial, told, points)
+    for relation in statement.relations:
+        pairs = zip(relation.sides, relation.signs, relation.sides[1:], strict=False)
+        for left, sign, right in pairs:
+            yield reader.sides(left, right) if sign in _EQUAL else None
+
+
+class _Reader:
+    def __init__(
+        self,
+        system: System,
+        numbers: Mapping[Symbol, float],
+        trial: Trial,
+        told: Mapping[tree.Node, object],
+        points: Mapping[tree.Name, str],
+    ) -> None:
+        self._trial = trial
+        self._told = told
+        self._letters = Letters(system, numbers, trial, points)
+
+    # -- members --------------------------------------------------------------------------------
+
+    def sides(self, left: tree.Node, right: tree.Node) -> Sides | None:
+        """The two sides by numbers."""
+        try:
+            one = self.value(left)
+            if _says_constant(right):
+                one = self._rate(one)
+                other: Any = Jet.of(0.0)
+            else:
+                other = self.value(right)
+            return Sides(*self._matched(one, other))
+        except (UnreadError, KeyError, ZeroDivisionError):
+            return None
+
+    def _matched(self, one: Any, other: Any) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        if isinstance(one, np.ndarray) != isinstance(other, np.ndarray):
+            one, other = (_vector_of_zero(side) for side in (one, other))
+        return self._plain(one), self._plain(other)
+
+    def _plain(self, side: Any) -> tuple[float, ...]:
+        if isinstance(side, Inertia):
+            raise UnreadError
+        return tuple(float(np.ravel(jet.value)[0]) for jet in np.atleast_1d(side))
+
+    # -- pieces ---------------------------------------------------------------------------------
+
+    @singledispatchmethod
+    def value(self, node: tree.Node) -> Any:
+        """A scalar as a jet, a vector as three along the root frame."""
+        raise UnreadError
+
+    @value.register
+    def _(self, node: tree.Number) -> Any:
+        return Jet.of(float(Fraction(node.text)))
+
+    @value.register
+    def _(self, node: tree.Dots) -> Any:
+        return reduce(lambda found, _: self._rate(found), range(node.count), self.value(node.of))
+
+    @value.register
+    def _(self, node: tree.Derivative) -> Any:
+        if node.partial or node.by != tree.Name("t"):
+            raise UnreadError
+        return reduce(lambda found, _: self._rate(found), range(node.order), self.value(node.of))
+
+    def _rate(self, found: Any) -> Any:
+        if isinstance(found, Inertia):
+            raise UnreadError
+        return self._trial.inertial_rate(found) if isinstance(found, np.ndarray) else found.dt
+
+    @value.register
+    def _(self, node: tree.Sum) -> Any:
+        return reduce(self._sum, map(self.value, node.terms))
+
+    def _sum(self, one: Any, other: Any) -> Any:
+        if isinstance(one, Inertia) or isinstance(other, Inertia):
+            raise UnreadError
+        if isinstance(one, np.ndarray) != isinstance(other, np.ndarray):
+            one, other = _vector_of_zero(one), _vector_of_zero(other)
+        return one + other
+
+    @value.register
+    def _(self, node: tree.Negative) -> Any:
+        return self._times(Jet.of(-1.0), self.value(node.of))
+
+    @value.register
+    def _(self, node: tree.Product) -> Any:
+        return reduce(self._times, map(self.value, node.factors))
+
+    def _times(self, one: Any, other: Any) -> Any:
+        if isinstance(one, Inertia) and isinstance(other, np.ndarray):
+            return self._trial.mapped_by_inertia(one.body, other)
+        vectors = [isinstance(side, np.ndarray | Inertia) for side in (one, other)]
+        if any(isinstance(side, Inertia) for side in (one, other)) or all(vectors):
+            raise UnreadError
+        return other * one if vectors[1] else one * other  # NumPy scales by what stands behind
+
+    @value.register
+    def _(self, node: tree.Cross) -> Any:
+        one, other = self.value(node.left), self.value(node.right)
+        if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
+            return cross(one, other)
+        return self._times(one, other)
+
+    @value.register
+    def _(self, node: tree.Dot) -> Any:
+        return self._dot(self.value(node.left), self.value(node.right))
+
+    def _dot(self, one: Any, other: Any) -> Any:
+        if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
+            return dot(one, other)
+        return self._times(one, other)
+
+    @value.register
+    def _(self, node: tree.Quotient) -> Any:
+        above, below = self.value(node.above), self.value(node.below)
+        if not isinstance(below, Jet) or isinstance(above, Inertia):
+            raise UnreadError
+        return above * (1.0 / below) if isinstance(above, np.ndarray) else above / below
+
+    @value.register
+    def _(self, node: tree.Power) -> Any:
+        base = self.value(node.base)
+        if not isinstance(node.exponent, tree.Number) or isinstance(base, Inertia):
+            raise UnreadError
+        exponent = Fraction(node.exponent.text)
+        if isinstance(base, np.ndarray):
+            base, exponent = self._dot(base, base), exponent / 2
+        if exponent.denominator == 2:
+            base, exponent = _sqrt(base), exponent * 2
+        if exponent.denominator != 1 or not 0 < exponent <= 8:
+            raise UnreadError
+        return reduce(self._times, [base] * int(exponent))
+
+    @value.register
+    def _(self, node: tree.Root) -> Any:
+        found = self.value(node.of)
+        if node.index is not None or not isinstance(found, Jet):
+            raise UnreadError
+        return _sqrt(found)
+
+    @value.register
+    def _(self, node: tree.Call) -> Any:
+        found = self.value(node.argument)
+        if node.function not in _FUNCTIONS or not isinstance(found, Jet):
+            raise UnreadError
+        return _FUNCTIONS[node.function](found)
+
+    @value.register
+    def _(self, node: tree.Magnitude) -> Any:
+        found = self.value(node.of)
+        return _sqrt(self._dot(found, found))
+
+    @value.register
+    def _(self, node: tree.Component) -> Any:
+        return self._dot(self.value(node.of), self._unit(node.subscript))
+
+    # -- letters --------------------------------------------------------------------------------
+
+    @value.register
+    def _(self, node: tree.Name) -> Any:
+        for found in (self._defined, self._letters.scalar, self._letters.mechanical):
+            value = found(node)
+            if value is not None:
+                return value
+        whole, _, label = node.subscript.rpartition(",")
+        if label:
+            stem = tree.Name(node.letter, whole, node.primes, "vector")
+            return self._dot(self.value(stem), self._unit(label))
+        if not node.decoration:  # a letter that has lost its boldness
+            return self.value(tree.Name(node.letter, node.subscript, node.primes, "vector"))
+        raise UnreadError
+
+    def _defined(self, name: tree.Name) -> Any:
+        meaning = self._told.get(name)
+        if isinstance(meaning, Expr):
+            return self._trial.scalar(meaning)
+        if isinstance(meaning, Vector):
+            return self._trial.vector(meaning)
+        if meaning is not None:
+            raise UnreadError
+        return None
+
+    def _unit(self, label: str) -> Jets:
+        return self.value(tree.Name(label, decoration="hat"))
+
+
+def _vector_of_zero(side: Any) -> Any:
+    """The number 0 as a vector; any other scalar beside a vector is not read."""
+    if isinstance(side, np.ndarray):
+        return side
+    if isinstance(side, Jet) and side.is_constant and not np.any(side.value):
+        return np.array([side, side, side], dtype=object)
+    raise UnreadError
+
+
+def _says_constant(node: tree.Node) -> bool:
+    said = {tree.Name: "letter", tree.Words: "text"}.get(type(node), "")
+    return bool(said) and str(getattr(node, said)).strip(" .,") in _CONSTANT

@@ -1,0 +1,68 @@
+"""What a second reader says of a claim that was judged: numbers from its letters on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from polhode.base import PolhodeError
+from polhode.claims._verdict import Answer
+from polhode.claims.balance._newton_euler import trial_of
+from polhode.claims.balance._second_reader import Sides, read_members
+from polhode.claims.contexts._counterexample import drawn_numbers
+from polhode.claims.latex._tree import Name, Node, PlusMinus, Statement, walk
+from polhode.claims.states._asked import Asked
+from polhode.claims.states._circumstances import AnyState, TrueMotion
+
+_KINDS: dict[str, type[AnyState] | type[TrueMotion]] = {"identity": AnyState, "motion": TrueMotion}
+_APART = 1e-4  # relative; what is meant by another quantity differs by far more
+_ALIKE = 1e-9
+
+
+def disputed(
+    answer: Answer,
+    asked: Asked,
+    context: str,
+    statement: Statement,
+    told: Mapping[Node, object],
+    points: Mapping[Name, str],
+) -> str:
+    """Why a second reader does not agree with a verdict; empty where it does, or cannot read.
+
+    Args:
+        answer: of the verdict.
+        asked: the claim, bound.
+        context: where it is to hold.
+        statement: the claim, as LaTeX was parsed.
+        told: letters that the text defines.
+        points: of moments that may be about several points, which was taken.
+    """
+    if context not in _KINDS or any(isinstance(p, PlusMinus) for p in walk(statement)):
+        return ""
+    states = asked.states(_KINDS[context])
+    sides = [e for c in asked.components() for e in (c.left, c.right)]
+    try:
+        numbers = drawn_numbers(sides, states)
+        if numbers is None:
+            return ""
+        system = asked.equations.system
+        trial = trial_of(system, numbers)
+        with np.errstate(all="ignore"):
+            found = list(read_members(statement, system, numbers, trial, told, points))
+    except (PolhodeError, ArithmeticError, KeyError, np.linalg.LinAlgError):
+        return ""
+    known = [s for s in found if s is not None and s.is_known]
+    if answer is Answer.HOLDS:
+        return _told([s for s in known if s.differ_by > _APART], "they differ")
+    if answer is Answer.FAILS and len(known) == len(found):
+        agree = all(s.differ_by < _ALIKE for s in known)
+        return _told(known, "they agree") if agree else ""
+    return ""
+
+
+def _told(sides: list[Sides], what: str) -> str:
+    if not sides:
+        return ""
+    left, right = (", ".join(f"{x:.9g}" for x in side) for side in (sides[0].left, sides[0].right))
+    return f"a second reading of the letters finds at one state {left} and {right}: {what}"
