@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from math import isclose
 from operator import ne
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import ONE, Expr, Symbol
 from polhode.base import PolhodeError
 from polhode.claims._verdict import Confirmation, Counterexample, Residual
 from polhode.claims.balance._declared import declared, reaction_symbol
@@ -14,9 +14,10 @@ from polhode.claims.balance._newton_euler import constrained_motion, true_motion
 from polhode.claims.meaning._components import Component
 from polhode.claims.states._circumstances import AnyState, Circumstances
 from polhode.claims.states._numeric import number
+from polhode.claims.states._physical import is_physical
 from polhode.claims.states._points import Point, points
 
-_TRIES = 20
+_TRIES = 300
 _ROUNDING = 1e-7
 
 
@@ -25,6 +26,7 @@ def refutation(
     residual: Residual,
     states: Circumstances,
     refutes: Callable[[Expr, Expr], bool] = ne,
+    nonzero: Expr = ONE,
 ) -> tuple[Counterexample | None, Confirmation | None]:
     """A counterexample and its confirmation, as far as they can be found.
 
@@ -33,14 +35,15 @@ def refutation(
         residual: of that component, exactly.
         states: where it is asked to hold.
         refutes: whether values of the two sides do so; if they differ, by default.
+        nonzero: what must not vanish there, such as the residuals of all branches of a ±.
     """
     sides = (states.on(component.left), states.on(component.right))
-    for point in _drawn(sides, states):
+    for point in _drawn((*sides, nonzero), states):
         try:
             if not _is_allowed(point, states):
                 continue
             left, right = map(point, sides)
-            if refutes(left, right):
+            if refutes(left, right) and point(nonzero):
                 found = Counterexample(_described(point, states), left, right, residual)
                 return found, _confirmed(point, component, states, found)
         except (PolhodeError, ArithmeticError, ValueError):
@@ -48,7 +51,7 @@ def refutation(
     return None, None
 
 
-def _drawn(sides: tuple[Expr, Expr], states: Circumstances) -> Iterator[Point]:
+def _drawn(sides: tuple[Expr, ...], states: Circumstances) -> Iterator[Point]:
     used = [*sides, *states.settled_relations, *map(states.on, states.signs)]
     used += states.equations.accelerations.values()
     symbols = {s for e in used for s in e.symbols()} | _state(states)
@@ -69,9 +72,8 @@ def _with_rates(function: Symbol) -> Iterator[Symbol]:
 
 
 def _is_allowed(point: Point, states: Circumstances) -> bool:
-    """Whether what the derivation took for positive is so."""
-    values = point.floats()
-    return all(number(states.on(e), values) > 0 for e in states.signs)
+    """Whether it is a state of bodies that can be."""
+    return is_physical(states, point.floats())
 
 
 def _described(point: Point, states: Circumstances) -> dict[str, str]:
