@@ -47,16 +47,23 @@ def failures(asked: Asked, all_states: Iterable[Circumstances]) -> Iterator[Fail
     """Every component that does not vanish on every set of states.
 
     ± is one choice for the whole statement: at every state all components vanish on one branch,
-    which is so where each product of residuals, one of each branch, vanishes.
+    which is so where each product of residuals, one of each branch, vanishes. A ± of which one
+    sign is right everywhere and the other is not says too much.
     """
     every = [asked.components(branch) for branch in range(len(asked.branches))]
     found: dict[Component, Failure] = {}
+    idle: dict[int, list[Failure]] = {branch: [] for branch in range(len(every))}
     for states in all_states:
         wrong = [[c for c in branch if states.on(c.difference)] for branch in every]
         for alike in sorted(product(*wrong), key=lambda picked: len({*map(_place, picked)})):
             failure = _failure(alike, states)
             if failure is not None:
                 found.setdefault(alike[0], failure)
+        for branch, components in enumerate(wrong):
+            idle[branch] += [f for c in components if (f := _failure((c,), states)) is not None]
+    if not found and not all(idle.values()):
+        yield from next(filter(None, idle.values()), ())
+        return
     yield from sorted(found.values(), key=lambda f: every[0].index(f.component))
 
 

@@ -35,12 +35,14 @@ class BoundRelation:
         sign: one of = ≡ ≈ ≠ < > ≤ ≥ ≪ ≫ ∝.
         right: what stands right of it.
         span: first and one past the last character of the member in its LaTeX.
+        is_alternative: whether it is a further value after an "or".
     """
 
     left: Side
     sign: str
     right: Side
     span: Span = (0, 0)
+    is_alternative: bool = False
 
 
 @dataclass(frozen=True)
@@ -99,8 +101,9 @@ class _Binder:
     def members(self, relations: Sequence[Relation]) -> Iterator[BoundRelation]:
         """All members of some chains."""
         for relation in relations:
-            for chain in _by_cases(relation):
-                yield from self._chain(chain)
+            for number, chain in enumerate(_by_cases(relation)):
+                for member in self._chain(chain):
+                    yield replace(member, is_alternative=number > 0)
 
     def _chain(self, relation: Relation) -> Iterator[BoundRelation]:
         sides = relation.sides

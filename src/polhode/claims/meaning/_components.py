@@ -31,6 +31,11 @@ class Relation(Protocol):
         """The right side."""
         ...
 
+    @property
+    def is_alternative(self) -> bool:
+        """Whether it is a further value after an "or"."""
+        ...
+
 
 @dataclass(frozen=True)
 class Component:

@@ -122,6 +122,7 @@ class _Nothing:
     left: Expr = ZERO
     sign: str = "="
     right: Expr = ZERO
+    is_alternative: bool = False
 
 
 NOTHING = _Nothing()
