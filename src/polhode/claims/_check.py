@@ -14,6 +14,7 @@ from polhode.claims._verdict import Answer, Correction, Verdict
 from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, read_latex, write_latex
 from polhode.claims.latex._tree import Node, Statement
+from polhode.claims.meaning._bindings import Bound
 from polhode.claims.meaning._read_as import read_as
 from polhode.claims.meaning._vocabulary import spelled
 from polhode.claims.states._asked import Asked
@@ -76,13 +77,19 @@ def judged_claim(
         asked = replace(notation.asked(statement, {}), when=when)
     except (PolhodeError, ZeroDivisionError) as error:
         return Verdict(Answer.UNREAD, context, reason=f"{error}{_hint(latex)}")
-    verdict = _judged(asked, context)
+    verdict = _assuming(bound, latex, _judged(asked, context))
     if verdict.answer is not Answer.FAILS:
         return verdict
     if understood := read_as(statement, notation.vocabulary):
         verdict = replace(verdict, remarks=(*verdict.remarks, f"read {understood}"))
     tell(verdict)
     return verdict if when else _corrected(verdict, statement, notation)
+
+
+def _assuming(bound: Bound, latex: str, verdict: Verdict) -> Verdict:
+    """With the conditions in brackets under which it was judged."""
+    said = (f"under the condition {latex[slice(*r.span)]}" for r in bound.conditions)
+    return replace(verdict, remarks=(*verdict.remarks, *said))
 
 
 def _hint(latex: str) -> str:

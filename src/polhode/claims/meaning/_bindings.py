@@ -52,7 +52,9 @@ class Bound:
     Attributes:
         branches: the members; twice, for the upper and the lower sign, where it says ±.
         defined: letters that it defines, bound by nothing else, with what they stand for.
-        conditions: relations in brackets that restrict it.
+        conditions: what restricts it: relations in brackets after a word such as "if", and the
+            range of a coordinate or speed.
+        values: values of coordinates and speeds in brackets, which may restrict it or be said.
         digits: for members with a decimal number on the right, half a unit of its last digit.
     """
 
@@ -60,6 +62,7 @@ class Bound:
     defined: Mapping[Node, Meaning]
     conditions: tuple[BoundRelation, ...]
     digits: Mapping[int, Expr]
+    values: tuple[BoundRelation, ...] = ()
 
     @property
     def relations(self) -> tuple[BoundRelation, ...]:
@@ -85,8 +88,32 @@ def bind(statement: Statement, vocabulary: Vocabulary) -> Bound:
     readers = [_Binder(Evaluator(vocabulary, upper, per_time)) for upper in signs]
     branches = tuple(tuple(reader.members(statement.relations)) for reader in readers)
     first = readers[0]
-    conditions = tuple(first.members(statement.conditions))
-    return Bound(branches, first.defined, conditions, first.digits)
+    ranges: list[BoundRelation] = []
+    values: list[BoundRelation] = []
+    for relation in statement.conditions:
+        said = [tuple(reader.members([relation])) for reader in readers]
+        of_state = [r for r in said[0] if _is_of_state(r, vocabulary)]
+        if len(of_state) == len(said[0]) and all(r.sign not in EQUAL for r in of_state):
+            ranges += of_state
+        else:
+            values += (r for r in of_state if r.sign in EQUAL)
+            branches = tuple((*one, *more) for one, more in zip(branches, said, strict=True))
+    assumed = tuple(first.members(statement.assumptions))
+    return Bound(branches, first.defined, (*assumed, *ranges), first.digits, tuple(values))
+
+
+def _is_of_state(relation: BoundRelation, vocabulary: Vocabulary) -> bool:
+    """Whether it sets a coordinate or speed against a constant, as no equation of a model does."""
+    equations = vocabulary.mechanics.equations
+    state = {*equations.coordinates, *equations.speeds}
+    sides = relation.left, relation.right
+    if not all(isinstance(side, Expr) for side in sides) or relation.sign == "≈":
+        return False
+    varying = [{s for s in side.symbols() if s.kind.varies} for side in sides]
+    return any(
+        one.symbol in state and not other
+        for one, other in zip(sides, reversed(varying), strict=True)
+    )
 
 
 class _Binder:

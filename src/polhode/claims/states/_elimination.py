@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import prod
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import ONE, Expr, Symbol, factors, is_positive
 from polhode.base import NumericError
 
 
@@ -18,13 +19,29 @@ def eliminated(expression: Expr, relations: Sequence[Expr]) -> Expr:
     """
     pending = list(relations)
     while pending:
-        relation = pending.pop(0).numerator
+        relation = _essential(pending.pop(0))
         if not relation:
             continue
         symbol, value = solved(relation)
         expression = expression.subs({symbol: value})
         pending = [other.subs({symbol: value}) for other in pending]
     return expression
+
+
+def _essential(relation: Expr) -> Expr:
+    """The factors of a relation that can vanish, each once: a mass is no way to make it hold.
+
+    Raises `NumericError` where no factor can.
+    """
+    if not relation:
+        return relation
+    able = [f for f in factors(relation.numerator)[1] if not is_positive(f) and not is_positive(-f)]
+    if not able:
+        raise NumericError(
+            f"the condition {relation} = 0, which nothing meets",
+            expected="conditions that do not contradict one another or the model",
+        )
+    return prod(able, start=ONE).numerator
 
 
 def solved(relation: Expr) -> tuple[Symbol, Expr]:
