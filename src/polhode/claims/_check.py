@@ -15,6 +15,7 @@ from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, read_latex, write_latex
 from polhode.claims.latex._tree import Node, Statement
 from polhode.claims.meaning._bindings import Bound
+from polhode.claims.meaning._evaluate import UnclearDerivative
 from polhode.claims.meaning._read_as import read_as
 from polhode.claims.meaning._vocabulary import spelled
 from polhode.claims.states._asked import Asked
@@ -75,6 +76,8 @@ def judged_claim(
         if bound.is_definition:
             return Verdict(Answer.DEFINITION, context, reason=_defined(bound.defined))
         asked = replace(notation.asked(statement, {}), when=when)
+    except UnclearDerivative as error:
+        return _by_readings(latex, notation, context, when, error)
     except (PolhodeError, ZeroDivisionError) as error:
         return Verdict(Answer.UNREAD, context, reason=f"{error}{_hint(latex)}")
     verdict = _assuming(bound, latex, _judged(asked, context))
@@ -86,9 +89,29 @@ def judged_claim(
     return verdict if when else _corrected(verdict, statement, notation)
 
 
+def _by_readings(
+    latex: str, notation: Notation, context: str, when: str, unclear: UnclearDerivative
+) -> Verdict:
+    """The verdict where every reading of dE/dθ comes to the same; else it stays open."""
+    plain = notation.vocabulary
+    verdicts = {
+        totals: judged_claim(
+            latex, replace(notation, vocabulary=replace(plain, totals=totals)), context, when
+        )
+        for totals in ("partial", "along the motion")
+    }
+    answers = {verdict.answer for verdict in verdicts.values()}
+    if len(answers) == 1:  # a correction would be read in two ways again
+        return replace(verdicts["along the motion"], correction=None, alternatives=())
+    told = "; ".join(f"read as {how}, {verdict.answer.value}" for how, verdict in verdicts.items())
+    return Verdict(Answer.UNREAD, context, reason=f"{unclear}: {told}")
+
+
 def _assuming(bound: Bound, latex: str, verdict: Verdict) -> Verdict:
-    """With the conditions in brackets under which it was judged."""
-    said = (f"under the condition {latex[slice(*r.span)]}" for r in bound.conditions)
+    """With the conditions in brackets under which it was judged, and what it merely defines."""
+    said = [f"under the condition {latex[slice(*r.span)]}" for r in bound.conditions]
+    if bound.defined:
+        said.append(_defined(bound.defined))
     return replace(verdict, remarks=(*verdict.remarks, *said))
 
 
@@ -112,7 +135,7 @@ def _judged(asked: Asked, context: str) -> Verdict:
 
 def _defined(letters: Iterable[Node]) -> str:
     names = ", ".join(spelled(letter) for letter in letters)
-    return f"defines {names}"
+    return f"defines {names}; not judged, for nothing else says what that is"
 
 
 def _corrected(verdict: Verdict, statement: Statement, notation: Notation) -> Verdict:

@@ -18,7 +18,7 @@ Said = tuple[int, str]
 
 _LONGEST = 60.0  # s of computing
 _ADVICE = "judge its members one by one, or restrict it with --given"
-_CODES = {Answer.FAILS: 1, Answer.UNREAD: 2}
+_CODES = {Answer.FAILS: 1, Answer.UNREAD: 2, Answer.DEFINITION: 2}
 
 
 def configure(parser: Parser) -> None:
@@ -41,7 +41,7 @@ def configure(parser: Parser) -> None:
 
 
 def run(options: Namespace) -> int:
-    """Judge one equation and print the verdict; 0 where it holds, 1 where it fails, 2 unread."""
+    """Judge one equation and print the verdict; 0 where it holds, 1 where it fails, 2 where nothing is judged."""
     system = entry_of(options.name).build()
     extra = (tuple(said) for said in (options.let, options.given, options.small))
     enquiry = Enquiry(options.latex, options.context, *extra)

@@ -30,12 +30,15 @@ class Vocabulary:
         told: what the text says its letters stand for; goes before what is known by itself.
         positive: quantities that the text takes as positive.
         columns: name of the frame that components in a bracket are along.
+        totals: how dE/dθ of what varies otherwise too is read: "partial" or "along the motion";
+            empty where it is not read at all.
     """
 
     mechanics: Mechanics
     told: Mapping[Node, Meaning] = field(default_factory=dict)
     positive: tuple[Expr, ...] = ()
     columns: str = ""
+    totals: str = ""
 
     @cached_property
     def found(self) -> dict[tuple[Node, bool, bool], Meaning]:
