@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from polhode.algebra import ZERO, Expr, Vector
@@ -20,6 +20,7 @@ from polhode.claims.meaning._meaning import (
     rate,
     zero_like,
 )
+from polhode.claims.meaning._printed_terms import Printed, changing
 from polhode.claims.meaning._vocabulary import Vocabulary
 
 EQUAL = ("=", "≡")
@@ -36,6 +37,7 @@ class BoundRelation:
         right: what stands right of it.
         span: first and one past the last character of the member in its LaTeX.
         is_alternative: whether it is a further value after an "or".
+        printed: its two sides as they stand; None for a relation that nobody printed.
     """
 
     left: Side
@@ -43,6 +45,7 @@ class BoundRelation:
     right: Side
     span: Span = (0, 0)
     is_alternative: bool = False
+    printed: Printed | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
@@ -137,11 +140,10 @@ class _Binder:
         if relation.signs and relation.signs[0] in EQUAL and self._is_new(sides[0]):
             self._define(sides[0], self._evaluator.value(sides[1]))
             relation = replace(relation, sides=sides[1:], signs=relation.signs[1:])
-        for left, sign, right in zip(
-            relation.sides, relation.signs, relation.sides[1:], strict=False
-        ):
+        chain = zip(relation.sides, relation.signs, relation.sides[1:], strict=False)
+        for place, (left, sign, right) in enumerate(chain):
             if sign != "↔":
-                yield self._member(left, sign, right)
+                yield self._member(Printed(self._evaluator, left, right, place == 0), sign)
 
     def _is_new(self, node: Node) -> bool:
         letter = isinstance(node, tree.Name | tree.Differential | tree.At)
@@ -175,7 +177,8 @@ class _Binder:
         vocabulary = self._evaluator.vocabulary.saying({node: value})
         self._evaluator = replace(self._evaluator, vocabulary=vocabulary)
 
-    def _member(self, left: Node, sign: str, right: Node) -> BoundRelation:
+    def _member(self, printed: Printed, sign: str) -> BoundRelation:
+        left, right = printed.left, printed.right
         if sign not in COMPARED:
             raise BindingError(f"the sign {sign}", expected=f"one of {' '.join(COMPARED)}")
         one, other = self._sides(left, right)
@@ -183,7 +186,9 @@ class _Binder:
         if half is not None:
             self.digits[self._count] = half
         self._count += 1
-        return BoundRelation(one, sign, other, (left.span[0], right.span[1]))
+        if _says_constant(right):
+            printed = changing(printed)
+        return BoundRelation(one, sign, other, (left.span[0], right.span[1]), printed=printed)
 
     def _sides(self, left: Node, right: Node) -> tuple[Side, Side]:
         if _says_constant(right):

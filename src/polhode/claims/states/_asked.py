@@ -123,6 +123,7 @@ class _Nothing:
     sign: str = "="
     right: Expr = ZERO
     is_alternative: bool = False
+    printed: None = None
 
 
 NOTHING = _Nothing()
