@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
-from polhode.algebra import Expr
+from polhode.algebra import Expr, Vector
 from polhode.base import NumericError
 from polhode.claims.contexts._scaling import leading_orders, scaled, stated_order, weights
 from polhode.claims.latex._tree import Node
-from polhode.claims.meaning._components import Component, Side, components, triad_of, zero_like
+from polhode.claims.meaning._components import Component, Side, triad_of
 from polhode.claims.meaning._printed_terms import Printed, Term
 from polhode.claims.states._asked import EQUALITY, Asked
 from polhode.claims.states._circumstances import Circumstances
@@ -31,6 +31,19 @@ class PrintedOrders:
 
     kept: tuple[int, ...] = ()
     left_aside: int = _LOWEST
+
+
+@dataclass(frozen=True)
+class _Terms:
+    """How many terms there are, and the orders of those that contribute."""
+
+    count: int
+    orders: tuple[int, ...]
+
+    @property
+    def several(self) -> tuple[int, ...]:
+        """The orders, where there is more than one term to cancel."""
+        return self.orders if self.count > 1 else ()
 
 
 @dataclass(frozen=True)
@@ -107,30 +120,42 @@ class Remainder:
         printed = self.asked.members[self.component.member].printed
         if printed is None:
             return PrintedOrders()
-        left = (self._order(self.left),) if self.is_root else self._orders(printed, printed.left)
-        right = self._orders(printed, printed.right)
-        if not left or not right:
-            return PrintedOrders(self._to_vanish(printed, printed.left if left else printed.right))
-        return PrintedOrders(right, max(left) if printed.is_first else _LOWEST)
+        right = self._terms(printed.terms(printed.right))
+        if self.is_root:
+            return PrintedOrders(right.orders, self._order(self.left))
+        left = self._terms(printed.terms(printed.left))
+        if not left.count or not right.count:
+            return PrintedOrders(self._to_vanish(printed, printed.left if left.count else printed.right))
+        return PrintedOrders(right.orders, max((_LOWEST, *left.orders)) if printed.is_first else _LOWEST)
 
-    def _orders(self, printed: Printed, node: Node) -> tuple[int, ...]:
-        """Of the terms of a side that contribute to this component."""
-        return tuple(self._of_terms(printed.terms(node)))
+    def _terms(self, terms: Iterable[Term]) -> _Terms:
+        """How many terms of a side this component has, and the orders of what they contribute.
 
-    def _of_terms(self, terms: Iterable[Term]) -> Iterator[int]:
-        for term in terms:
-            share = self._share(term.contribution)
-            if share and not self._is_argument(term):
-                yield self._order(share)
+        A vector counts in the components in which it is largest: only there is it tested.
+        """
+        spoken = [(t, parts) for t in terms if (parts := self._parts(t.contribution))[self._place]]
+        found = []
+        for term, parts in spoken:
+            shares = [scaled(self.states.on(part), self.asked.small) for part in parts]
+            if shares[self._place] and not self._is_argument(term):
+                order = self._order(shares[self._place])
+                if order <= min(self._order(share) for share in shares if share):
+                    found.append(order)
+        return _Terms(len(spoken), tuple(found))
 
-    def _share(self, side: Side) -> Expr:
-        """What a side contributes to this component, scaled."""
+    @cached_property
+    def _place(self) -> int:
+        """Which of the components of its member it is."""
+        alike = [c for c in self.asked.components() if c.member == self.component.member]
+        return [c.label for c in alike].index(self.component.label)
+
+    def _parts(self, side: Side) -> tuple[Expr, ...]:
+        """The components of a side along the directions in which the member is taken apart."""
         relation = self.asked.members[self.component.member]
         triad = triad_of(relation.left, relation.right)
-        turned = side if isinstance(side, Expr) or triad is None else side.express(triad)
-        parts = components(self.component.member, turned, zero_like(turned))
-        part = next((c for c in parts if c.label == self.component.label), None)
-        return scaled(self.states.on(part.left), self.asked.small) if part else Expr.of(0)
+        if isinstance(side, Vector):
+            return side.components if triad is None else side.express(triad).components
+        return (side,) if triad is None else (side,) * 3  # 0 stands for a vector
 
     def _is_argument(self, term: Term) -> bool:
         """Whether it is as large as the argument it stands in, and so no correction to it."""
@@ -146,27 +171,14 @@ class Remainder:
         """
         factors = printed.factors(node)
         if len(factors) < 2 or not all(isinstance(value, Expr) for _, value in factors):
-            found = self._orders(printed, node)
-            return found if len(found) > 1 else ()
+            return self._terms(printed.terms(node)).several
         sizes = [self._size(value) for _, value in factors if isinstance(value, Expr)]
-        vanishing = [(f, size) for (f, _), size in zip(factors, sizes, strict=True) if size > 0]
-        found = tuple(
+        return tuple(
             order + sum(sizes) - size
-            for factor, size in vanishing
-            for order in self._within(printed, factor)
+            for (factor, _), size in zip(factors, sizes, strict=True)
+            if size > 0
+            for order in self._terms(printed.terms(factor)).several
         )
-        return found
-
-    def _within(self, printed: Printed, factor: Node) -> tuple[int, ...]:
-        """Of the terms of a scalar factor; of a single one none."""
-        orders = [
-            self._order(share)
-            for term in printed.terms(factor)
-            if isinstance(term.contribution, Expr)
-            and (share := scaled(self.states.on(term.contribution), self.asked.small))
-            and not self._is_argument(term)
-        ]
-        return tuple(orders) if len(orders) > 1 else ()
 
     def _size(self, factor: Expr) -> int:
         """The order of a factor of a side that is to vanish; high where it vanishes itself."""
