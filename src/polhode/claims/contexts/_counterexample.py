@@ -8,7 +8,7 @@ from operator import ne
 
 from polhode.algebra import ONE, Expr, Symbol
 from polhode.base import PolhodeError
-from polhode.claims._verdict import Confirmation, Counterexample, Residual
+from polhode.claims._verdict import Confirmation, Counterexample, Evidence, Residual
 from polhode.claims.balance._declared import declared, reaction_symbol
 from polhode.claims.balance._newton_euler import constrained_motion, true_motion
 from polhode.claims.meaning._components import Component
@@ -27,7 +27,7 @@ def refutation(
     states: Circumstances,
     refutes: Callable[[Expr, Expr], bool] = ne,
     nonzero: Expr = ONE,
-) -> tuple[Counterexample | None, Confirmation | None]:
+) -> Evidence:
     """A counterexample and its confirmation, as far as they can be found.
 
     Args:
@@ -38,15 +38,37 @@ def refutation(
         nonzero: what must not vanish there, such as the residuals of all branches of a ±.
     """
     sides = (states.on(component.left), states.on(component.right))
-    for point in _drawn((*sides, nonzero), states):
+
+    def does(point: Point) -> bool:
+        return refutes(*map(point, sides)) and bool(point(nonzero))
+
+    return example_where(does, component, residual, states, nonzero)
+
+
+def example_where(
+    refutes: Callable[[Point], bool],
+    component: Component,
+    residual: Residual,
+    states: Circumstances,
+    used: Expr = ONE,
+) -> Evidence:
+    """The first of some states of bodies that can be that refutes a component.
+
+    Args:
+        refutes: whether a state does so.
+        component: what is refuted.
+        residual: of that component, exactly.
+        states: where it is asked to hold.
+        used: what the state has to give a value besides.
+    """
+    sides = (states.on(component.left), states.on(component.right))
+    for point in _drawn((*sides, used), states):
         try:
-            if not _is_allowed(point, states):
-                continue
-            left, right = map(point, sides)
-            if refutes(left, right) and point(nonzero):
+            if _is_allowed(point, states) and refutes(point):
+                left, right = map(point, sides)
                 found = Counterexample(_described(point, states), left, right, residual)
                 return found, _confirmed(point, component, states, found)
-        except (PolhodeError, ArithmeticError, ValueError):
+        except (PolhodeError, ArithmeticError, ValueError, KeyError):
             continue
     return None, None
 
@@ -73,7 +95,7 @@ def _with_rates(function: Symbol) -> Iterator[Symbol]:
 
 def _is_allowed(point: Point, states: Circumstances) -> bool:
     """Whether it is a state of bodies that can be."""
-    return is_physical(states, point.floats())
+    return bool(is_physical(states, point.floats()))
 
 
 def _described(point: Point, states: Circumstances) -> dict[str, str]:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from operator import eq
 
-from polhode.algebra import Expr
+from polhode.algebra import ONE, Expr
 from polhode.base import PolhodeError
 from polhode.claims._verdict import Answer, Evidence, Residual, Verdict
 from polhode.claims.contexts._counterexample import refutation
@@ -64,7 +64,9 @@ def _refuted(
     def refutes(left: Expr, right: Expr) -> bool:
         return float(number(left - right, {})) * SENSE[sign] < 0
 
-    found = refutation(component, residual, states, refutes)
+    found: Evidence = None, None
+    if definite_sign(residual.expression or ONE, states.signs) != SENSE[sign]:
+        found = refutation(component, residual, states, refutes)
     if found[0] is not None or sign not in STRICT:
         return found
     for equal in _where_equal(residual.expression, states):

@@ -112,6 +112,27 @@ def leading_orders(
     Negative orders are poles. Empty where all up to the highest order vanish; roots of squares of
     what is positive are resolved.
     """
+    below = expression.denominator
+    if SMALLNESS not in below.symbols() or _has_poles_inside(expression):
+        return _leading(expression, lowest, highest, positive)
+    # far less grows when what stands above and below the bar are expanded one by one
+    least = _leading(below, lowest, highest - lowest, positive)
+    order, share = next(iter(least.items()), (0, ZERO))
+    if not share:
+        return _leading(expression, lowest, highest, positive)
+    found = _leading(expression.numerator, lowest + order, highest + order, positive)
+    return {power - order: coefficient / share for power, coefficient in found.items()}
+
+
+def _has_poles_inside(expression: Expr) -> bool:
+    """Whether a root or the like holds one over the smallness."""
+    arguments = (a for g in expression.generators for a in g.arguments)
+    return any(SMALLNESS in a.denominator.symbols() or _has_poles_inside(a) for a in arguments)
+
+
+def _leading(
+    expression: Expr, lowest: int, highest: int, positive: Collection[Expr]
+) -> dict[int, Expr]:
     scale = Expr.generator(SMALLNESS)
     for order in range(0, lowest - 1, -1):
         derivative, factorial = expression * scale**-order, 1

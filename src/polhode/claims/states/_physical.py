@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from functools import lru_cache
+from functools import lru_cache, reduce
+from typing import Any
+
+import numpy as np
 
 from polhode.algebra import Expr, Symbol
 from polhode.claims.meaning._the import The
@@ -13,18 +16,26 @@ from polhode.claims.states._numeric import number
 _ROUNDING = 1e-9
 
 
-def is_physical(states: Circumstances, values: Mapping[Symbol, float]) -> bool:
-    """Whether bodies with these numbers can be.
+def is_physical(states: Circumstances, values: Mapping[Symbol, Any]) -> Any:
+    """Whether bodies with these numbers can be; numbers may be arrays of one shape.
 
     What is declared positive is so, also where the circumstances determine it, and so is what the
     derivation took as positive; no moment of inertia exceeds the sum of the other two.
     """
     above, not_below = _demands(The(states.equations))
-    positive = all(number(states.on(e), values) > 0 for e in (*states.signs, *above))
-    return positive and all(
-        number(states.on(larger), values) >= -_ROUNDING * abs(number(states.on(size), values))
-        for larger, size in not_below
-    )
+    with np.errstate(all="ignore"):
+        met = [number(states.on(e), values) > 0 for e in (*states.signs, *above)]
+        for larger, size in not_below:
+            least = -_ROUNDING * np.abs(number(states.on(size), values))
+            met.append(number(states.on(larger), values) >= least)
+    return reduce(np.logical_and, met, np.bool_(True))
+
+
+def demanded(states: Circumstances) -> frozenset[Symbol]:
+    """The symbols whose numbers that takes."""
+    above, not_below = _demands(The(states.equations))
+    every = (*states.signs, *above, *(e for pair in not_below for e in pair))
+    return frozenset(s for e in every for s in states.on(e).symbols())
 
 
 @lru_cache(maxsize=16)
