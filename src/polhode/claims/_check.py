@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import reduce
 
+from polhode.algebra import under_name
 from polhode.base import ParseError, PolhodeError
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims._notation import Notation
@@ -86,7 +87,16 @@ def judged_claim(
     if understood := read_as(statement, notation.vocabulary):
         verdict = replace(verdict, remarks=(*verdict.remarks, f"read {understood}"))
     tell(verdict)
+    if _is_under_names(verdict):
+        why = "no correction is looked for where expressions are kept under names"
+        return replace(verdict, remarks=(*verdict.remarks, why))
     return verdict if when else _corrected(verdict, statement, notation)
+
+
+def _is_under_names(verdict: Verdict) -> bool:
+    """Whether what is left is too long to be written out, so that every trial takes long."""
+    left = (g for r in verdict.residuals for g in r.expression.generators)
+    return any(under_name(generator) is not None for generator in left)
 
 
 def _by_readings(
@@ -128,8 +138,10 @@ def _judged(asked: Asked, context: str) -> Verdict:
     try:
         verdict = judge(asked, context).proved()
         odd = "" if verdict.holds else dimensions_at_odds(asked)
-    except (PolhodeError, ZeroDivisionError) as error:
+    except ParseError as error:
         return Verdict(Answer.UNREAD, context, reason=str(error))
+    except (PolhodeError, ZeroDivisionError) as error:
+        return Verdict(Answer.UNREAD, context, reason=f"it was read, but not decided: {error}")
     return replace(verdict, reason=f"{verdict.reason}; {odd}") if odd else verdict
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from math import isclose
 from operator import ne
 
-from polhode.algebra import ONE, Expr, Symbol
+from polhode.algebra import ONE, Expr, Symbol, under_name
 from polhode.base import PolhodeError
 from polhode.claims._verdict import Confirmation, Counterexample, Evidence, Residual
 from polhode.claims.balance._declared import declared, reaction_symbol
@@ -40,7 +40,8 @@ def refutation(
     sides = (states.on(component.left), states.on(component.right))
 
     def does(point: Point) -> bool:
-        return refutes(*map(point, sides)) and bool(point(nonzero))
+        left, right = (_at(point, side) for side in sides)
+        return refutes(left, right) and bool(_at(point, nonzero))
 
     return example_where(does, component, residual, states, nonzero)
 
@@ -65,12 +66,19 @@ def example_where(
     for point in _drawn((*sides, used), states):
         try:
             if _is_allowed(point, states) and refutes(point):
-                left, right = map(point, sides)
+                left, right = (_at(point, side) for side in sides)
                 found = Counterexample(_described(point, states), left, right, residual)
                 return found, _confirmed(point, component, states, found)
         except (PolhodeError, ArithmeticError, ValueError, KeyError):
             continue
     return None, None
+
+
+def _at(point: Point, expression: Expr) -> Expr:
+    """The exact value of an expression; to rounding where it holds parts under names."""
+    if not any(under_name(generator) is not None for generator in expression.generators):
+        return point(expression)
+    return Expr.of(float(number(expression, point.floats())))
 
 
 def _drawn(sides: tuple[Expr, ...], states: Circumstances) -> Iterator[Point]:
@@ -104,7 +112,7 @@ def _described(point: Point, states: Circumstances) -> dict[str, str]:
     for symbol in _state(states):
         image = states.of(symbol)
         if image != Expr.generator(symbol):
-            values[symbol.published] = str(point(image))
+            values[symbol.published] = str(_at(point, image))
     return dict(sorted(values.items()))
 
 

@@ -15,9 +15,11 @@ def eliminated(expression: Expr, relations: Sequence[Expr]) -> Expr:
     Each relation is solved for a quantity that it is linear in; a parameter where it can be, so
     that nothing is lost but states where its factor vanishes.
 
-    Raises `NumericError` for a relation that is linear in nothing.
+    Raises `NumericError` for a relation that is linear in nothing, and where what is positive by
+    declaration would vanish.
     """
     pending = list(relations)
+    sizes: dict[Symbol, Expr] = {}  # of what is positive by declaration
     while pending:
         relation = _essential(pending.pop(0))
         if not relation:
@@ -25,6 +27,15 @@ def eliminated(expression: Expr, relations: Sequence[Expr]) -> Expr:
         symbol, value = solved(relation)
         expression = expression.subs({symbol: value})
         pending = [other.subs({symbol: value}) for other in pending]
+        sizes = {s: size.subs({symbol: value}) for s, size in sizes.items()}
+        if symbol.positive:
+            sizes[symbol] = value
+        for vanished in (s for s, size in sizes.items() if not size):
+            raise NumericError(
+                f"conditions that were met only where {vanished.published} vanishes",
+                expected="conditions that some body meets",
+                advice="restrict angles and speeds one by one, such as theta = pi/2",
+            )
     return expression
 
 
