@@ -115,6 +115,11 @@ def _part(meaning: Expr) -> Expr:
     return Expr.generator(Part(meaning.trimmed()))
 
 
+def under_name(generator: Generator) -> Expr | None:
+    """What a named part stands for; None for any other generator."""
+    return generator.meaning if isinstance(generator, Part) else None
+
+
 def under_letters(expressions: Sequence[Expr]) -> tuple[tuple[Expr, ...], dict[Symbol, Generator]]:
     """Expressions with a symbol z_1, z_2, ... for every part, for print; and what those stand for.
 

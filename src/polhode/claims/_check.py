@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 
+from polhode.algebra import under_name
 from polhode.base import ParseError, PolhodeError
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims._notation import Notation
@@ -21,6 +22,8 @@ from polhode.claims._verdict import Answer, Correction, Verdict
 from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, read_latex, write_latex
 from polhode.claims.latex._tree import Node, Piece, Statement
+from polhode.claims.meaning._bindings import Bound
+from polhode.claims.meaning._evaluate import UnclearDerivative
 from polhode.claims.meaning._spelling import spelled
 from polhode.claims.states._asked import Asked
 from polhode.derive import Equations
@@ -106,7 +109,7 @@ def judged_claim(
         return Verdict(Answer.UNREAD, context, reason=f"{error}{_hint(latex)}")
 
     def judge(chosen: Chosen) -> JudgedReading:
-        return _judged_reading(statement, chosen, notation(chosen), context, when, _hint(latex))
+        return _judged_reading(statement, chosen, notation(chosen), context, when, latex)
 
     found = judged_in_every_reading(ways, judge)
     if isinstance(found, Verdict):
@@ -115,11 +118,16 @@ def judged_claim(
     if verdict.answer is not Answer.FAILS:
         return verdict
     tell(verdict)
-    return verdict if when else _corrected(verdict, statement, found.notation)
+    if _is_under_names(verdict):
+        why = "no correction is looked for where expressions are kept under names"
+        return replace(verdict, remarks=(*verdict.remarks, why))
+    if when or found.notation.vocabulary.totals:  # a correction would be read in two ways again
+        return verdict
+    return _corrected(verdict, statement, found.notation)
 
 
 def _judged_reading(
-    statement: Statement, chosen: Chosen, notation: Notation, context: str, when: str, hint: str
+    statement: Statement, chosen: Chosen, notation: Notation, context: str, when: str, latex: str
 ) -> JudgedReading:
     """The verdict under one reading, without a correction."""
     try:
@@ -128,10 +136,12 @@ def _judged_reading(
             verdict = Verdict(Answer.DEFINITION, context, reason=_defined(bound.defined))
             return JudgedReading(chosen, notation, None, verdict)
         asked = replace(notation.asked(statement, {}), when=when)
+    except UnclearDerivative as error:
+        return _by_derivatives(statement, chosen, notation, context, when, latex, error)
     except (PolhodeError, ZeroDivisionError) as error:
-        unread = Verdict(Answer.UNREAD, context, reason=f"{error}{hint}")
+        unread = Verdict(Answer.UNREAD, context, reason=f"{error}{_hint(latex)}")
         return JudgedReading(chosen, notation, None, unread)
-    verdict = _judged(asked, context)
+    verdict = _assuming(bound, latex, _judged(asked, context))
     if verdict.answer in (Answer.HOLDS, Answer.FAILS) and not when:
         verdict = _read_twice(verdict, asked, statement, notation)
     return JudgedReading(chosen, notation, asked, verdict)
@@ -151,6 +161,49 @@ def _read_twice(
     return Verdict(Answer.UNREAD, verdict.context, reason=f"read in two ways: {dispute}")
 
 
+def _is_under_names(verdict: Verdict) -> bool:
+    """Whether what is left is too long to be written out, so that every trial takes long."""
+    left = (g for r in verdict.residuals for g in r.expression.generators)
+    return any(under_name(generator) is not None for generator in left)
+
+
+def _by_derivatives(
+    statement: Statement,
+    chosen: Chosen,
+    notation: Notation,
+    context: str,
+    when: str,
+    latex: str,
+    unclear: UnclearDerivative,
+) -> JudgedReading:
+    """The verdict where every reading of dE/dθ comes to the same; else it is ambiguous."""
+    plain = notation.vocabulary
+    found = {
+        totals: _judged_reading(
+            statement,
+            chosen,
+            replace(notation, vocabulary=replace(plain, totals=totals)),
+            context,
+            when,
+            latex,
+        )
+        for totals in ("partial", "along the motion")
+    }
+    along = found["along the motion"]
+    if len({way.verdict.answer for way in found.values()}) == 1:
+        return along
+    told = "; ".join(f"{way.verdict.answer.value} if read as {how}" for how, way in found.items())
+    return replace(along, verdict=Verdict(Answer.AMBIGUOUS, context, reason=f"{unclear}: {told}"))
+
+
+def _assuming(bound: Bound, latex: str, verdict: Verdict) -> Verdict:
+    """With the conditions in brackets under which it was judged, and what it merely defines."""
+    said = [f"under the condition {latex[slice(*r.span)]}" for r in bound.conditions]
+    if bound.defined:
+        said.append(_defined(bound.defined))
+    return replace(verdict, remarks=(*verdict.remarks, *said))
+
+
 def _hint(latex: str) -> str:
     """What may be wrong with a formula that cannot be read or bound."""
     bare = bare_names(latex)
@@ -166,8 +219,10 @@ def _judged(asked: Asked, context: str) -> Verdict:
         if (second := verdict.confirmation) is not None and not second.agrees:
             return Verdict(Answer.UNREAD, context, reason=_at_odds(verdict))
         odd = "" if verdict.holds else dimensions_at_odds(asked)
-    except (PolhodeError, ZeroDivisionError) as error:
+    except ParseError as error:
         return Verdict(Answer.UNREAD, context, reason=str(error))
+    except (PolhodeError, ZeroDivisionError) as error:
+        return Verdict(Answer.UNREAD, context, reason=f"it was read, but not decided: {error}")
     return replace(verdict, reason=f"{verdict.reason}; {odd}") if odd else verdict
 
 
@@ -184,7 +239,7 @@ def _at_odds(verdict: Verdict) -> str:
 
 def _defined(letters: Iterable[Node]) -> str:
     names = ", ".join(spelled(letter) for letter in letters)
-    return f"defines {names}"
+    return f"defines {names}; not judged, for nothing else says what that is"
 
 
 def _corrected(verdict: Verdict, statement: Statement, notation: Notation) -> Verdict:

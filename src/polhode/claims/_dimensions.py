@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 
-from polhode.algebra import Expr, Generator, Symbol
+from polhode.algebra import Expr, Generator, Symbol, under_name
 from polhode.base import PURE, TIME, Dimension, PolhodeError
 from polhode.claims.meaning._components import Component
 from polhode.claims.states._asked import Asked
@@ -67,6 +67,8 @@ class _Gauge:
         if isinstance(generator, Symbol):
             base = PURE if generator.name == "pi" else self._known.get(generator.base())
             return None if base is None else base / TIME**generator.order
+        if under_name(generator) is not None:
+            return None  # it would have to be looked into
         if not generator.depth or generator.partner() is not None:
             return PURE
         inside = next(iter(generator.arguments[0].numerator.terms()))[0]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -18,7 +18,7 @@ from polhode.claims.meaning._meaning import BindingError, Meaning, as_scalar, si
 from polhode.claims.meaning._phrases import quantity
 from polhode.claims.meaning._spelling import name_of, spelled
 from polhode.claims.meaning._vocabulary import Vocabulary, constant
-from polhode.claims.states._asked import Asked, Small
+from polhode.claims.states._asked import SENSE, Asked, Small
 from polhode.derive import Equations
 
 #: A binding of this name tells the frame that components in a bracket are along.
@@ -178,6 +178,7 @@ class Notation:
         """The claim that a bound statement makes under this notation's restrictions."""
         equalities = [r for r in bound.conditions if r.sign in EQUAL]
         values, vanishing = restrictions((*self.given, *equalities))
+        _refuse_unclear(bound, values)
         given: dict[Symbol, Expr] = {as_symbol(s): value for s, value in values.items()}
         equations = self.vocabulary.mechanics.equations
         return Asked(
@@ -186,7 +187,7 @@ class Notation:
             given,
             vanishing,
             self.small,
-            self.vocabulary.positive,
+            (*self.vocabulary.positive, *_ranges(bound)),
             bound.digits,
             {as_symbol(s): value for s, value in restrictions(self.start)[0].items()},
             defined=tuple(bound.defined),
@@ -221,3 +222,23 @@ def letter(latex: str) -> Node:
     if others or relation.is_claim:
         raise ParseError(f"{latex!r}", expected="one letter or quantity, and no relation")
     return relation.sides[0]
+
+
+def _ranges(bound: Bound) -> Iterator[Expr]:
+    """What is positive where the inequalities that restrict a statement hold."""
+    for relation in bound.conditions:
+        if relation.sign in SENSE:
+            left, right = (as_scalar(s, "a bound") for s in (relation.left, relation.right))
+            yield (left - right) * SENSE[relation.sign]
+
+
+def _refuse_unclear(bound: Bound, given: Mapping[Expr, Expr]) -> None:
+    """A value in brackets that nothing else says may be a condition, or said as well."""
+    for relation in bound.values:
+        if relation.left not in given and relation.right not in given:
+            raise ParseError(
+                f"{relation.left} = {relation.right} in brackets, which was read but may be a "
+                "condition or a claim",
+                expected="a word that tells, such as (if ...)",
+                advice="write \\text{if} inside the bracket, or say it with --given",
+            )

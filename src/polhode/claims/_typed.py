@@ -13,9 +13,9 @@ from polhode.base import ParseError, UnitError, read_quantity
 from polhode.claims._notation import Notation, letter
 from polhode.claims.document._document import Definition
 from polhode.claims.latex import read_latex
-from polhode.claims.latex._tree import Dots, Name, Piece
+from polhode.claims.latex._tree import Dots, Name, Node, Piece
 from polhode.claims.meaning._bindings import BoundRelation
-from polhode.claims.meaning._meaning import BindingError
+from polhode.claims.meaning._meaning import BindingError, Meaning
 from polhode.claims.meaning._spelling import name_of, spelled
 from polhode.claims.states._asked import Small
 
@@ -59,7 +59,10 @@ def with_let(notation: Notation, text: str) -> Notation:
     Raises `ParseError` for a symbol that the system has already.
     """
     if _is_latex(text):
-        return notation.defining([Definition(text)])
+        told = notation.defining([Definition(text)])
+        for new in told.vocabulary.told.keys() - notation.vocabulary.told.keys():
+            _refuse_redefined(notation, new, told.vocabulary.told[new])
+        return told
     name, value = _sides(text, "a new symbol and its value")
     new = name_of(name)
     if _NAME.fullmatch(name) is None or new in notation.vocabulary.declared:
@@ -68,8 +71,22 @@ def with_let(notation: Notation, text: str) -> Notation:
             expected=f"a new symbol; {spelled(new)} is none",
             advice="restrict a known quantity with --given instead",
         )
-    vocabulary = notation.vocabulary.saying({new: typed(notation, value)})
-    return replace(notation, vocabulary=vocabulary)
+    meaning = typed(notation, value)
+    _refuse_redefined(notation, new, meaning)
+    return replace(notation, vocabulary=notation.vocabulary.saying({new: meaning}))
+
+
+def _refuse_redefined(notation: Notation, new: Node, meaning: Meaning) -> None:
+    """A letter that stands for a scalar already may be spelled out, but not given another value."""
+    known = notation.vocabulary.find(new)
+    if isinstance(known, Expr) and isinstance(meaning, Expr) and known != meaning:
+        mechanics = notation.vocabulary.mechanics
+        if mechanics.in_rates(known) != mechanics.in_rates(meaning):
+            raise ParseError(
+                f"{spelled(new)} = {meaning}, though {spelled(new)} is known as {known}",
+                expected="a definition of a new symbol",
+                advice="restrict a known quantity with --given instead",
+            )
 
 
 def with_given(notation: Notation, text: str) -> Notation:

@@ -18,7 +18,12 @@ Said = tuple[int, str]
 
 _LONGEST = 60.0  # s of computing
 _ADVICE = "judge its members one by one, or restrict it with --given"
-_CODES = {Answer.FAILS: 1, Answer.UNREAD: 2, Answer.AMBIGUOUS: 2}
+_CODES = {
+    Answer.FAILS: 1,
+    Answer.UNREAD: 2,
+    Answer.AMBIGUOUS: 2,
+    Answer.DEFINITION: 2,
+}
 
 
 def configure(parser: Parser) -> None:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import replace
 from importlib import import_module
 
 from polhode.base import ParseError
 from polhode.claims._verdict import Answer, Verdict
 from polhode.claims.contexts._judge import judged_identity, judged_motion
-from polhode.claims.states._asked import EQUALITY, SENSE, Asked
+from polhode.claims.states._asked import EQUALITY, MAGNITUDES, SENSE, Asked
 from polhode.claims.states._circumstances import AnyState, Circumstances, TrueMotion
 
 Judge = Callable[[Asked], Verdict]
@@ -50,6 +50,7 @@ def judge(asked: Asked, context: str) -> Verdict:
     """
     if context not in CONTEXTS:
         raise ParseError(f"context {context!r}", expected=f"one of {', '.join(CONTEXTS)}")
+    _refuse_magnitudes(asked)
     if context in _WHOLE:
         return _WHOLE[context](asked)
     found = list(_by_signs(asked, context))
@@ -59,12 +60,25 @@ def judge(asked: Asked, context: str) -> Verdict:
             expected="two sides with a sign between them, such as = or <",
             advice="write out the whole equation",
         )
-    worst = next((v for v in found if not v.holds), None)
-    if worst is not None:
+    wrong = [v for v in found if not v.holds]
+    if wrong:
+        worst = next((v for v in wrong if v.answer is Answer.FAILS), wrong[0])
         return replace(worst, context=context)
     approximate = next((v for v in found if v.answer is Answer.APPROXIMATE), None)
     remarks = tuple(dict.fromkeys(r for v in found for r in v.remarks))
     return replace(approximate or found[0], context=context, remarks=remarks)
+
+
+def _refuse_magnitudes(asked: Asked) -> None:
+    """≫ and ≪ speak of a limit, and no state is large or small by itself."""
+    for relation in asked.members:
+        if relation.sign in MAGNITUDES:
+            raise ParseError(
+                f"the sign {relation.sign}, which was read; no state decides what is much larger",
+                expected="= ≈ or an inequality",
+                advice="say what is small with --small, and judge what follows from it with "
+                "--context limit",
+            )
 
 
 def holds(asked: Asked, context: str) -> bool:
@@ -77,17 +91,32 @@ def _by_signs(asked: Asked, context: str) -> Iterator[Verdict]:
     equal = [i for i, sign in signs.items() if sign in EQUALITY]
     close = [i for i, sign in signs.items() if sign == "≈"]
     bounds = [i for i, sign in signs.items() if sign in SENSE]
+    unequal = [i for i, sign in signs.items() if sign == "≠"]
     if others := [s for s in signs.values() if s not in (*EQUALITY, "≈", "≠", *SENSE)]:
         raise ParseError(
             f"the sign {others[0]} in the context {context}", expected="= ≈ or an inequality"
         )
+    _refuse_scattered_choice(asked, [equal, close], [*bounds, *unequal])
     if equal:
         yield _EQUATIONS[context](asked.only(equal))
     if close:
         yield _close(asked.only(close), context)
-    unequal = [i for i, sign in signs.items() if sign == "≠"]
     if bounds or unequal:
         yield from _compared(asked, context, bounds, unequal)
+
+
+def _refuse_scattered_choice(
+    asked: Asked, together: Iterable[Collection[int]], compared: Collection[int]
+) -> None:
+    """± is one choice for the whole statement, so that what is judged apart must not share it."""
+    with_choice = {i for i in range(len(asked.members)) if asked.says_choice(i)}
+    groups = [group for group in together if with_choice.intersection(group)]
+    if len(groups) > 1 or with_choice.intersection(compared):
+        raise ParseError(
+            "± in members of different signs, which was read",
+            expected="one choice of ± in equations, all with = or all with ≈",
+            advice="judge the upper and the lower sign one by one",
+        )
 
 
 def _compared(
@@ -95,12 +124,12 @@ def _compared(
 ) -> Iterator[Verdict]:
     from polhode.claims.contexts._inequality import judged_inequality, judged_unequal
 
-    states = _states(asked, context)
-    for component in asked.components():
-        if component.member in bounds:
-            yield judged_inequality(asked, component, states)
-        if component.member in unequal:
-            yield judged_unequal(asked, component, states)
+    for states in _states(asked, context):
+        for component in asked.components():
+            if component.member in bounds:
+                yield judged_inequality(asked, component, states)
+            if component.member in unequal:
+                yield judged_unequal(asked, component, states)
 
 
 def _close(asked: Asked, context: str) -> Verdict:
@@ -109,9 +138,9 @@ def _close(asked: Asked, context: str) -> Verdict:
     return exact if exact.holds or not asked.small else _judged_limit(asked)
 
 
-def _states(asked: Asked, context: str) -> Circumstances:
+def _states(asked: Asked, context: str) -> tuple[Circumstances, ...]:
     if context == "steady":
         from polhode.claims.states._steady_states import steady_states
 
-        return steady_states(asked)[0]
-    return asked.states(AnyState if context == "identity" else TrueMotion)
+        return steady_states(asked)
+    return (asked.states(AnyState if context == "identity" else TrueMotion),)

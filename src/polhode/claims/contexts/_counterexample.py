@@ -6,17 +6,18 @@ from collections.abc import Callable, Iterator, Sequence
 from math import isclose
 from operator import ne
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import ONE, Expr, Symbol, under_name
 from polhode.base import PolhodeError
-from polhode.claims._verdict import Confirmation, Counterexample, Residual
+from polhode.claims._verdict import Confirmation, Counterexample, Evidence, Residual
 from polhode.claims.balance._declared import declared, reaction_symbol
 from polhode.claims.balance._newton_euler import constrained_motion, true_motion
 from polhode.claims.meaning._components import Component
 from polhode.claims.states._circumstances import AnyState, Circumstances
 from polhode.claims.states._numeric import number
+from polhode.claims.states._physical import is_physical
 from polhode.claims.states._points import Point, points
 
-_TRIES = 20
+_TRIES = 300
 _ROUNDING = 1e-7
 
 
@@ -25,7 +26,8 @@ def refutation(
     residual: Residual,
     states: Circumstances,
     refutes: Callable[[Expr, Expr], bool] = ne,
-) -> tuple[Counterexample | None, Confirmation | None]:
+    nonzero: Expr = ONE,
+) -> Evidence:
     """A counterexample and its confirmation, as far as they can be found.
 
     Args:
@@ -33,33 +35,63 @@ def refutation(
         residual: of that component, exactly.
         states: where it is asked to hold.
         refutes: whether values of the two sides do so; if they differ, by default.
+        nonzero: what must not vanish there, such as the residuals of all branches of a ±.
     """
     sides = (states.on(component.left), states.on(component.right))
-    for point in _drawn(sides, states):
+
+    def does(point: Point) -> bool:
+        left, right = (_at(point, side) for side in sides)
+        return refutes(left, right) and bool(_at(point, nonzero))
+
+    return example_where(does, component, residual, states, nonzero)
+
+
+def example_where(
+    refutes: Callable[[Point], bool],
+    component: Component,
+    residual: Residual,
+    states: Circumstances,
+    used: Expr = ONE,
+) -> Evidence:
+    """The first of some states of bodies that can be that refutes a component.
+
+    Args:
+        refutes: whether a state does so.
+        component: what is refuted.
+        residual: of that component, exactly.
+        states: where it is asked to hold.
+        used: what the state has to give a value besides.
+    """
+    sides = (states.on(component.left), states.on(component.right))
+    for point in _drawn((*sides, used), states):
         try:
-            if not _is_allowed(point, states):
-                continue
-            left, right = map(point, sides)
-            if refutes(left, right):
+            if _is_allowed(point, states) and refutes(point):
+                left, right = (_at(point, side) for side in sides)
                 found = Counterexample(_described(point, states), left, right, residual)
                 return found, _confirmed(point, component, states, found)
-        except (PolhodeError, ArithmeticError, ValueError):
+        except (PolhodeError, ArithmeticError, ValueError, KeyError):
             continue
     return None, None
 
 
-def drawn_numbers(sides: Sequence[Expr], states: Circumstances) -> dict[Symbol, float] | None:
-    """Numbers of every quantity at some state that the circumstances allow, forces included."""
-    for point in _drawn([states.on(side) for side in sides], states):
+def _at(point: Point, expression: Expr) -> Expr:
+    """The exact value of an expression; to rounding where it holds parts under names."""
+    if not any(under_name(generator) is not None for generator in expression.generators):
+        return point(expression)
+    return Expr.of(float(number(expression, point.floats())))
+
+
+def drawn_numbers(sides: Sequence[Expr], states: Circumstances) -> Iterator[dict[Symbol, float]]:
+    """Numbers of every quantity at states that the circumstances allow, forces included."""
+    for point in _drawn(tuple(map(states.on, sides)), states):
         try:
             if _is_allowed(point, states):
-                return _numbers(point, states)
-        except (PolhodeError, ArithmeticError, ValueError):
+                yield _numbers(point, states)
+        except (PolhodeError, ArithmeticError, ValueError, KeyError):
             continue
-    return None
 
 
-def _drawn(sides: Sequence[Expr], states: Circumstances) -> Iterator[Point]:
+def _drawn(sides: tuple[Expr, ...], states: Circumstances) -> Iterator[Point]:
     used = [*sides, *states.settled_relations, *map(states.on, states.signs)]
     used += states.equations.accelerations.values()
     symbols = {s for e in used for s in e.symbols()} | _state(states)
@@ -80,9 +112,8 @@ def _with_rates(function: Symbol) -> Iterator[Symbol]:
 
 
 def _is_allowed(point: Point, states: Circumstances) -> bool:
-    """Whether what the derivation took for positive is so."""
-    values = point.floats()
-    return all(number(states.on(e), values) > 0 for e in states.signs)
+    """Whether it is a state of bodies that can be."""
+    return bool(is_physical(states, point.floats()))
 
 
 def _described(point: Point, states: Circumstances) -> dict[str, str]:
@@ -91,7 +122,7 @@ def _described(point: Point, states: Circumstances) -> dict[str, str]:
     for symbol in _state(states):
         image = states.of(symbol)
         if image != Expr.generator(symbol):
-            values[symbol.published] = str(point(image))
+            values[symbol.published] = str(_at(point, image))
     return dict(sorted(values.items()))
 
 

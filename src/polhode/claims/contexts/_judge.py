@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import product
 from math import prod
 
 from polhode.algebra import ONE
@@ -45,17 +46,29 @@ def judged(asked: Asked, all_states: Sequence[Circumstances], context: str) -> V
 def failures(asked: Asked, all_states: Iterable[Circumstances]) -> Iterator[Failure]:
     """Every component that does not vanish on every set of states.
 
-    Of the branches of a ± one must hold at every state: the product of their residuals vanishes.
+    ± is one choice for the whole statement: at every state all components vanish on one branch,
+    which is so where each product of residuals, one of each branch, vanishes. A ± of which one
+    sign is right everywhere and the other is not says too much.
     """
     every = [asked.components(branch) for branch in range(len(asked.branches))]
-    states = tuple(all_states)
-    for alike in zip(*every, strict=True):
-        found = next((f for s in states if (f := _failure(alike, s)) is not None), None)
-        if found is not None:
-            yield found
+    found: dict[Component, Failure] = {}
+    idle: dict[int, list[Failure]] = {branch: [] for branch in range(len(every))}
+    for states in all_states:
+        wrong = [[c for c in branch if states.on(c.difference)] for branch in every]
+        for alike in sorted(product(*wrong), key=lambda picked: len({*map(_place, picked)})):
+            failure = _failure(alike, states)
+            if failure is not None:
+                found.setdefault(alike[0], failure)
+        for branch, components in enumerate(wrong):
+            idle[branch] += [f for c in components if (f := _failure((c,), states)) is not None]
+    if not found and not all(idle.values()):
+        yield from next(filter(None, idle.values()), ())
+        return
+    yield from sorted(found.values(), key=lambda f: every[0].index(f.component))
 
 
 def _failure(alike: Sequence[Component], states: Circumstances) -> Failure | None:
+    """Of components, one of each branch: the states on which none of them vanishes."""
     left = prod((states.on(component.difference) for component in alike), start=ONE)
     first = alike[0]
     if not left:
@@ -87,7 +100,8 @@ def _left_open(failure: Failure) -> Iterator[str]:
 def _evidence(worst: Failure) -> Evidence:
     from polhode.claims.contexts._counterexample import refutation  # numbers are for failures alone
 
-    return refutation(worst.component, worst.residual, worst.states)
+    whole = worst.residual.expression
+    return refutation(worst.component, worst.residual, worst.states, nonzero=whole)
 
 
 def _reason(found: Sequence[Failure]) -> str:

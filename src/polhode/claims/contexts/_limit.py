@@ -3,30 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property, partial
-from math import log
+from dataclasses import replace
+from functools import partial
+from math import inf, log
 
 from polhode.algebra import ONE, ZERO, Expr, Symbol
-from polhode.base import NumericError, PolhodeError
+from polhode.base import NumericError, ParseError, PolhodeError
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
+from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.contexts._counterexample import refutation
+from polhode.claims.contexts._remainder import Remainder
 from polhode.claims.contexts._roots_of_steady import steady_roots
-from polhode.claims.contexts._scaling import SMALLNESS, leading_orders, restored, scaled
+from polhode.claims.contexts._scaling import SMALLNESS, restored, scaled
 from polhode.claims.meaning._components import Component
-from polhode.claims.states._asked import Asked
+from polhode.claims.states._asked import EQUALITY, Asked
 from polhode.claims.states._bench import real_states
 from polhode.claims.states._circumstances import AnyState, Circumstances, TrueMotion
 from polhode.claims.states._numeric import number
 
-_HIGHEST = 6
-_LOWEST = -4
+_DIGITS = 30  # binary ones that a remainder may lose to rounding
+_STEEPEST = 15
 
 
 def judged_limit(asked: Asked) -> Verdict:
-    """To the stated order in the small quantities, and verified by scaling what is left out.
+    """To the stated order in the small quantities, and to that of every term that is printed.
 
-    Judged for all states first, then on true motions, then for the roots of steady motions.
+    What is left over must be smaller than all that is kept: smaller than the stated order, and
+    smaller than each printed term, which would otherwise not have been tested. A single quantity
+    that is said to vanish need only be beyond the stated order. Judged on all states where no
+    accelerations or reactions are spoken of, otherwise on true motions, then for the roots of
+    steady motions; of a ± each sign by itself.
     """
     if not asked.small:
         raise NumericError(
@@ -34,61 +40,66 @@ def judged_limit(asked: Asked) -> Verdict:
             expected="what is small and to which order",
             advice="say --small SYMBOL:ORDER",
         )
+    if others := [r.sign for r in asked.members if r.sign not in (*EQUALITY, "≈")]:
+        raise ParseError(f"the sign {others[0]} in the context limit", expected="= or ≈")
+    verdicts = [_of_branch(replace(asked, branches=(branch,))) for branch in asked.branches]
+    return min(verdicts, key=_standing)
+
+
+def _standing(verdict: Verdict) -> tuple[int, float]:
+    """Failures before what is open, and that before what is true to lower and to higher order."""
+    places = (Answer.FAILS, Answer.UNREAD, Answer.APPROXIMATE, Answer.HOLDS)
+    return places.index(verdict.answer), inf if verdict.order is None else verdict.order
+
+
+def _of_branch(asked: Asked) -> Verdict:
+    """With one choice of the signs of ±."""
     verdicts = []
     for candidate in _readings(asked):
         verdict = _judged(asked, candidate)
         if verdict.holds:
             return verdict
         verdicts.append(verdict)
-    return verdicts[-1]
+    return next((v for v in verdicts if v.answer is Answer.UNREAD), verdicts[-1])
 
 
-@dataclass(frozen=True)
-class _Remainder:
-    """What is left of one component: as a power series in the smallness."""
-
-    component: Component
-    states: Circumstances
-    left: Expr
-    right: Expr
-    positive: tuple[Expr, ...]
-
-    @cached_property
-    def orders(self) -> dict[int, Expr]:
-        """The first coefficients that are not zero, by their order."""
-        return self.series(self.left - self.right)
-
-    def series(self, expression: Expr, highest: int = _HIGHEST) -> dict[int, Expr]:
-        """The first coefficient that does not vanish, by its order, with all signs told."""
-        return leading_orders(expression, _LOWEST, highest, self.positive)
-
-    @cached_property
-    def leading(self) -> int:
-        """Order of the larger side."""
-        both = map(self.series, (self.left, self.right))
-        return min((order for orders in both for order in orders), default=0)
-
-
-def _readings(asked: Asked) -> Iterator[Iterator[_Remainder]]:
-    kinds = (AnyState, TrueMotion)
-    for kind in kinds:
-        states = asked.states(kind)
-        yield (_remainder(c, states, c.left, c.right, asked) for c in asked.components())
+def _readings(asked: Asked) -> Iterator[Iterator[Remainder]]:
+    anywhere, moving = asked.states(AnyState), asked.states(TrueMotion)
+    sides = [anywhere.on(side) for c in asked.components() for side in (c.left, c.right)]
+    kinematic = not any(_is_dynamic(side, anywhere) for side in sides)
+    states: Circumstances = anywhere if kinematic else moving
+    yield (_remainder(c, states, asked) for c in asked.components())
     roots = list(steady_roots(asked))
+    spoken = [c for c in asked.components() if c.difference]
+    if len(roots) < len(spoken):
+        return
+    steadily = replace(asked, relations=()).states(TrueMotion)
     for branch in range(max((len(values) for _, values in roots), default=0)):
-        states = replace(asked, relations=()).states(TrueMotion)
         yield (
-            _remainder(c, states, values[branch], c.right, asked)
+            _remainder(c, steadily, asked, values[branch])
             for c, values in roots
             if branch < len(values)
         )
 
 
+def _is_dynamic(side: Expr, states: Circumstances) -> bool:
+    """Whether it speaks of accelerations or reactions, which only the motion determines."""
+    equations = states.equations
+    known = {*equations.coordinates, *equations.speeds}
+    forces = {reaction_symbol(name) for name in equations.components}
+    functions = set(equations.functions)
+    return any(
+        s.base() in forces or (s.kind.varies and s not in known and s.base() not in functions)
+        for s in side.symbols()
+    )
+
+
 def _remainder(
-    component: Component, states: Circumstances, left: Expr, right: Expr, asked: Asked
-) -> _Remainder:
-    first, second = (scaled(states.on(side), asked.small) for side in (left, right))
-    return _Remainder(component, states, first, second, _positive(asked))
+    component: Component, states: Circumstances, asked: Asked, root: Expr | None = None
+) -> Remainder:
+    left = component.left if root is None else root
+    sides = (scaled(states.on(side), asked.small) for side in (left, component.right))
+    return Remainder(component, states, *sides, _positive(asked), asked, root is not None)
 
 
 def _positive(asked: Asked) -> tuple[Expr, ...]:
@@ -101,19 +112,20 @@ def _below(quantity: Expr) -> frozenset[Symbol]:
     return quantity.denominator.symbols()
 
 
-def _judged(asked: Asked, remainders: Iterable[_Remainder]) -> Verdict:
-    stated = [small.order for small in asked.small if small.order is not None]
+def _judged(asked: Asked, remainders: Iterable[Remainder]) -> Verdict:
     reached: list[tuple[int, Expr]] = []
-    seen: list[_Remainder] = []
+    seen: list[Remainder] = []
     for left in remainders:
         seen.append(left)
         if not left.orders:
             if left.left != left.right:
-                reached.append((_HIGHEST + 1, ZERO))
+                reached.append((left.highest + 1, ZERO))
             continue
         order, term = next(iter(left.orders.items()))
-        if order <= _wanted(left, stated, asked):
-            return _failed(left, order, restored(term, asked.small))
+        if why := left.objection(order):
+            return _failed(left, order, restored(term, asked.small), why)
+        if order <= left.printed.left_aside:
+            return _untested(left, order)
         reached.append((order, term))
     if not reached:
         return Verdict(Answer.HOLDS, "limit")
@@ -128,30 +140,23 @@ def _judged(asked: Asked, remainders: Iterable[_Remainder]) -> Verdict:
     )
 
 
-def _wanted(left: _Remainder, stated: Sequence[int], asked: Asked) -> int:
-    """The order to which a claim is to be true."""
-    if not stated:
-        return left.leading
-    # terms printed to be kept may be products of what is small, each to its stated order
-    kept = _highest_printed(left.component, asked)
-    return max(min(stated), min(kept, sum(stated)))
+def _untested(left: Remainder, order: int) -> Verdict:
+    return Verdict(
+        Answer.UNREAD,
+        "limit",
+        reason=f"it was read and is true up to order {order - 1}, but its left side has a term of "
+        f"order {left.printed.left_aside} that is neither met by the right side nor right by "
+        "itself; leave it out, or state its order with --small",
+        order=order - 1,
+    )
 
 
-def _highest_printed(component: Component, asked: Asked) -> int:
-    """The highest order among several terms whose sum is to vanish: they are printed to be kept."""
-    sides = [scaled(side, asked.small) for side in (component.left, component.right) if side]
-    terms = [powers for side in sides for powers, _ in side.numerator.terms()]
-    if len(sides) > 1 or len(terms) < 2:
-        return 0
-    return max(powers.get(SMALLNESS, 0) for powers in terms)
-
-
-def _failed(left: _Remainder, order: int, term: Expr) -> Verdict:
+def _failed(left: Remainder, order: int, term: Expr, why: str) -> Verdict:
     residual = Residual(left.component.member, left.component.label, term)
     return Refuted(
         Answer.FAILS,
         "limit",
-        reason=f"the sides differ at order {order} already",
+        reason=why,
         residuals=(residual,),
         order=order - 1,
         dropped=term,
@@ -159,34 +164,36 @@ def _failed(left: _Remainder, order: int, term: Expr) -> Verdict:
     )
 
 
-def _evidence(left: _Remainder, order: int, residual: Residual) -> Evidence:
+def _evidence(left: Remainder, order: int, residual: Residual) -> Evidence:
     """A state at which the coefficients of that order differ."""
     wrong = Component(residual.member, residual.component, *_coefficients(left, order))
     return refutation(wrong, residual, left.states)
 
 
-def _coefficients(left: _Remainder, order: int) -> tuple[Expr, Expr]:
+def _coefficients(left: Remainder, order: int) -> tuple[Expr, Expr]:
     sides = (left.series(side, order) for side in (left.left, left.right))
     first, second = (found.get(order, ZERO) for found in sides)
     return first, second
 
 
-def _measured(remainders: Sequence[_Remainder]) -> Iterator[str]:
+def _measured(remainders: Sequence[Remainder]) -> Iterator[str]:
     """How fast the remainder falls as the small quantities are halved, by numbers."""
     for left in remainders:
         difference = left.left - left.right
         if difference:
             try:
-                order = _slope(difference, left.states)
+                order = _slope(difference, left.states, next(iter(left.orders), _STEEPEST))
             except (PolhodeError, ArithmeticError, ValueError):
                 continue
             yield f"halving what is small makes the remainder fall as its power {order:.2f}"
             return
 
 
-def _slope(difference: Expr, states: Circumstances) -> float:
+def _slope(difference: Expr, states: Circumstances, expected: int) -> float:
     point = next(real_states(states, [difference.subs({SMALLNESS: ONE})]), None)
     if point is None:
         raise NumericError("no state among those tried", expected="one that is real")
-    sizes = [abs(number(difference, {**point, SMALLNESS: 2.0**-k})) for k in (7, 8)]
+    first = max(2, min(7, _DIGITS // max(expected, 1)))  # what is left stays above rounding
+    halvings = (first, first + 1)
+    sizes = [abs(number(difference, {**point, SMALLNESS: 2.0**-k})) for k in halvings]
     return log(sizes[0] / sizes[1], 2)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 from functools import lru_cache
+from math import lcm
 
 from polhode.algebra import ONE, ZERO, Expr, Symbol
 from polhode.base import NumericError
@@ -17,17 +18,41 @@ _HIGHEST_RATE = 3
 
 
 def scaled(expression: Expr, small: Sequence[Small]) -> Expr:
-    """An expression with every small quantity multiplied by the smallness.
+    """An expression with every small quantity multiplied by its power of the smallness.
 
     The symbol that a small quantity is formed of then stands for the departure itself: with
     ε = θ - π/2 small, θ becomes π/2 + smallness · θ. Rates of it are as small.
     """
-    return expression.subs(_images(tuple(each.quantity for each in small)))
+    return expression.subs(_images(tuple(small)))
+
+
+def weights(small: Sequence[Small]) -> tuple[int, ...]:
+    """The power of the smallness that each small quantity stands for.
+
+    Those kept to a higher order are larger: with θ to the third order and Ω to the first, a
+    product such as θ²Ω is left out. What is kept to order zero is smaller than all that is kept.
+    """
+    whole = stated_order(small) or 0
+    return tuple(_weight(each.order, whole) for each in small)
+
+
+def _weight(order: int | None, whole: int) -> int:
+    if not whole:
+        return 1
+    if order is None:
+        return whole
+    return whole // order if order else whole + 1
+
+
+def stated_order(small: Sequence[Small]) -> int | None:
+    """The power of the smallness up to which terms are kept; None where no order is stated."""
+    orders = [each.order for each in small if each.order is not None]
+    return lcm(*filter(None, orders)) if any(orders) else (0 if orders else None)
 
 
 def vanished(small: Sequence[Small]) -> dict[Symbol, Expr]:
     """The values that symbols have where every small quantity is zero."""
-    images = _images(tuple(each.quantity for each in small))
+    images = _images(tuple(small))
     return {symbol: value.subs({SMALLNESS: ZERO}) for symbol, value in images.items()}
 
 
@@ -37,12 +62,13 @@ def restored(expression: Expr, small: Sequence[Small]) -> Expr:
 
 
 @lru_cache(maxsize=64)
-def _images(quantities: tuple[Expr, ...]) -> dict[Symbol, Expr]:
-    return {symbol: value for each in quantities for symbol, value in _images_of(each)}
+def _images(small: tuple[Small, ...]) -> dict[Symbol, Expr]:
+    pairs = zip(small, weights(small), strict=True)
+    return {s: value for each, weight in pairs for s, value in _images_of(each.quantity, weight)}
 
 
-def _images_of(quantity: Expr) -> Iterator[tuple[Symbol, Expr]]:
-    scale = Expr.generator(SMALLNESS)
+def _images_of(quantity: Expr, weight: int) -> Iterator[tuple[Symbol, Expr]]:
+    scale = Expr.generator(SMALLNESS) ** weight
     symbol, value = _formed_of(quantity)
     departure = Expr.generator(symbol)
     yield symbol, value.subs({_TARGET: scale * departure})
@@ -86,6 +112,27 @@ def leading_orders(
     Negative orders are poles. Empty where all up to the highest order vanish; roots of squares of
     what is positive are resolved.
     """
+    below = expression.denominator
+    if SMALLNESS not in below.symbols() or _has_poles_inside(expression):
+        return _leading(expression, lowest, highest, positive)
+    # far less grows when what stands above and below the bar are expanded one by one
+    least = _leading(below, lowest, highest - lowest, positive)
+    order, share = next(iter(least.items()), (0, ZERO))
+    if not share:
+        return _leading(expression, lowest, highest, positive)
+    found = _leading(expression.numerator, lowest + order, highest + order, positive)
+    return {power - order: coefficient / share for power, coefficient in found.items()}
+
+
+def _has_poles_inside(expression: Expr) -> bool:
+    """Whether a root or the like holds one over the smallness."""
+    arguments = (a for g in expression.generators for a in g.arguments)
+    return any(SMALLNESS in a.denominator.symbols() or _has_poles_inside(a) for a in arguments)
+
+
+def _leading(
+    expression: Expr, lowest: int, highest: int, positive: Collection[Expr]
+) -> dict[int, Expr]:
     scale = Expr.generator(SMALLNESS)
     for order in range(0, lowest - 1, -1):
         derivative, factorial = expression * scale**-order, 1

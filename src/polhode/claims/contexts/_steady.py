@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
 
 from polhode.algebra import ZERO, Expr, Symbol
 from polhode.analyse import reduced
 from polhode.claims._verdict import Answer, Residual, Verdict
-from polhode.claims.contexts._judge import Failure, failed, judged
+from polhode.claims.contexts._judge import Failure, failed, failures, judged
 from polhode.claims.meaning._components import Component
 from polhode.claims.states._asked import Asked
 from polhode.claims.states._circumstances import TrueMotion
@@ -19,31 +20,72 @@ def judged_steady(asked: Asked) -> Verdict:
     """With non-ignorable speeds and all accelerations zero, on every family.
 
     A member that gives a speed by a root, with or without ±, claims that every branch of it is a
-    steady motion; whether it covers all of them is remarked.
+    steady motion; whether it covers all of them is remarked. What a relation between speeds and
+    angles says need not hold where an angle has a value of its own, such as the bottom of a hoop:
+    that it does not speak of such motions is remarked.
     """
     families = steady_states(asked)
     solved = [solved_members(asked, branch) for branch in range(len(asked.branches))]
     if not any(solved):
-        return judged(asked, families, "steady")
-    found = [f for branch in solved for member in branch for f in _not_steady(asked, member)]
+        return _on_families(asked, families)
+    found = [f for branch in solved for f in _at_odds(branch, families[0])]
+    found = found or [
+        f for branch in solved for member in branch for f in _not_steady(asked, member)
+    ]
     if found:
         return failed(found, "steady")
     named = {member.member for member in solved[0]}
     rest = asked.only([i for i in range(len(asked.members)) if i not in named])
-    others = judged(rest, families, "steady")
+    others = _on_families(rest, families)
     if not others.holds:
         return others
     remarks = tuple(_covered(solved, families))
-    return Verdict(Answer.HOLDS, "steady", remarks=remarks)
+    return Verdict(Answer.HOLDS, "steady", remarks=(*others.remarks, *remarks))
+
+
+def _on_families(asked: Asked, families: Sequence[SteadyStates]) -> Verdict:
+    """On every family, but those in which an angle stands still by itself where others are."""
+    wrong = [f for f in families if next(failures(asked, [f]), None) is not None]
+    right = [f for f in families if f not in wrong]
+    verdict = judged(asked, wrong, "steady")
+    if not wrong or not right:
+        return verdict
+    spoken = f"it holds on the steady motions {_named(right)}"
+    if all(f.is_at_rest for f in wrong) and not all(f.is_at_rest for f in right):
+        remark = f"{spoken}, and does not speak of {_named(wrong)}"
+        return Verdict(Answer.HOLDS, "steady", remarks=(remark,))
+    return replace(verdict, remarks=(*verdict.remarks, f"{spoken}, but not on {_named(wrong)}"))
+
+
+def _named(families: Sequence[SteadyStates]) -> str:
+    return "; ".join(str(f.family) for f in families)
+
+
+def _at_odds(solved: Sequence[Solved], states: TrueMotion) -> Iterator[Failure]:
+    """Members that give one quantity different values, where the text does not say "or"."""
+    for one, other in combinations(solved, 2):
+        if one.quantity == other.quantity and not other.is_alternative:
+            component = Component(other.member, "", one.value, other.value)
+            left = states.on(component.difference)
+            if left:
+                yield Failure(component, states, Residual(other.member, "", left))
 
 
 @dataclass(frozen=True)
 class Solved:
-    """A member that gives one state variable by roots."""
+    """A member that gives one state variable by roots.
+
+    Attributes:
+        member: its number.
+        quantity: what it gives.
+        value: what that is to be.
+        is_alternative: whether it is a further value after an "or".
+    """
 
     member: int
     quantity: Symbol
     value: Expr
+    is_alternative: bool = False
 
 
 def solved_members(asked: Asked, branch: int) -> list[Solved]:
@@ -52,8 +94,10 @@ def solved_members(asked: Asked, branch: int) -> list[Solved]:
     for component in asked.components(branch):
         quantity = component.left.symbol
         rooted = any(g.depth and g.partner() is None for g in component.right.generators)
-        if quantity in state and (rooted or len(asked.branches) > 1):
-            found.append(Solved(component.member, quantity, component.right))
+        given_by_itself = quantity in component.right.symbols()
+        if quantity in state and not given_by_itself and (rooted or len(asked.branches) > 1):
+            alternative = asked.branches[branch][component.member].is_alternative
+            found.append(Solved(component.member, quantity, component.right, alternative))
     return found
 
 

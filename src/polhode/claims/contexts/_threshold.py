@@ -2,44 +2,61 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import lru_cache, partial
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import Expr, Kind, Symbol
 from polhode.analyse import Truth, stability
 from polhode.base import ParseError, PolhodeError
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
-from polhode.claims.contexts._counterexample import refutation
+from polhode.claims.contexts._counterexample import example_where
+from polhode.claims.contexts._equivalence import Bound, Comparison
 from polhode.claims.contexts._judge import failed, failures
 from polhode.claims.meaning._components import Component
 from polhode.claims.meaning._the import The
-from polhode.claims.states._asked import EQUALITY, SENSE, Asked
-from polhode.claims.states._circumstances import AnyState
-from polhode.claims.states._numeric import number
-from polhode.claims.states._signs import definite_sign
+from polhode.claims.states._asked import EQUALITY, SENSE, STRICT, Asked
+from polhode.claims.states._circumstances import AnyState, Circumstances
+from polhode.claims.states._points import Point
 from polhode.claims.states._steady_states import SteadyStates, steady_states
+
+_STABILITY, _EXISTENCE = "stability", "existence"
 
 
 @dataclass(frozen=True)
 class Exact:
-    """A condition that the model gives: `expression > 0`, and what it decides."""
+    """What the model demands: expressions that have to be positive, all of them.
 
-    expression: Expr
+    Attributes:
+        expressions: what has to be positive.
+        decides: what that decides.
+        states: where it is said.
+    """
+
+    expressions: tuple[Expr, ...]
     decides: str
+    states: Circumstances
+
+    def __str__(self) -> str:
+        said = " and ".join(f"{e} > 0" for e in self.expressions)
+        return f"the condition{'s' * (len(self.expressions) > 1)} of {self.decides}, {said}"
 
 
 def judged_threshold(asked: Asked) -> Verdict:
-    """Whether an inequality is equivalent to the exact condition.
+    """Whether inequalities are together equivalent to the exact condition.
 
-    The conditions are those of linear stability of the steady motion, and of its being possible.
-    Where a condition is even in the bounded quantity, the positive half-line is meant.
+    The condition is that of linear stability of a family of steady motions, all parts of it
+    together, or that of its being possible. Where it is even in a speed, the magnitude of that
+    speed is meant. Equivalence is proved from signs, or refuted by a state of bodies that can be;
+    where neither is found, it stays open.
     """
+    if any(map(asked.says_choice, range(len(asked.members)))):
+        raise ParseError("± in a threshold", expected="one sign, or a magnitude")
     equalities = [c for c in asked.components() if asked.members[c.member].sign in EQUALITY]
     wrong = list(failures(asked.only({c.member for c in equalities}), [_any(asked)]))
     if wrong:
         return failed(wrong, "threshold")
-    claimed = [_claimed(c, asked) for c in asked.components() if c not in equalities]
+    claimed = [_inequality(c, asked) for c in asked.components() if c not in equalities]
     if not claimed:
         raise ParseError("no inequality", expected="one with < or > in the context threshold")
     known = exact_conditions(asked)
@@ -49,24 +66,54 @@ def judged_threshold(asked: Asked) -> Verdict:
             expected="a steady motion that is stable or possible under a condition",
             advice="say which motion is meant with --given",
         )
-    said = []
-    for component, greater in claimed:
-        match = next((e for e in known if _equivalent(component, greater, e, asked)), None)
-        if match is None:
-            return _refuted(component, known[0], asked)
-        said.append(f"equivalent to the condition of {match.decides}, {match.expression} > 0")
-    return Verdict(Answer.HOLDS, "threshold", reason="; ".join(dict.fromkeys(said)))
+    compared = [(exact, _compared(claimed, exact, asked)) for exact in known]
+    proved = next((exact for exact, comparison in compared if comparison.is_proved), None)
+    if proved is not None:
+        return _met(claimed, proved, asked)
+    if all(comparison.parting is not None for _, comparison in compared):
+        return _refuted(claimed[0], *compared[0])
+    return _undecided(next(exact for exact, c in compared if c.parting is None))
 
 
 def _any(asked: Asked) -> AnyState:
     return asked.states(AnyState)
 
 
-def _claimed(component: Component, asked: Asked) -> tuple[Component, int]:
+def _inequality(component: Component, asked: Asked) -> Component:
     sign = asked.members[component.member].sign
     if sign not in SENSE:
         raise ParseError(f"the sign {sign} in a threshold", expected="one of " + " ".join(SENSE))
-    return component, SENSE[sign]
+    return component
+
+
+def _compared(claimed: Sequence[Component], exact: Exact, asked: Asked) -> Comparison:
+    bounds = []
+    for component in claimed:
+        sides = [exact.states.on(side) for side in (component.left, component.right)]
+        upward = SENSE[asked.members[component.member].sign] > 0
+        bounds.append(Bound(*sides) if upward else Bound(*reversed(sides)))
+    return Comparison(tuple(bounds), exact.expressions, exact.states, _sizes(bounds, exact))
+
+
+def _sizes(bounds: Sequence[Bound], exact: Exact) -> frozenset[Symbol]:
+    """Speeds in which the condition is even, though the text bounds them with their sign."""
+    differences = [bound.greater - bound.less for bound in bounds]
+    speeds = {
+        s
+        for e in differences
+        for s in e.symbols()
+        if s.kind.varies and not s.positive and (s.order or s.kind is Kind.SPEED)
+    }
+    return frozenset(
+        s
+        for s in speeds
+        if all(map(partial(_is_even, s), exact.expressions))
+        and not all(map(partial(_is_even, s), differences))
+    )
+
+
+def _is_even(symbol: Symbol, expression: Expr) -> bool:
+    return expression.subs({symbol: -Expr.generator(symbol)}) == expression
 
 
 def exact_conditions(asked: Asked) -> tuple[Exact, ...]:
@@ -83,8 +130,12 @@ def _conditions(
     positive: tuple[Expr, ...],
 ) -> tuple[Exact, ...]:
     asked = Asked(((),), the.equations, dict(given), relations, positive=positive)
-    families = steady_states(asked)
-    return tuple(e for family in families for e in (*_stability(family), *_existence(family)))
+    anywhere = _any(asked)
+    return tuple(
+        e
+        for family in steady_states(asked)
+        for e in (*_stability(family), *_existence(family, anywhere))
+    )
 
 
 def _stability(family: SteadyStates) -> Iterator[Exact]:
@@ -94,51 +145,61 @@ def _stability(family: SteadyStates) -> Iterator[Exact]:
         conditions = stability(family.family).conditions
     except PolhodeError:
         return
-    for condition in conditions:
-        if condition.truth is Truth.OPEN:
-            yield Exact(family.on(condition.expression), "stability")
+    found = tuple(family.on(c.expression) for c in conditions if c.truth is Truth.OPEN)
+    if found:
+        yield Exact(found, _STABILITY, family)
 
 
-def _existence(family: SteadyStates) -> Iterator[Exact]:
+def _existence(family: SteadyStates, anywhere: AnyState) -> Iterator[Exact]:
     branches = family.family.branches if family.family is not None else ()
-    found = dict.fromkeys(c.expression for b in branches for c in b.exists)
-    for expression in found:
-        if expression.rational is None:
-            yield Exact(expression.subs(dict(family.given)), "existence")
+    every = (c.expression.subs(dict(family.given)) for b in branches for c in b.exists)
+    found = tuple(dict.fromkeys(e for e in every if e.rational is None))
+    if found:
+        yield Exact(found, _EXISTENCE, anywhere)
 
 
-def _equivalent(component: Component, greater: int, exact: Exact, asked: Asked) -> bool:
-    """Whether the difference of the sides, or of their squares, is the condition times a positive.
+def _met(claimed: Sequence[Component], exact: Exact, asked: Asked) -> Verdict:
+    """Equivalent, but perhaps for equality: linear stability leaves open what happens there."""
+    loose = [c for c in claimed if asked.members[c.member].sign not in STRICT]
+    if loose and exact.decides == _STABILITY:
+        return Verdict(
+            Answer.UNREAD,
+            "threshold",
+            reason=f"it was read and is equivalent to {exact}, but for equality, where linear "
+            "stability decides nothing; write < or >",
+        )
+    return Verdict(Answer.HOLDS, "threshold", reason=f"equivalent to {exact}")
 
-    Both sides are taken as not negative in the second case.
-    """
-    states = _any(asked)
-    left, right = states.on(component.left), states.on(component.right)
-    for difference in (left - right, left * left - right * right):
-        if difference and definite_sign(difference * greater / exact.expression, states.signs) == 1:
-            return True
-    return False
 
-
-def _refuted(component: Component, exact: Exact, asked: Asked) -> Verdict:
-    residual = Residual(component.member, component.label, component.difference)
-    states = replace(_any(asked), relations=(*asked.relations, exact.expression))
-    return Refuted(
-        Answer.FAILS,
+def _undecided(exact: Exact) -> Verdict:
+    return Verdict(
+        Answer.UNREAD,
         "threshold",
-        reason=f"not equivalent to the condition of {exact.decides}, {exact.expression} > 0; "
-        "where that is just met, the sides differ",
-        residuals=(residual,),
-        evidence=partial(_where_just_met, component, residual, states),
+        reason=f"it was read, but whether it is equivalent to {exact} was neither proved nor "
+        "refuted",
     )
 
 
-def _where_just_met(component: Component, residual: Residual, states: AnyState) -> Evidence:
+def _refuted(component: Component, exact: Exact, comparison: Comparison) -> Verdict:
+    residual = Residual(component.member, component.label, component.difference)
+    return Refuted(
+        Answer.FAILS,
+        "threshold",
+        reason=f"not equivalent to {exact}; there are motions that one allows and the other not",
+        residuals=(residual,),
+        evidence=partial(_parted, component, residual, exact, comparison),
+    )
+
+
+def _parted(
+    component: Component, residual: Residual, exact: Exact, comparison: Comparison
+) -> Evidence:
+    """A motion that the inequality allows and the condition does not, or the reverse."""
+
+    def parts(point: Point) -> bool:
+        return bool(comparison.agree(point.floats()) == 0)
+
     try:
-        return refutation(component, residual, states, _differ_above_zero)
+        return example_where(parts, component, residual, exact.states)
     except PolhodeError:
         return None, None
-
-
-def _differ_above_zero(left: Expr, right: Expr) -> bool:
-    return left != right and number(left, {}) > 0 and number(right, {}) > 0

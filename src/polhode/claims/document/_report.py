@@ -46,12 +46,15 @@ class Consequence:
         feeds: ids of the judged claims drawn from it, directly or through others.
         results: those of them from which nothing more is drawn.
         surviving: those of the results that hold all the same.
+        open: those of the results that are not judged: definitions, and what cannot be read or
+            decided.
     """
 
     failed: str
     feeds: tuple[str, ...]
     results: tuple[str, ...]
     surviving: tuple[str, ...]
+    open: tuple[str, ...] = ()
 
     def __str__(self) -> str:
         return f"({self.failed}) {self.told}"
@@ -61,11 +64,13 @@ class Consequence:
         """What it feeds, and which results survive, in words."""
         if not self.feeds:
             return "feeds no other claim"
-        lost = [id for id in self.results if id not in self.surviving]
+        lost = [id for id in self.results if id not in (*self.surviving, *self.open)]
         said = f"feeds {_listed(self.feeds)}"
         if self.surviving:
             said += f"; what survives: {_listed(self.surviving)}"
-        return said + (f"; what does not: {_listed(lost)}" if lost else "")
+        if lost:
+            said += f"; what does not: {_listed(lost)}"
+        return said + (f"; not judged: {_listed(self.open)}" if self.open else "")
 
 
 @dataclass(frozen=True)
@@ -103,7 +108,9 @@ class Report(Shown):
         verdicts = {j.claim.id: j.verdict for j in self.judged}
         feeds = tuple(id for id in self.document.consequences(failed) if id in verdicts)
         results = tuple(id for id in feeds if not self.document.consequences(id))
-        return Consequence(failed, feeds, results, tuple(i for i in results if verdicts[i].holds))
+        surviving = tuple(id for id in results if verdicts[id].holds)
+        left = tuple(id for id in results if not verdicts[id].is_judged)
+        return Consequence(failed, feeds, results, surviving, left)
 
     def by_part(self) -> tuple[tuple[Part, tuple[Judged, ...]], ...]:
         """The judged claims of each part of the text that has some."""
@@ -176,7 +183,7 @@ def _row(judged: Judged) -> str:
     said = verdict.reason
     if verdict.correction is not None:
         said = f"{verdict.correction.what}: {verdict.correction.latex}"
-    if not verdict.holds and judged.fed_by:
+    if verdict.answer in (Answer.FAILS, Answer.UNREAD) and judged.fed_by:
         said += f" [drawn from {_listed(judged.fed_by)}]"
     return start + shorten(said, _WIDEST, placeholder=" …") if said else start.rstrip()
 

@@ -11,6 +11,11 @@ from polhode.claims.latex._tree import Case, Cases, Name, Node, Relation, Statem
 
 _OR = re.compile(r"(?:\(.*\) *)?or")
 _WORDS_OF_CASE = re.compile(r"(?:\((.*)\) *)?(?:or)?")
+_ASSUMED = re.compile(
+    r"(?:only )?(?:if|for|where|when|whenever|at|assuming|provided|given|as long as)\b",
+    re.IGNORECASE,
+)
+_JOINED = re.compile(r"and|also|,", re.IGNORECASE)
 _WRAPPED = re.compile(r"\\(?:text|textrm|mbox|mathrm)\{([^{}]*)\}")
 _NUMBER = re.compile(r"\([0-9]{1,4}\)")
 _STOPS = (",", ";", ".")
@@ -45,6 +50,7 @@ class _StatementReader(QuantityReader):
         self._asides = _brackets_of_relations(paired)
         self._relations: list[Relation] = []
         self._conditions: list[Relation] = []
+        self._assumptions: list[Relation] = []
         self._notes: list[str] = []
         self._tags: list[str] = []
 
@@ -60,6 +66,7 @@ class _StatementReader(QuantityReader):
             tuple(self._conditions) if self._relations else (),
             tuple(self._notes),
             tuple(self._tags),
+            tuple(self._assumptions),
             span=(0, len(self._source)),
         )
         self._refuse_bare_operators(statement)
@@ -86,15 +93,27 @@ class _StatementReader(QuantityReader):
                 self._tags.append(self._take().text)
         elif self._place in self._asides:
             with self._within():
-                self._conditions.append(self._relation())
-                while self._took(","):
-                    self._conditions.append(self._relation())
+                self._read_aside()
         elif self._at_bracketed_words():
             with self._within():
                 self._notes.append(self._take().text)
         else:
             return False
         return True
+
+    def _read_aside(self) -> None:
+        """Relations in brackets: assumed after a word such as "if", and else said as well."""
+        found = self._conditions
+        while True:
+            while self._token.kind == "words":
+                words = self._take().text
+                if _ASSUMED.match(words):
+                    found = self._assumptions
+                elif not _JOINED.fullmatch(words):
+                    self._notes.append(words)
+            found.append(self._relation())
+            if not self._took(",") and self._token.kind != "words":
+                return
 
     def _at_tag(self) -> bool:
         """Whether a number in brackets ends the display, as equation numbers do."""

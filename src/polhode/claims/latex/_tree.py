@@ -304,12 +304,14 @@ class Statement(Piece):
         conditions: relations in brackets behind a gap, "... \qquad (θ < π/2)".
         notes: the words between, trimmed: "where", "and with", "⇒".
         tags: equation numbers.
+        assumptions: relations in brackets after a word such as "if": "... (for θ = π/2)".
     """
 
     relations: tuple[Relation, ...]
     conditions: tuple[Relation, ...] = ()
     notes: tuple[str, ...] = ()
     tags: tuple[str, ...] = ()
+    assumptions: tuple[Relation, ...] = ()
 
 
 def walk(piece: Piece) -> Iterator[Piece]:

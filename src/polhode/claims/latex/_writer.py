@@ -78,8 +78,12 @@ def write_latex(piece: Piece) -> str:
 def _(statement: Statement) -> str:
     said = r",\quad ".join(write_latex(relation) for relation in statement.relations)
     conditions = (rf"\quad {_bracketed(relation)}" for relation in statement.conditions)
+    assumed = (
+        rf"\quad \left(\text{{if }} {write_latex(relation)}\right)"
+        for relation in statement.assumptions
+    )
     tags = (rf"\tag{{{tag}}}" for tag in statement.tags)
-    return "".join((said, *conditions, *tags))
+    return "".join((said, *conditions, *assumed, *tags))
 
 
 @write_latex.register

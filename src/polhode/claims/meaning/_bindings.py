@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from polhode.algebra import ZERO, Expr, Vector
@@ -20,6 +20,7 @@ from polhode.claims.meaning._meaning import (
     rate,
     zero_like,
 )
+from polhode.claims.meaning._printed_terms import Printed, changing
 from polhode.claims.meaning._vocabulary import Vocabulary
 
 EQUAL = ("=", "≡")
@@ -35,12 +36,16 @@ class BoundRelation:
         sign: one of = ≡ ≈ ≠ < > ≤ ≥ ≪ ≫ ∝.
         right: what stands right of it.
         span: first and one past the last character of the member in its LaTeX.
+        is_alternative: whether it is a further value after an "or".
+        printed: its two sides as they stand; None for a relation that nobody printed.
     """
 
     left: Side
     sign: str
     right: Side
     span: Span = (0, 0)
+    is_alternative: bool = False
+    printed: Printed | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
@@ -50,7 +55,9 @@ class Bound:
     Attributes:
         branches: the members; twice, for the upper and the lower sign, where it says ±.
         defined: letters that it defines, bound by nothing else, with what they stand for.
-        conditions: relations in brackets that restrict it.
+        conditions: what restricts it: relations in brackets after a word such as "if", and the
+            range of a coordinate or speed.
+        values: values of coordinates and speeds in brackets, which may restrict it or be said.
         digits: for members with a decimal number on the right, half a unit of its last digit.
     """
 
@@ -58,6 +65,7 @@ class Bound:
     defined: Mapping[Node, Meaning]
     conditions: tuple[BoundRelation, ...]
     digits: Mapping[int, Expr]
+    values: tuple[BoundRelation, ...] = ()
 
     @property
     def relations(self) -> tuple[BoundRelation, ...]:
@@ -83,8 +91,32 @@ def bind(statement: Statement, vocabulary: Vocabulary) -> Bound:
     readers = [_Binder(Evaluator(vocabulary, upper, per_time)) for upper in signs]
     branches = tuple(tuple(reader.members(statement.relations)) for reader in readers)
     first = readers[0]
-    conditions = tuple(first.members(statement.conditions))
-    return Bound(branches, first.defined, conditions, first.digits)
+    ranges: list[BoundRelation] = []
+    values: list[BoundRelation] = []
+    for relation in statement.conditions:
+        said = [tuple(reader.members([relation])) for reader in readers]
+        of_state = [r for r in said[0] if _is_of_state(r, vocabulary)]
+        if len(of_state) == len(said[0]) and all(r.sign not in EQUAL for r in of_state):
+            ranges += of_state
+        else:
+            values += (r for r in of_state if r.sign in EQUAL)
+            branches = tuple((*one, *more) for one, more in zip(branches, said, strict=True))
+    assumed = tuple(first.members(statement.assumptions))
+    return Bound(branches, first.defined, (*assumed, *ranges), first.digits, tuple(values))
+
+
+def _is_of_state(relation: BoundRelation, vocabulary: Vocabulary) -> bool:
+    """Whether it sets a coordinate or speed against a constant, as no equation of a model does."""
+    equations = vocabulary.mechanics.equations
+    state = {*equations.coordinates, *equations.speeds}
+    sides = relation.left, relation.right
+    if not all(isinstance(side, Expr) for side in sides) or relation.sign == "≈":
+        return False
+    varying = [{s for s in side.symbols() if s.kind.varies} for side in sides]
+    return any(
+        one.symbol in state and not other
+        for one, other in zip(sides, reversed(varying), strict=True)
+    )
 
 
 class _Binder:
@@ -99,19 +131,19 @@ class _Binder:
     def members(self, relations: Sequence[Relation]) -> Iterator[BoundRelation]:
         """All members of some chains."""
         for relation in relations:
-            for chain in _by_cases(relation):
-                yield from self._chain(chain)
+            for number, chain in enumerate(_by_cases(relation)):
+                for member in self._chain(chain):
+                    yield replace(member, is_alternative=number > 0)
 
     def _chain(self, relation: Relation) -> Iterator[BoundRelation]:
         sides = relation.sides
         if relation.signs and relation.signs[0] in EQUAL and self._is_new(sides[0]):
             self._define(sides[0], self._evaluator.value(sides[1]))
             relation = replace(relation, sides=sides[1:], signs=relation.signs[1:])
-        for left, sign, right in zip(
-            relation.sides, relation.signs, relation.sides[1:], strict=False
-        ):
+        chain = zip(relation.sides, relation.signs, relation.sides[1:], strict=False)
+        for place, (left, sign, right) in enumerate(chain):
             if sign != "↔":
-                yield self._member(left, sign, right)
+                yield self._member(Printed(self._evaluator, left, right, place == 0), sign)
 
     def _is_new(self, node: Node) -> bool:
         letter = isinstance(node, tree.Name | tree.Differential | tree.At)
@@ -145,7 +177,8 @@ class _Binder:
         vocabulary = self._evaluator.vocabulary.saying({node: value})
         self._evaluator = replace(self._evaluator, vocabulary=vocabulary)
 
-    def _member(self, left: Node, sign: str, right: Node) -> BoundRelation:
+    def _member(self, printed: Printed, sign: str) -> BoundRelation:
+        left, right = printed.left, printed.right
         if sign not in COMPARED:
             raise BindingError(f"the sign {sign}", expected=f"one of {' '.join(COMPARED)}")
         one, other = self._sides(left, right)
@@ -153,7 +186,9 @@ class _Binder:
         if half is not None:
             self.digits[self._count] = half
         self._count += 1
-        return BoundRelation(one, sign, other, (left.span[0], right.span[1]))
+        if _says_constant(right):
+            printed = changing(printed)
+        return BoundRelation(one, sign, other, (left.span[0], right.span[1]), printed=printed)
 
     def _sides(self, left: Node, right: Node) -> tuple[Side, Side]:
         if _says_constant(right):

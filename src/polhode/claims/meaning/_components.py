@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from polhode.algebra import ZERO, Expr, Triad, Vector, zero_vector
 from polhode.base import ParseError
 from polhode.model import Frame
+
+if TYPE_CHECKING:
+    from polhode.claims.meaning._printed_terms import Printed
 
 Side = Expr | Vector
 
@@ -29,6 +32,16 @@ class Relation(Protocol):
     @property
     def right(self) -> Side:
         """The right side."""
+        ...
+
+    @property
+    def is_alternative(self) -> bool:
+        """Whether it is a further value after an "or"."""
+        ...
+
+    @property
+    def printed(self) -> Printed | None:
+        """Its two sides as they stand in print."""
         ...
 
 

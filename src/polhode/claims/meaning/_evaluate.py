@@ -7,7 +7,19 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import reduce, singledispatchmethod
 
-from polhode.algebra import Expr, Vector, as_symbol, cos, cosh, exp, integrate, sin, sinh, tan
+from polhode.algebra import (
+    Expr,
+    Symbol,
+    Vector,
+    as_symbol,
+    cos,
+    cosh,
+    exp,
+    integrate,
+    sin,
+    sinh,
+    tan,
+)
 from polhode.algebra import tanh as tanh
 from polhode.base import NumericError
 from polhode.claims.latex import _tree as tree
@@ -46,6 +58,18 @@ FORWARD: dict[str, Callable[[Expr], Expr]] = {
     "ln": exp,
     "log": exp,
 }
+
+
+class UnclearDerivative(BindingError):
+    """A derivative with d by a coordinate, of a quantity that varies otherwise as well."""
+
+    def __init__(self, of: str, by: str) -> None:
+        super().__init__(
+            f"d({of})/d({by}) where {of} varies with more than {by}",
+            expected="one that all readings agree on",
+            advice=f"write \\partial for the derivative at fixed speeds, or the rate of {of} over "
+            f"the rate of {by} for the one along the motion",
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,7 +143,24 @@ class Evaluator:
         whole = as_scalar(found, "what is differentiated")
         if node.partial:
             whole = self.vocabulary.mechanics.in_rates(whole)
+        elif {s for s in whole.symbols() if s.kind.varies} - {variable}:
+            return self._total(node, whole, variable)
         return reduce(lambda value, _: value.diff(variable), range(node.order), whole)
+
+    def _total(self, node: tree.Derivative, whole: Expr, variable: Symbol) -> Expr:
+        """dE/dθ where E depends on more than θ: two readings, neither of which goes by itself.
+
+        Raises `UnclearDerivative` where the vocabulary settles on none.
+        """
+        match self.vocabulary.totals:
+            case "partial":
+                change = lambda value: value.diff(variable)  # noqa: E731
+            case "along the motion":
+                rate = Expr.generator(variable).dt()
+                change = lambda value: value.dt() / rate  # noqa: E731
+            case _:
+                raise UnclearDerivative(spelled(node.of), spelled(node.by))
+        return reduce(lambda value, _: change(value), range(node.order), whole)
 
     def _seen_from_axes(self, value: Meaning) -> Meaning:
         """∂L/∂t of a vector: the rate that its axes see."""

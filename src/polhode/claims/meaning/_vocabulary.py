@@ -57,6 +57,8 @@ class Vocabulary:
         positive: quantities that the text takes as positive.
         columns: name of the frame that components in a bracket are along.
         chosen: letters that the field uses for several quantities, with the one that is meant.
+        totals: how dE/dθ of what varies otherwise too is read: "partial" or "along the motion";
+            empty where it is not read at all.
     """
 
     mechanics: Mechanics
@@ -64,6 +66,7 @@ class Vocabulary:
     positive: tuple[Expr, ...] = ()
     columns: str = ""
     chosen: Mapping[Name, str] = field(default_factory=dict)
+    totals: str = ""
 
     @cached_property
     def found(self) -> dict[tuple[Node, bool, bool], Meaning]:

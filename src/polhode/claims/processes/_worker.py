@@ -87,7 +87,7 @@ def _verdict(desk: Desk, part: Part, claim: Claim, replies: Connection) -> Verdi
     try:
         return desk.verdict(part, claim, tell)
     except MemoryError:
-        why = "not decided: it needs more memory than a claim is allowed"
+        why = "it was read, but not decided: it needs more memory than a claim is allowed"
     except Exception as error:  # a fault of the program's is told, and the others go on
         why = f"unexpected {type(error).__name__}: {error}"[:500]
     if failures:

@@ -21,7 +21,11 @@ _KEPT = 64
 #: Signs that claim the equality of both sides.
 EQUALITY = ("=", "≡")
 #: Sign of left less right that each sign claims.
-SENSE = {">": 1, "≥": 1, "≫": 1, "<": -1, "≤": -1, "≪": -1}
+SENSE = {">": 1, "≥": 1, "<": -1, "≤": -1}
+#: Of these, the signs that exclude equality.
+STRICT = (">", "<")
+#: Signs that compare magnitudes in a limit; they bound nothing.
+MAGNITUDES = ("≫", "≪")
 
 
 @dataclass(frozen=True)
@@ -88,6 +92,11 @@ class Asked:
         numbered = enumerate(self.branches[branch])
         return tuple(c for i, r in numbered for c in components(i, r.left, r.right))
 
+    def says_choice(self, member: int) -> bool:
+        """Whether ± makes a member differ from branch to branch."""
+        first, *others = (branch[member] for branch in self.branches)
+        return any(other.left != first.left or other.right != first.right for other in others)
+
     def states(self, kind: type[States]) -> States:
         """The states of a kind on which the claim is asked to hold."""
         found = _states(kind, The(self.equations), self._given, self.relations, self.positive)
@@ -113,6 +122,8 @@ class _Nothing:
     left: Expr = ZERO
     sign: str = "="
     right: Expr = ZERO
+    is_alternative: bool = False
+    printed: None = None
 
 
 NOTHING = _Nothing()

@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.algebra import Expr, Generator, Symbol
+from polhode.algebra import Expr, Generator, Symbol, under_name
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -126,5 +126,8 @@ def _generator(
 ) -> Any:
     if isinstance(generator, Symbol):
         return np.pi if generator == _PI else values[generator]
+    meaning = under_name(generator)
+    if meaning is not None:
+        return _of(meaning, values, known)
     function = _FUNCTIONS[generator.key.partition("(")[0]]
     return function(_of(generator.arguments[0], values, known))

@@ -9,7 +9,7 @@ from functools import lru_cache
 from math import atan
 from random import Random
 
-from polhode.algebra import Expr, Generator, Kind, Symbol, sqrt
+from polhode.algebra import Expr, Generator, Kind, Symbol, sqrt, under_name
 from polhode.base import NumericError
 
 _SIMPLE = [Fraction(n, d) for d in (1, 2, 3) for n in range(1, 8) if n % d or d == 1]
@@ -39,6 +39,9 @@ class Point:
     def _value(self, generator: Generator) -> Expr:
         if isinstance(generator, Symbol):
             return self._number(generator)
+        meaning = under_name(generator)
+        if meaning is not None:
+            return self(meaning)
         partner = generator.partner() or _odd(generator)
         if generator.depth and generator.partner() is None:
             return sqrt(self(generator.arguments[0]))
@@ -100,6 +103,9 @@ def _draws(random: Random, pool: list[Fraction]) -> Callable[[Symbol], Fraction]
 @lru_cache(maxsize=1024)
 def _angles(generator: Generator) -> tuple[Symbol, ...]:
     """Symbols that the generator takes a sine or cosine of, also under roots."""
+    meaning = under_name(generator)
+    if meaning is not None:
+        return tuple(dict.fromkeys(a for g in meaning.generators for a in _angles(g)))
     odd = _odd(generator)
     if odd is not None and odd[1] < 0:
         angle = _angle(generator)[0]

@@ -13,6 +13,7 @@ from polhode.claims.states._circumstances import TrueMotion
 from polhode.derive import Equations
 
 _KEPT = 64
+_PI = Symbol("pi")
 
 
 @dataclass(frozen=True)
@@ -20,6 +21,15 @@ class SteadyStates(TrueMotion):
     """The states of one family: its fixed values, its relations, all accelerations zero."""
 
     family: SteadyMotion | None = None
+
+    @cached_property
+    def is_at_rest(self) -> bool:
+        """Whether an angle stands still at a value of its own, whatever else the motion is."""
+        if self.family is None or self.family.relations:
+            return False
+        essential = self.family.reduced.essential
+        free = [v for q, v in self._fixed.items() if q in essential and q not in self.given]
+        return any(value.symbols() <= {_PI} for value in free)
 
     def _settled(self, expression: Expr) -> Expr:
         return super()._settled(expression.subs(self._at_rest)).subs(self._fixed)
