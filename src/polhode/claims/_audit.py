@@ -92,11 +92,12 @@ def reported(
     judged = tuple(
         Judged(
             claim,
-            document.part_of(claim).system,
+            part.system,
             verdicts[claim.id],
             tuple(id for id in failed if claim.id in reached[id]),
+            part.convention,
         )
-        for claim in asked
+        for claim, part in ((claim, document.part_of(claim)) for claim in asked)
         if claim.id in verdicts
     )
     left = tuple(claim.id for claim in asked if claim.id not in verdicts)

@@ -3,6 +3,7 @@
 from polhode.view import figures as figures
 from polhode.view._audit_page import audit_html as audit_html
 from polhode.view._audit_page import audit_page as audit_page
+from polhode.view._markup import math_fonts as math_fonts
 from polhode.view._mathml import equation as equation
 from polhode.view._notebook_declared import html_of as html_of
 from polhode.view._page import page as page

@@ -22,7 +22,7 @@ from polhode.view._quantities import Array
 from polhode.view._typeset import typeset
 
 if TYPE_CHECKING:
-    from polhode.claims import Judged
+    from polhode.claims import Judged, Note
 
 Triple = tuple[float, float, float]
 
@@ -250,6 +250,21 @@ class Happening:
 
 
 @dataclass(frozen=True)
+class NoteShown:
+    """A line on how a claim was read.
+
+    Attributes:
+        label: such as "read as".
+        text: LaTeX, or words.
+        formula: in MathML; empty for words.
+    """
+
+    label: str
+    text: str
+    formula: str = ""
+
+
+@dataclass(frozen=True)
 class Judgement:
     """A claim about the system and what came of checking it.
 
@@ -259,6 +274,8 @@ class Judgement:
         reason: in words.
         formula: the claim in MathML; empty where it is in words.
         correction: what holds in its place, in MathML; empty for none.
+        notes: how it was read, beyond what its source prints.
+        convention: of axes, angles and letters where its source states it.
     """
 
     claim: str
@@ -266,22 +283,32 @@ class Judgement:
     reason: str = ""
     formula: str = ""
     correction: str = ""
+    notes: tuple[NoteShown, ...] = ()
+    convention: str = ""
 
     @classmethod
     def of(cls, latex: str, verdict: Verdict) -> Judgement:
         """What `polhode.check` said of an equation."""
         put_right = typeset(verdict.correction.latex) if verdict.correction else ""
-        return cls(latex, verdict.answer.value, verdict.reason, typeset(latex), put_right)
+        notes = tuple(NoteShown("note", remark) for remark in verdict.remarks)
+        return cls(latex, verdict.answer.value, verdict.reason, typeset(latex), put_right, notes)
 
     @classmethod
     def on(cls, judged: Judged) -> Judgement:
         """What `polhode.audit` said of a claim of a document."""
         claim, verdict = judged.claim, judged.verdict
+        said = cls.of(claim.latex, verdict)
         return replace(
-            cls.of(claim.latex, verdict),
+            said,
             claim=f"({claim.id}) {claim.printed}",
             reason="" if verdict.answer is Answer.HOLDS else verdict.reason,
+            notes=(*map(_shown, claim.notes), *said.notes),
+            convention=judged.convention,
         )
+
+
+def _shown(note: Note) -> NoteShown:
+    return NoteShown(note.label, note.text, typeset(note.text) if note.is_formula else "")
 
 
 @dataclass(frozen=True)

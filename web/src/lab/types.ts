@@ -1,6 +1,6 @@
 // What the lab's server says, and what it is asked; see the lab room of polhode.
 
-import type { AccountData } from "../scene";
+import type { AccountData, NoteData } from "../scene";
 
 export interface Offer {
   name: string;
@@ -78,6 +78,9 @@ export interface Stated {
   printed: string;
   words: string;
   context: string;
+  notes: NoteData[];
+  part: string;
+  convention: string;
 }
 
 export interface Verdict {
