@@ -46,7 +46,7 @@ class Desk:
             notation = reduce(with_start, start, notation)
             return judged_claim(claim.formula, notation, claim.context, claim.when, tell)
         except PolhodeError as error:
-            return Verdict(Answer.UNREAD, claim.context, reason=str(error))
+            return Verdict.unread(claim.context, error)
 
     def _notation(self, part: Part) -> Notation:
         if part.id not in self._notations:

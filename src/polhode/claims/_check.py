@@ -75,7 +75,7 @@ def judged_claim(
             return Verdict(Answer.DEFINITION, context, reason=_defined(bound.defined))
         asked = replace(notation.asked(statement, {}), when=when)
     except (PolhodeError, ZeroDivisionError) as error:
-        return Verdict(Answer.UNREAD, context, reason=f"{error}{_hint(latex)}")
+        return Verdict.unread(context, error, _hint(latex))
     verdict = _judged(asked, context)
     if verdict.answer is not Answer.FAILS:
         return verdict
@@ -99,7 +99,7 @@ def _judged(asked: Asked, context: str) -> Verdict:
         verdict = judge(asked, context).proved()
         odd = "" if verdict.holds else dimensions_at_odds(asked)
     except (PolhodeError, ZeroDivisionError) as error:
-        return Verdict(Answer.UNREAD, context, reason=str(error))
+        return Verdict.unread(context, error)
     return replace(verdict, reason=f"{verdict.reason}; {odd}") if odd else verdict
 
 

@@ -33,7 +33,8 @@ def with_let(notation: Notation, text: str) -> Notation:
         raise ParseError(
             f"the definition {text!r}",
             expected=f"a new symbol; {spelled(new)} is none",
-            advice="restrict a known quantity with --given instead",
+            advice="restrict a known quantity to a value instead",
+            option="given",
         )
     vocabulary = notation.vocabulary.saying({new: typed(notation, value)})
     return replace(notation, vocabulary=vocabulary)

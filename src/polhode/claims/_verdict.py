@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, fields
 from enum import Enum
 
 from polhode.algebra import Expr
-from polhode.base import Shown
+from polhode.base import PolhodeError, Shown
 
 _TAG = re.compile(r"\\tag\{[^{}]*\}")
 
@@ -110,6 +110,7 @@ class Verdict(Shown):
         order: for an approximation, the highest order to which it is true.
         dropped: for an approximation, the first term left out.
         remarks: what else was noticed, such as roots that are not covered.
+        option: where it could not be read or decided, the argument that would help, such as "let".
     """
 
     answer: Answer
@@ -123,6 +124,13 @@ class Verdict(Shown):
     order: int | None = None
     dropped: Expr | None = None
     remarks: tuple[str, ...] = field(default=())
+    option: str = ""
+
+    @classmethod
+    def unread(cls, context: str, error: Exception, hint: str = "") -> Verdict:
+        """Of what could not be read, bound or decided, for the reason that an error gives."""
+        option = error.option if isinstance(error, PolhodeError) else ""
+        return cls(Answer.UNREAD, context, reason=f"{error}{hint}", option=option)
 
     @property
     def holds(self) -> bool:

@@ -11,18 +11,14 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, fields, is_dataclass, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field, fields, is_dataclass
+from typing import Any
 
 import numpy as np
 
 from polhode.base import Shown
-from polhode.claims import Answer, Verdict
+from polhode.view._judgement import Judgement
 from polhode.view._quantities import Array
-from polhode.view._typeset import typeset
-
-if TYPE_CHECKING:
-    from polhode.claims import Judged, Note
 
 Triple = tuple[float, float, float]
 
@@ -247,68 +243,6 @@ class Happening:
 
     time: float
     what: str
-
-
-@dataclass(frozen=True)
-class NoteShown:
-    """A line on how a claim was read.
-
-    Attributes:
-        label: such as "read as".
-        text: LaTeX, or words.
-        formula: in MathML; empty for words.
-    """
-
-    label: str
-    text: str
-    formula: str = ""
-
-
-@dataclass(frozen=True)
-class Judgement:
-    """A claim about the system and what came of checking it.
-
-    Attributes:
-        claim: in words, or as its source prints it.
-        verdict: holds, approximate, definition, fails or unread.
-        reason: in words.
-        formula: the claim in MathML; empty where it is in words.
-        correction: what holds in its place, in MathML; empty for none.
-        notes: how it was read, beyond what its source prints.
-        convention: of axes, angles and letters where its source states it.
-    """
-
-    claim: str
-    verdict: str
-    reason: str = ""
-    formula: str = ""
-    correction: str = ""
-    notes: tuple[NoteShown, ...] = ()
-    convention: str = ""
-
-    @classmethod
-    def of(cls, latex: str, verdict: Verdict) -> Judgement:
-        """What `polhode.check` said of an equation."""
-        put_right = typeset(verdict.correction.latex) if verdict.correction else ""
-        notes = tuple(NoteShown("note", remark) for remark in verdict.remarks)
-        return cls(latex, verdict.answer.value, verdict.reason, typeset(latex), put_right, notes)
-
-    @classmethod
-    def on(cls, judged: Judged) -> Judgement:
-        """What `polhode.audit` said of a claim of a document."""
-        claim, verdict = judged.claim, judged.verdict
-        said = cls.of(claim.latex, verdict)
-        return replace(
-            said,
-            claim=f"({claim.id}) {claim.printed}",
-            reason="" if verdict.answer is Answer.HOLDS else verdict.reason,
-            notes=(*map(_shown, claim.notes), *said.notes),
-            convention=judged.convention,
-        )
-
-
-def _shown(note: Note) -> NoteShown:
-    return NoteShown(note.label, note.text, typeset(note.text) if note.is_formula else "")
 
 
 @dataclass(frozen=True)

@@ -32,7 +32,8 @@ def judged_limit(asked: Asked) -> Verdict:
         raise NumericError(
             "a claim in the context limit without a small quantity",
             expected="what is small and to which order",
-            advice="say --small SYMBOL:ORDER",
+            advice="name it with the order that is kept, as in epsilon:1",
+            option="small",
         )
     verdicts = []
     for candidate in _readings(asked):

@@ -47,7 +47,8 @@ def judged_threshold(asked: Asked) -> Verdict:
         raise ParseError(
             "a threshold where nothing depends on the parameters",
             expected="a steady motion that is stable or possible under a condition",
-            advice="say which motion is meant with --given",
+            advice="restrict the claim to the motion that is meant",
+            option="given",
         )
     said = []
     for component, greater in claimed:
