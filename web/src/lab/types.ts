@@ -15,6 +15,7 @@ export interface Control {
   value: number;
   unit: string;
   size: number;
+  si: string;
   low: number;
   high: number;
   ratio: boolean;
@@ -31,7 +32,7 @@ export interface Description {
   duration: string;
   parameters: Control[];
   start: Control[];
-  forcing: { name: string; symbol: string; text: string }[];
+  forcing: { name: string; symbol: string; text: string; unit: string }[];
   sheet: boolean;
 }
 
