@@ -1,14 +1,18 @@
 """A page in a browser: it plays, it can be steered, and it keeps to itself."""
 
 import json
+import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import polhode as ph
 from browser.conftest import AXE, PHONE, SMALL
-from browser.runs import HOSTILE
+from browser.runs import HOSTILE, run_of
 from polhode.catalogue import CATALOGUE
+from polhode.view import page_of
+from polhode.view._scene import Panel, Series
 
 SYSTEMS = [*CATALOGUE, "double pendulum"]
 NO_WEBGL = "HTMLCanvasElement.prototype.getContext = new Proxy(\
@@ -88,6 +92,33 @@ def test_what_is_shown_is_the_motion(disk):
     disk.page.locator("input[type=range]").fill("800")
     theta = np.degrees(run_of("rolling-disk").evaluate("theta", 4.0))
     assert float(disk.value()) == pytest.approx(float(theta), abs=0.15)
+
+
+WATCH_TEXT = """(() => {
+  window.written = [];
+  const { fillText } = CanvasRenderingContext2D.prototype;
+  CanvasRenderingContext2D.prototype.fillText = function (text, ...more) {
+    window.written.push(text);
+    return fillText.call(this, text, ...more);
+  };
+})()"""
+
+
+@pytest.mark.parametrize("swing", [3e-5, 2e-3, 5.0])
+def test_the_numbers_at_an_axis_can_be_told_apart(opened, tmp_path, swing):
+    shown = ph.scene(run_of("gyrocompass"))
+    values = 11.21 + swing * np.sin(np.linspace(0, 9, 400))
+    panel = Panel("rad/s", (Series("q", "<math><mi>q</mi></math>", values),))
+    path = tmp_path / "page.html"
+    path.write_text(page_of(replace(shown, panels=(panel,))), "utf-8")
+    with opened(path, script=WATCH_TEXT) as page:
+        written = page.page.evaluate("window.written")
+        ticks = [
+            t for t in written if re.fullmatch(r"[−\d.]+", t) and abs(float(t) - 11.21) < swing
+        ]
+        assert len(ticks) >= 2
+        assert len(set(ticks)) == len(ticks)
+        page.page.locator(".plot").screenshot(path=tmp_path / "plot.png")
 
 
 def test_click_on_a_plot_seeks(disk):
