@@ -27,12 +27,12 @@ def test_functions_take_axes_and_return_what_they_drew(run_of, sliding):
     axes = figures.new_figure(6.0).subplots(2, 3).ravel()
     top, racquet = run_of("gyroscope"), run_of("tennis-racquet")
     drawn = [
-        figures.power_balance(top, ax=axes[0])[0],
+        figures.power_balance(top, ax=axes[0]),
         figures.herpolhode(racquet, ax=axes[1]),
         figures.effective_potential(top, ax=axes[2]),
-        figures.friction_needed(sliding, ax=axes[3])[0],
-        figures.reactions(top, "pivot", top.system.bodies[0].axes, ax=axes[4])[0],
-        figures.modes(sliding, ax=axes[5])[0],
+        figures.friction_needed(sliding, ax=axes[3]),
+        figures.reactions(top, "pivot", top.system.bodies[0].axes, ax=axes[4]),
+        figures.modes(sliding, ax=axes[5]),
     ]
     assert [artist.axes for artist in drawn] == list(axes)
 
@@ -113,7 +113,7 @@ def _when(run, angle):
 
 def test_turning_points_are_the_limits_of_the_swing(run_of):
     run = run_of("gyroscope")
-    line = figures.effective_potential(run)
+    (line,) = figures.effective_potential(run)
     dots = [a.get_xdata()[0] for a in line.axes.lines if a.get_marker() == "o"]
     theta = np.degrees(run.evaluate("theta", np.linspace(0, run.duration, 20001)))
     assert dots == pytest.approx([theta.min(), theta.max()], abs=0.02)
