@@ -164,13 +164,22 @@ def _control(
     plain = _PLAIN.fullmatch(text)
     shown = (plain[2] or unit).strip() if plain else unit
     one = read_quantity(f"1 {shown}") if shown else read_quantity("1")
-    size, si = one.value, "rad" if shown in _ANGLES else _UNITS.get(one.dimension, "")
-    scaled = _tidy(value / size)
+    si = "rad" if shown in _ANGLES else _UNITS.get(one.dimension or PURE, "")
+    scaled = _tidy(value / one.value)
     low, high, ratio = _range(scaled, shown, positive=positive)
     letter = Expr.generator(symbol).mathml()
     return Control(
-        *(symbol.published, letter, meaning, text, scaled),
-        *(shown, size, si, low, high, ratio),
+        name=symbol.published,
+        symbol=letter,
+        meaning=meaning,
+        text=text,
+        value=scaled,
+        unit=shown,
+        size=one.value,
+        si=si,
+        low=low,
+        high=high,
+        ratio=ratio,
         extra=False,
     )
 

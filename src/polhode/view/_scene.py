@@ -225,8 +225,8 @@ class Number:
     Attributes:
         name: published name.
         symbol: MathML; empty for the name as it is.
-        value: in SI units.
-        unit: SI unit.
+        value: in its unit.
+        unit: SI unit, or deg for an angle.
         meaning: in words.
     """
 

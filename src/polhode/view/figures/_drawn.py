@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Self, cast
 
@@ -11,13 +12,16 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-class InFigure:
+class InFigure(ABC):
     """Something drawn that a notebook shows as the figure it is in.
 
     One in axes of the user's own is shown as text: whoever made the axes shows their figure.
     """
 
-    axes: Axes
+    @property
+    @abstractmethod
+    def axes(self) -> Axes:
+        """The axes it is drawn in."""
 
     @property
     def figure(self) -> Figure:
@@ -32,13 +36,20 @@ class InFigure:
 
 
 class Drawn(InFigure, tuple[Any, ...]):
-    """What a function drew: the artists that stand for its data, in the axes `axes`."""
+    """What a function drew: the artists that stand for its data, in some axes."""
+
+    _axes: Axes
 
     def __new__(cls, axes: Axes, artists: Iterable[Artist]) -> Self:
         """Artists of some axes."""
         made = super().__new__(cls, tuple(artists))
-        made.axes = axes
+        made._axes = axes
         return made
+
+    @property
+    def axes(self) -> Axes:
+        """The axes they are drawn in."""
+        return self._axes
 
     def __repr__(self) -> str:
         kinds = ", ".join(type(artist).__name__ for artist in self)
