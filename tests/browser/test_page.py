@@ -121,6 +121,23 @@ def test_the_numbers_at_an_axis_can_be_told_apart(opened, tmp_path, swing):
         page.page.locator(".plot").screenshot(path=tmp_path / "plot.png")
 
 
+@pytest.mark.parametrize("viewport", [SMALL, PHONE])
+@pytest.mark.parametrize("name", ["rolling-disk", "gyroscope"])
+def test_the_whole_path_is_in_view_at_first(opened, written, tmp_path, name, viewport):
+    """No path runs out of the picture: none of its colour is at the edge of it."""
+    with opened(written(name), viewport=viewport, color_scheme="light") as shown:
+        shown.page.locator("input[type=range]").first.fill("1000000")
+        pixels = shown.picture(tmp_path)
+        red, green, blue = pixels[..., 0], pixels[..., 1], pixels[..., 2]
+        orange = (red > 170) & (green < 110) & (blue < 70)  # where it touched the ground
+        azure = (blue > 140) & (red < 80) & (green < 130)  # where its centre was
+        path = (orange if name == "rolling-disk" else azure) & (red != green)
+        edge = np.ones(path.shape, bool)
+        edge[4:-4, 4:-4] = False
+        assert np.count_nonzero(path) > 200
+        assert np.count_nonzero(path & edge) == 0
+
+
 def test_click_on_a_plot_seeks(disk):
     over = disk.page.locator(".plot .u-over").first
     size = over.bounding_box()
