@@ -5,6 +5,7 @@ source text made up for the purpose.
 """
 
 import ast
+import re
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -44,6 +45,7 @@ RUN_TEXT = {"eval", "exec", "sympify", "parse_expr"}
 BUILTINS = {"eval", "exec"}  # harmless as the names of methods
 PICKLES = {"pickle", "cloudpickle", "dill"}
 UNPICKLE = {"load", "loads", "Unpickler"}
+OPTION = re.compile(r"(?<![\w(-])--(?!polhode-math)[a-z]{2,}")
 UNKNOWN = "a name that only the running program knows"
 
 
@@ -335,3 +337,14 @@ def test_a_breach_is_found(place, text):
 )
 def test_what_is_allowed_passes(place, text):
     assert faults(place, text) == []
+
+
+def test_only_the_command_line_names_its_options():
+    """A message reaches Python, the lab and the shell; only the last has options to advise."""
+    for path in sorted(HOUSE.rglob("*.py")):
+        if path.parent.name == "cli":
+            continue
+        nodes = ast.walk(ast.parse(path.read_text("utf-8")))
+        texts = (n.value for n in nodes if isinstance(n, ast.Constant) and isinstance(n.value, str))
+        named = [t for t in texts if OPTION.search(t)]
+        assert not named, f"{path.relative_to(HOUSE)}: {named}"

@@ -175,6 +175,37 @@ def test_numbers_are_typed_with_units(coin):
     assert float(coin.value()) == pytest.approx(np.degrees(0.5), abs=0.1)
 
 
+def test_a_number_without_a_unit_is_in_the_unit_that_is_shown(coin):
+    with answered(coin):
+        field(coin, "theta").fill("40")
+        field(coin, "theta").press("Enter")
+    assert field(coin, "theta").input_value() == "40 deg"
+    assert float(coin.value()) == pytest.approx(40, abs=0.1)
+    with answered(coin):
+        field(coin, "duration").fill("1.5")
+        field(coin, "duration").press("Enter")
+    assert field(coin, "duration").input_value() == "1.5 s"
+
+
+def test_a_formula_says_which_unit_it_is_in(coin):
+    remark = coin.page.locator(".slider[data-name='theta'] .remark")
+    with answered(coin):
+        field(coin, "theta").fill("2*0.5")
+        field(coin, "theta").press("Enter")
+    assert remark.inner_text() == "a formula, in rad"
+    assert float(coin.value()) == pytest.approx(np.degrees(1), abs=0.1)
+    with answered(coin):
+        field(coin, "theta").fill("70")
+        field(coin, "theta").press("Enter")
+    assert remark.inner_text() == ""
+
+
+def test_a_link_with_a_number_in_si_units_shows_what_it_means(visit):
+    with visit(f"{COIN}&start=theta%3D0.5") as shown:
+        assert field(shown, "theta").input_value() == f"{np.degrees(0.5):.8g} deg"
+        assert float(shown.value()) == pytest.approx(np.degrees(0.5), abs=0.1)
+
+
 def test_what_cannot_be_read_is_told_and_the_picture_stays(coin, tmp_path):
     before = coin.picture(tmp_path)
     coin.complaints.clear()

@@ -1,14 +1,18 @@
 """A page in a browser: it plays, it can be steered, and it keeps to itself."""
 
 import json
+import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import polhode as ph
 from browser.conftest import AXE, PHONE, SMALL
-from browser.runs import HOSTILE
+from browser.runs import HOSTILE, run_of
 from polhode.catalogue import CATALOGUE
+from polhode.view import page_of
+from polhode.view._scene import Panel, Series
 
 SYSTEMS = [*CATALOGUE, "double pendulum"]
 NO_WEBGL = "HTMLCanvasElement.prototype.getContext = new Proxy(\
@@ -88,6 +92,50 @@ def test_what_is_shown_is_the_motion(disk):
     disk.page.locator("input[type=range]").fill("800")
     theta = np.degrees(run_of("rolling-disk").evaluate("theta", 4.0))
     assert float(disk.value()) == pytest.approx(float(theta), abs=0.15)
+
+
+WATCH_TEXT = """(() => {
+  window.written = [];
+  const { fillText } = CanvasRenderingContext2D.prototype;
+  CanvasRenderingContext2D.prototype.fillText = function (text, ...more) {
+    window.written.push(text);
+    return fillText.call(this, text, ...more);
+  };
+})()"""
+
+
+@pytest.mark.parametrize("swing", [3e-5, 2e-3, 5.0])
+def test_the_numbers_at_an_axis_can_be_told_apart(opened, tmp_path, swing):
+    shown = ph.scene(run_of("gyrocompass"))
+    values = 11.21 + swing * np.sin(np.linspace(0, 9, 400))
+    panel = Panel("rad/s", (Series("q", "<math><mi>q</mi></math>", values),))
+    path = tmp_path / "page.html"
+    path.write_text(page_of(replace(shown, panels=(panel,))), "utf-8")
+    with opened(path, script=WATCH_TEXT) as page:
+        written = page.page.evaluate("window.written")
+        ticks = [
+            t for t in written if re.fullmatch(r"[−\d.]+", t) and abs(float(t) - 11.21) < swing
+        ]
+        assert len(ticks) >= 2
+        assert len(set(ticks)) == len(ticks)
+        page.page.locator(".plot").screenshot(path=tmp_path / "plot.png")
+
+
+@pytest.mark.parametrize("viewport", [SMALL, PHONE])
+@pytest.mark.parametrize("name", ["rolling-disk", "gyroscope"])
+def test_the_whole_path_is_in_view_at_first(opened, written, tmp_path, name, viewport):
+    """No path runs out of the picture: none of its colour is at the edge of it."""
+    with opened(written(name), viewport=viewport, color_scheme="light") as shown:
+        shown.page.locator("input[type=range]").first.fill("1000000")
+        pixels = shown.picture(tmp_path)
+        red, green, blue = pixels[..., 0], pixels[..., 1], pixels[..., 2]
+        orange = (red > 170) & (green < 110) & (blue < 70)  # where it touched the ground
+        azure = (blue > 140) & (red < 80) & (green < 130)  # where its centre was
+        path = (orange if name == "rolling-disk" else azure) & (red != green)
+        edge = np.ones(path.shape, bool)
+        edge[4:-4, 4:-4] = False
+        assert np.count_nonzero(path) > 200
+        assert np.count_nonzero(path & edge) == 0
 
 
 def test_click_on_a_plot_seeks(disk):

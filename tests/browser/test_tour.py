@@ -4,10 +4,14 @@ import subprocess
 import sys
 from importlib.resources import files
 
+import numpy as np
 import pytest
+from PIL import Image
 
+import polhode as ph
 from browser.conftest import AXE, PHONE, WIDE
-from polhode.view import typeset
+from polhode.lab._files import built
+from polhode.view import audit_html, math_fonts, typeset
 
 LONG = r"\frac{" + " + ".join([r"4\dot\theta^2\cos\theta"] * 9) + "}{8}"
 
@@ -24,6 +28,65 @@ def test_a_long_fraction_does_not_make_the_page_wide(opened, tmp_path):
         inner = shown.page.locator(".equation").evaluate("e => [e.scrollWidth, e.clientWidth]")
         assert inner[0] > inner[1]
         assert shown.page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
+
+
+ROOT = r"\sqrt{\frac{mga}{I_1}}"
+
+
+def _tour():
+    from polhode.tour._page import _style
+
+    return f"<style>{_style()}</style>{typeset(ROOT)}"
+
+
+def _page():
+    return f"<style>{math_fonts()}{built('page.css')}</style>{typeset(ROOT)}"
+
+
+def _lab():
+    return f"<style>{built('lab.css')}</style>{typeset(ROOT)}"
+
+
+def _notebook():
+    root = ph.sqrt(ph.symbol("m") / ph.symbol("I_1"))
+    return root._repr_html_()
+
+
+def _report():
+    document = HEAD + f"means = '{ROOT} > 0'"
+    return audit_html(ph.audit(document))
+
+
+HEAD = """schema = 1
+[document]
+title = "A text"
+[[part]]
+id = "7"
+system = "gyroscope"
+[[claim]]
+id = "1"
+part = "7"
+words = "it is"
+"""
+
+
+@pytest.mark.parametrize("written", [_tour, _page, _lab, _notebook, _report])
+def test_the_sign_of_a_root_is_as_tall_as_the_fraction_under_it(opened, tmp_path, written):
+    """Without a font for mathematics the sign stands beside the numerator alone."""
+    path = tmp_path / "page.html"
+    style = "<style>math { font-size: 60px !important; color: #000 !important }</style>"
+    html = f"<!DOCTYPE html><meta charset='utf-8'>{style}<body data-ready>{written()}</body>"
+    path.write_text(html, "utf-8")
+    with opened(path, color_scheme="light") as shown:
+        root = shown.page.locator("msqrt:has(mfrac)").first
+        under = root.locator("mfrac").first
+        beside, box = root.bounding_box(), under.bounding_box()
+        sign = {**beside, "width": box["x"] - beside["x"] - 1}
+        shot = tmp_path / "sign.png"
+        shown.page.screenshot(path=shot, clip=sign)
+        ink = np.asarray(Image.open(shot).convert("L")).min(axis=1) < 128
+        assert box["height"] > 60
+        assert ink.sum() >= 0.8 * box["height"]
 
 
 @pytest.fixture(scope="module")

@@ -62,6 +62,25 @@ def test_the_short_table_counts_by_part_and_shows_what_fails():
     assert "wrong sign" in short
 
 
+def test_the_table_shows_what_was_read_and_by_which_convention():
+    part = Part("7", "Gyroscope", "gyroscope", convention="Axis 1 is the axle.")
+    claims = (
+        Claim("1", "7", latex=r"\omega_1 = 0", read_as=r"\dot\omega_1 = 0", reason="a dot is lost"),
+        Claim("2", "7", words="the spin stays", means=r"\dot\omega_1 = 0"),
+        Claim("3", "7", latex=r"\dot\phi = 0", given=(r"\dot\phi = 0",)),
+    )
+    table = audit(Document("A text", "", (part,), claims), equations_of).table()
+    lines = [line.strip() for line in table.splitlines()]
+    assert lines[:2] == ["Gyroscope", "Axis 1 is the axle."]
+    assert lines[3:6] == [
+        r"printed: \omega_1 = 0",
+        r"read as: \dot\omega_1 = 0",
+        "because: a dot is lost",
+    ]
+    assert lines[7:9] == ["in words: the spin stays", r"read as: \dot\omega_1 = 0"]
+    assert lines[10:12] == [r"printed: \dot\phi = 0", r"given: \dot\phi = 0"]
+
+
 def test_some_claims_can_be_asked_for():
     report = audit(DOCUMENT, equations_of, only=["a"])
     assert [j.claim.id for j in report.judged] == ["a"]

@@ -126,7 +126,7 @@ def test_an_unknown_context_is_refused():
         (r"L_z = I_1\omega_1 cos\theta", r"\cos"),
         ("I_1*omega_1 = 0", r"\omega"),
         (r"\theta'' = 0", r"\ddot"),
-        (r"\left.\dot\theta\right|_{\theta=0} = 0", "--given"),
+        (r"\left.\dot\theta\right|_{\theta=0} = 0", "restrict the claim"),
         (r"\mathbf{L} = M", "two scalars or two vectors"),
     ],
 )

@@ -91,6 +91,23 @@ def test_a_part_like_another_has_all_it_has() -> None:
     assert part.constants == ("k",)
 
 
+def test_a_part_like_another_states_both_conventions() -> None:
+    text = SMALL.replace('id = "2"', 'id = "2"\nconvention = "k is small."')
+    assert read_document(text).part("2").convention == "θ from the vertical. k is small."
+
+
+def test_a_claim_says_how_it_was_read() -> None:
+    assert claim("a").notes == ()
+    labels = [[note.label for note in claim(name).notes] for name in "bc"]
+    assert labels[0][0] == "read as"
+    assert labels[1][:2] == ["read as", "because"]
+
+
+def test_every_part_of_the_problem_set_states_its_convention() -> None:
+    parts = document().parts
+    assert all(part.convention.endswith(".") for part in parts)
+
+
 def test_consequences_reach_through_claims() -> None:
     found = read_document(SMALL)
     assert found.consequences("a") == ("b", "c")

@@ -39,7 +39,7 @@ def test_a_symbol_that_only_follows_from_the_declaration_may_be_defined() -> Non
     "text", ["theta=3", "m = 2*a", "omega_3=0", r"\theta = 3", r"\dot{\theta} = 3"]
 )
 def test_a_known_symbol_is_not_defined_anew(text: str) -> None:
-    with pytest.raises(ParseError, match="--given"):
+    with pytest.raises(ParseError, match="restrict a known quantity"):
         with_let(disk(), text)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 
 import pytest
 
@@ -73,6 +74,20 @@ def test_a_page_is_written_that_needs_nothing_else(audit, tmp_path):
     assert 'class="changed"' in page
     assert "<script" not in page
     assert "http://" not in page.replace("http://www.w3.org/1998/Math/MathML", "")
+
+
+def test_the_page_shows_what_was_read_beside_the_verdict_and_not_folded(audit, tmp_path):
+    lost = RIGHT.replace(r"'\dot\omega_1", r"'\omega_1") + (
+        "read_as = '\\dot\\omega_1 = 0'\nreason = 'a dot is lost'\n"
+    )
+    head = 'convention = "Axis 1 is the axle."\n'
+    assert audit(head, lost, options=["--html", str(tmp_path / "page.html")])[0] == 0
+    page = (tmp_path / "page.html").read_text()
+    seen = re.sub("<details>.*?</details>", "", page, flags=re.DOTALL)
+    assert "Axis 1 is the axle." in seen
+    assert "read as" in seen
+    assert "a dot is lost" in seen
+    assert "˙" in seen.partition("read as")[2]
 
 
 @pytest.mark.parametrize("words", [["--only", "no-such"], ["nowhere.toml"]])

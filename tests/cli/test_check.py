@@ -10,9 +10,11 @@ from itertools import count
 
 import pytest
 
-from polhode.claims import Answer, Enquiry, Verdict
+from polhode.claims import Answer, Enquiry, Verdict, check
 from polhode.cli import _check
 from polhode.cli._main import main
+from polhode.cli._systems import entry_of
+from polhode.derive import derive
 
 WRONG = r"F_z = Mg + Ma(\ddot\theta\sin\theta + \dot\theta^2\cos\theta)"
 KEYS = {"verdict", "correction", "alternatives", "counterexample", "order", "dropped"}
@@ -31,6 +33,24 @@ def test_a_failure_exits_with_one_and_gives_its_evidence(capsys):
 def test_exit_codes_of_true_and_unread_claims(latex, code, capsys):
     assert main(["check", "gyroscope", latex]) == code
     assert capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "option"),
+    [
+        (["F_z = q"], "--let"),
+        ([r"\left.\dot\theta\right|_{\theta=0} = 0"], "--given"),
+        ([r"\theta = 1", "--context", "limit"], "--small"),
+        ([r"\theta = 1", "--context", "number"], "--given"),
+    ],
+)
+def test_the_shell_names_the_option_that_python_and_the_lab_do_not_have(words, option, capsys):
+    assert main(["check", "gyroscope", *words]) == 2
+    assert capsys.readouterr().out.rstrip().endswith(f"({option})")
+    context = words[2] if len(words) > 1 else "motion"
+    assert (
+        "--" not in check(words[0], derive(entry_of("gyroscope").build()), context=context).reason
+    )
 
 
 def python(*_, **__):

@@ -177,6 +177,10 @@ def test_claims_are_listed_and_judged(ask):
     claims = answer(ask("claims", system="gyroscope"))["claims"]
     assert len(claims) > 5
     assert all(claim["formula"] or claim["words"] for claim in claims)
+    assert all(claim["convention"] for claim in claims)
+    (damaged,) = (claim for claim in claims if claim["id"] == "106")
+    assert [note["label"] for note in damaged["notes"]] == ["read as", "because"]
+    assert damaged["notes"][0]["formula"] != damaged["formula"]
     verdict = answer(ask("judge", system="gyroscope", id=claims[0]["id"]))
     assert verdict["verdict"] in {"holds", "fails", "approximate", "definition", "unread"}
 

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from polhode.claims import Note
 from polhode.tour import TourReport
 from polhode.tour._claims import Told, judged
 from polhode.tour._verdicts import counted, formula, verdicts
@@ -44,6 +45,50 @@ def test_words_and_reasons_are_text():
     text = verdicts([told("fails", is_formula=False, stated="<b>x", reason="<i>")])
     assert "<b>" not in text
     assert "<i>" not in text
+
+
+def test_what_was_read_stands_beside_the_verdict_unfolded():
+    notes = (Note("read as", "a > b", is_formula=True), Note("because", "a <sign> is lost"))
+    text = verdicts([told(notes=notes)])
+    assert text.count("<math") == 2
+    assert "read as" in text
+    assert "a &lt;sign&gt; is lost" in text
+    assert "<details" not in text
+
+
+def test_the_convention_of_a_part_stands_once_before_its_claims():
+    first = told(part="Statement", convention="θ from 2")
+    other = told(part="Solution", convention="θ from 3")
+    text = verdicts([first, first, other])
+    assert [text.count(c) for c in ("θ from 2", "θ from 3", "<h3>")] == [1, 1, 2]
+    assert text.index("θ from 2") < text.index("<article") < text.index("θ from 3")
+
+
+def test_the_terminal_shows_convention_and_reading_of_what_fails():
+    notes = (Note("read as", "a > b", is_formula=True), Note("because", "lost"))
+    claim = told("fails", notes=notes, part="Statement", convention="θ from 2", reason="odd")
+    lines = TourReport(Path("page"), (), (claim,)).audit_table().splitlines()[2:]
+    assert lines[:2] == ["Statement", "  θ from 2"]
+    assert [line.strip() for line in lines[3:]] == [
+        "printed: a < b",
+        "read as: a > b",
+        "because: lost",
+    ]
+
+
+@pytest.mark.parametrize("id", ["80", "81", "84", "85", "86", "w22"])
+def test_a_damaged_formula_is_judged_as_read_and_says_so(id):
+    (claim,) = judged((id,))
+    labels = [note.label for note in claim.notes]
+    assert labels[:2] == ["read as", "because"]
+    assert claim.notes[0].text != claim.stated
+
+
+def test_two_conventions_of_an_angle_are_both_stated():
+    statement, solution = judged(("w15", "w18"))
+    assert statement.convention != solution.convention
+    assert "angle between axis 2 and the vertical" in statement.convention
+    assert "angle between axis 3 and the vertical" in solution.convention
 
 
 def test_what_cannot_be_typeset_is_printed():

@@ -48,8 +48,7 @@ def test_histories(run_of, name):
 @pytest.mark.parametrize("draw", [view.energies, view.energy_drift, view.reaction_ranges])
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_what_every_system_has(run_of, name, draw):
-    drawn = draw(run_of(name))
-    figure = (drawn[0] if isinstance(drawn, list) else drawn).get_figure()
+    figure = draw(run_of(name)).figure
     assert_sound(figure)
     assert labels(figure)
 

@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib import rc_context
+from matplotlib.figure import Figure
 
 import polhode as ph
 from polhode.base import DeclarationError, NumericError, UnitError
@@ -13,7 +15,7 @@ from polhode.view._quantities import scale_for
 from polhode.view.figures._globe import View
 from polhode.view.figures._nutation import _VIEW as SKY
 from polhode.view.figures._polhodes import _polhode, _separatrices
-from polhode.view.figures._style import line_style
+from polhode.view.figures._style import INK, line_style
 
 
 def test_a_history_is_the_quantity_in_the_unit_of_the_label(run_of):
@@ -91,14 +93,48 @@ def test_figures_are_drawn_in_the_axes_given(run_of):
     run = run_of("rolling-disk")
     axes = view.new_figure(3.0).subplots(2, 3).ravel()
     drawn = [
-        view.history(run, "theta", ax=axes[0])[0],
-        view.energies(run, ax=axes[1])[0],
+        view.history(run, "theta", ax=axes[0]),
+        view.energies(run, ax=axes[1]),
         view.energy_drift(run, ax=axes[2]),
-        view.floor_path(run, ax=axes[3])[0],
+        view.floor_path(run, ax=axes[3]),
         view.phase_portrait(run, "theta", ax=axes[4]),
         view.reaction_ranges(run, ax=axes[5]),
     ]
     assert [artist.axes for artist in drawn] == list(axes)
+
+
+@pytest.mark.parametrize("own", [False, True])
+def test_figures_look_alike_in_axes_of_the_user_s_own(run_of, own):
+    """Frame, fonts of ticks and labels, and their colour, as in a figure of their own."""
+    with rc_context({"font.family": "monospace", "axes.spines.top": True}):
+        plain = Figure().subplots()
+        plain.figure.draw_without_rendering()
+    axes = plain if own else None
+    run = run_of("gyroscope/held")
+    for draw in (view.energy_drift, view.reaction_ranges):
+        shown = draw(run, ax=axes).axes
+        shown.figure.draw_without_rendering()
+        assert not shown.spines["top"].get_visible()
+        texts = [*shown.get_xticklabels(), *shown.get_yticklabels(), shown.xaxis.label]
+        assert {text.get_fontfamily()[0] for text in texts} == {"STIXGeneral"}
+        assert {text.get_math_fontfamily() for text in texts} == {"stix"}
+        assert {text.get_color() for text in texts} == {INK}
+
+
+def test_what_is_drawn_shows_itself_as_its_figure(run_of):
+    """A notebook has the figure, not the name of a class; axes of the user's show themselves."""
+    top = run_of("gyroscope")
+    everything = [
+        view.nutation(top),
+        view.energy_drift(top),
+        view.history(top, "theta"),
+        view.reaction_ranges(top),
+    ]
+    for drawn in everything:
+        assert drawn._repr_png_().startswith(b"\x89PNG")
+        assert drawn.figure is drawn.axes.figure
+        assert repr(drawn).startswith("drawn: Line")
+    assert view.nutation(top, ax=Figure().subplots())._repr_png_() is None
 
 
 def test_a_stretch_of_a_run_is_shown_alone(run_of):
@@ -128,7 +164,7 @@ def test_energy_that_does_not_change_is_a_flat_line(run_of):
 
 def test_the_drift_shown_is_that_of_the_run(run_of):
     run = run_of("rolling-disk")
-    line = view.energy_drift(run)
+    (line,) = view.energy_drift(run)
     shown = np.max(line.get_ydata())
     assert shown == pytest.approx(run.drift.energy, rel=0.3)
     assert line.axes.get_yscale() == "log"
@@ -169,7 +205,7 @@ def test_up_the_slope_is_up_the_page(run_of):
 
 
 def test_the_phase_portrait_closes_on_a_swing(run_of):
-    line = view.phase_portrait(run_of("gyroscope"), "theta")
+    (line,) = view.phase_portrait(run_of("gyroscope"), "theta")
     assert line.axes.get_xlabel() == r"$\theta$ (deg)"
     assert line.axes.get_ylabel() == r"$\dot{\theta}$ (rad/s)"
     assert np.min(line.get_xdata()) == pytest.approx(60, abs=1e-6)

@@ -6,6 +6,9 @@ import pytest
 import polhode as ph
 from polhode.base import DeclarationError, UnitError
 from polhode.catalogue import CATALOGUE
+from polhode.derive import is_angle
+from polhode.study._found import Found, measured
+from polhode.study._thresholds import thresholds
 from polhode.view import figures
 from polhode.view._quantities import instants
 from polhode.view.figures._herpolhode import invariable_path
@@ -27,12 +30,12 @@ def test_functions_take_axes_and_return_what_they_drew(run_of, sliding):
     axes = figures.new_figure(6.0).subplots(2, 3).ravel()
     top, racquet = run_of("gyroscope"), run_of("tennis-racquet")
     drawn = [
-        figures.power_balance(top, ax=axes[0])[0],
+        figures.power_balance(top, ax=axes[0]),
         figures.herpolhode(racquet, ax=axes[1]),
         figures.effective_potential(top, ax=axes[2]),
-        figures.friction_needed(sliding, ax=axes[3])[0],
-        figures.reactions(top, "pivot", top.system.bodies[0].axes, ax=axes[4])[0],
-        figures.modes(sliding, ax=axes[5])[0],
+        figures.friction_needed(sliding, ax=axes[3]),
+        figures.reactions(top, "pivot", top.system.bodies[0].axes, ax=axes[4]),
+        figures.modes(sliding, ax=axes[5]),
     ]
     assert [artist.axes for artist in drawn] == list(axes)
 
@@ -113,7 +116,7 @@ def _when(run, angle):
 
 def test_turning_points_are_the_limits_of_the_swing(run_of):
     run = run_of("gyroscope")
-    line = figures.effective_potential(run)
+    (line,) = figures.effective_potential(run)
     dots = [a.get_xdata()[0] for a in line.axes.lines if a.get_marker() == "o"]
     theta = np.degrees(run.evaluate("theta", np.linspace(0, run.duration, 20001)))
     assert dots == pytest.approx([theta.min(), theta.max()], abs=0.02)
@@ -204,3 +207,65 @@ def test_a_map_says_what_it_lacks(rolling):
         figures.stability_map(rolling, ("omega_3", 0, 10), ("a", "2 cm", "20 cm"))
     with pytest.raises(UnitError, match="omega_3 = '10 m'"):
         figures.stability_map(rolling, ("omega_3", 0, "10 m"), ("a", 0.1, 0.2), {"g": 9.81})
+
+
+def test_the_threshold_of_a_map_is_named(rolling):
+    drawn = figures.stability_map(
+        rolling, ("omega_3", 0, "10 rad/s"), ("a", "2 cm", "20 cm"), {"g": 9.81, "m": 1}
+    )
+    told = [text.get_text() for text in drawn.axes.get_legend().get_texts()]
+    assert told == [r"threshold: $3 a \omega_3^2 - g = 0$"]
+    assert drawn._repr_png_().startswith(b"\x89PNG")
+
+
+@pytest.fixture(scope="module")
+def fates():
+    """Of nine disks, one of which could not be followed, and one of which has no result."""
+    disk = ph.derive(CATALOGUE["rolling-disk"].build())
+    theta, omega = np.radians([30.0, 60.0, 90.0]), np.array([5.0, 10.0, 15.0])
+    values, failed = np.array([[0.0, 0, 1], [0, np.nan, 1], [np.nan, 1, 1]]), np.zeros((3, 3), bool)
+    failed[1, 1] = True
+    axes, numbers = {"theta": theta, "omega_3": omega}, {"m": 0.2, "a": 0.03, "g": 9.81}
+    return Found(
+        system="rolling-disk",
+        output="fate",
+        labels=("goes flat", "stays up"),
+        axes=axes,
+        values=values,
+        thresholds=tuple(thresholds(disk, axes, numbers)),
+        numbers=numbers,
+        origin="",
+        measured=measured(disk, axes),
+        failed=failed,
+    )
+
+
+def test_a_map_of_outcomes_has_symbols_degrees_and_names_for_all_it_shows(fates):
+    drawn = figures.outcome_map(fates)
+    assert drawn.axes.get_xlabel() == r"$\theta$ (deg)"
+    assert drawn.axes.get_ylabel() == r"$\omega_3$ (rad/s)"
+    assert drawn.axes.get_xlim() == pytest.approx((15, 105))
+    told = [text.get_text() for text in drawn.axes.get_legend().get_texts()]
+    assert told[:4] == ["goes flat", "stays up", "could not be followed", "no result"]
+    assert [t for t in told[4:] if not t.startswith("threshold")] == []
+    assert len(told) == 4 + len(drawn.thresholds) == 4 + len(drawn.conditions)
+    hatched = [c for c in drawn.axes.collections if c.get_hatch()]
+    assert [len(c.get_array().compressed()) for c in hatched] == [1, 1]
+    up = np.concatenate(drawn.thresholds[0].allsegs[0])[:, 1]
+    assert up == pytest.approx(np.sqrt(9.81 / (3 * 0.03)), rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("name", "symbol", "expected"),
+    [
+        ("gyrocompass", "lambda_", True),
+        ("marble-on-turntable/tilted", "alpha", True),
+        ("rolling-disk", "theta", True),
+        ("ball-on-paper", "k", False),
+        ("rolling-disk", "m", False),
+    ],
+)
+def test_angles_are_what_sines_are_taken_of(name, symbol, expected):
+    equations = ph.derive(CATALOGUE[name].build())
+    known = {s.published: s for s in (*equations.coordinates, *equations.parameters)}
+    assert is_angle(equations, known[symbol]) == expected

@@ -70,6 +70,21 @@ def framed(html):
     return frames.found
 
 
+def test_formulas_need_no_script_from_a_network(tmp_path):
+    """A notebook that shows LaTeX alone has MathJax set it, which an exported file has to fetch."""
+    theta = ph.coordinates("theta")[0]
+    closed = ph.closed_form(
+        ph.derive(CATALOGUE["gyroscope"].build()),
+        {"M": 0.5, "a": 0.06, "I_1": 6.25e-4, "I_2": 3.5e-4, "g": 9.81},
+        {"theta": "60 deg", "omega_1": 150},
+    )
+    for thing in (ph.sin(theta) / 2, ph.Matrix.of([[theta, 1]]), closed):
+        html = thing._repr_html_()
+        assert "<math" in html
+        assert "\\" not in html
+    assert "$" in (ph.sin(theta) / 2)._repr_latex_()  # for a notebook that is printed with LaTeX
+
+
 def test_names_are_text():
     m, g = ph.symbols("m g", positive=True)
     lab = ph.Frame("lab")

@@ -8,7 +8,7 @@ import pytest
 
 import polhode as ph
 from polhode.base import DeclarationError
-from polhode.catalogue import CATALOGUE
+from polhode.catalogue import CATALOGUE, numbers_of
 from polhode.view import _scene_bodies as bodies
 
 KINDS = {"force", "load", "torque", "omega", "momentum"}
@@ -189,8 +189,18 @@ def test_claims_find_a_place(run_of):
             "reason": "no friction",
             "formula": "",
             "correction": "",
+            "notes": [],
+            "convention": "",
         }
     ]
+
+
+def test_a_judged_claim_of_a_text_comes_with_its_reading_and_convention():
+    (judged,) = ph.audit(only=["w22"]).judged
+    shown = ph.Judgement.on(judged)
+    assert [note.label for note in shown.notes[:3]] == ["read as", "because", "given"]
+    assert "<math" in shown.notes[0].formula
+    assert "on edge at θ = π/2" in shown.convention
 
 
 def test_a_checked_equation_becomes_a_judgement():
@@ -289,3 +299,22 @@ def test_every_contact_mode_is_followed():
     assert np.allclose(scene.bodies[0].pose.place[landed, 2], 0.05)
     assert {formula.name for formula in scene.motion} >= {"flight", "rolling"}
     assert scene.happenings
+
+
+def test_angles_are_told_in_degrees_as_plots_have_them():
+    """Of the start and among the parameters; rates stay in rad/s."""
+    marble = CATALOGUE["marble-on-turntable/tilted"]
+    equations = ph.derive(marble.build())
+    given = numbers_of(marble, equations)
+    run = ph.simulate(equations, given.parameters, given.start, "0.1 s")
+    told = {n.name: (n.value, n.unit) for n in ph.scene(run).parameters}
+    assert told["alpha"] == (pytest.approx(2), "deg")
+    top = ph.simulate(
+        CATALOGUE["gyroscope"].build(),
+        {"M": 0.5, "a": 0.06, "I_1": 6.25e-4, "I_2": 3.5e-4, "g": 9.81},
+        {"theta": "60 deg", "omega_1": 150},
+        "0.1 s",
+    )
+    start = {n.name: (n.value, n.unit) for n in ph.scene(top).start}
+    assert start["theta"] == (pytest.approx(60), "deg")
+    assert start["omega_1"] == (150, "rad/s")

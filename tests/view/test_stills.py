@@ -10,7 +10,7 @@ from PIL import Image
 import polhode as ph
 from polhode.base import DeclarationError, NumericError, StoreError, UnitError
 from polhode.view._scene import Pose, SceneBody, Shape
-from polhode.view.stills._bodies import body_mesh
+from polhode.view.stills._bodies import _wheel, body_mesh
 from polhode.view.stills._camera import between, camera_of, place_at, rotation, turn_at
 
 SMALL = (200, 130)
@@ -196,3 +196,27 @@ def test_poses_between_frames():
     np.testing.assert_allclose(between(rows[:1], 2.0), [0, 1])
     turn = rotation(np.array([0, 0, np.sin(0.2), np.cos(0.2)]))
     np.testing.assert_allclose(turn @ [1, 0, 0], [np.cos(0.4), np.sin(0.4), 0])
+
+
+@pytest.mark.parametrize("name", ["rolling-disk", "gyroscope", "ball-on-paper", "tennis-racquet"])
+def test_the_whole_path_is_in_the_picture(run_of, name):
+    """Of what is left in space, all along the motion; on a disk's circle of two metres too."""
+    shown = ph.scene(run_of(name))
+    paths = np.concatenate([trace.points for trace in shown.traces if trace.support < 0])
+    for frame in (0.0, shown.frames - 1.0):
+        flat = camera_of(shown, frame).project(paths[np.isfinite(paths).all(axis=1)])
+        assert np.max(np.abs(flat)) < 1
+        assert np.max(np.abs(flat)) > 0.2  # and not far away
+
+
+def test_the_spokes_of_a_wheel_end_at_its_rim():
+    radius, height = 1.0, 0.06
+    mesh = _wheel(radius, height)
+    spokes = np.array([c in ("#9aa3ad", "#e0672b") for c in mesh.colours])
+    out = np.linalg.norm(np.mean(mesh.faces, axis=1)[:, :2], axis=1)
+    inside = radius - 2 * 0.045 * radius
+    rim = out > inside
+    assert np.max(out[spokes & ~rim]) < inside
+    assert {c for c, far in zip(mesh.colours, rim, strict=True) if far} == {
+        *("#f3e9d2", "#2f6f9f", "#e0672b")
+    }

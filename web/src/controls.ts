@@ -69,7 +69,7 @@ function speed(clock: Clock): HTMLElement {
 export function switches(stage: Stage, clock: Clock): HTMLElement {
   const arrows = stage.kinds.map((kind) => arrowSwitch(kind, stage, clock));
   const traces = toggle("Traces", stage.showsTraces, (on) => stage.showTraces(on));
-  const follow = toggle("Follow", stage.eye.follow, (on) => stage.eye.setFollow(on));
+  const follow = toggle("Follow", stage.eye.follow, (on) => stage.setFollow(on));
   const home = make("button", { type: "button", class: "switch" }, "Reset view");
   home.addEventListener("click", () => stage.eye.home());
   return make(

@@ -7,6 +7,7 @@ import { type PanelData, Rows } from "./scene";
 
 const DASHES = [[], [9, 4], [2, 4], [10, 4, 2, 4]];
 const HEIGHT = 150;
+const WIDE = 7; // pixels of a letter at an axis
 const ROUNDING = 1e-9; // of the largest value: what is less is told as zero
 
 /** Dashes of a series; those that share a colour differ in them. */
@@ -160,8 +161,8 @@ class Plot {
         cursor: { drag: { x: false, y: false }, y: false, points: { show: false } },
         scales: { x: { time: false }, y: { range: room } },
         axes: [
-          { ...axis, size: 30, values: (_, ticks) => ticks.map((tick, i) => (i ? digits(tick) : `${digits(tick)} s`)) },
-          { ...axis, size: 62, values: (_, ticks) => ticks.map((tick) => digits(tick)) },
+          { ...axis, size: 30, values: (_, ticks) => apart(ticks).map((tick, i) => (i ? tick : `${tick} s`)) },
+          { ...axis, size: (_, labels) => Math.max(62, 20 + WIDE * longest(labels)), values: (_, ticks) => apart(ticks) },
         ],
         series: [{}, ...series],
         hooks: { ready: [(plot) => this.ready(plot)] },
@@ -187,6 +188,18 @@ class Plot {
     this.clock.seek(plot.posToVal(left, "x"));
   }
 }
+
+/** Numbers with as many digits as it takes to tell them apart. */
+function apart(ticks: number[]): string[] {
+  for (let count = 4; count < 15; count++) {
+    const told = ticks.map((tick) => digits(tick, count));
+    if (new Set(told).size === new Set(ticks).size) return told;
+  }
+  return ticks.map(String);
+}
+
+/** Letters of the longest of some labels. */
+const longest = (labels: string[] | null): number => Math.max(0, ...(labels ?? []).map((label) => label.length));
 
 /** Limits that do not blow rounding up to the height of the panel. */
 function room(_: uPlot, low: number, high: number): uPlot.Range.MinMax {

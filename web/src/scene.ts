@@ -132,6 +132,15 @@ export interface JudgementData {
   reason: string;
   formula: string;
   correction: string;
+  notes: NoteData[];
+  convention: string;
+}
+
+/** A line on how a claim was read; a formula is MathML. */
+export interface NoteData {
+  label: string;
+  text: string;
+  formula: string;
 }
 
 /** What there is to read of a motion: curves, formulas and numbers. */

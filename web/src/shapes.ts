@@ -90,7 +90,7 @@ function disk([radius, height]: number[]): Object3D {
 
 function hoop([radius, height]: number[]): Object3D {
   const group = new Group();
-  const tube = Math.max(height / 2, 0.045 * radius);
+  const tube = rim(radius, height);
   const count = 12;
   for (let i = 0; i < count; i++) {
     const colour = i === 0 ? PALETTE.accent : i % 2 ? PALETTE.blue : PALETTE.light;
@@ -101,12 +101,17 @@ function hoop([radius, height]: number[]): Object3D {
   return group;
 }
 
+/** Radius of the tube that a hoop is. */
+const rim = (radius: number, height: number): number => Math.max(height / 2, 0.045 * radius);
+
+/** Its spokes end in the middle of the rim's tube, which hides their ends. */
 function wheel([radius, height]: number[]): Object3D {
   const group = hoop([radius, height]);
   const thin = 0.028 * radius;
+  const long = radius - rim(radius, height);
   for (let i = 0; i < 6; i++) {
-    const spoke = mesh(new CylinderGeometry(thin, thin, radius, 12), surface(i ? PALETTE.metal : PALETTE.accent));
-    spoke.geometry.translate(0, radius / 2, 0);
+    const spoke = mesh(new CylinderGeometry(thin, thin, long, 12), surface(i ? PALETTE.metal : PALETTE.accent));
+    spoke.geometry.translate(0, long / 2, 0);
     spoke.rotation.z = (Math.PI * i) / 3;
     group.add(spoke);
   }

@@ -2,7 +2,7 @@
 
 import { type Object3D, Vector2, Vector3 } from "three";
 import { Arrow, arrowObject, scales, usuallyShown } from "./arrows";
-import { type Room, roomOf } from "./extent";
+import { type Room, roomOf, tracedBy } from "./extent";
 import { Eye } from "./eye";
 import { House } from "./house";
 import { Link } from "./links";
@@ -14,7 +14,8 @@ import { boundless, paint, surfaceOf } from "./supports";
 import { Trace } from "./traces";
 import { Triad } from "./triad";
 
-const WANDERS = 7.7; // reaches: a motion that takes more room is followed
+const SPACIOUS = 6; // reaches: in more room than this, arrows are drawn larger
+const WANDERS = 60; // reaches: a body that takes more room would be a dot, and is followed
 const WIDE = 60; // reaches by which a sheet is wider while a hand pulls it
 const LIFT = 0.05; // of a floor below what stands on it, in reaches
 
@@ -58,7 +59,7 @@ export class Stage {
     this.arrows = this.makeArrows(reaches);
     this.shown = usuallyShown(this.kinds);
     const first = this.arrows.filter(({ data }) => this.shown.has(data.kind));
-    this.room = roomOf(new Vector3(...scene.up), this.poses, reaches, this.fixed(), first, scene.frames);
+    this.room = roomOf(new Vector3(...scene.up), this.poses, reaches, this.fixed(), first, this.paths(), scene.frames);
     const follow = this.room.radius > WANDERS * reaches && !this.isTied();
     this.addBodies();
     this.grid = 1.2 * Math.max(reaches, follow ? 0 : 0.35 * this.room.radius);
@@ -81,8 +82,23 @@ export class Stage {
     if (before) this.inherit(before);
     for (const { data, group } of this.arrows) group.visible = this.shown.has(data.kind);
     this.showTraces(this.traced);
+    this.magnify();
     this.eye.home();
     if (before) this.eye.takeOver(before.eye, from);
+  }
+
+  /** Go along with the body, or look at all of its path. */
+  setFollow(follow: boolean): void {
+    this.eye.setFollow(follow);
+    this.magnify();
+    this.draw();
+  }
+
+  /** Arrows can be seen from as far away as all of a long path is. */
+  private magnify(): void {
+    const { radius, reach } = this.room;
+    const times = this.eye.follow ? 1 : Math.max(1, radius / (SPACIOUS * reach));
+    for (const { group } of this.arrows) group.scale.setScalar(times);
   }
 
   /** What was switched on or off stays so. */
@@ -215,6 +231,12 @@ export class Stage {
     const feet = this.scene.arrows.map((arrow) => new Rows(arrow.foot));
     const ends = [...feet, ...this.links.flatMap((link) => link.ends)];
     return ends.filter(({ count }) => count === 1).map((end) => new Vector3().fromArray(end.at(0, [])));
+  }
+
+  /** Points of the paths that are left behind. */
+  private paths(): Vector3[] {
+    const supports = this.scene.supports.map(({ pose }) => new Pose(pose));
+    return this.scene.traces.flatMap((trace) => tracedBy(trace, supports, this.scene.frames));
   }
 
   private addBodies(): void {

@@ -1,7 +1,7 @@
 // What the page says in formulas, numbers and words.
 
 import { digits, formula, make, raised } from "./dom";
-import type { AccountData, FormulaData, JudgementData, NumberData, SceneData } from "./scene";
+import type { AccountData, FormulaData, JudgementData, NoteData, NumberData, SceneData } from "./scene";
 
 export function heading(scene: SceneData): HTMLElement {
   const about = scene.about ? [make("p", { class: "about" }, scene.about)] : [];
@@ -70,14 +70,29 @@ function events(scene: AccountData): HTMLElement[] {
   return [make("table", {}, make("tbody", {}, ...lines))];
 }
 
+/** Every claim with its verdict; a convention stands before the first of those that it holds for. */
 export function judgements(scene: SceneData): HTMLElement[] {
-  return section("Claims", scene.judgements.map(judged));
+  let last = "";
+  const rows = scene.judgements.flatMap((judgement) => {
+    const { convention } = judgement;
+    const opening = convention && convention !== last ? [make("p", { class: "convention long" }, convention)] : [];
+    last = convention;
+    return [...opening, judged(judgement)];
+  });
+  return section("Claims", rows);
 }
 
-function judged({ claim, verdict, reason, formula: stated, correction }: JudgementData): HTMLElement {
+/** How a claim was read, line by line. */
+export function noted(notes: NoteData[]): HTMLElement[] {
+  return notes.map(({ label, text, formula: set }) =>
+    make("p", { class: "note" }, make("span", { class: "long" }, label), " ", set ? formula(set) : text),
+  );
+}
+
+function judged({ claim, verdict, reason, formula: stated, correction, notes }: JudgementData): HTMLElement {
   const badge = make("strong", { class: `verdict ${verdict.replace(/\W/g, "")}` }, verdict);
   const row = make("article", { class: "judged" }, stated ? set(stated, claim) : make("p", {}, claim));
-  row.append(make("p", {}, badge, ` ${reason}`));
+  row.append(...noted(notes), make("p", {}, badge, ` ${reason}`));
   if (correction) row.append(make("p", { class: "long" }, "It holds as"), set(correction, ""));
   return row;
 }

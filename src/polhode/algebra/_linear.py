@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from polhode.algebra._expression import ONE, ZERO, Expr, ExprLike, total
 from polhode.algebra._generators import Symbol
 from polhode.algebra._roots import is_positive
-from polhode.base import NumericError
+from polhode.base import NumericError, Shown
 
 Row = tuple[Expr, ...]
 
@@ -21,7 +21,7 @@ LONGEST = 3000  # terms of an entry; the longest of the systems in the tests has
 
 
 @dataclass(frozen=True)
-class Matrix:
+class Matrix(Shown):
     """An exact matrix, as a tuple of rows."""
 
     rows: tuple[Row, ...]

@@ -12,18 +12,23 @@ class PolhodeError(Exception):
         given: what came, naming the quantity or the declaration it came in.
         expected: what would have been accepted, without the word "expected".
         advice: what to do about it.
+        option: the argument of a command with which it is done, such as "let"; not printed, for
+            only the command line has it.
     """
 
-    def __init__(self, given: str, *, expected: str = "", advice: str = "") -> None:
+    def __init__(
+        self, given: str, *, expected: str = "", advice: str = "", option: str = ""
+    ) -> None:
         self.given = given
         self.expected = expected
         self.advice = advice
+        self.option = option
         parts = (given, expected and f"expected {expected}", advice)
         super().__init__("; ".join(filter(None, parts)))
 
     def __reduce__(self) -> tuple[object, ...]:
         # Worker processes send their errors home; Exception alone would forget the keywords.
-        return _rebuilt, (type(self), self.given, self.expected, self.advice)
+        return _rebuilt, (type(self), self.given, self.expected, self.advice, self.option)
 
 
 class DeclarationError(PolhodeError):
@@ -68,5 +73,7 @@ def exit_code(error: BaseException) -> int:
     return Exit.INTERRUPTED if isinstance(error, KeyboardInterrupt) else Exit.REFUSED
 
 
-def _rebuilt(kind: type[PolhodeError], given: str, expected: str, advice: str) -> PolhodeError:
-    return kind(given, expected=expected, advice=advice)
+def _rebuilt(
+    kind: type[PolhodeError], given: str, expected: str, advice: str, option: str
+) -> PolhodeError:
+    return kind(given, expected=expected, advice=advice, option=option)

@@ -1,4 +1,4 @@
-"""Exact values for analysis: what `--at theta=pi/2` means."""
+"""Exact values for analysis: what "theta=pi/2" means."""
 
 from __future__ import annotations
 

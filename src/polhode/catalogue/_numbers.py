@@ -249,7 +249,10 @@ def _dimension_of_state(
 def _duration(text: str) -> float:
     if not text:
         raise DeclarationError(
-            "no duration", expected="how long to run", advice="add --duration, such as 10s"
+            "no duration",
+            expected="how long to run",
+            advice="give one, such as 10 s",
+            option="duration",
         )
     duration = in_si("duration", read_value("duration", text, {}), TIME, {}, {})
     if duration <= 0:
@@ -261,5 +264,6 @@ def _missing(names: list[str]) -> DeclarationError:
     return DeclarationError(
         f"no value for {', '.join(names)}",
         expected="a value for every parameter and prescribed function",
-        advice=f"add --set {names[0]}=..., a number in SI units or with a unit",
+        advice=f"give {names[0]} one: a number in SI units or with a unit",
+        option="set",
     )

@@ -18,6 +18,7 @@ from polhode.claims._verdict import Verdict as Verdict
 from polhode.claims.document._document import Claim as Claim
 from polhode.claims.document._document import Definition as Definition
 from polhode.claims.document._document import Document as Document
+from polhode.claims.document._document import Note as Note
 from polhode.claims.document._document import Part as Part
 from polhode.claims.latex import Statement as Statement
 from polhode.claims.latex import read_latex as read_latex

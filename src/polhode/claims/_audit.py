@@ -55,7 +55,7 @@ class Desk:
                 tell,
             )
         except PolhodeError as error:
-            return Verdict(Answer.UNREAD, claim.context, reason=str(error))
+            return Verdict.unread(claim.context, error)
 
     def _notation(self, part: Part, claim: Claim, chosen: Chosen) -> Notation:
         start = (f"{name} = {value}" for name, value in claim.start.items())
@@ -118,11 +118,12 @@ def reported(
     judged = tuple(
         Judged(
             claim,
-            document.part_of(claim).system,
+            part.system,
             verdicts[claim.id],
             tuple(id for id in failed if claim.id in reached[id]),
+            part.convention,
         )
-        for claim in asked
+        for claim, part in ((claim, document.part_of(claim)) for claim in asked)
         if claim.id in verdicts
     )
     left = tuple(claim.id for claim in asked if claim.id not in verdicts)

@@ -106,7 +106,7 @@ def judged_claim(
         statement = read_latex(latex)
         ways = choices(likeliest.vocabulary, (statement, *spoken()))
     except (PolhodeError, ZeroDivisionError) as error:
-        return Verdict(Answer.UNREAD, context, reason=f"{error}{_hint(latex)}")
+        return Verdict.unread(context, error, _hint(latex))
 
     def judge(chosen: Chosen) -> JudgedReading:
         return _judged_reading(statement, chosen, notation(chosen), context, when, latex)
@@ -139,7 +139,7 @@ def _judged_reading(
     except UnclearDerivative as error:
         return _by_derivatives(statement, chosen, notation, context, when, latex, error)
     except (PolhodeError, ZeroDivisionError) as error:
-        unread = Verdict(Answer.UNREAD, context, reason=f"{error}{_hint(latex)}")
+        unread = Verdict.unread(context, error, _hint(latex))
         return JudgedReading(chosen, notation, None, unread)
     verdict = _assuming(bound, latex, _judged(asked, context))
     if verdict.answer in (Answer.HOLDS, Answer.FAILS) and not when:
@@ -220,9 +220,9 @@ def _judged(asked: Asked, context: str) -> Verdict:
             return Verdict(Answer.UNREAD, context, reason=_at_odds(verdict))
         odd = "" if verdict.holds else dimensions_at_odds(asked)
     except ParseError as error:
-        return Verdict(Answer.UNREAD, context, reason=str(error))
+        return Verdict.unread(context, error)
     except (PolhodeError, ZeroDivisionError) as error:
-        return Verdict(Answer.UNREAD, context, reason=f"it was read, but not decided: {error}")
+        return Verdict.undecided(context, error)
     return replace(verdict, reason=f"{verdict.reason}; {odd}") if odd else verdict
 
 

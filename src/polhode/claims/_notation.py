@@ -130,7 +130,8 @@ class Notation:
                 raise ParseError(
                     f"{spelled(new)}, which {self.vocabulary.system} has already",
                     expected="a definition of a new letter",
-                    advice="restrict a known quantity with --given instead",
+                    advice="restrict a known quantity to a value instead",
+                    option="given",
                 )
             found[new] = self._saying(found).value(value)
         return found

@@ -69,7 +69,8 @@ def with_let(notation: Notation, text: str) -> Notation:
         raise ParseError(
             f"the definition {text!r}",
             expected=f"a new symbol; {spelled(new)} is none",
-            advice="restrict a known quantity with --given instead",
+            advice="restrict a known quantity to a value instead",
+            option="given",
         )
     meaning = typed(notation, value)
     _refuse_redefined(notation, new, meaning)

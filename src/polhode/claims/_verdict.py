@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from enum import Enum
 
 from polhode.algebra import Expr
-from polhode.base import Shown
+from polhode.base import PolhodeError, Shown
 
 _TAG = re.compile(r"\\tag\{[^{}]*\}")
 
@@ -129,6 +129,7 @@ class Verdict(Shown):
         dropped: for an approximation, the first term left out.
         remarks: what else was noticed, such as roots that are not covered.
         readings: what letters that mean the same in most texts were taken to mean.
+        option: where it could not be read or decided, the argument that would help, such as "let".
     """
 
     answer: Answer
@@ -143,6 +144,18 @@ class Verdict(Shown):
     dropped: Expr | None = None
     remarks: tuple[str, ...] = field(default=())
     readings: tuple[Read, ...] = ()
+    option: str = ""
+
+    @classmethod
+    def unread(cls, context: str, error: Exception, hint: str = "") -> Verdict:
+        """Of what could not be read, bound or decided, for the reason that an error gives."""
+        option = error.option if isinstance(error, PolhodeError) else ""
+        return cls(Answer.UNREAD, context, reason=f"{error}{hint}", option=option)
+
+    @classmethod
+    def undecided(cls, context: str, error: Exception) -> Verdict:
+        """Of what was read but could not be decided, for the reason that an error gives."""
+        return replace(cls.unread(context, error), reason=f"it was read, but not decided: {error}")
 
     @property
     def holds(self) -> bool:

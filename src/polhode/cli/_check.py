@@ -9,6 +9,7 @@ from typing import Any
 from polhode.base import NumericError
 from polhode.claims import Answer, Enquiry, Tell, Verdict, uncorrected, within
 from polhode.cli._document import document, printed
+from polhode.cli._failure import flag
 from polhode.cli._parser import Parser
 from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.derive import derive
@@ -116,7 +117,7 @@ def _confirmation(verdict: Verdict) -> dict[str, Any] | None:
 def _told(verdict: Verdict) -> Iterator[str]:
     yield verdict.answer.value
     if verdict.reason:
-        yield f"  {verdict.reason}"
+        yield f"  {verdict.reason}{flag(verdict.option)}"
     if verdict.correction is not None:
         yield f"  {verdict.correction.what}; it holds as"
         yield f"    {verdict.correction.latex}"

@@ -27,7 +27,7 @@ def report(error: BaseException) -> int:
 def _told(error: BaseException) -> str:
     match error:
         case PolhodeError():
-            return " ".join(str(error).split())
+            return " ".join(f"{error}{flag(error.option)}".split())
         case KeyboardInterrupt():
             return "; ".join(["interrupted", *getattr(error, "__notes__", ())])
         case OSError(errno=errno.ENOSPC):
@@ -35,6 +35,11 @@ def _told(error: BaseException) -> str:
         case _:
             what = " ".join(f"{type(error).__name__}: {error}".split())
             return f"unexpected {what} (POLHODE_DEBUG=1 shows where; please report it)"
+
+
+def flag(option: str) -> str:
+    """How an option is given in a shell, behind the advice to give it; nothing for none."""
+    return f" (--{option})" if option else ""
 
 
 def _stop_printing() -> None:

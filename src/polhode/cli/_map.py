@@ -34,10 +34,11 @@ def run(options: Namespace) -> int:
     figure = new_figure(3.4)
     drawn = outcome_map(found, ax=figure.add_subplot())
     save_figure(figure, options.file, origin=found.origin)
-    told = [f"{t.family}: {t.condition} = 0" for t in found.thresholds]
     if options.json:
+        told = [f"{t.family}: {t.condition} = 0" for t in found.thresholds]
         print_document({"file": str(options.file), "output": found.output, "thresholds": told})
     else:
         print(f"{options.file}: {found.output} of {found.system}")
-        print("\n".join(f"threshold of {text}" for text in told[: len(drawn.thresholds)]))
+        for threshold in drawn.conditions:
+            print(f"threshold of {threshold.family}: {threshold.condition} = 0")
     return 0

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import time
 from argparse import Namespace
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -80,21 +81,22 @@ def run(options: Namespace) -> int:
     spread: dict[Any, Any] = {
         axis.name: axis.values(*(_of(n, axis.name) for n in numbers)) for axis in axes
     }
-    sweep(
-        modes,
-        spread,
-        {name: v for name, v in numbers[0].parameters.items() if name not in spread},
-        {name: v for name, v in numbers[0].start.items() if name not in spread},
-        numbers[0].duration,
-        out=options.out,
-        outputs=_kept(options.keep),
-        workers=options.workers,
-        address=options.scheduler,
-        resume=options.resume,
-        forcing=dict(numbers[0].forcing),
-        until=options.until or None,
-        progress=terminal_progress(),
-    )
+    with _resumable():
+        sweep(
+            modes,
+            spread,
+            {name: v for name, v in numbers[0].parameters.items() if name not in spread},
+            {name: v for name, v in numbers[0].start.items() if name not in spread},
+            numbers[0].duration,
+            out=options.out,
+            outputs=_kept(options.keep),
+            workers=options.workers,
+            address=options.scheduler,
+            resume=options.resume,
+            forcing=dict(numbers[0].forcing),
+            until=options.until or None,
+            progress=terminal_progress(),
+        )
     store = open_store(options.out)
     document: dict[str, Any] = {
         "members": int(np.prod([axis.count for axis in axes])),
@@ -109,6 +111,16 @@ def run(options: Namespace) -> int:
         print("\n".join(wrapped("sweep", [*told, f"{document['seconds']:.1f} s"])))
         print("\n".join(wrapped("store", [document["store"]])))
     return 0
+
+
+@contextmanager
+def _resumable() -> Iterator[None]:
+    """An interrupt is told how to go on."""
+    try:
+        yield
+    except KeyboardInterrupt as interrupt:
+        interrupt.add_note("go on with --resume")
+        raise
 
 
 @dataclass(frozen=True)

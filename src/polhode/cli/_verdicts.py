@@ -26,5 +26,6 @@ def claims_about(entry: Entry) -> tuple[str, ...]:
 
 
 def judgements_on(claims: Collection[str]) -> tuple[Judgement, ...]:
-    """The verdicts on claims of the problem set with these ids, in the order of the text."""
-    return tuple(map(Judgement.on, audit(only=claims).judged)) if claims else ()
+    """The verdicts on claims of the problem set with these ids, part by part."""
+    parted = audit(only=claims).by_part() if claims else ()
+    return tuple(Judgement.on(judged) for _, found in parted for judged in found)

@@ -1,5 +1,6 @@
 """From a declaration to exact equations of motion and every reaction."""
 
+from polhode.derive._angles import is_angle as is_angle
 from polhode.derive._automaton import Automaton as Automaton
 from polhode.derive._automaton import Mode as Mode
 from polhode.derive._automaton import automaton as automaton

@@ -6,7 +6,7 @@ from functools import cache
 from typing import Any
 
 from polhode.catalogue import CATALOGUE, document_of
-from polhode.claims import Claim, Document, Verdict, audit, check
+from polhode.claims import Claim, Document, Note, Part, Verdict, audit, check
 from polhode.derive import Equations, derive
 from polhode.lab._wish import Question
 from polhode.view import typeset
@@ -25,8 +25,12 @@ def _equations(system: str) -> Equations:
 
 
 def claims_about(system: str) -> list[dict[str, Any]]:
-    """What the problem set states about a system, in its order, without verdicts."""
-    return [_stated(claim) for claim in _document().about(system)]
+    """What the problem set states about a system, part by part, without verdicts."""
+    document = _document()
+    about = document.about(system)
+    return [
+        _stated(claim, part) for part in document.parts for claim in about if claim.part == part.id
+    ]
 
 
 def judged(id: str) -> dict[str, Any]:
@@ -49,14 +53,22 @@ def answered(question: Question, equations: Equations) -> dict[str, Any]:
     return {"formula": typeset(question.latex), **_told(verdict)}
 
 
-def _stated(claim: Claim) -> dict[str, Any]:
+def _stated(claim: Claim, part: Part) -> dict[str, Any]:
     return {
         "id": claim.id,
-        "formula": typeset(claim.read_as or claim.latex),
+        "formula": typeset(claim.latex),
         "printed": claim.printed,
         "words": claim.words,
         "context": claim.context,
+        "notes": [_noted(note) for note in claim.notes],
+        "part": part.title,
+        "convention": part.convention,
     }
+
+
+def _noted(note: Note) -> dict[str, str]:
+    formula = typeset(note.text) if note.is_formula else ""
+    return {"label": note.label, "text": note.text, "formula": formula}
 
 
 def _told(verdict: Verdict) -> dict[str, Any]:

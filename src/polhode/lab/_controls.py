@@ -47,6 +47,7 @@ class Control:
         value: the same in `unit`.
         unit: in which the slider counts.
         size: of that unit, in SI units.
+        si: the SI unit, which the value of a formula is in.
         low: left end of the slider.
         high: right end.
         ratio: whether equal steps are equal ratios.
@@ -60,6 +61,7 @@ class Control:
     value: float
     unit: str
     size: float
+    si: str
     low: float
     high: float
     ratio: bool
@@ -161,12 +163,24 @@ def _control(
     """A slider in the unit that the text is in."""
     plain = _PLAIN.fullmatch(text)
     shown = (plain[2] or unit).strip() if plain else unit
-    size = read_quantity(f"1 {shown}").value if shown else 1.0
-    scaled = _tidy(value / size)
+    one = read_quantity(f"1 {shown}") if shown else read_quantity("1")
+    si = "rad" if shown in _ANGLES else _UNITS.get(one.dimension or PURE, "")
+    scaled = _tidy(value / one.value)
     low, high, ratio = _range(scaled, shown, positive=positive)
     letter = Expr.generator(symbol).mathml()
     return Control(
-        symbol.published, letter, meaning, text, scaled, shown, size, low, high, ratio, extra=False
+        name=symbol.published,
+        symbol=letter,
+        meaning=meaning,
+        text=text,
+        value=scaled,
+        unit=shown,
+        size=one.value,
+        si=si,
+        low=low,
+        high=high,
+        ratio=ratio,
+        extra=False,
     )
 
 

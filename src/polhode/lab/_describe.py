@@ -7,7 +7,7 @@ from dataclasses import asdict
 from typing import Any
 
 from polhode.algebra import Expr, Symbol
-from polhode.lab._controls import parameters_of, start_of
+from polhode.lab._controls import parameters_of, start_of, unit_of
 from polhode.lab._variants import Variant, declared_contact
 from polhode.simulate import Trajectory
 from polhode.view import Account, Scene, account, poses, scene, scenery
@@ -25,7 +25,6 @@ def described(chosen: Variant, declared: Variant) -> dict[str, Any]:
     """
     entry, equations = chosen.entry, chosen.equations
     contact = declared_contact(declared.system)
-    functions = [symbol.published for symbol in equations.functions]
     return {
         "name": entry.name,
         "title": entry.title,
@@ -37,9 +36,15 @@ def described(chosen: Variant, declared: Variant) -> dict[str, Any]:
         "parameters": [asdict(c) for c in parameters_of(entry, equations)],
         "start": [asdict(c) for c in start_of(entry, equations)],
         "forcing": [
-            {"name": n, "symbol": _letter(n), "text": entry.forcing.get(n, "0")} for n in functions
+            {
+                "name": symbol.published,
+                "symbol": _letter(symbol.published),
+                "text": entry.forcing.get(symbol.published, "0"),
+                "unit": unit_of(symbol, equations),
+            }
+            for symbol in equations.functions
         ],
-        "sheet": {"X", "Y"} <= set(functions),
+        "sheet": {"X", "Y"} <= {symbol.published for symbol in equations.functions},
     }
 
 

@@ -66,7 +66,7 @@ class Desk:
             raise NumericError(
                 f"a duration of {found.duration:g} s",
                 expected=f"at most {_LONGEST:g} s in the lab",
-                advice="longer ones are for polhode run",
+                advice="longer ones can be simulated from Python or in a shell",
             )
         parameters = dict(found.parameters)
         if friction:

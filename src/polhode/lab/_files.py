@@ -36,13 +36,16 @@ KINDS: Mapping[str, Kind] = {
 
 @cache
 def built(name: str) -> str:
-    """A file of the front end; read without loading the room that draws.
+    """A file of the front end; read without loading what draws.
 
     Raises:
         StoreError: where it has not been built.
     """
+    view = files("polhode").joinpath("view")
     try:
-        return files("polhode").joinpath("view", "built", name).read_text("utf-8")
+        text = view.joinpath("built", name).read_text("utf-8")
+        fonts = view.joinpath("math.css").read_text("utf-8") if name.endswith(".css") else ""
+        return fonts + text
     except OSError as error:
         raise StoreError(
             f"the front end of the lab is not there ({name})",

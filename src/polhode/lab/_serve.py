@@ -63,5 +63,6 @@ def _listening(port: int | None) -> socket.socket:
     raise StoreError(
         f"port {port} of this machine ({reason})",
         expected="one that is free",
-        advice="give another one with --port, or none",
+        advice="give another one, or none",
+        option="port",
     )

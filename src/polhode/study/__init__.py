@@ -10,6 +10,7 @@ from polhode.study._ensemble import ensemble as ensemble
 from polhode.study._fit import Fit as Fit
 from polhode.study._fit import fit as fit
 from polhode.study._found import Found as Found
+from polhode.study._found import Measured as Measured
 from polhode.study._found import found_in as found_in
 from polhode.study._happenings import Duration as Duration
 from polhode.study._happenings import EndMode as EndMode
@@ -31,3 +32,4 @@ from polhode.study._sensitivity import sensitivities as sensitivities
 from polhode.study._store import Store as Store
 from polhode.study._store import open_store as open_store
 from polhode.study._sweep import sweep as sweep
+from polhode.study._thresholds import Threshold as Threshold

@@ -14,7 +14,7 @@ from polhode.base import DeclarationError, Progress, SilentProgress
 from polhode.derive import Automaton, Equations
 from polhode.study._block import Crew, Order, Subject, options_of
 from polhode.study._columns import Array, Column, Members, Name, published_names
-from polhode.study._found import Found, plain_numbers
+from polhode.study._found import Found, measured, plain_numbers
 from polhode.study._grid import split_axes
 from polhode.study._happenings import Fate
 from polhode.study._output import Output
@@ -222,4 +222,6 @@ def _found(
         thresholds=tuple(thresholds(equations, spans, numbers)),
         numbers=numbers,
         origin="",
+        measured=measured(equations, spans),
+        failed=codes < 0,
     )

@@ -90,7 +90,8 @@ def _received(done: Any, place: Place) -> Block:
         raise StoreError(
             f"the cluster lost the chunk {place} ({type(error).__name__}: {error})"[:300],
             expected="workers with polhode installed, in the same version, that stay alive",
-            advice="what is done is kept: go on with --resume (resume=True)",
+            advice="what is done is kept: go on with resume=True",
+            option="resume",
         ) from error
     return block
 

@@ -3,20 +3,38 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from polhode.base import DeclarationError, look_up, read_quantity
-from polhode.derive import Equations, automaton, derive
+from polhode.algebra import Expr, Symbol, dimension_of
+from polhode.base import PURE, DeclarationError, Dimension, look_up, read_quantity
+from polhode.derive import Equations, automaton, derive, is_angle
 from polhode.model import read_declaration
 from polhode.study._columns import Array
 from polhode.study._grid import SAMPLE
-from polhode.study._store import open_store
+from polhode.study._reasons import Reason
+from polhode.study._store import REASON, open_store
 from polhode.study._thresholds import Threshold, thresholds
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A quantity of a system, as people read it.
+
+    Attributes:
+        symbol: of the system.
+        dimension: of its values.
+        is_angle: whether it is an angle.
+    """
+
+    symbol: Symbol
+    dimension: Dimension
+    is_angle: bool
 
 
 @dataclass(frozen=True)
@@ -32,6 +50,8 @@ class Found:
         thresholds: exact curves over the axes.
         numbers: everything else that was given.
         origin: what the store was made with, as JSON.
+        measured: which of the axes, and of the output, are quantities of the system, by name.
+        failed: where a motion could not be followed, shape of the axes; None where not known.
     """
 
     system: str
@@ -42,6 +62,8 @@ class Found:
     thresholds: tuple[Threshold, ...]
     numbers: Mapping[str, float]
     origin: str
+    measured: Mapping[str, Measured] = field(default_factory=dict)
+    failed: NDArray[np.bool_] | None = None
 
 
 def found_in(path: Path, output: str = "") -> Found:
@@ -85,7 +107,25 @@ def found_in(path: Path, output: str = "") -> Found:
         thresholds=tuple(thresholds(equations, axes, numbers)),
         numbers=numbers,
         origin=json.dumps(origin, sort_keys=True),
+        measured=measured(equations, (*axes, chosen)),
+        failed=np.asarray(store.group[REASON][...]) > Reason.DONE,
     )
+
+
+def measured(equations: Equations, names: Iterable[str]) -> dict[str, Measured]:
+    """Those of some names that are quantities of a system."""
+    rates = (q.derivative() for q in equations.coordinates)
+    own = (*equations.coordinates, *equations.speeds, *rates, *equations.parameters)
+    known = {symbol.published: symbol for symbol in own}
+    return {
+        name: Measured(
+            symbol,
+            dimension_of(Expr.generator(symbol), equations.dimensions) or PURE,
+            is_angle(equations, symbol),
+        )
+        for name in names
+        if (symbol := known.get(name)) is not None
+    }
 
 
 def _si(array: Any) -> Array:

@@ -107,7 +107,8 @@ def created(
         raise StoreError(
             f"{path} is there already",
             expected="a name that is still free, or the store of the same sweep to go on with",
-            advice="say --resume (resume=True) to go on, or choose another name",
+            advice="choose another name, or go on with resume=True",
+            option="resume",
         )
     with written(path), _whole_or_gone(path):
         group = zarr().create_group(path, zarr_format=3)
@@ -213,5 +214,6 @@ def written(path: Path) -> Iterator[None]:
         raise StoreError(
             f"{path} cannot be written ({error.strerror or error})",
             expected="a folder that can be written, on a disk with room",
-            advice="what is done is kept: make room, and go on with --resume (resume=True)",
+            advice="what is done is kept: make room, and go on with resume=True",
+            option="resume",
         ) from error

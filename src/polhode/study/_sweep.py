@@ -173,7 +173,7 @@ def _shown(progress: Progress | None, store: Store, grid: Grid) -> Iterator[Call
         yield shown.advance
     except KeyboardInterrupt as interrupt:
         kept = int(np.sum(store.done))
-        interrupt.add_note(f"kept {kept} of {total} chunks in {store.path}; go on with --resume")
+        interrupt.add_note(f"kept {kept} of {total} chunks in {store.path}")
         raise
     finally:
         shown.finish()

@@ -10,7 +10,7 @@ from multiprocessing import get_context
 
 import polhode as ph
 from polhode.catalogue import CATALOGUE, document_of
-from polhode.claims import Judged, audit
+from polhode.claims import Judged, Note, audit
 from polhode.derive import Equations
 from polhode.view import Judgement
 
@@ -28,6 +28,9 @@ class Told:
         reason: in words.
         correction: LaTeX of the least change that makes it hold; empty for none.
         judgement: the same for a page in three dimensions.
+        notes: how it was read, beyond what the text prints.
+        part: heading of the part of the text that it stands in.
+        convention: of axes, angles and letters in that part, in words.
     """
 
     id: str
@@ -38,6 +41,14 @@ class Told:
     reason: str
     correction: str
     judgement: Judgement
+    notes: tuple[Note, ...] = ()
+    part: str = ""
+    convention: str = ""
+
+    @property
+    def place(self) -> tuple[str, str]:
+        """The part of the text that it stands in, and the convention there."""
+        return self.part, self.convention
 
     @property
     def problem(self) -> str:
@@ -53,16 +64,16 @@ def judging(only: Iterable[str]) -> Iterator[Future[tuple[Told, ...]]]:
 
 
 def judged(only: tuple[str, ...]) -> tuple[Told, ...]:
-    """Judge the claims of the problem set with these ids, or all of them."""
+    """Judge the claims of the problem set with these ids, or all of them; part by part."""
     report = audit(document_of(None), _equations, only=only)
-    return tuple(map(_told, report.judged))
+    return tuple(_told(judged, part.title) for part, found in report.by_part() for judged in found)
 
 
 def _equations(system: str) -> Equations:
     return ph.derive(CATALOGUE[system].build())
 
 
-def _told(judged: Judged) -> Told:
+def _told(judged: Judged, part: str) -> Told:
     claim, verdict = judged.claim, judged.verdict
     return Told(
         id=claim.id,
@@ -73,4 +84,7 @@ def _told(judged: Judged) -> Told:
         reason=verdict.reason,
         correction=verdict.correction.latex if verdict.correction is not None else "",
         judgement=Judgement.on(judged),
+        notes=(*claim.notes, *(Note("note", remark) for remark in verdict.remarks)),
+        part=part,
+        convention=judged.convention,
     )

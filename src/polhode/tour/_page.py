@@ -13,6 +13,7 @@ from polhode.tour._html import Markup, joined, tag
 from polhode.tour._sections import picture, problem_of, section, summary
 from polhode.tour._verdicts import counted, verdicts
 from polhode.tour._work import Worked
+from polhode.view import math_fonts
 
 FIGURES = "figures"
 CARD = (480, 300)
@@ -95,7 +96,7 @@ def _document(title: str, body: Iterable[Markup]) -> str:
 
 
 def _style() -> str:
-    return files("polhode.tour").joinpath("style.css").read_text("utf-8")
+    return f"{math_fonts()}\n{files('polhode.tour').joinpath('style.css').read_text('utf-8')}"
 
 
 def _opening(all_problems: Sequence[Problem]) -> Iterable[Markup]:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import chain, groupby
 from pathlib import Path
-from textwrap import shorten
+from textwrap import shorten, wrap
 
 from polhode.tour._claims import Told
 from polhode.tour._numerals import power_of_ten
@@ -51,6 +53,7 @@ class Row:
 
 
 _WIDEST = 100  # letters of a correction or reason
+_BELOW = " " * 7  # where what is said of a claim begins
 HEADER = ("system", "equations", "reactions", "checks", "energy drift", "constraint drift", "s")
 
 
@@ -86,13 +89,29 @@ class TourReport:
             grouped.setdefault(claim.problem, []).append(claim)
         width = max(map(len, grouped), default=0)
         counts = [f"{problem:<{width}}  {counted(found)}" for problem, found in grouped.items()]
-        fails = [_failure(claim) for claim in self.claims if claim.answer == "fails"]
-        return "\n".join([*counts, "", *fails])
+        failed = [claim for claim in self.claims if claim.answer == "fails"]
+        lines = [
+            line
+            for (part, convention), found in groupby(failed, lambda claim: claim.place)
+            for line in (*_heading(part, convention), *chain(*map(_failure, found)))
+        ]
+        return "\n".join([*counts, "", *lines])
 
 
-def _failure(claim: Told) -> str:
+def _heading(part: str, convention: str) -> Iterator[str]:
+    """A part of the text and its convention."""
+    if part:
+        yield part
+    yield from wrap(convention, _WIDEST, initial_indent="  ", subsequent_indent="  ")
+
+
+def _failure(claim: Told) -> Iterator[str]:
     said = f"holds as  {claim.correction}" if claim.correction else claim.reason
-    return f"{claim.id:>5}  fails; {shorten(said, _WIDEST, placeholder=' …')}"
+    yield f"{claim.id:>5}  fails; {shorten(said, _WIDEST, placeholder=' …')}"
+    if claim.notes:
+        yield f"{_BELOW}printed: {shorten(claim.stated, _WIDEST, placeholder=' …')}"
+    for note in claim.notes:
+        yield f"{_BELOW}{note.label}: {shorten(note.text, _WIDEST, placeholder=' …')}"
 
 
 def row_of(worked: Worked) -> Row:

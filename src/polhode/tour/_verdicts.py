@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain, groupby
 
+from polhode.claims import Note
 from polhode.tour._claims import Told
 from polhode.tour._html import Markup, joined, tag
 from polhode.view import typeset
@@ -28,9 +30,19 @@ def verdicts(claims: Sequence[Told]) -> Markup:
         "section",
         tag("h2", "What the text claims"),
         tag("p", counted(claims), ". Each was judged against the equations derived here."),
-        *map(_claim, claims),
+        *chain.from_iterable(_part(found) for _, found in groupby(claims, lambda c: c.place)),
         id="claims",
     )
+
+
+def _part(claims: Iterable[Told]) -> Iterator[Markup]:
+    """The claims of a part of the text under its heading and its convention."""
+    first, *others = claims
+    if first.part:
+        yield tag("h3", first.part)
+    if first.convention:
+        yield tag("p", first.convention, class_="convention")
+    yield from map(_claim, [first, *others])
 
 
 def counted(claims: Iterable[Told]) -> str:
@@ -55,7 +67,7 @@ _COUNTED = {
 
 
 def _claim(claim: Told) -> Markup:
-    said: list[Markup] = []
+    said = list(map(_note, claim.notes))
     if claim.correction:
         said.append(
             tag("div", "should read ", formula(claim.correction), class_="should", tabindex="0")
@@ -69,6 +81,12 @@ def _claim(claim: Told) -> Markup:
         tag("div", _stated(claim), *said, class_="said"),
         class_="claim",
     )
+
+
+def _note(note: Note) -> Markup:
+    text = formula(note.text) if note.is_formula else tag("span", note.text)
+    label = tag("span", note.label, class_="label")
+    return tag("div", label, " ", text, class_="note", tabindex="0")
 
 
 def _number(claim: Told) -> str:

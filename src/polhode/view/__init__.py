@@ -3,12 +3,13 @@
 from polhode.view import figures as figures
 from polhode.view._audit_page import audit_html as audit_html
 from polhode.view._audit_page import audit_page as audit_page
+from polhode.view._judgement import Judgement as Judgement
+from polhode.view._markup import math_fonts as math_fonts
 from polhode.view._mathml import equation as equation
 from polhode.view._notebook_declared import html_of as html_of
 from polhode.view._page import page as page
 from polhode.view._page import page_of as page_of
 from polhode.view._scene import Account as Account
-from polhode.view._scene import Judgement as Judgement
 from polhode.view._scene import Scene as Scene
 from polhode.view._scene import plain as plain
 from polhode.view._scene_build import account as account

@@ -10,8 +10,10 @@ from pathlib import Path
 from polhode.base import PolhodeError, write_whole
 from polhode.claims import (
     Answer,
+    Claim,
     Correction,
     Judged,
+    Note,
     Part,
     Report,
     Residual,
@@ -21,6 +23,7 @@ from polhode.claims import (
     told,
     write_latex,
 )
+from polhode.view._markup import math_fonts
 from polhode.view._notebook import html_of
 from polhode.view._typeset import typeset, typeset_change
 
@@ -64,14 +67,15 @@ def _(thing: Verdict) -> str:
     shown = f"<p>{_badge(thing.answer)} {escape(thing.reason)}</p>"
     if correction is not None:
         shown += f"<p>{escape(correction.what)}; it holds as {_formula(correction.latex)}</p>"
-    evidence = "".join((*_residuals(thing), *_example(thing), *_remarks(thing)))
+    shown += _remarks(thing)
+    evidence = "".join((*_residuals(thing), *_example(thing)))
     if evidence:
         shown += f"<details><summary>Evidence</summary><div {_SCROLLS}>{evidence}</div></details>"
     return f"<style>{_style()}</style><div class='audit'><article>{shown}</article></div>"
 
 
 def _style() -> str:
-    return (files("polhode.view") / "audit.css").read_text("utf-8")
+    return f"{math_fonts()}\n{(files('polhode.view') / 'audit.css').read_text('utf-8')}"
 
 
 _SCROLLS = "tabindex='0'"  # by the arrow keys, where it is too wide
@@ -132,9 +136,19 @@ def _part(part: Part, found: tuple[Judged, ...]) -> str:
     convention = f"<p class='convention'>{escape(part.convention)}</p>" if part.convention else ""
     return (
         f"<section id='{escape(part.id)}'><h2>{escape(part.title)}</h2>"
-        f"<p class='system'>{escape(part.system)}</p>{convention}"
+        f"<p class='system'>{escape(part.system)}</p>{convention}{_definitions(part)}"
         f"{''.join(map(_claim, found))}</section>"
     )
+
+
+def _definitions(part: Part) -> str:
+    """What the text defines for all claims of a part, with where it does."""
+    told = [
+        f"<li>{_formula(d.latex)}{f' <small>{escape(d.where)}</small>' if d.where else ''}</li>"
+        for d in part.definitions
+    ]
+    told += [f"<li>{_formula(relation)}</li>" for relation in part.given]
+    return f"<ul class='definitions' {_SCROLLS}>{''.join(told)}</ul>" if told else ""
 
 
 def _claim(judged: Judged) -> str:
@@ -146,17 +160,23 @@ def _claim(judged: Judged) -> str:
         if evidence
         else ""
     )
-    correction = _correction(judged, judged.verdict.correction)
+    notes = "".join(map(_note, judged.claim.notes))
+    shown = f"{notes}{_remarks(judged.verdict)}{_correction(judged, judged.verdict.correction)}"
     return (
         f"<article id='claim-{label}' class='{judged.answer.value}'>"
-        f"<div class='claim'>{head}</div>{correction}{body}</article>"
+        f"<div class='claim'>{head}</div>{shown}{body}</article>"
     )
 
 
 def _statement(judged: Judged) -> str:
     claim = judged.claim
-    words = f"<q>{escape(claim.words)}</q>" if claim.words else ""
-    return f"<div class='printed' {_SCROLLS}>{words}{_formula(claim.latex or claim.means)}</div>"
+    stated = f"<q>{escape(claim.words)}</q>" if claim.words else _formula(claim.latex)
+    return f"<div class='printed' {_SCROLLS}>{stated}</div>"
+
+
+def _note(note: Note) -> str:
+    said = _formula(note.text) if note.is_formula else f"<span>{escape(note.text)}</span>"
+    return f"<div class='note' {_SCROLLS}><span>{escape(note.label)}</span>{said}</div>"
 
 
 def _formula(latex: str) -> str:
@@ -174,9 +194,13 @@ def _correction(judged: Judged, correction: Correction | None) -> str:
         after = f"<code>{escape(correction.latex)}</code>"
     return (
         f"<div class='correction'><p>{escape(correction.what)}</p>"
-        f"<div class='was' {_SCROLLS}><span>printed</span>{before}</div>"
+        f"<div class='was' {_SCROLLS}><span>{_origin(judged.claim)}</span>{before}</div>"
         f"<div class='is' {_SCROLLS}><span>holds</span>{after}</div></div>"
     )
+
+
+def _origin(claim: Claim) -> str:
+    return "printed" if claim.formula == claim.latex else "read"
 
 
 def _as_read(latex: str) -> str:
@@ -188,15 +212,12 @@ def _as_read(latex: str) -> str:
 
 
 def _evidence(judged: Judged) -> Iterator[str]:
-    claim, verdict = judged.claim, judged.verdict
+    verdict = judged.verdict
     yield f"<p>Asked: <strong>{escape(verdict.context)}</strong>. {escape(verdict.reason)}</p>"
-    if claim.read_as:
-        yield f"<p>Read as {_formula(claim.read_as)}: {escape(claim.reason)}.</p>"
     for other in verdict.alternatives:
         yield f"<p>Or, {escape(other.what)}: {_formula(other.latex)}</p>"
     yield from _residuals(verdict)
     yield from _example(verdict)
-    yield from _remarks(verdict)
     if judged.fed_by:
         links = ", ".join(f"<a href='#claim-{escape(i)}'>({escape(i)})</a>" for i in judged.fed_by)
         yield f"<p>Drawn from {links}, which {'fail' if len(judged.fed_by) > 1 else 'fails'}.</p>"
@@ -231,8 +252,9 @@ def _example(verdict: Verdict) -> Iterator[str]:
         )
 
 
-def _remarks(verdict: Verdict) -> Iterator[str]:
-    return (f"<p>{escape(remark)}</p>" for remark in verdict.remarks)
+def _remarks(verdict: Verdict) -> str:
+    """What else is to be known of a verdict, such as how letters were read."""
+    return "".join(f"<p class='remark'>{escape(remark)}</p>" for remark in verdict.remarks)
 
 
 def _consequences(report: Report) -> str:

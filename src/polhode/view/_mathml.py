@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element
 
 from polhode.algebra import Expr
 from polhode.view._scene import Formula
-from polhode.view._spacing import set_functions_apart
+from polhode.view._spacing import set_fractions_apart, set_functions_apart
 
 _NAMESPACE = ' xmlns="http://www.w3.org/1998/Math/MathML"'
 _SIGNS = ("+", "−", "-")
@@ -55,6 +55,7 @@ def _relation(name: str, left: Expr, sign: str, right: Expr) -> Formula:
 def _row(expression: Expr) -> list[Element]:
     root = ElementTree.fromstring(symbol(expression))
     set_functions_apart(root)
+    set_fractions_apart(root)
     return list(root[0]) if len(root) == 1 and root[0].tag == "mrow" else list(root)
 
 

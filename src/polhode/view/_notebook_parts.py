@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from html import escape
 
-from polhode.algebra import Expr, Symbol, Vector
+from polhode.algebra import Expr, Matrix, Symbol, Vector
 from polhode.analyse import (
     Branch,
+    ClosedForm,
     Condition,
     ContactForces,
     Fictitious,
@@ -23,8 +24,24 @@ from polhode.study import Fit, Linearised, Sensitivities
 from polhode.view._markup import folded, formula, framed, rows, table
 from polhode.view._mathml import alone, equation, positive, symbol
 from polhode.view._notebook import html_of as html_of
+from polhode.view._typeset import typeset
 
 _DIGITS = ".6g"
+
+
+@html_of.register
+def _(thing: Expr) -> str:
+    return framed(rows([alone(thing)]))
+
+
+@html_of.register
+def _(thing: Matrix) -> str:
+    return framed(_set(thing.latex(), str(thing)))
+
+
+@html_of.register
+def _(thing: ClosedForm) -> str:
+    return framed(f"<p>{escape(str(thing))}</p>{_set(thing.latex(), thing.latex())}")
 
 
 @html_of.register
@@ -154,6 +171,11 @@ def _(thing: Sensitivities) -> str:
     ]
     title = f"derivatives at {float(thing.times[-1]):g} s, SI units"
     return framed(table(title, ("of", "by", ""), told))
+
+
+def _set(latex: str, otherwise: str) -> str:
+    """A formula on a line of its own, or text where it is too long to be set."""
+    return f"<div class='row'>{typeset(latex) or escape(otherwise)}</div>"
 
 
 def _vector(title: str, vector: Vector) -> str:

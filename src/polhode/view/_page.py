@@ -13,8 +13,10 @@ from pathlib import Path
 
 from polhode.base import StoreError, write_whole
 from polhode.simulate import Trajectory
+from polhode.view._judgement import Judgement
+from polhode.view._markup import math_fonts
 from polhode.view._quantities import Groups
-from polhode.view._scene import Judgement, Scene
+from polhode.view._scene import Scene
 from polhode.view._scene_build import scene
 
 _FRONT_END = "built"  # folder beside this file that the package's build fills
@@ -90,7 +92,7 @@ def page_of(shown: Scene) -> str:
     return _PAGE.format(
         digest=f"sha256-{digest}",
         title=escape(shown.title),
-        style=_built("page.css"),
+        style=f"{math_fonts()}{_built('page.css')}",
         scene=_inert(data),
         script=script,
         licences=_built("LICENSES.txt").replace("--", "- -"),

@@ -20,7 +20,7 @@ from polhode.base import (
     NumericError,
     UnitError,
 )
-from polhode.derive import Equations
+from polhode.derive import Equations, is_angle
 from polhode.simulate import Trajectory
 
 Array = NDArray[np.float64]
@@ -129,9 +129,13 @@ def quantity(run: Trajectory, named: Named) -> Quantity:
     expression = run.quantities[name]
     symbol = expression.symbol or Symbol(name)
     dimension = _dimension(run, name, expression)
-    is_angle = dimension == PURE and symbol in run.equations.coordinates
-    unit = "rad" if is_angle else UNITS.get(dimension, str(dimension))
-    return Quantity(name, math(Expr.generator(symbol)), unit)
+    angle = dimension == PURE and is_angle(equations_of(run), symbol)
+    return Quantity(name, math(Expr.generator(symbol)), si_unit(dimension, angle=angle))
+
+
+def si_unit(dimension: Dimension, *, angle: bool) -> str:
+    """The SI unit of a quantity; empty for a pure number and "rad" for an angle."""
+    return "rad" if angle else UNITS.get(dimension, str(dimension))
 
 
 def math(expression: Expr) -> str:

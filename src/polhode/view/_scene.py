@@ -11,18 +11,14 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, fields, is_dataclass, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field, fields, is_dataclass
+from typing import Any
 
 import numpy as np
 
 from polhode.base import Shown
-from polhode.claims import Answer, Verdict
+from polhode.view._judgement import Judgement
 from polhode.view._quantities import Array
-from polhode.view._typeset import typeset
-
-if TYPE_CHECKING:
-    from polhode.claims import Judged
 
 Triple = tuple[float, float, float]
 
@@ -229,8 +225,8 @@ class Number:
     Attributes:
         name: published name.
         symbol: MathML; empty for the name as it is.
-        value: in SI units.
-        unit: SI unit.
+        value: in its unit.
+        unit: SI unit, or deg for an angle.
         meaning: in words.
     """
 
@@ -247,41 +243,6 @@ class Happening:
 
     time: float
     what: str
-
-
-@dataclass(frozen=True)
-class Judgement:
-    """A claim about the system and what came of checking it.
-
-    Attributes:
-        claim: in words, or as its source prints it.
-        verdict: holds, approximate, definition, fails or unread.
-        reason: in words.
-        formula: the claim in MathML; empty where it is in words.
-        correction: what holds in its place, in MathML; empty for none.
-    """
-
-    claim: str
-    verdict: str
-    reason: str = ""
-    formula: str = ""
-    correction: str = ""
-
-    @classmethod
-    def of(cls, latex: str, verdict: Verdict) -> Judgement:
-        """What `polhode.check` said of an equation."""
-        put_right = typeset(verdict.correction.latex) if verdict.correction else ""
-        return cls(latex, verdict.answer.value, verdict.reason, typeset(latex), put_right)
-
-    @classmethod
-    def on(cls, judged: Judged) -> Judgement:
-        """What `polhode.audit` said of a claim of a document."""
-        claim, verdict = judged.claim, judged.verdict
-        return replace(
-            cls.of(claim.latex, verdict),
-            claim=f"({claim.id}) {claim.printed}",
-            reason="" if verdict.answer is Answer.HOLDS else verdict.reason,
-        )
 
 
 @dataclass(frozen=True)

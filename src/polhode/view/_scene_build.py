@@ -13,10 +13,10 @@ from polhode.base import NumericError
 from polhode.derive import Equations
 from polhode.model import Body
 from polhode.simulate import Trajectory
+from polhode.view._judgement import Judgement
 from polhode.view._quantities import Array, Groups, equations_of, grouped, refuse_an_instant
 from polhode.view._scene import (
     Account,
-    Judgement,
     Link,
     Pose,
     Scene,

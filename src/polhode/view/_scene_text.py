@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import cast
@@ -10,7 +11,7 @@ import numpy as np
 
 from polhode.algebra import ZERO, Expr, Kind, Symbol, sqrt
 from polhode.base import PURE, provenance
-from polhode.derive import Equations, slips_along
+from polhode.derive import Equations, is_angle, slips_along
 from polhode.model import Sliding
 from polhode.simulate import Trajectory
 from polhode.view._mathml import equation, symbol
@@ -130,24 +131,35 @@ def _reactions(equations: Equations) -> list[Formula]:
 
 def parameters_of(run: Trajectory, meanings: Mapping[str, str]) -> tuple[Number, ...]:
     """Parameters with the units inferred from their uses."""
-    dimensions = {s.published: d for s, d in equations_of(run).dimensions.items()}
+    equations = equations_of(run)
+    dimensions = {s.published: d for s, d in equations.dimensions.items()}
+    angles = {s.published for s in equations.parameters if is_angle(equations, s)}
     return tuple(
-        Number(
-            name,
-            symbol(Expr.generator(Symbol(name.rstrip("_"), Kind.PARAMETER))),
-            float(value),
-            str(dimensions.get(name, PURE)),
-            meanings.get(name, ""),
+        _in_degrees(
+            Number(
+                name,
+                symbol(Expr.generator(Symbol(name.rstrip("_"), Kind.PARAMETER))),
+                float(value),
+                "rad" if name in angles else str(dimensions.get(name, PURE)),
+                meanings.get(name, ""),
+            )
         )
         for name, value in run.parameters.items()
     )
+
+
+def _in_degrees(number: Number) -> Number:
+    """An angle as people read it, in degrees; anything else as it is."""
+    if number.unit != "rad":
+        return number
+    return replace(number, value=math.degrees(number.value), unit="deg")
 
 
 def start_of(run: Trajectory) -> tuple[Number, ...]:
     """Coordinates and speeds at the start."""
     names = [s.published for s in (*run.equations.coordinates, *run.equations.speeds)]
     return tuple(
-        Number(name, _letter(run, name), _first(values), quantity(run, name).unit)
+        _in_degrees(Number(name, _letter(run, name), _first(values), quantity(run, name).unit))
         for name, values in run.table(names).items()
     )
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from xml.etree.ElementTree import Element
 
 _FUNCTIONS = ("sin", "cos", "tan", "exp", "sinh", "cosh", "tanh")
+_ROWS = ("math", "mrow", "msqrt", "mstyle", "mtd")  # whose pieces stand side by side
 _THIN = "0.17em"
 
 
@@ -12,6 +13,14 @@ def set_functions_apart(formula: Element) -> None:
     """A thin space around the names of functions, as in 2 sin θ."""
     for row in [*formula.iter("math"), *formula.iter("mrow")]:
         _set_apart(row)
+
+
+def set_fractions_apart(formula: Element) -> None:
+    """A thin space between two fractions, whose bars would else be drawn as one."""
+    for row in formula.iter():
+        for i in reversed(range(1, len(row))):
+            if row.tag in _ROWS and row[i].tag == row[i - 1].tag == "mfrac":
+                row.insert(i, Element("mspace", width=_THIN))
 
 
 def _set_apart(row: Element) -> None:

@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 from polhode.algebra import mathml
-from polhode.view._spacing import set_functions_apart
+from polhode.view._spacing import set_fractions_apart, set_functions_apart
 
 LONGEST = 1500  # characters of LaTeX that is still typeset
 _MARKS = re.compile(r"\$+|\\(?:tag|label)\*?\s*\{[^{}]*\}|\\n(?![A-Za-z])")
@@ -48,6 +48,7 @@ def _tree(latex: str) -> Element | None:
     for element in root.iter():
         element.tag = element.tag.removeprefix(_NAMESPACE)
     set_functions_apart(root)
+    set_fractions_apart(root)
     return root
 
 

@@ -1,6 +1,7 @@
 // The claims of the problem set about a system, judged one after the other, and one's own.
 
 import { formula, make } from "../dom";
+import { noted } from "../text";
 import { ask, RefusedError } from "./ask";
 import { badge } from "./standing";
 import type { Stated, Verdict } from "./types";
@@ -40,7 +41,8 @@ export class Claims {
     }
     const count = make("p", { role: "status" }, `${claims.length} claims`);
     const rows = claims.map(stated);
-    this.panel.replaceChildren(count, make("div", { class: "claimed" }, ...rows));
+    const parted = rows.flatMap((row, i) => [...opening(claims[i], claims[i - 1]), row]);
+    this.panel.replaceChildren(count, make("div", { class: "claimed" }, ...parted));
     const counts: Record<string, number> = {};
     for (const [i, { id }] of claims.entries()) {
       const verdict = await judged(this.system, id, signal);
@@ -61,13 +63,20 @@ async function judged(system: string, id: string, signal: AbortSignal): Promise<
   }
 }
 
+/** The heading and the convention of a part of the text, before its first claim. */
+function opening(claim: Stated, before: Stated | undefined): HTMLElement[] {
+  if (before && before.part === claim.part && before.convention === claim.convention) return [];
+  const convention = claim.convention ? [make("p", { class: "convention long" }, claim.convention)] : [];
+  return [make("h3", {}, claim.part), ...convention];
+}
+
 function stated(claim: Stated): HTMLElement {
   const text = claim.words || !claim.formula ? make("p", {}, claim.words || claim.printed) : make("div", { class: "equation" }, formula(claim.formula));
   return make(
     "article",
     { class: "claim" },
     make("span", { class: "number id" }, `(${claim.id})`),
-    make("div", {}, text, make("div", { class: "verdict-place" }, make("span", { class: "long" }, "…"))),
+    make("div", {}, text, ...noted(claim.notes), make("div", { class: "verdict-place" }, make("span", { class: "long" }, "…"))),
   );
 }
 

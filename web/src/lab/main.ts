@@ -120,10 +120,10 @@ class Lab {
     const usual = starts.filter(({ control }) => !control.extra);
     const extra = starts.filter(({ control }) => control.extra);
     const free = found.forcing.filter(({ name }) => !(this.state.sheet.length && (name === "X" || name === "Y")));
-    const forcing = free.map(({ name, symbol, text }) =>
-      new Field(name, symbol, "(t)", settings[name] ?? text, text, (_, typed) => this.put(settings, { name, text }, typed)),
+    const forcing = free.map(({ name, symbol, text, unit }) =>
+      new Field(name, symbol, `(t), ${unit}`, settings[name] ?? text, text, "", (_, typed) => this.put(settings, { name, text }, typed)),
     );
-    const duration = new Field("duration", "", "", this.state.duration || found.duration, found.duration, (_, text) => {
+    const duration = new Field("duration", "", "", this.state.duration || found.duration, found.duration, "s", (_, text) => {
       this.state.duration = text === found.duration ? "" : text;
       this.changed();
     });

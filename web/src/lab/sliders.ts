@@ -4,7 +4,9 @@ import { digits, formula, make, raised } from "../dom";
 import type { Control } from "./types";
 
 const FINENESS = 1000; // positions of a slider
-const PLAIN = /^\s*([+\-−]?\d*\.?\d+(?:e[+-]?\d+)?)\s*(.*?)\s*$/i;
+const PLAIN = /^\s*([+\-−]?\d*\.?\d+(?:e[+-]?\d+)?)\s*([^\d\s*/^(+\-−.].*?)?\s*$/i; // a number, and a unit
+
+const valueOf = (number: string): number => Number(number.replace("−", "-"));
 
 export type Changed = (name: string, text: string) => void;
 
@@ -12,6 +14,7 @@ export class Slider {
   readonly row: HTMLElement;
   private readonly range: HTMLInputElement;
   private readonly field: HTMLInputElement;
+  private readonly remark = make("small", { class: "remark", role: "status" });
   private low: number;
   private high: number;
 
@@ -28,10 +31,17 @@ export class Slider {
     this.field = make("input", { type: "text", spellcheck: "false", autocomplete: "off", "aria-label": `${control.name}: value with unit` });
     const label = make("span", { class: "what", title: called }, formula(control.symbol));
     const meaning = meant ? [make("small", {}, meant)] : [];
-    this.row = make("div", { class: "slider", "data-name": control.name }, label, this.range, this.field, ...meaning);
+    this.row = make("div", { class: "slider", "data-name": control.name }, label, this.range, this.field, ...meaning, this.remark);
     this.range.addEventListener("input", () => this.slid());
     this.field.addEventListener("change", () => this.typed());
-    this.show(text);
+    this.show(this.inUnit(text));
+  }
+
+  /** A number without a unit, which is one in SI units, in the unit that is shown. */
+  private inUnit(text: string): string {
+    const [, number, unit] = PLAIN.exec(text) ?? [];
+    if (number === undefined || unit) return text;
+    return this.printed(valueOf(number) / this.control.size, 8);
   }
 
   /** Set to a value in SI units. */
@@ -51,6 +61,8 @@ export class Slider {
   private show(text: string): void {
     this.field.value = text;
     const value = this.read(text) ?? (text === this.control.text ? this.control.value : undefined);
+    const { si } = this.control;
+    this.remark.textContent = value === undefined && si && !PLAIN.test(text) ? `a formula, in ${raised(si)}` : "";
     if (value === undefined) return;
     this.low = Math.min(this.low, value);
     this.high = Math.max(this.high, value);
@@ -62,9 +74,7 @@ export class Slider {
   private read(text: string): number | undefined {
     const [, number, unit] = PLAIN.exec(text) ?? [];
     if (number === undefined) return undefined;
-    const value = Number(number.replace("−", "-"));
-    if (unit === this.control.unit) return value;
-    return unit === "" ? value / this.control.size : undefined;
+    return (unit ?? "") === this.control.unit ? valueOf(number) : undefined;
   }
 
   private share(value: number): number {
@@ -78,6 +88,7 @@ export class Slider {
       ? this.low * (this.high / this.low) ** share
       : this.rounded(this.low + share * (this.high - this.low));
     this.field.value = this.printed(value);
+    this.remark.textContent = "";
     this.range.setAttribute("aria-valuetext", this.field.value);
     this.changed(this.control.name, this.field.value);
   }
@@ -91,10 +102,13 @@ export class Slider {
     return `${Number(value.toPrecision(digits))} ${this.control.unit}`.trim();
   }
 
-  /** What is emptied is as usual again. */
+  /** A number without a unit is in the unit that is shown, which is put behind it; what is emptied is as usual again. */
   private typed(): void {
-    this.show(this.field.value.trim() || this.control.text);
-    this.changed(this.control.name, this.field.value);
+    const { name, text, value } = this.control;
+    const [, number, unit] = PLAIN.exec(this.field.value) ?? [];
+    const bare = number !== undefined && !unit;
+    this.show(bare ? `${number.replace("−", "-")} ${this.control.unit}`.trim() : this.field.value.trim() || this.inUnit(text));
+    this.changed(name, this.read(this.field.value) === value ? text : this.field.value);
   }
 }
 
@@ -103,18 +117,23 @@ export class Field {
   readonly row: HTMLElement;
   private readonly field: HTMLInputElement;
 
-  /** @param usual what it is set to where it is emptied. */
+  /**
+   * @param usual what it is set to where it is emptied.
+   * @param unit put behind a number without one; none for formulas.
+   */
   constructor(
     readonly name: string,
     symbol: string,
     hint: string,
     text: string,
     usual: string,
+    unit: string,
     changed: Changed,
   ) {
     this.field = make("input", { type: "text", spellcheck: "false", autocomplete: "off", value: text, "aria-label": `${name} ${hint}`.trim() });
     this.field.addEventListener("change", () => {
-      this.field.value = this.field.value.trim() || usual;
+      const typed = this.field.value.trim() || usual;
+      this.field.value = unit && PLAIN.test(typed) && !PLAIN.exec(typed)?.[2] ? `${typed} ${unit}` : typed;
       changed(name, this.field.value);
     });
     const letter = symbol ? formula(symbol) : name;

@@ -33,7 +33,7 @@ function shown(family: Family, go: Go): HTMLElement {
 
 function branches(family: Family, go: Go): HTMLElement[] {
   return family.branches.map((branch) => {
-    const value = make("span", { class: "number" }, branch.value === null ? " not real here" : ` = ${shownNumber(branch.value)} ${branch.unit} here`);
+    const value = make("span", { class: "number" }, branch.value === null ? " not real here" : ` = ${inUnit(branch.value, branch.unit)} here`);
     const row = make("p", { class: "branch" }, branch.formula ? formula(branch.formula) : branch.name, value);
     const { name, value: si } = branch;
     if (name && si !== null) {
@@ -43,6 +43,11 @@ function branches(family: Family, go: Go): HTMLElement[] {
     }
     return row;
   });
+}
+
+/** A value in SI units as people read it: angles in degrees. */
+function inUnit(value: number, unit: string): string {
+  return unit === "rad" ? `${shownNumber((value * 180) / Math.PI)} deg` : `${shownNumber(value)} ${unit}`;
 }
 
 function stability(family: Family): HTMLElement[] {

@@ -1,6 +1,6 @@
 // What the lab's server says, and what it is asked; see the lab room of polhode.
 
-import type { AccountData } from "../scene";
+import type { AccountData, NoteData } from "../scene";
 
 export interface Offer {
   name: string;
@@ -15,6 +15,7 @@ export interface Control {
   value: number;
   unit: string;
   size: number;
+  si: string;
   low: number;
   high: number;
   ratio: boolean;
@@ -31,7 +32,7 @@ export interface Description {
   duration: string;
   parameters: Control[];
   start: Control[];
-  forcing: { name: string; symbol: string; text: string }[];
+  forcing: { name: string; symbol: string; text: string; unit: string }[];
   sheet: boolean;
 }
 
@@ -78,6 +79,9 @@ export interface Stated {
   printed: string;
   words: string;
   context: string;
+  notes: NoteData[];
+  part: string;
+  convention: string;
 }
 
 export interface Verdict {

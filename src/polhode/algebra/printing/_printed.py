@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, cast
 
+from polhode.base import Shown
+
 if TYPE_CHECKING:
     from polhode.algebra._expression import Expr
 
 
-class Printed:
-    """The face that expressions show: plain text, Greek letters, LaTeX and MathML."""
+class Printed(Shown):
+    """The face that expressions show: plain text, Greek letters, LaTeX and MathML.
+
+    A notebook shows them as MathML, which needs no script from a network.
+    """
 
     @property
     def _whole(self) -> Expr:

@@ -14,7 +14,7 @@ from polhode.analyse.closed._exact_data import Data, exact_data
 from polhode.analyse.closed._reals import Array, Digits, Doubles, Reals
 from polhode.analyse.closed._solution import Solution, Solvable
 from polhode.analyse.closed._uniform import SteadySolution, Uniform, is_steady, uniform
-from polhode.base import ConstraintError, NumericError
+from polhode.base import ConstraintError, NumericError, Shown
 from polhode.derive import Equations, equations_only
 
 #: Digits of a double, with one to round by.
@@ -36,7 +36,7 @@ _FAMILIES: tuple[Callable[[Equations], Solvable | None], ...] = (
 
 
 @dataclass(frozen=True, repr=False)
-class ClosedForm:
+class ClosedForm(Shown):
     """The exact motion from one start.
 
     Attributes:

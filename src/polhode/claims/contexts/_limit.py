@@ -38,7 +38,8 @@ def judged_limit(asked: Asked) -> Verdict:
         raise NumericError(
             "a claim in the context limit without a small quantity",
             expected="what is small and to which order",
-            advice="say --small SYMBOL:ORDER",
+            advice="name it with the order that is kept, as in epsilon:1",
+            option="small",
         )
     if others := [r.sign for r in asked.members if r.sign not in (*EQUALITY, "≈")]:
         raise ParseError(f"the sign {others[0]} in the context limit", expected="= or ≈")

@@ -34,7 +34,8 @@ def _is_close(left: Expr, right: Expr, half: Expr) -> bool:
         raise ParseError(
             f"a number that depends on {', '.join(open_)}",
             expected="a value for each of them",
-            advice="say --given " + " --given ".join(f"{name}=..." for name in open_),
+            advice=f"restrict the claim by {', '.join(f'{name} = …' for name in open_)}",
+            option="given",
         )
     if not half:
         return abs(float(number(difference, {}))) <= 1e-12 * abs(float(number(right, {})))

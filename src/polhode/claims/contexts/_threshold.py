@@ -64,7 +64,8 @@ def judged_threshold(asked: Asked) -> Verdict:
         raise ParseError(
             "a threshold where nothing depends on the parameters",
             expected="a steady motion that is stable or possible under a condition",
-            advice="say which motion is meant with --given",
+            advice="restrict the claim to the motion that is meant",
+            option="given",
         )
     compared = [(exact, _compared(claimed, exact, asked)) for exact in known]
     proved = next((exact for exact, comparison in compared if comparison.is_proved), None)

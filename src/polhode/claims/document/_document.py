@@ -54,6 +54,21 @@ class Part:
 
 
 @dataclass(frozen=True)
+class Note:
+    """A line on how a claim was read, shown wherever its verdict is.
+
+    Attributes:
+        label: what it says: "read as", "because" or "given".
+        text: LaTeX, or words.
+        is_formula: whether it is LaTeX.
+    """
+
+    label: str
+    text: str
+    is_formula: bool = False
+
+
+@dataclass(frozen=True)
 class Claim:
     """One statement of the text.
 
@@ -99,6 +114,16 @@ class Claim:
     def formula(self) -> str:
         """The LaTeX to be judged."""
         return self.read_as or self.latex or self.means
+
+    @property
+    def notes(self) -> tuple[Note, ...]:
+        """How it was read beyond what the text prints: the formula judged, why, what was given."""
+        read = self.read_as or self.means
+        return (
+            *([Note("read as", read, is_formula=True)] if read else []),
+            *([Note("because", self.reason)] if self.reason else []),
+            *(Note("given", relation, is_formula=True) for relation in self.given),
+        )
 
     @property
     def printed(self) -> str:

@@ -130,13 +130,18 @@ def _extended(base: Part, own: Part) -> Part:
     return replace(
         own,
         system=own.system or base.system,
-        convention=own.convention or base.convention,
+        convention=_together(base.convention, own.convention),
         bindings={**base.bindings, **own.bindings},
         definitions=(*base.definitions, *own.definitions),
         constants=(*base.constants, *own.constants),
         positive=(*base.positive, *own.positive),
         given=(*base.given, *own.given),
     )
+
+
+def _together(first: str, second: str) -> str:
+    """Two conventions in words, one after the other."""
+    return f"{first.rstrip('.')}. {second}" if first and second else first or second
 
 
 def _claims(found: tuple[Table, ...], parts: dict[str, Part]) -> tuple[Claim, ...]:

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from textwrap import shorten
+from textwrap import shorten, wrap
 from typing import Any
 
 from polhode.base import SCHEMA, Shown
 from polhode.claims._verdict import Answer, Verdict
 from polhode.claims.document._document import Claim, Document, Part
 
-_WIDEST = 110  # letters of a line of the table
+_WIDEST = 110  # letters of what is said of a claim
+_WIDE = 100  # letters of a line of words
+_STEP = "  "
+_BELOW = " " * 10  # where the line of a claim names its system
 
 
 @dataclass(frozen=True)
@@ -24,12 +27,14 @@ class Judged:
         system: name of the system it is about.
         verdict: the judgement.
         fed_by: failed claims that it follows from, directly or through others.
+        convention: of axes, angles and letters in its part of the text, in words.
     """
 
     claim: Claim
     system: str
     verdict: Verdict
     fed_by: tuple[str, ...] = ()
+    convention: str = ""
 
     @property
     def answer(self) -> Answer:
@@ -121,8 +126,11 @@ class Report(Shown):
         return tuple((part, found) for part, found in grouped if found)
 
     def table(self) -> str:
-        """One line for each claim, then consequences and totals."""
-        rows = [_row(judged) for judged in self.judged]
+        """The claims part by part under its convention, then consequences and totals.
+
+        A line for each claim; below it what the text prints and how it was read, where they differ.
+        """
+        rows = [line for part, found in self.by_part() for line in _section(part, found)]
         drawn = [f"  {consequence}" for consequence in self.consequences if consequence.feeds]
         if drawn:
             rows += ["", "What the failures feed:", *drawn]
@@ -133,7 +141,7 @@ class Report(Shown):
         grouped = {part.title or part.id: found for part, found in self.by_part()}
         width = max(map(len, grouped), default=0)
         rows = [f"{title:<{width}}  {told(group)}" for title, group in grouped.items()]
-        fails = [_row(judged) for judged in self.failures]
+        fails = [line for judged in self.failures for line in _lines(judged)]
         return "\n".join([*rows, *(["", "What fails:", *fails] if fails else []), "", self.total()])
 
     def total(self) -> str:
@@ -175,6 +183,29 @@ def counted(judged: Sequence[Judged]) -> dict[str, int]:
 def told(judged: Sequence[Judged]) -> str:
     """How many claims got each answer, in a line."""
     return ", ".join(f"{count} {name}" for name, count in counted(judged).items() if count)
+
+
+def _section(part: Part, found: Sequence[Judged]) -> Iterator[str]:
+    """The claims of a part under its title and its convention."""
+    yield part.title or part.id
+    yield from wrap(part.convention, _WIDE, initial_indent=_STEP, subsequent_indent=_STEP)
+    for judged in found:
+        yield from _lines(judged)
+    yield ""
+
+
+def _lines(judged: Judged) -> Iterator[str]:
+    """A claim in a line, and below it how it was read where that takes more than its formula."""
+    claim = judged.claim
+    yield _row(judged)
+    stated = (("in words" if claim.words else "printed"), claim.printed)
+    told = [(note.label, note.text) for note in claim.notes]
+    for label, text in [stated, *told] if told else []:
+        yield f"{_BELOW}{label}: {_in_a_line(text)}"
+
+
+def _in_a_line(text: str) -> str:
+    return " ".join(text.split())
 
 
 def _row(judged: Judged) -> str:

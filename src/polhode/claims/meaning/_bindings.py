@@ -159,7 +159,8 @@ class _Binder:
             raise BindingError(
                 f"{node.primes} primes on {node.letter}",
                 expected="dots for time derivatives",
-                advice=r"write \ddot{...}, or define the letter with --let",
+                advice=r"write \ddot{...}, or define the letter",
+                option="let",
             )
 
     def _reads(self, node: Node) -> bool:

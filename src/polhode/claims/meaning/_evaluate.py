@@ -106,7 +106,9 @@ class Evaluator:
         except ZeroDivisionError:
             raise BindingError("a division by zero", advice="check the denominator") from None
         except NumericError as error:
-            raise BindingError(error.given, expected=error.expected, advice=error.advice) from error
+            raise BindingError(
+                error.given, expected=error.expected, advice=error.advice, option=error.option
+            ) from error
 
     def scalar(self, node: tree.Node) -> Expr:
         """What a node stands for, where it has to be a scalar."""
@@ -266,7 +268,8 @@ class Evaluator:
         raise BindingError(
             f"a quantity taken at {node.subscript}",
             expected="one at the state that the claim is about",
-            advice=f"leave the bar out and say --given {node.subscript!r}",
+            advice=f"leave the bar out and restrict the claim to {node.subscript}",
+            option="given",
         )
 
     @_value.register

@@ -40,10 +40,11 @@ class BindingError(ParseError):
         *,
         expected: str = "",
         advice: str = "",
+        option: str = "",
         symbol: str = "",
         near: tuple[str, ...] = (),
     ) -> None:
-        super().__init__(given, expected=expected, advice=advice)
+        super().__init__(given, expected=expected, advice=advice, option=option)
         self.symbol = symbol
         self.near = near
 
@@ -180,7 +181,9 @@ def positive_root(radicand: Expr, positive: Collection[Expr]) -> Expr:
     try:
         return with_signs(sqrt(radicand), positive)
     except NumericError as error:
-        raise BindingError(error.given, expected=error.expected, advice=error.advice) from None
+        raise BindingError(
+            error.given, expected=error.expected, advice=error.advice, option=error.option
+        ) from None
 
 
 def positive_size(x: Expr, positive: Collection[Expr]) -> Expr:

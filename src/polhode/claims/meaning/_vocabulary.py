@@ -220,7 +220,8 @@ class Vocabulary:
         return BindingError(
             f"{spelled(node)}, which stands for nothing in {self.system}",
             expected="a quantity of the system, or a symbol that the text defines",
-            advice=f"did you mean {' or '.join(near)}?" if near else "define it with --let",
+            advice=f"did you mean {' or '.join(near)}?" if near else "define it",
+            option="" if near else "let",
             symbol=spelled(node),
             near=near,
         )

@@ -108,7 +108,7 @@ def _cases(
         try:
             system = declared(part.system)
         except PolhodeError as error:
-            unread[claim.id] = Verdict(Answer.UNREAD, claim.context, reason=str(error))
+            unread[claim.id] = Verdict.unread(claim.context, error)
         else:
             cases.append(_Case(claim, Subject(part, system)))
     return cases, unread

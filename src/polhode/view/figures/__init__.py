@@ -1,5 +1,6 @@
 """Figures of motions: every function takes `ax=` and returns what it drew."""
 
+from polhode.view.figures._drawn import Drawn as Drawn
 from polhode.view.figures._energy import energies as energies
 from polhode.view.figures._energy import energy_drift as energy_drift
 from polhode.view.figures._floor import floor_path as floor_path

@@ -9,12 +9,12 @@ import numpy as np
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array, instants, largest, scale_for
 from polhode.view._scene_along import along
+from polhode.view.figures._drawn import Drawn
 from polhode.view.figures._history import legend_above, time_axis
 from polhode.view.figures._style import COLOURS, MUTED, axes_or_new, house_style, line_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.lines import Line2D
 
 ROUNDING = float(np.finfo(float).eps)
 _FLOOR = ROUNDING / 30  # what is smaller is drawn here
@@ -23,7 +23,7 @@ _CONSTANT = 1e-12  # relative change that is rounding
 
 
 @house_style()
-def energies(run: Trajectory, *, ax: Axes | None = None) -> list[Line2D]:
+def energies(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     """Change of kinetic, potential and total energy since the start, and the work done, J.
 
     Kinetic energy is that in inertial space. Potential energy and work are drawn where they
@@ -43,11 +43,11 @@ def energies(run: Trajectory, *, ax: Axes | None = None) -> list[Line2D]:
     time_axis(axes, t)
     axes.set_ylabel(f"energy change ({scale.unit})")
     legend_above(axes)
-    return lines
+    return Drawn(axes, lines)
 
 
 @house_style()
-def energy_drift(run: Trajectory, *, ax: Axes | None = None) -> Line2D:
+def energy_drift(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     """Departure of the energy from what the work done accounts for, relative to its size.
 
     Largest |E - E₀ - W| of short intervals over the largest |T| + |V| + |W| of the motion, on a
@@ -65,7 +65,8 @@ def energy_drift(run: Trajectory, *, ax: Axes | None = None) -> Line2D:
     axes.set_ylim(_FLOOR / 2, max(1e-13, 10 * float(np.max(departure))))
     time_axis(axes, t)
     axes.set_ylabel(r"$|E - E_0 - W|\,/\,E_{\rm max}$")
-    return line
+    axes.get_yticklabels()  # made now, in the style of these figures
+    return Drawn(axes, [line])
 
 
 def _changes(run: Trajectory, t: Array) -> dict[str, Array]:

@@ -15,19 +15,19 @@ from polhode.model import Contact, Plane
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array, instants, label, largest, scale_for
 from polhode.view._scene_along import along
+from polhode.view.figures._drawn import Drawn
 from polhode.view.figures._history import legend_above
 from polhode.view.figures._style import COLOURS, WIDTH, axes_or_new, house_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.lines import Line2D
 
 _SAME = 1e-9  # relative distance of paths that are drawn as one
 _MARGIN = 0.9  # of labels and legend, inches
 
 
 @house_style()
-def floor_path(run: Trajectory, *, ax: Axes | None = None) -> list[Line2D]:
+def floor_path(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     """Paths of the centre of mass and of the point of contact, seen from above the support.
 
     Along the two directions of the first support that a body touches, m; a dot marks the start.
@@ -46,7 +46,7 @@ def floor_path(run: Trajectory, *, ax: Axes | None = None) -> list[Line2D]:
 
 
 @house_style()
-def support_trace(run: Trajectory, *, ax: Axes | None = None) -> list[Line2D]:
+def support_trace(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     """The trace that the contact leaves on a turntable or a sheet, in the support's own axes, m.
 
     Raises:
@@ -96,7 +96,7 @@ def _angle(run: Trajectory, support: Plane) -> Array:
     return turned
 
 
-def _drawn(ax: Axes | None, paths: dict[str, Array], plane: Plane) -> list[Line2D]:
+def _drawn(ax: Axes | None, paths: dict[str, Array], plane: Plane) -> Drawn:
     across, up = (1, 0) if _climbs(plane) else (0, 1)
     scale = scale_for("m", largest(*paths.values()))
     together = np.concatenate(list(paths.values()), axis=1)[[across, up]]
@@ -117,7 +117,7 @@ def _drawn(ax: Axes | None, paths: dict[str, Array], plane: Plane) -> list[Line2
     figure = axes.get_figure(root=True)
     if ax is None and figure is not None:
         figure.draw_without_rendering()  # equal scales may need wider labels
-    return lines
+    return Drawn(axes, lines)
 
 
 def _climbs(plane: Plane) -> bool:

@@ -13,19 +13,19 @@ from polhode.model import Contact, Coulomb, Rolling
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array, instants, modes_of
 from polhode.view._scene_along import along, constants
+from polhode.view.figures._drawn import Drawn
 from polhode.view.figures._history import legend_above, time_axis
 from polhode.view.figures._modes import modes
 from polhode.view.figures._style import COLOURS, axes_or_new, house_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.lines import Line2D
 
 _ROOM = 1.15  # height of the axes against the greatest value
 
 
 @house_style()
-def friction_needed(run: Trajectory, contact: str = "", *, ax: Axes | None = None) -> list[Line2D]:
+def friction_needed(run: Trajectory, contact: str = "", *, ax: Axes | None = None) -> Drawn:
     """Friction over normal force at a contact against time, with what the contact offers.
 
     The ratio is the least coefficient of static friction with which it would roll so; where the
@@ -57,7 +57,7 @@ def friction_needed(run: Trajectory, contact: str = "", *, ax: Axes | None = Non
     axes.set_ylabel("friction / normal force")
     if shaded or len(lines) > 1:
         legend_above(axes)
-    return lines
+    return Drawn(axes, lines)
 
 
 def _contact(run: Trajectory, name: str) -> Contact:

@@ -8,19 +8,19 @@ import numpy as np
 
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array, instants
+from polhode.view.figures._drawn import Drawn
 from polhode.view.figures._polhodes import free_body, moments_of, rates_of
 from polhode.view.figures._style import COLOURS, MUTED, axes_or_new, house_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.lines import Line2D
 
 _NODES = 8  # of a quadrature, between two instants
 _CIRCLE = np.linspace(0, 2 * np.pi, 241)
 
 
 @house_style()
-def herpolhode(run: Trajectory, *, ax: Axes | None = None) -> Line2D:
+def herpolhode(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     """Path of the tip of ω on the plane square to the constant angular momentum, rad/s.
 
     Dashed circles are the least and greatest distance from the angular momentum (the cross); a
@@ -42,7 +42,7 @@ def herpolhode(run: Trajectory, *, ax: Axes | None = None) -> Line2D:
     axes.margins(0.05)
     axes.set_xlabel(r"$\omega_\xi$ (rad/s)")
     axes.set_ylabel(r"$\omega_\eta$ (rad/s)")
-    return line
+    return Drawn(axes, [line])
 
 
 def invariable_path(run: Trajectory) -> Array:

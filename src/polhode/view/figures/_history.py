@@ -19,12 +19,12 @@ from polhode.view._quantities import (
     quantity,
     scale_for,
 )
+from polhode.view.figures._drawn import Drawn
 from polhode.view.figures._style import axes_or_new, house_style, line_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.legend import Legend
-    from matplotlib.lines import Line2D
 
 _SHARED = {
     "rad": "angle",
@@ -41,7 +41,7 @@ _DISPARATE = 25.0  # ratio of sizes that do not share an axis
 
 
 @house_style()
-def history(run: Trajectory, *names: Named, ax: Axes | None = None) -> list[Line2D]:
+def history(run: Trajectory, *names: Named, ax: Axes | None = None) -> Drawn:
     """Named quantities of one unit against time; angles in degrees, or turns where many.
 
     Of a single quantity that hardly changes only the change since the start is shown.
@@ -71,7 +71,7 @@ def history(run: Trajectory, *names: Named, ax: Axes | None = None) -> list[Line
     axes.set_ylabel(label(shown, scale))
     if len(lines) > 1:
         legend_above(axes)
-    return lines
+    return Drawn(axes, lines)
 
 
 def time_axis(axes: Axes, t: Array) -> None:

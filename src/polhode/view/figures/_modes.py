@@ -6,6 +6,7 @@ from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
 from polhode.simulate import Trajectory
+from polhode.view.figures._drawn import Drawn
 from polhode.view.figures._style import INK, SHADES, house_style, worded
 
 if TYPE_CHECKING:
@@ -17,7 +18,7 @@ _HATCHES = ("", "////", "....", "xxxx")
 
 
 @house_style()
-def modes(run: Trajectory, *, ax: Axes) -> list[Polygon | Rectangle]:
+def modes(run: Trajectory, *, ax: Axes) -> Drawn:
     """Shade the time that a motion spends in each contact mode; nothing where there is only one.
 
     Modes are told apart by shade and hatching, and named in the legend of the axes.
@@ -25,7 +26,7 @@ def modes(run: Trajectory, *, ax: Axes) -> list[Polygon | Rectangle]:
     stretches = [list(group) for _, group in groupby(run.segments, lambda segment: segment.mode)]
     names = list(dict.fromkeys(segment.mode for segment in run.segments))
     if len(names) < 2:
-        return []
+        return Drawn(ax, [])
     drawn: list[Polygon | Rectangle] = []
     for i, name in enumerate(names):
         spans = [(s[0].begin, s[-1].end) for s in stretches if s[0].mode == name]
@@ -39,4 +40,4 @@ def modes(run: Trajectory, *, ax: Axes) -> list[Polygon | Rectangle]:
             ax.axvspan(*span, label=label, **style)
             for span, label in zip(spans, labels, strict=True)
         ]
-    return drawn
+    return Drawn(ax, drawn)

@@ -11,6 +11,7 @@ from polhode.base import DeclarationError
 from polhode.model import About, Relative
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array, equations_of, instants
+from polhode.view.figures._drawn import Drawn
 from polhode.view.figures._globe import View, arrow, bare, draw_on
 from polhode.view.figures._style import COLOURS, FAINT, MUTED, axes_or_new, house_style
 
@@ -23,9 +24,7 @@ _CIRCLE = np.linspace(0, 2 * np.pi, 361)
 
 
 @house_style()
-def nutation(
-    run: Trajectory, *, axis: Vector | None = None, ax: Axes | None = None
-) -> tuple[Line2D, Line2D]:
+def nutation(run: Trajectory, *, axis: Vector | None = None, ax: Axes | None = None) -> Drawn:
     """Trace of a body's axis on the unit sphere, the third direction of the laboratory up.
 
     Dashed circles are the least and greatest inclination reached; a dot marks the start.
@@ -50,7 +49,7 @@ def nutation(
     start = _VIEW.project(points[:, :1])
     axes.plot(*start, "o", color=COLOURS[0], markersize=4.5, zorder=3)
     bare(axes)
-    return trace
+    return Drawn(axes, trace)
 
 
 def _spin_axis(run: Trajectory) -> Vector:

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 from polhode.base import DeclarationError
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Named, Quantity, instants, largest, quantity, scale_for
+from polhode.view.figures._drawn import Drawn
 from polhode.view.figures._style import COLOURS, axes_or_new, house_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.lines import Line2D
 
 
 @house_style()
-def phase_portrait(run: Trajectory, name: Named, *, ax: Axes | None = None) -> Line2D:
+def phase_portrait(run: Trajectory, name: Named, *, ax: Axes | None = None) -> Drawn:
     """The rate of a coordinate against the coordinate; a dot marks the start.
 
     Raises:
@@ -32,7 +32,7 @@ def phase_portrait(run: Trajectory, name: Named, *, ax: Axes | None = None) -> L
     (line,) = axes.plot(*shown, color=COLOURS[0])
     axes.plot(shown[0][0], shown[1][0], "o", color=COLOURS[0], markersize=4.5)
     axes.margins(0.06)
-    return line
+    return Drawn(axes, [line])
 
 
 def _with_rate(run: Trajectory, named: Named) -> tuple[Quantity, Quantity]:

@@ -10,6 +10,7 @@ from polhode.base import DeclarationError
 from polhode.model import Body, Components
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array, equations_of, instants
+from polhode.view.figures._drawn import Drawn
 from polhode.view.figures._globe import View, arrow, bare, draw_on
 from polhode.view.figures._style import COLOURS, FAINT, MUTED, axes_or_new, house_style
 
@@ -23,7 +24,7 @@ _FAMILY = 4  # polhodes drawn about each stable axis
 
 
 @house_style()
-def polhodes(run: Trajectory, *, ax: Axes | None = None) -> tuple[Line2D, Line2D]:
+def polhodes(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     """Polhodes of a free body on its inertia ellipsoid, I₁ω₁² + I₂ω₂² + I₃ω₃² = 2T.
 
     Those of other angular momenta are thin, the separatrix is dashed, and the run's own is bold.
@@ -49,7 +50,7 @@ def polhodes(run: Trajectory, *, ax: Axes | None = None) -> tuple[Line2D, Line2D
     _outline(axes, stretch)
     _principal_axes(axes, stretch, body.axes.labels)
     bare(axes)
-    return own
+    return Drawn(axes, own)
 
 
 def free_body(run: Trajectory) -> Body:

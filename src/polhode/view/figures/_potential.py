@@ -11,12 +11,12 @@ from polhode.analyse import LinearIntegrals, linear_integrals, reduced
 from polhode.base import PURE, DeclarationError, to_si
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array, equations_of, instants, quantity, scale_for
+from polhode.view.figures._drawn import Drawn
 from polhode.view.figures._history import legend_above
 from polhode.view.figures._style import COLOURS, FAINT, MUTED, axes_or_new, house_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.lines import Line2D
 
 _POINTS = 241
 _BESIDE = 0.6  # of the range of the motion: how far the curve goes on at either side
@@ -28,7 +28,7 @@ _HIGH = 3.0  # of what the motion rises above the bottom: height of the axes
 @house_style()
 def effective_potential(
     run: Trajectory, *, between: tuple[str, str] | None = None, ax: Axes | None = None
-) -> Line2D:
+) -> Drawn:
     """Effective potential of the tilt of a motion, with the energy and its turning points, J.
 
     It is the energy of the same motion without the rate of the tilt: every other speed as it is
@@ -59,7 +59,7 @@ def effective_potential(
     axes.set_xlabel(f"{quantity(run, tilt.published).symbol} (deg)")
     axes.set_ylabel(f"energy ({scale.unit})")
     legend_above(axes)
-    return line
+    return Drawn(axes, [line])
 
 
 def _window(curve: Array, level: float) -> tuple[float, float]:

@@ -11,18 +11,18 @@ from polhode.derive import Equations
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array, instants, largest, modes_of, scale_for
 from polhode.view._scene_along import along
+from polhode.view.figures._drawn import Drawn
 from polhode.view.figures._history import legend_above, time_axis, widen
 from polhode.view.figures._style import INK, axes_or_new, house_style, line_style, worded
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.lines import Line2D
 
 _TINY = 1e-9  # of the largest power: a share that is not drawn
 
 
 @house_style()
-def power_balance(run: Trajectory, *, ax: Axes | None = None) -> list[Line2D]:
+def power_balance(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     """Power of every load, contact and joint that works, and their sum, W.
 
     The sum is drawn as a broad pale line; the rate of change of the kinetic energy, which it has
@@ -46,7 +46,7 @@ def power_balance(run: Trajectory, *, ax: Axes | None = None) -> list[Line2D]:
     time_axis(axes, t)
     axes.set_ylabel(f"power ({scale.unit})")
     legend_above(axes)
-    return lines
+    return Drawn(axes, lines)
 
 
 def _shares(run: Trajectory, t: Array) -> dict[str, Array]:

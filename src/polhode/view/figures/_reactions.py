@@ -21,19 +21,18 @@ from polhode.view._quantities import (
     scale_for,
 )
 from polhode.view._scene_along import along
+from polhode.view.figures._drawn import Drawn
 from polhode.view.figures._history import history, legend_above, time_axis, widen
 from polhode.view.figures._style import COLOURS, MUTED, axes_or_new, house_style, line_style, worded
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.collections import LineCollection
-    from matplotlib.lines import Line2D
 
 
 @house_style()
 def reactions(
     run: Trajectory, contact: str, triad: Frame | None = None, *, ax: Axes | None = None
-) -> list[Line2D]:
+) -> Drawn:
     """Components of the force of one contact or joint on its body against time, N.
 
     Args:
@@ -61,7 +60,7 @@ def reactions(
     return history(run, *names, ax=ax)
 
 
-def _along_triad(run: Trajectory, name: str, triad: Frame, ax: Axes | None) -> list[Line2D]:
+def _along_triad(run: Trajectory, name: str, triad: Frame, ax: Axes | None) -> Drawn:
     axes = axes_or_new(ax)
     t = instants(run)
 
@@ -79,11 +78,11 @@ def _along_triad(run: Trajectory, name: str, triad: Frame, ax: Axes | None) -> l
     time_axis(axes, t)
     axes.set_ylabel(f"force at {worded(name)} ({scale.unit})")
     legend_above(axes)
-    return lines
+    return Drawn(axes, lines)
 
 
 @house_style()
-def reaction_ranges(run: Trajectory, *, ax: Axes | None = None) -> LineCollection:
+def reaction_ranges(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     """Least to greatest value of every force component along the motion, N; a dot at the start.
 
     Components that Newton's laws leave open are given by the least-force choice, with a ring; a
@@ -109,7 +108,7 @@ def reaction_ranges(run: Trajectory, *, ax: Axes | None = None) -> LineCollectio
     axes.grid(visible=False, axis="y")
     axes.margins(x=0.08, y=0.12)
     axes.set_xlabel(f"force on the body ({scale.unit})")
-    return bars
+    return Drawn(axes, [bars])
 
 
 def _forces(run: Trajectory) -> dict[str, Array]:

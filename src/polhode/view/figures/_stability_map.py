@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +13,11 @@ from numpy.typing import NDArray
 from polhode.algebra import Expr, ExprLike, Symbol, arrays, as_symbol, compile_program, dimension_of
 from polhode.analyse import Stability, SteadyMotion, stability
 from polhode.base import PURE, DeclarationError, Dimension, Value, look_up, to_si
-from polhode.derive import Equations
-from polhode.view._quantities import UNITS, Array, Scale, label, math, scale_for
-from polhode.view.figures._style import COLOURS, FAINT, SHADES, axes_or_new, house_style
+from polhode.derive import Equations, is_angle
+from polhode.view._quantities import Array, Scale, label, math, scale_for, si_unit
+from polhode.view.figures._drawn import InFigure
+from polhode.view.figures._map_marks import gap, legend, threshold_key, threshold_line
+from polhode.view.figures._style import COLOURS, SHADES, axes_or_new, house_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,7 +33,7 @@ Span = tuple[str | Symbol | Expr, Value, Value]
 
 
 @dataclass(frozen=True)
-class StabilityMap:
+class StabilityMap(InFigure):
     """What `stability_map` drew.
 
     Attributes:
@@ -42,6 +44,11 @@ class StabilityMap:
 
     growth: QuadMesh
     thresholds: tuple[QuadContourSet, ...]
+
+    @property
+    def axes(self) -> Axes:
+        """The axes it is drawn in."""
+        return cast("Axes", self.growth.axes)
 
 
 @house_style()
@@ -66,7 +73,7 @@ def stability_map(
         y: the same up the page.
         numbers: values of the other parameters and state variables that matter.
         at: further exact conditions on the family, as for `ph.stability`.
-        branch: which of the family's branches, where it is given by a relation; grey where
+        branch: which of the family's branches, where it is given by a relation; hatched where
             there is no such motion.
         ax: axes to draw in.
 
@@ -79,13 +86,21 @@ def stability_map(
     field = _Field(found, (_axis(found, x), _axis(found, y)), numbers or {}, branch)
     across, up = (axis.values * axis.scale.factor for axis in field.axes)
     growth = _growth(found, field)
-    axes.set_facecolor(FAINT)
     mesh = axes.pcolormesh(
         across, up, growth, cmap=_shades(), shading="nearest", rasterized=True, vmin=0
     )
     thresholds = [field.values(condition.expression) for condition in found.conditions]
-    style: dict[str, Any] = {"colors": [COLOURS[0]], "linewidths": 1.8}
-    lines = tuple(axes.contour(across, up, values, [0.0], **style) for values in thresholds)
+    colour = COLOURS[0]
+    lines = tuple(
+        threshold_line(axes, (across, up), values, i, colour) for i, values in enumerate(thresholds)
+    )
+    keys = [
+        threshold_key(condition.expression, i, colour)
+        for i, (condition, line) in enumerate(zip(found.conditions, lines, strict=True))
+        if any(len(path) for path in line.allsegs[0])
+    ]
+    nowhere = gap(axes, (across, up), ~np.isfinite(growth), "////", "no such motion")
+    legend(axes, [*keys, *nowhere])
     axes.figure.colorbar(mesh, ax=axes, label="growth (1/s)", pad=0.03)
     axes.grid(visible=False)
     axes.set_xlabel(field.axes[0].label)
@@ -112,8 +127,7 @@ def _axis(found: Stability, span: Span) -> _Axis:
     symbol = _symbol(equations, name)
     dimension = _dimension(equations, symbol)
     low, high = (to_si(end, dimension, symbol.published) for end in ends)
-    is_angle = dimension == PURE and symbol in equations.coordinates
-    unit = "rad" if is_angle else UNITS.get(dimension, str(dimension))
+    unit = si_unit(dimension, angle=is_angle(equations, symbol))
     values = np.linspace(low, high, _POINTS)
     return _Axis(symbol, values, scale_for(unit, float(np.max(np.abs(values)))))
 

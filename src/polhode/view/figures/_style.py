@@ -100,11 +100,39 @@ def new_figure(height: float, width: float = WIDTH) -> Figure:
 
 @house_style()
 def axes_or_new(ax: Axes | None, height: float = 2.6) -> Axes:
-    """The axes given, or those of a new figure."""
+    """The axes given, in the style of all figures, or those of a new figure."""
     if ax is not None:
+        _dress(ax)
         return ax
     axes: Axes = new_figure(height).subplots()
     return axes
+
+
+def _dress(axes: Axes) -> None:
+    """Give axes that were made in another style the frame, ticks and fonts of all figures."""
+    if axes.name != "rectilinear":
+        return
+    for side, spine in axes.spines.items():
+        spine.set(color=MUTED, linewidth=_RULES["axes.linewidth"])
+        spine.set_visible(side in ("left", "bottom"))
+    axes.tick_params(
+        which="both",
+        direction="out",
+        width=_RULES["xtick.major.width"],
+        color=MUTED,
+        labelcolor=INK,
+        labelsize=_RULES["font.size"],
+        labelfontfamily=_RULES["font.family"],
+    )
+    axes.tick_params(which="major", length=_RULES["xtick.major.size"])
+    axes.grid(visible=True, color=FAINT, linewidth=_RULES["grid.linewidth"])
+    axes.set_axisbelow(True)
+    axes.margins(_RULES["axes.xmargin"], _RULES["axes.ymargin"])
+    for text in (axes.xaxis.label, axes.yaxis.label):
+        text.set(color=INK, fontsize=_RULES["axes.labelsize"])
+    numbers = (*axes.get_xticklabels(), *axes.get_yticklabels())  # those made by now
+    for text in (axes.xaxis.label, axes.yaxis.label, axes.title, *numbers):
+        text.set(fontfamily=_RULES["font.family"], math_fontfamily=_RULES["mathtext.fontset"])
 
 
 def line_style(number: int) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 
@@ -23,6 +24,7 @@ from polhode.view.stills._mesh import (
 LIGHT, BLUE, DEEP, ACCENT, METAL = "#f3e9d2", "#2f6f9f", "#1d4a6d", "#e0672b", "#9aa3ad"
 _SECTORS = 12
 _REMEMBERED = 32  # bodies: those of a movie are drawn again and again
+_PIECES = 8  # of a spoke
 _AXLE = 0.055  # thickness of the rod to where a body is held, against its reach
 
 
@@ -81,20 +83,29 @@ def _disk(radius: float, height: float) -> Mesh:
 
 
 def _hoop(radius: float, height: float) -> Mesh:
-    thick = max(height / 2, 0.045 * radius)
-    return ring(radius, thick, lambda i, j: _sector(i, 48))
+    return ring(radius, _rim(radius, height), lambda i, j: _sector(i, 48))
+
+
+def _rim(radius: float, height: float) -> float:
+    """Radius of the tube that a hoop is."""
+    return max(height / 2, 0.045 * radius)
 
 
 def _wheel(radius: float, height: float) -> Mesh:
-    spokes = []
-    for i in range(6):
-        angle = np.pi * i / 3
-        tip = 0.95 * radius * np.array([np.cos(angle), np.sin(angle), 0.0])
-        spokes.append(rod_between(np.zeros(3), tip, 0.028 * radius, METAL if i else ACCENT))
-    hub = 0.1 * radius
+    hub, inside = 0.12 * radius, radius - 2 * _rim(radius, height)
+    deep = 0.1 * radius
     plain: Callable[[int, int], str] = lambda i, j: DEEP  # noqa: E731
-    ends = [cap(0.12 * radius, side * hub, plain) for side in (-1, 1)]
-    return together([_hoop(radius, height), *spokes, tube(0.12 * radius, -hub, hub, plain), *ends])
+    ends = [cap(hub, side * deep, plain) for side in (-1, 1)]
+    spokes = [_spoke(i, hub, inside, 0.028 * radius) for i in range(6)]
+    return together([_hoop(radius, height), *spokes, tube(hub, -deep, deep, plain), *ends])
+
+
+def _spoke(number: int, inner: float, outer: float, thick: float) -> Mesh:
+    """From the hub to the rim, in short pieces: each is nearer or farther than what it crosses."""
+    along = np.array([np.cos(np.pi * number / 3), np.sin(np.pi * number / 3), 0.0])
+    ends = [distance * along for distance in np.linspace(inner, outer, _PIECES + 1)]
+    colour = METAL if number else ACCENT
+    return together([rod_between(a, b, thick, colour) for a, b in pairwise(ends)])
 
 
 def _rod(length: float, radius: float) -> Mesh:

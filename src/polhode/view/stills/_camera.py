@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,9 +12,13 @@ from polhode.view._scene import Pose, Scene, SceneBody
 from polhode.view._shapes import reach_of
 
 _FIELD = np.radians(16)  # half of the angle of view, up and down
-_FOLLOWED = 3.0  # reaches of the body in view when it is followed
-_FAR = 7.5  # reaches beyond which the picture follows the body
+_FOLLOWED = 3.45  # reaches of the body in view when it is followed
+_FAR = 60  # reaches beyond which a body would be a dot, and the picture follows it
+_AIR = 1.5  # reaches of a body that are kept free about its middle
+_TIP = 0.15  # likewise about a point of a path
+_EDGE = 0.03  # likewise, against the room that the motion takes
 _SAMPLES = 200
+_TURNS = 12  # instants at which a trace on a moving support is looked at
 
 
 @dataclass(frozen=True)
@@ -50,20 +55,35 @@ class Camera:
 
 
 def camera_of(scene: Scene, frame: float) -> Camera:
-    """The view that the page opens with."""
-    middle, radius = _extent(scene)
+    """The view that the page opens with: from the same side, and as near as all is in view."""
     reach = max(_reach(body) for body in scene.bodies)
+    bodies, paths = _passed(scene), _left(scene)
+    box = np.array([f(np.concatenate([bodies, paths]), axis=0) for f in (np.nanmin, np.nanmax)])
+    radius = float(np.linalg.norm(box[1] - box[0])) / 2 + reach
     follows = radius > _FAR * reach and not len(_tied(scene))
-    target = place_at(scene.bodies[0].pose, frame) if follows else middle
-    seen = _FOLLOWED * reach if follows else max(radius, 1.9 * reach)
+    target = place_at(scene.bodies[0].pose, frame) if follows else np.mean(box, axis=0)
     up = np.array(scene.up)
     guess = np.array([0.0, 1.0, 0.0]) if abs(up[2]) > 0.9 else np.array([0.0, 0.0, 1.0])
     side = np.cross(guess, up)
     side = side / np.linalg.norm(side)
-    ahead = np.cross(up, side)
-    distance = 1.15 * seen / np.tan(_FIELD)
-    eye = target + distance * (-0.82 * ahead + 0.36 * side + 0.44 * up)
+    away = 0.82 * np.cross(up, side) - 0.36 * side - 0.44 * up
+    view = Camera(target - away, target, up, 1.0)
+    if follows:
+        distance = _FOLLOWED * reach / np.tan(_FIELD)
+    else:
+        distance = max(
+            _needed(view, bodies, _AIR * reach),
+            _needed(view, paths, max(_TIP * reach, _EDGE * radius)),
+        )
+    eye = target - distance * view.axes[2]
     return Camera(eye, target, up, 0.05 * distance)
+
+
+def _needed(view: Camera, points: Array, radius: float) -> float:
+    """How far away, along its direction, a view has all balls about some points in it, m."""
+    right, above, away = ((points - view.target) @ view.axes.T).T
+    across = np.maximum(np.abs(right), np.abs(above)) + radius
+    return float(np.nanmax(across / np.tan(_FIELD) - away, initial=0.0))
 
 
 def place_at(pose: Pose, frame: float) -> Array:
@@ -104,15 +124,30 @@ def rotation(quaternion: Array) -> Array:
     )
 
 
-def _extent(scene: Scene) -> tuple[Array, float]:
-    """Middle and radius of everything the bodies pass through."""
+def _passed(scene: Scene) -> Array:
+    """Places that bodies pass through."""
     frames = np.linspace(0, scene.frames - 1, _SAMPLES)
-    points = np.array([place_at(b.pose, f) for b in scene.bodies for f in frames])
+    return np.array([place_at(b.pose, f) for b in scene.bodies for f in frames])
+
+
+def _left(scene: Scene) -> Array:
+    """Points that are held, and those of the paths that are left behind."""
     fixed = [arrow.foot[0] for arrow in scene.arrows if len(arrow.foot) == 1]
-    points = np.concatenate([points, np.reshape(fixed, (-1, 3)), _tied(scene)])
-    low, high = np.nanmin(points, axis=0), np.nanmax(points, axis=0)
-    reach = max(_reach(body) for body in scene.bodies)
-    return (low + high) / 2, float(np.linalg.norm(high - low)) / 2 + reach
+    return np.concatenate([np.reshape(fixed, (-1, 3)), _tied(scene), *_paths(scene)])
+
+
+def _paths(scene: Scene) -> Iterator[Array]:
+    """Points of what is left behind; on a support that moves, where they lie while it does."""
+    for trace in scene.traces:
+        points = trace.points[:: max(1, len(trace.points) // _SAMPLES)]
+        if trace.support < 0:
+            yield points
+            continue
+        pose = scene.supports[trace.support].pose
+        for share in np.arange(1, _TURNS + 1) / _TURNS:
+            frame = share * (scene.frames - 1)
+            drawn = points[: int(np.ceil(share * len(points)))]
+            yield drawn @ turn_at(pose, frame).T + place_at(pose, frame)
 
 
 def _tied(scene: Scene) -> Array:

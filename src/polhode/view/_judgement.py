@@ -1,0 +1,74 @@
+"""A claim about a system with its verdict, as a page shows it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from polhode.claims import Answer, Verdict
+from polhode.view._typeset import typeset
+
+if TYPE_CHECKING:
+    from polhode.claims import Judged, Note
+
+
+@dataclass(frozen=True)
+class NoteShown:
+    """A line on how a claim was read.
+
+    Attributes:
+        label: such as "read as".
+        text: LaTeX, or words.
+        formula: in MathML; empty for words.
+    """
+
+    label: str
+    text: str
+    formula: str = ""
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """A claim about the system and what came of checking it.
+
+    Attributes:
+        claim: in words, or as its source prints it.
+        verdict: holds, approximate, definition, fails or unread.
+        reason: in words.
+        formula: the claim in MathML; empty where it is in words.
+        correction: what holds in its place, in MathML; empty for none.
+        notes: how it was read, beyond what its source prints.
+        convention: of axes, angles and letters where its source states it.
+    """
+
+    claim: str
+    verdict: str
+    reason: str = ""
+    formula: str = ""
+    correction: str = ""
+    notes: tuple[NoteShown, ...] = ()
+    convention: str = ""
+
+    @classmethod
+    def of(cls, latex: str, verdict: Verdict) -> Judgement:
+        """What `polhode.check` said of an equation."""
+        put_right = typeset(verdict.correction.latex) if verdict.correction else ""
+        notes = tuple(NoteShown("note", remark) for remark in verdict.remarks)
+        return cls(latex, verdict.answer.value, verdict.reason, typeset(latex), put_right, notes)
+
+    @classmethod
+    def on(cls, judged: Judged) -> Judgement:
+        """What `polhode.audit` said of a claim of a document."""
+        claim, verdict = judged.claim, judged.verdict
+        said = cls.of(claim.latex, verdict)
+        return replace(
+            said,
+            claim=f"({claim.id}) {claim.printed}",
+            reason="" if verdict.answer is Answer.HOLDS else verdict.reason,
+            notes=(*map(_shown, claim.notes), *said.notes),
+            convention=judged.convention,
+        )
+
+
+def _shown(note: Note) -> NoteShown:
+    return NoteShown(note.label, note.text, typeset(note.text) if note.is_formula else "")
