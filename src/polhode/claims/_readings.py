@@ -92,8 +92,8 @@ def settled(ways: Sequence[JudgedReading]) -> JudgedReading | Verdict:
         f"{w.verdict.answer.value} if {_meant(w, differing)}" for w in (first, *others)
     )
     letter = differing[0]
-    advice = f"to choose, state the reading {said(letter, first.chosen[letter])}"
-    return Verdict(Answer.AMBIGUOUS, first.verdict.context, reason=told, remarks=(advice,))
+    reason = f"{told}; to choose, state the reading {said(letter, first.chosen[letter])}"
+    return Verdict(Answer.AMBIGUOUS, first.verdict.context, reason=reason, option="read")
 
 
 def with_readings(verdict: Verdict, vocabulary: Vocabulary, pieces: Iterable[Piece]) -> Verdict:

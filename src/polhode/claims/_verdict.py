@@ -129,7 +129,7 @@ class Verdict(Shown):
         dropped: for an approximation, the first term left out.
         remarks: what else was noticed, such as roots that are not covered.
         readings: what letters that mean the same in most texts were taken to mean.
-        option: where it could not be read or decided, the argument that would help, such as "let".
+        option: where it is not decided, the argument that would help, such as "let" or "read".
     """
 
     answer: Answer
