@@ -102,6 +102,7 @@ def archive_of(run: Trajectory, samples: Mapping[str, Sampled]) -> Archive:
             "assumed": dict(run.assumed),
             "seconds": dict(run.seconds),
             "integrator": run.integrator,
+            "resolution": dict(run.resolution),
             "turned": turned,
             "forcing": _CODEC.write(_Table(tuple(run.dynamics.prescribed.items()))),
             "invariants": _CODEC.write(_Table(tuple(run.invariants.items()))),
@@ -158,6 +159,7 @@ def trajectory_of(archive: Archive) -> Trajectory:
             seconds=details["seconds"],
             integrator=details["integrator"],
             invariants={str(name): value for name, value in invariants.items()},
+            resolution=details["resolution"],
         )
     except (PolhodeError, LookupError, TypeError, ValueError) as error:
         raise _unfit(str(error)) from error
