@@ -18,6 +18,7 @@ from polhode.base._errors import (
 from polhode.base._extras import extra
 from polhode.base._files import write_whole
 from polhode.base._lookup import look_up
+from polhode.base._patience import Sitting, Tell, can_part, within
 from polhode.base._plain import Codec, Shape, digest
 from polhode.base._progress import Enough, Progress, SilentProgress, terminal_progress
 from polhode.base._quantity import Quantity, Value, read_quantity, to_si
@@ -46,7 +47,9 @@ __all__ = [
     "Shape",
     "Shown",
     "SilentProgress",
+    "Sitting",
     "StoreError",
+    "Tell",
     "Unit",
     "UnitError",
     "Value",
@@ -54,6 +57,7 @@ __all__ = [
     "bound_memory",
     "bound_time",
     "cache",
+    "can_part",
     "digest",
     "exit_code",
     "extra",
@@ -65,5 +69,6 @@ __all__ = [
     "show_with",
     "terminal_progress",
     "to_si",
+    "within",
     "write_whole",
 ]

@@ -219,7 +219,7 @@ class Trajectory(Shown):
     def save(self, path: str | Path) -> None:
         """Keep the whole motion in a file that `polhode.load` reads: HDF5, NetCDF-4 to others.
 
-        With it go the declaration, the parameters and the samples.
+        With it go the declaration, the parameters and the samples, which others' tools read.
 
         Raises:
             StoreError: where the file cannot be written, h5py is not installed, or the system has
