@@ -128,11 +128,11 @@ def read_event(given: Mapping[str, Any], duration: float) -> Event:
     Raises:
         LookupError, ValueError: where something is missing, or is of another kind.
     """
-    modes = [None if given[end] is None else text(given[end]) for end in ("from", "to")]
+    before, after = (None if given[end] is None else text(given[end]) for end in ("from", "to"))
     time = number(given["time"])
     if not 0 <= time <= duration:
         raise ValueError(f"an event at t = {time:g} s in a motion of {duration:g} s")
-    return Event(time, text(given["kind"]), *modes)
+    return Event(time, text(given["kind"]), before, after)
 
 
 # -- symbols ---------------------------------------------------------------------------------------
