@@ -16,7 +16,7 @@ from polhode.base._errors import (
     exit_code,
 )
 from polhode.base._extras import extra
-from polhode.base._files import write_whole
+from polhode.base._files import read_whole, write_whole
 from polhode.base._lookup import look_up
 from polhode.base._patience import Sitting, Tell, can_part, within
 from polhode.base._plain import Codec, Shape, digest
@@ -66,6 +66,7 @@ __all__ = [
     "provenance",
     "read_quantity",
     "read_unit",
+    "read_whole",
     "show_with",
     "terminal_progress",
     "to_si",

@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from polhode.base import SCHEMA, StoreError, extra, write_whole
+from polhode.base import SCHEMA, StoreError, extra, read_whole, write_whole
 from polhode.simulate.files._archive import Archive, Sampled
 from polhode.simulate.files._payload import FORMAT, counted, packed, unpacked
 
@@ -109,7 +109,7 @@ def _seal(content: bytes) -> bytes:
 
 
 def _unsealed(path: Path) -> bytes:
-    content = _content(path)
+    content = read_whole(path, "a motion that polhode wrote")
     size = max(len(content) - len(_SEAL) - _DIGEST, 0)
     inside, seal = content[:size], content[size:]
     if content.startswith(_MAGIC) and seal[len(_SEAL) - len(_EARLIER) :].startswith(_EARLIER):
@@ -126,19 +126,6 @@ def _unsealed(path: Path) -> bytes:
     if seal != _seal(inside):
         raise _damaged(path, "its checksum is wrong")
     return inside
-
-
-def _content(path: Path) -> bytes:
-    try:
-        if path.exists() and not path.is_file():
-            raise StoreError(
-                f"{path} cannot be read (it is no file)", expected="a motion that polhode wrote"
-            )
-        return path.read_bytes()
-    except OSError as error:
-        raise StoreError(
-            f"{path} cannot be read ({error.strerror})", expected="a motion that polhode wrote"
-        ) from error
 
 
 def _damaged(path: str | Path, what: object) -> StoreError:
