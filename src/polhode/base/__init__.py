@@ -1,7 +1,7 @@
 """What every room stands on: errors, units, the cache, progress and the schema."""
 
 from polhode.base import _cache as cache
-from polhode.base._bounds import bound_growth, bound_memory, bound_time
+from polhode.base._bounds import bound_growth, bound_memory, bound_time, ended_with
 from polhode.base._dimension import LENGTH, MASS, PURE, TIME, Dimension
 from polhode.base._display import Shown, show_with
 from polhode.base._errors import (
@@ -59,6 +59,7 @@ __all__ = [
     "cache",
     "can_part",
     "digest",
+    "ended_with",
     "exit_code",
     "extra",
     "installed_version",

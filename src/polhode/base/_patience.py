@@ -12,7 +12,7 @@ from contextlib import closing, contextmanager, suppress
 from threading import current_thread, main_thread
 from typing import TYPE_CHECKING, Any, Generic, NoReturn, TypeVar
 
-from polhode.base._bounds import bound_growth, bound_time
+from polhode.base._bounds import bound_growth, bound_time, ended_with
 from polhode.base._errors import NumericError, PolhodeError
 
 if TYPE_CHECKING:
@@ -155,8 +155,10 @@ def _work(
         _let_go({questions.fileno(), replies.fileno()})
         while True:
             question, seconds = questions.recv()
-            _bound(seconds)
-            replies.send(_reply(answer, question, replies))
+            with ended_with(questions.fileno()):
+                _bound(seconds)
+                reply = _reply(answer, question, replies)
+            replies.send(reply)
             _bound(0.0)
     finally:
         os._exit(0)
@@ -164,8 +166,8 @@ def _work(
 
 def _settle() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # who waits for us ends us
-    for clock in _CLOCKS:
-        signal.signal(getattr(signal, clock), signal.SIG_DFL)
+    for ending in (*_CLOCKS, "SIGIO"):
+        signal.signal(getattr(signal, ending), signal.SIG_DFL)
     bound_growth(_MEMORY)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from argparse import Namespace
 from collections.abc import Mapping
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ from polhode.base import DeclarationError, ParseError, terminal_progress
 from polhode.catalogue import Entry, Numbers, numbers_of
 from polhode.cli._contact_options import declared
 from polhode.cli._document import print_document
+from polhode.cli._interrupt import ended_in_order
 from polhode.cli._parser import Parser, assignments
 from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.cli._text import wrapped
@@ -80,21 +82,22 @@ def run(options: Namespace) -> int:
     spread: dict[Any, Any] = {
         axis.name: axis.values(*(_of(n, axis.name) for n in numbers)) for axis in axes
     }
-    sweep(
-        modes,
-        spread,
-        {name: v for name, v in numbers[0].parameters.items() if name not in spread},
-        {name: v for name, v in numbers[0].start.items() if name not in spread},
-        numbers[0].duration,
-        out=options.out,
-        outputs=_kept(options.keep),
-        workers=options.workers,
-        address=options.scheduler,
-        resume=options.resume,
-        forcing=dict(numbers[0].forcing),
-        until=options.until or None,
-        progress=terminal_progress(),
-    )
+    with ended_in_order() if options.workers > 1 else nullcontext():
+        sweep(
+            modes,
+            spread,
+            {name: v for name, v in numbers[0].parameters.items() if name not in spread},
+            {name: v for name, v in numbers[0].start.items() if name not in spread},
+            numbers[0].duration,
+            out=options.out,
+            outputs=_kept(options.keep),
+            workers=options.workers,
+            address=options.scheduler,
+            resume=options.resume,
+            forcing=dict(numbers[0].forcing),
+            until=options.until or None,
+            progress=terminal_progress(),
+        )
     store = open_store(options.out)
     document: dict[str, Any] = {
         "members": int(np.prod([axis.count for axis in axes])),
