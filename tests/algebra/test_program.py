@@ -205,6 +205,13 @@ def test_definitions_are_followed_and_unknown_symbols_named():
         compile_program([W], LETTERS[:2])
 
 
+def test_a_coefficient_beyond_the_numbers_is_named():
+    program = compile_program([X * 10**400], LETTERS[:1])
+    with pytest.raises(NumericError, match="coefficient of about 1e400"):
+        program.function()
+    assert compile_program([X / 10**400], LETTERS[:1]).function()(1.0) == (0.0,)
+
+
 def test_results_that_are_no_longer_needed_are_let_go():
     program = compile_program([sum(((X + n) ** 2 for n in range(50)), Expr.constant(0))], LETTERS)
     code = program.function(FLOATS).__code__

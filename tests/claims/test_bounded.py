@@ -12,8 +12,9 @@ from select import select
 import pytest
 
 import polhode as ph
+from polhode.base import within
 from polhode.catalogue import CATALOGUE
-from polhode.claims import Answer, Enquiry, Verdict, within
+from polhode.claims import Answer, Enquiry, Verdict
 from polhode.claims.processes import _bounded
 
 WRONG = r"F_z = Mg + Ma(\ddot\theta\sin\theta + \dot\theta^2\cos\theta)"

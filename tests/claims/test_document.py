@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from claims.transcript import NEARBY, digest, document, proof, proven, quoted, transcript
-from polhode.base import ParseError
+from polhode.base import ParseError, StoreError
 from polhode.catalogue import CATALOGUE
 from polhode.claims._notation import Notation
 from polhode.claims.document._document import Claim, Definition, Part
@@ -185,6 +185,12 @@ def test_a_file_that_is_not_utf_8_is_refused(tmp_path: Path) -> None:
     path.write_bytes(b"title = '\xff'")
     with pytest.raises(ParseError, match="UTF-8 from byte 9"):
         read_document(path)
+
+
+@pytest.mark.parametrize("name", ["none.toml", ".", "/dev/zero"])
+def test_what_cannot_be_read_says_so(name: str, tmp_path: Path) -> None:
+    with pytest.raises(StoreError, match=r"cannot be read.*expected a document of claims in TOML"):
+        read_document(tmp_path / name)
 
 
 @pytest.mark.parametrize("verdict", ["verdict", "correction", "expected", "hint"])

@@ -1,7 +1,7 @@
 """What every room stands on: errors, units, the cache, progress and the schema."""
 
 from polhode.base import _cache as cache
-from polhode.base._bounds import bound_growth, bound_memory, bound_time
+from polhode.base._bounds import bound_growth, bound_memory, bound_time, ended_with
 from polhode.base._dimension import LENGTH, MASS, PURE, TIME, Dimension
 from polhode.base._display import Shown, show_with
 from polhode.base._errors import (
@@ -16,8 +16,9 @@ from polhode.base._errors import (
     exit_code,
 )
 from polhode.base._extras import extra
-from polhode.base._files import write_whole
+from polhode.base._files import read_whole, write_whole
 from polhode.base._lookup import look_up
+from polhode.base._patience import Sitting, Tell, can_part, within
 from polhode.base._plain import Codec, Shape, digest
 from polhode.base._progress import Enough, Progress, SilentProgress, terminal_progress
 from polhode.base._quantity import Quantity, Value, read_quantity, to_si
@@ -46,7 +47,9 @@ __all__ = [
     "Shape",
     "Shown",
     "SilentProgress",
+    "Sitting",
     "StoreError",
+    "Tell",
     "Unit",
     "UnitError",
     "Value",
@@ -54,7 +57,9 @@ __all__ = [
     "bound_memory",
     "bound_time",
     "cache",
+    "can_part",
     "digest",
+    "ended_with",
     "exit_code",
     "extra",
     "installed_version",
@@ -62,8 +67,10 @@ __all__ = [
     "provenance",
     "read_quantity",
     "read_unit",
+    "read_whole",
     "show_with",
     "terminal_progress",
     "to_si",
+    "within",
     "write_whole",
 ]

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import select
 import signal
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 
@@ -28,3 +31,37 @@ def bound_growth(most: int) -> None:
 
         pages = int(Path("/proc/self/statm").read_text().split()[0])
         bound_memory(pages * resource.getpagesize() + most)
+
+
+@contextmanager
+def ended_with(descriptor: int) -> Iterator[None]:
+    """Have this process ended, whatever it does, once nobody is at the other end of a pipe.
+
+    So a process that computes for another does not outlive it. Nothing may come through the pipe
+    meanwhile: that would end the process, too. Only where the system sends a signal about pipes.
+
+    Args:
+        descriptor: of a pipe or socket that this process reads from, and no other one does.
+    """
+    try:
+        import fcntl
+
+        before = fcntl.fcntl(descriptor, fcntl.F_GETFL)
+        fcntl.fcntl(descriptor, fcntl.F_SETOWN, os.getpid())
+        fcntl.fcntl(descriptor, fcntl.F_SETFL, before | os.O_ASYNC)
+    except (AttributeError, ImportError, OSError):
+        yield
+        return
+    _end_if_alone(descriptor)
+    try:
+        yield
+    finally:
+        fcntl.fcntl(descriptor, fcntl.F_SETFL, before)
+
+
+def _end_if_alone(descriptor: int) -> None:
+    """The signal comes when the other end closes, not where it has been closed before."""
+    looked = select.poll()
+    looked.register(descriptor, 0)
+    if looked.poll(0):
+        os.kill(os.getpid(), signal.SIGIO)

@@ -1,4 +1,4 @@
-"""Files written whole or not at all."""
+"""Files written whole or not at all, and read whole if they are not without end."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from contextlib import suppress
 from pathlib import Path
 
 from polhode.base._errors import StoreError
+
+_MOST = 64 * 2**20  # bytes that are taken from a pipe or a device
 
 
 def write_whole(path: Path, content: bytes) -> None:
@@ -33,6 +35,29 @@ def write_whole(path: Path, content: bytes) -> None:
         if part is not None:
             with suppress(FileNotFoundError):
                 os.unlink(part)
+
+
+def read_whole(path: Path, expected: str) -> bytes:
+    """The bytes of a file, or of a pipe or device that has an end.
+
+    Args:
+        path: of the file.
+        expected: what it should be, for messages.
+
+    Raises:
+        StoreError: where it cannot be read.
+    """
+    try:
+        if path.is_file():
+            return path.read_bytes()
+        with path.open("rb") as stream:
+            content = stream.read(_MOST + 1)
+    except (OSError, ValueError) as error:  # the latter of a name that has a null in it
+        why = getattr(error, "strerror", None) or error
+        raise StoreError(f"{path} cannot be read ({why})", expected=expected) from error
+    if len(content) > _MOST:
+        raise StoreError(f"{path} cannot be read (there is no end to it)", expected=expected)
+    return content
 
 
 def _refuse_devices(path: Path) -> None:

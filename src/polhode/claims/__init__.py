@@ -28,8 +28,6 @@ from polhode.claims.meaning._bindings import BoundRelation as BoundRelation
 from polhode.claims.meaning._meaning import BindingError as BindingError
 from polhode.claims.processes._bounded import check as check
 from polhode.claims.processes._bounded import uncorrected as uncorrected
-from polhode.claims.processes._patience import Tell as Tell
-from polhode.claims.processes._patience import within as within
 
 if TYPE_CHECKING:
     from polhode.claims._audit import audit as audit

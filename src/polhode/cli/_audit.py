@@ -5,7 +5,7 @@ from __future__ import annotations
 from argparse import Namespace
 from pathlib import Path
 
-from polhode.base import Exit, StoreError
+from polhode.base import Exit
 from polhode.catalogue import audit, document_of
 from polhode.claims import Document, Report
 from polhode.cli._document import print_document
@@ -32,7 +32,7 @@ def run(options: Namespace) -> int:
     Raises:
         StoreError: for a document that cannot be read, and a page that cannot be written.
     """
-    document = _read(options.file)
+    document = document_of(options.file)
     report = audit(document, systems=_own(document, options.file), only=options.only)
     if options.html is not None:
         from polhode.view import audit_page
@@ -43,15 +43,6 @@ def run(options: Namespace) -> int:
     else:
         print(report)
     return _code(report)
-
-
-def _read(path: Path | None) -> Document:
-    try:
-        return document_of(path)
-    except OSError as error:
-        raise StoreError(
-            f"{path} cannot be read ({error.strerror})", expected="a document of claims in TOML"
-        ) from error
 
 
 def _own(document: Document, path: Path | None) -> dict[str, System]:

@@ -6,8 +6,8 @@ from argparse import Namespace
 from collections.abc import Iterator
 from typing import Any
 
-from polhode.base import NumericError
-from polhode.claims import Answer, Enquiry, Tell, Verdict, uncorrected, within
+from polhode.base import NumericError, Tell, within
+from polhode.claims import Answer, Enquiry, Verdict, uncorrected
 from polhode.cli._document import document, printed
 from polhode.cli._failure import flag
 from polhode.cli._parser import Parser

@@ -8,6 +8,7 @@ import sys
 import traceback
 
 from polhode.base import PolhodeError, exit_code
+from polhode.cli._interrupt import Terminated
 
 
 def report(error: BaseException) -> int:
@@ -21,7 +22,7 @@ def report(error: BaseException) -> int:
         _stop_printing()
     else:
         print(f"polhode: {_told(error)}", file=sys.stderr)
-    return exit_code(error)
+    return error.code if isinstance(error, Terminated) else exit_code(error)
 
 
 def _told(error: BaseException) -> str:
@@ -29,7 +30,8 @@ def _told(error: BaseException) -> str:
         case PolhodeError():
             return " ".join(f"{error}{flag(error.option)}".split())
         case KeyboardInterrupt():
-            return "; ".join(["interrupted", *getattr(error, "__notes__", ())])
+            how = "terminated" if isinstance(error, Terminated) else "interrupted"
+            return "; ".join([how, *getattr(error, "__notes__", ())])
         case OSError(errno=errno.ENOSPC):
             return "the output cannot be written: no space left where it goes; make room there"
         case _:

@@ -4,10 +4,34 @@ from __future__ import annotations
 
 import signal
 import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
 from polhode.base import Enough, Progress
+
+
+class Terminated(KeyboardInterrupt):
+    """An end that was asked for by SIGTERM."""
+
+    code = 128 + signal.SIGTERM
+
+
+@contextmanager
+def ended_in_order() -> Iterator[None]:
+    """Within it SIGTERM ends a command as Ctrl-C does: what it began is ended, and what is kept is
+    told.
+    """
+
+    def end(number: int, frame: FrameType | None) -> None:
+        raise Terminated
+
+    before = signal.signal(signal.SIGTERM, end)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 class Interruptible:

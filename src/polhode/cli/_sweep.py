@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from argparse import Namespace
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ from polhode.base import DeclarationError, ParseError, terminal_progress
 from polhode.catalogue import Entry, Numbers, numbers_of
 from polhode.cli._contact_options import declared
 from polhode.cli._document import print_document
+from polhode.cli._interrupt import ended_in_order
 from polhode.cli._parser import Parser, assignments
 from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.cli._text import wrapped
@@ -81,7 +82,7 @@ def run(options: Namespace) -> int:
     spread: dict[Any, Any] = {
         axis.name: axis.values(*(_of(n, axis.name) for n in numbers)) for axis in axes
     }
-    with _resumable():
+    with _resumable(), ended_in_order() if options.workers > 1 else nullcontext():
         sweep(
             modes,
             spread,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import socket
 import threading
 import webbrowser
@@ -13,6 +14,7 @@ from polhode.lab._offer import Own
 HOST = "127.0.0.1"
 PORT = 8650
 _MOST = 64  # connections at a time
+_GRACE = 1  # s for requests at hand, once it is to end
 
 
 def serve(own: Own | None = None, *, port: int | None = None, browser: bool = True) -> None:
@@ -45,9 +47,17 @@ def serve(own: Own | None = None, *, port: int | None = None, browser: bool = Tr
         if browser:
             threading.Timer(0.5, webbrowser.open, [address]).start()
         app = app_of(chosen, own)
-        settings = uvicorn.Config(app, log_level="warning", limit_concurrency=_MOST)
+        settings = uvicorn.Config(
+            app,
+            log_level="warning",
+            limit_concurrency=_MOST,
+            timeout_graceful_shutdown=_GRACE,
+        )
+        server = uvicorn.Server(settings)
+        # That requests are given up once it is to end is what was asked for.
+        logging.getLogger("uvicorn.error").addFilter(lambda record: not server.should_exit)
         with suppress(KeyboardInterrupt):  # how one ends it
-            uvicorn.Server(settings).run(sockets=[listener])
+            server.run(sockets=[listener])
 
 
 def _listening(port: int | None) -> socket.socket:

@@ -7,7 +7,7 @@ import signal
 from multiprocessing.connection import Connection
 from typing import TYPE_CHECKING, Protocol
 
-from polhode.base import PolhodeError
+from polhode.base import PolhodeError, ended_with
 
 if TYPE_CHECKING:
     from polhode.lab._bench import Bench
@@ -66,7 +66,9 @@ def work(connection: Connection, unwanted: Flag, own: tuple[str, str, str] | Non
             task, _, body = connection.recv_bytes().partition(b"\n")
         except (EOFError, OSError):
             return
-        connection.send_bytes(_reply(bench, task.decode("ascii"), body))
+        with ended_with(connection.fileno()):
+            reply = _reply(bench, task.decode("ascii"), body)
+        connection.send_bytes(reply)
 
 
 def _reply(bench: Bench, task: str, body: bytes) -> bytes:

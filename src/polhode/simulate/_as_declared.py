@@ -71,6 +71,7 @@ class AsDeclared:
             begin.assumed,
             unguarded=True,
             begun=Begun(dynamics, begin),
+            drive=drive,
         )
 
 

@@ -126,6 +126,8 @@ class Experiment:
 
     def _trajectory(self, motion: Motion, task: Task) -> Trajectory:
         end = motion.segments[-1].end
+        for segment in motion.segments:
+            motion.drive.confirm(segment.steps)
         trajectory = Trajectory(
             system=getattr(self.subject, "system", self.subject),
             segments=motion.segments,
@@ -138,6 +140,7 @@ class Experiment:
             seconds=task.seconds,
             integrator=task.integrator.name,
             invariants=self._invariants,
+            resolution=motion.drive.resolution,
         )
         if motion.unguarded:
             refuse_lost_side(trajectory)

@@ -51,7 +51,8 @@ def simulate(
         duration: s.
         tolerance: relative, of one step; by default the best that the integrator holds.
         forcing: every prescribed function: an expression of time, a Python function of the time
-            in seconds, or samples read with `sampled` or `read_sheet`.
+            in seconds, or samples read with `sampled` or `read_sheet`. What a function does for
+            less than a 2000th of the duration may be missed, see `approximated`.
         invariants: expressions to be watched for drift, by name.
         events: expressions whose passing through zero is recorded, by name.
         samples: number of equally spaced sample times, or the times, s.

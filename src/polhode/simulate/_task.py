@@ -13,6 +13,7 @@ from polhode.simulate._dynamics import Dynamics
 from polhode.simulate._names import Name
 from polhode.simulate._segment import Segment
 from polhode.simulate._start import Start
+from polhode.simulate.forcing._drive import Drive
 from polhode.simulate.integrate._stepping import Integrator
 
 if TYPE_CHECKING:
@@ -65,6 +66,7 @@ class Motion:
     Attributes:
         unguarded: whether the contacts were taken as declared, and not looked after.
         begun: how the start was read.
+        drive: the prescribed motions.
         guarded: what looks after the contacts, where they are looked after.
     """
 
@@ -75,6 +77,7 @@ class Motion:
     assumed: Mapping[str, float]
     unguarded: bool
     begun: Begun
+    drive: Drive
     guarded: Guarded | None = None
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -48,6 +48,8 @@ class Trajectory(Shown):
         seconds: time spent to derive, compile and integrate.
         integrator: what integrated it.
         invariants: expressions that the motion should keep constant, watched by `drift`.
+        resolution: of prescribed motions given as Python functions, by name, s: what such a
+            function does for less than that may have been missed.
     """
 
     system: Any
@@ -61,13 +63,18 @@ class Trajectory(Shown):
     seconds: Mapping[str, float]
     integrator: str
     invariants: Mapping[str, Expr]
+    resolution: Mapping[str, float] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         modes = ", ".join(dict.fromkeys(segment.mode for segment in self.segments))
         return (
             f"Trajectory of {self.system.name!r} over {self.duration:.6g} s: {modes}; "
-            f"{len(self.events)} events"
+            f"{len(self.events)} events{self._unseen}"
         )
+
+    @property
+    def _unseen(self) -> str:
+        return "".join(f"; {n} resolved to {time:.3g} s" for n, time in self.resolution.items())
 
     @property
     def dynamics(self) -> Dynamics:
@@ -212,7 +219,7 @@ class Trajectory(Shown):
     def save(self, path: str | Path) -> None:
         """Keep the whole motion in a file that `polhode.load` reads: HDF5, NetCDF-4 to others.
 
-        With it go the declaration, the parameters and the samples.
+        With it go the declaration, the parameters and the samples, which others' tools read.
 
         Raises:
             StoreError: where the file cannot be written, h5py is not installed, or the system has
@@ -231,6 +238,7 @@ class Trajectory(Shown):
             "parameters": dict(self.parameters),
             "assumed": dict(self.assumed),
             "integrator": self.integrator,
+            **({"resolution": dict(self.resolution)} if self.resolution else {}),
         }
 
     @cached_property

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import os
+import signal
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
+from functools import partial
 from itertools import islice
+from logging import CRITICAL
 from threading import local
 from typing import Any, Protocol, TypeAlias
 from uuid import uuid4
@@ -13,6 +17,7 @@ from uuid import uuid4
 from polhode.base import StoreError
 from polhode.study._block import Block, Crew, Order
 from polhode.study._columns import Members
+from polhode.study._interrupts import uninterrupted
 from polhode.study._libraries import distributed
 
 Place: TypeAlias = tuple[int, ...]
@@ -20,6 +25,7 @@ Chunks: TypeAlias = Iterable[tuple[Place, Members]]
 
 _WAITING = 4  # chunks per worker that are handed out at a time
 _REACHED_WITHIN = 10.0  # seconds for a scheduler to answer
+_KILL = getattr(signal, "SIGKILL", signal.SIGTERM)
 _LOST = 8  # workers that one chunk may lose before it is given up
 
 _kept = local()
@@ -141,12 +147,32 @@ def scheduler(address: str) -> Iterator[Any]:
 
 @contextmanager
 def processes(count: int) -> Iterator[Any]:
-    """A client of a cluster of processes on this machine."""
+    """A client of a cluster of processes on this machine.
+
+    An interrupt while it starts or ends waits until it has: its library does not stand one then.
+    """
     library = distributed()
-    with (
-        library.LocalCluster(
-            n_workers=count, threads_per_worker=1, processes=True, dashboard_address=None
-        ) as cluster,
-        library.Client(cluster) as client,
-    ):
+    with ExitStack() as ending:
+        with uninterrupted():
+            cluster = library.LocalCluster(
+                n_workers=count,
+                threads_per_worker=1,
+                processes=True,
+                dashboard_address=None,
+                silence_logs=CRITICAL,  # what is lost for good comes as an error
+            )
+            ending.push(partial(_ended, cluster))
+            client = library.Client(cluster)
+            ending.callback(client.close)
         yield client
+
+
+def _ended(cluster: Any, *failure: Any) -> None:
+    """End a cluster; after a failure its workers are not waited for."""
+    with uninterrupted():
+        if any(failure):
+            for nanny in cluster.workers.values():
+                nanny.auto_restart = False
+                if nanny.pid:
+                    os.kill(nanny.pid, _KILL)
+        cluster.close()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,12 +14,14 @@ from numpy.typing import NDArray
 from polhode.algebra import Expr, Symbol, dimension_of
 from polhode.base import PURE, DeclarationError, Dimension, look_up, read_quantity
 from polhode.derive import Equations, automaton, derive, is_angle
-from polhode.model import read_declaration
+from polhode.model import System, read_declaration
 from polhode.study._columns import Array
 from polhode.study._grid import SAMPLE
 from polhode.study._reasons import Reason
-from polhode.study._store import REASON, open_store
+from polhode.study._store import REASON, Store, intact, open_store
 from polhode.study._thresholds import Threshold, thresholds
+
+_MOST = 100_000_000
 
 
 @dataclass(frozen=True)
@@ -77,39 +79,63 @@ def found_in(path: Path, output: str = "") -> Found:
         StoreError: where there is no store.
     """
     store = open_store(path)
+    with intact(path):
+        mapped, system, in_one_mode = _mapped(store, output)
+    equations: Equations = derive(system) if in_one_mode else automaton(system).together.equations
+    return replace(
+        mapped,
+        thresholds=tuple(thresholds(equations, mapped.axes, mapped.numbers)),
+        measured=measured(equations, (*mapped.axes, mapped.output)),
+    )
+
+
+def _mapped(store: Store, output: str) -> tuple[Found, System, bool]:
+    """A map still without thresholds, the system, and whether it was kept to one mode."""
     origin = store.origin
     names = list(origin["axes"])
     if len(names) != 2 or any(axis["axis"] == SAMPLE for axis in origin["axes"].values()):
         raise DeclarationError(
-            f"{path} has the axes {', '.join(names)}",
+            f"{store.path} has the axes {', '.join(names)}",
             expected="a sweep over two quantities, for a map",
         )
     outputs = {name: store.group[name] for name in origin["outputs"]}
     codes = [name for name, array in outputs.items() if "labels" in array.attrs]
     chosen = output or next(iter([*codes, *outputs]))
     array = look_up(chosen, outputs, "output of this sweep")
-    values = np.asarray(array[...], dtype=float)
-    if values.ndim != 2:
+    if array.ndim != 2:
         raise DeclarationError(f"{chosen} is a series", expected="an output that is one number")
-    labels = tuple(array.attrs.get("labels", ()))
     axes = {name: _si(store.group[origin["axes"][name]["coordinate"]]) for name in names}
-    numbers = plain_numbers({**origin["parameters"], **origin["start"]})
-    system = read_declaration(json.dumps(origin["declaration"]))
-    equations: Equations = (
-        derive(system) if origin["kept_to_one_mode"] else automaton(system).together.equations
-    )
-    return Found(
-        system=origin["system"],
+    labels = tuple(map(str, array.attrs.get("labels", ())))
+    found = Found(
+        system=str(origin["system"]),
         output=chosen,
         labels=labels,
         axes=axes,
-        values=np.where(values < 0, np.nan, values) if labels else values,
-        thresholds=tuple(thresholds(equations, axes, numbers)),
-        numbers=numbers,
+        values=_values(array, labels, tuple(len(values) for values in axes.values())),
+        thresholds=(),
+        numbers=plain_numbers({**origin["parameters"], **origin["start"]}),
         origin=json.dumps(origin, sort_keys=True),
-        measured=measured(equations, (*axes, chosen)),
-        failed=np.asarray(store.group[REASON][...]) > Reason.DONE,
+        failed=_all_of(store.group[REASON]) > Reason.DONE,
     )
+    system = read_declaration(json.dumps(origin["declaration"]))
+    return found, system, bool(origin["kept_to_one_mode"])
+
+
+def _values(array: Any, labels: tuple[str, ...], shape: tuple[int, ...]) -> Array:
+    if array.shape != shape:
+        raise ValueError(f"an output of shape {array.shape} over axes of {shape}")
+    values = _all_of(array)
+    if not labels:
+        return values
+    if np.any(values >= len(labels)):
+        raise ValueError("codes that stand for nothing")
+    return np.where(values < 0, np.nan, values)
+
+
+def _all_of(array: Any) -> Array:
+    if array.size > _MOST:
+        raise ValueError(f"{array.size} values, more than a map can show")
+    return np.asarray(array[...], dtype=float)
 
 
 def measured(equations: Equations, names: Iterable[str]) -> dict[str, Measured]:
@@ -129,7 +155,7 @@ def measured(equations: Equations, names: Iterable[str]) -> dict[str, Measured]:
 
 
 def _si(array: Any) -> Array:
-    values = np.asarray(array[...], dtype=float)
+    values = _all_of(array)
     unit = array.attrs.get("units", "")
     return values * read_quantity(f"1 {unit}").value if unit else values
 

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.base import SCHEMA, StoreError, write_whole
+from polhode.base import SCHEMA, PolhodeError, StoreError, write_whole
 from polhode.study import _libraries
 from polhode.study._block import Block
 from polhode.study._grid import Grid
@@ -48,20 +48,23 @@ class Store:
     @property
     def origin(self) -> Mapping[str, Any]:
         """What it was made with."""
-        return dict(self.group.attrs[ATTRIBUTE])
+        with intact(self.path):
+            return dict(self.group.attrs[ATTRIBUTE])
 
     @property
     def done(self) -> NDArray[np.bool_]:
         """Which chunks are done, shaped like the grid of chunks."""
-        return np.asarray(self.group[DONE][...]).astype(bool)
+        with intact(self.path):
+            return np.asarray(self.group[DONE][...]).astype(bool)
 
     def failed(self) -> int:
         """How many members that were followed have no result; read chunk by chunk."""
-        reason = self.group[REASON]
-        return sum(
-            int(np.sum(reason.blocks[tuple(place)] > Reason.DONE))
-            for place in np.argwhere(self.done)
-        )
+        with intact(self.path):
+            reason = self.group[REASON]
+            return sum(
+                int(np.sum(reason.blocks[tuple(place)] > Reason.DONE))
+                for place in np.argwhere(self.done)
+            )
 
     def write(self, grid: Grid, place: tuple[int, ...], block: Block) -> None:
         """Keep a chunk, and then that it is done.
@@ -71,7 +74,7 @@ class Store:
         """
         region = grid.region(place)
         shape = tuple(r.stop - r.start for r in region)
-        with written(self.path):
+        with intact(self.path), written(self.path):
             for name, values in block.values.items():
                 self.group[name][region] = values.reshape(*shape, *values.shape[1:])
             self.group[REASON][region] = block.reason.reshape(shape)
@@ -84,7 +87,8 @@ class Store:
         path = self._words(place)
         if not path.exists():
             return {}
-        return {int(i): text for i, text in json.loads(path.read_text()).items()}
+        with intact(self.path):
+            return {int(i): text for i, text in json.loads(path.read_text()).items()}
 
     def _words(self, place: tuple[int, ...]) -> Path:
         # Within an array: a group would take them for members of it.
@@ -160,10 +164,11 @@ def open_store(path: Path, mode: str = "r") -> Store:
     """
     if not path.exists():
         raise StoreError(f"{path} is not there", expected="a store that a sweep wrote")
+    library = zarr()
     try:
-        group = zarr().open_group(path, mode=mode, zarr_format=3)
+        group = library.open_group(path, mode=mode, zarr_format=3)
         schema = group.attrs[ATTRIBUTE]["schema"]
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except Exception as error:  # its library raises what it likes
         raise StoreError(
             f"{path} is no store of a sweep ({type(error).__name__})",
             expected="a folder that polhode sweep wrote",
@@ -183,12 +188,13 @@ def dataset(path: Path) -> xarray.Dataset:
     Raises:
         StoreError: where there is none, or xarray is not installed.
     """
-    store = open_store(path)
-    found: xarray.Dataset = _libraries.xarray().open_zarr(
-        path, consolidated=False, chunks=None, mask_and_scale=False
-    )
-    axes = store.origin["axes"]
-    return found.set_coords([axis["coordinate"] for axis in axes.values()])
+    store, library = open_store(path), _libraries.xarray()
+    with intact(path):
+        found: xarray.Dataset = library.open_zarr(
+            path, consolidated=False, chunks=None, mask_and_scale=False
+        )
+        axes = store.origin["axes"]
+        return found.set_coords([axis["coordinate"] for axis in axes.values()])
 
 
 @contextmanager
@@ -199,6 +205,25 @@ def _whole_or_gone(path: Path) -> Iterator[None]:
     except BaseException:
         rmtree(path, ignore_errors=True)
         raise
+
+
+@contextmanager
+def intact(path: Path) -> Iterator[None]:
+    """Around everything that only a store that was damaged makes fail.
+
+    Raises:
+        StoreError: where it fails.
+    """
+    try:
+        yield
+    except PolhodeError:
+        raise
+    except Exception as error:  # of a damaged file the libraries that read it raise what they like
+        raise StoreError(
+            f"{path} is damaged ({type(error).__name__}: {error})"[:300],
+            expected="a store as polhode sweep wrote it",
+            advice="take a copy of it, or compute it again under another name",
+        ) from error
 
 
 @contextmanager

@@ -33,7 +33,7 @@ from polhode.study._grid import SAMPLE, Grid, grid_of, split_axes
 from polhode.study._output import Output
 from polhode.study._outputs import outputs_of
 from polhode.study._refused import parameter_names, refuse_mistakes
-from polhode.study._store import Store, created, dataset, open_store
+from polhode.study._store import Store, created, dataset, intact, open_store
 
 if TYPE_CHECKING:
     import xarray
@@ -121,6 +121,10 @@ def sweep(
             _refuse_other(begun, origin)
             store = begun
         done = store.done
+        if done.shape != grid.chunks:
+            raise StoreError(
+                f"{path} is damaged: {done.shape} chunks", expected=f"{grid.chunks} of them"
+            )
         left = [place for place in grid.places() if not done[place]]
         chunks = ((place, grid.members(place, constants, fixed[1])) for place in left)
         with _shown(progress, store, grid) as tick:
@@ -135,7 +139,8 @@ def _begun(path: Path) -> Store | None:
 
 def _seed(seed: int | None, begun: Store | None) -> int:
     if seed is None and begun is not None:
-        return int(begun.origin["seed"] or 0)
+        with intact(begun.path):
+            return int(begun.origin["seed"] or 0)
     if seed is None:
         return int(np.random.SeedSequence().entropy) % 2**62  # type: ignore[arg-type]
     if seed < 0:

@@ -137,8 +137,8 @@ def test_a_system_without_contacts(tmp_path):
 
 
 def test_what_is_kept_is_kept_the_same_way_again(tmp_path, yanked):
-    first = archive_of(yanked, {})
-    second = archive_of(trajectory_of(first), {})
+    first = archive_of(yanked)
+    second = archive_of(trajectory_of(first))
     assert first.declaration == second.declaration
     assert first.details == second.details
     for one, other in zip(first.stretches, second.stretches, strict=True):
@@ -183,9 +183,7 @@ def changed(archive: Archive, **details) -> Archive:
 BAD = {
     "no details": lambda archive: replace(archive, details={}),
     "no declaration": lambda archive: replace(archive, declaration=""),
-    "another system": lambda archive: replace(
-        archive, declaration=archive_of(swung(), {}).declaration
-    ),
+    "another system": lambda archive: replace(archive, declaration=archive_of(swung()).declaration),
     "no events": lambda archive: replace(archive, events=({"time": 0.0},)),
     "forcing that is none": lambda archive: changed(archive, forcing="{}"),
     "no forcing": lambda archive: changed(
@@ -208,6 +206,6 @@ BAD = {
 
 @pytest.mark.parametrize("name", BAD)
 def test_archives_that_do_not_fit_together_are_refused(yanked, name):
-    archive = archive_of(yanked, {})
+    archive = archive_of(yanked)
     with pytest.raises(StoreError):
         trajectory_of(BAD[name](archive))

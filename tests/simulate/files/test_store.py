@@ -1,8 +1,9 @@
 """Motions in files: they come back as they were, others can read them, damage is told."""
 
-import io
+import json
 import random
 import sys
+from dataclasses import replace
 
 import h5py
 import numpy as np
@@ -12,6 +13,7 @@ import xarray
 from polhode.base import StoreError
 from polhode.simulate.files import _store
 from polhode.simulate.files._archive import Archive, Sampled, Stretch, series_of
+from polhode.simulate.files._payload import counted, packed, unpacked
 from polhode.simulate.files._store import read_archive, write_archive
 
 
@@ -36,14 +38,14 @@ ARCHIVE = Archive(
         {"time": 0.1 + 0.2, "kind": "slips", "from": "rolling", "to": "sliding"},
     ),
     times=TIMES,
-    samples={
-        "theta": Sampled("rad", np.sin(7 * TIMES)),
-        "F_x/N": Sampled("kg m/s^2", np.full(50, np.nan)),
-        "mu": Sampled("", TIMES),
-    },
     details={"integrator": "heyoka", "assumed": {"x": 0.0}},
     origin={"schema": 2, "versions": {"polhode": "0"}, "seed": None},
 )
+SAMPLES = {
+    "theta": Sampled("rad", np.sin(7 * TIMES)),
+    "F_x/N": Sampled("kg m/s^2", np.full(50, np.nan)),
+    "mu": Sampled("", TIMES),
+}
 
 
 @pytest.fixture
@@ -53,7 +55,7 @@ def path(tmp_path):
 
 @pytest.fixture
 def content(path):
-    write_archive(path, ARCHIVE)
+    write_archive(path, ARCHIVE, SAMPLES)
     return path.read_bytes()
 
 
@@ -61,10 +63,6 @@ def assert_same(first: Archive, second: Archive) -> None:
     for name in ("declaration", "parameters", "events", "details", "origin"):
         assert getattr(first, name) == getattr(second, name)
     assert np.array_equal(first.times, second.times)
-    assert list(first.samples) == list(second.samples)
-    for name, sampled in first.samples.items():
-        assert sampled.unit == second.samples[name].unit
-        assert np.array_equal(sampled.values, second.samples[name].values, equal_nan=True)
     for one, other in zip(first.stretches, second.stretches, strict=True):
         assert (one.segment, one.mode, one.states) == (other.segment, other.mode, other.states)
         assert list(one.constants.items()) == list(other.constants.items())
@@ -97,13 +95,13 @@ def test_a_motion_comes_back_as_it_was(path, content):
 
 
 def test_the_same_motion_is_the_same_file(path, content):
-    write_archive(path, ARCHIVE)
+    write_archive(path, ARCHIVE, SAMPLES)
     assert path.read_bytes() == content
 
 
 def test_an_empty_motion(path):
-    nothing = Archive("", {}, (), (), np.zeros(0), {})
-    write_archive(path, nothing)
+    nothing = Archive("", {}, (), (), np.zeros(0))
+    write_archive(path, nothing, {})
     assert_same(read_archive(path), nothing)
 
 
@@ -121,8 +119,7 @@ def test_hdf5_shows_what_it_was_made_of(path, content):
     with h5py.File(path) as root:
         motion = root["polhode.motion"]
         assert motion["declaration"].asstr()[()] == ARCHIVE.declaration
-        assert motion["parameters/names"].asstr()[()].tolist() == ["g", "k", "tiny"]
-        assert motion["stretch 000001"].attrs["mode"] == "rolling"
+        assert json.loads(motion["parameters"].asstr()[()]) == ARCHIVE.parameters
 
 
 # -- what goes wrong -------------------------------------------------------------------------------
@@ -161,90 +158,159 @@ def test_a_file_that_is_not_there(tmp_path):
 
 def test_a_folder_that_is_not_there(tmp_path):
     with pytest.raises(StoreError, match="cannot be written"):
-        write_archive(tmp_path / "none" / "motion.h5", ARCHIVE)
+        write_archive(tmp_path / "none" / "motion.h5", ARCHIVE, SAMPLES)
 
 
 def test_what_was_there_is_kept_if_writing_fails(path, content):
     with pytest.raises(TypeError):
-        write_archive(path, Archive("", {}, (), ({"time": object()},), TIMES, {}))
+        write_archive(path, replace(ARCHIVE, events=({"time": object()},)), SAMPLES)
     assert path.read_bytes() == content
 
 
-def test_without_h5py_it_says_what_to_install(path, content, monkeypatch):
+def test_without_h5py_it_says_what_to_install(path, monkeypatch):
     monkeypatch.setitem(sys.modules, "h5py", None)
-    for use in (lambda: read_archive(path), lambda: write_archive(path, ARCHIVE)):
-        with pytest.raises(
-            StoreError, match=r"h5py is not installed.*pip install 'polhode\[data\]'"
-        ):
-            use()
+    with pytest.raises(StoreError, match=r"h5py is not installed.*pip install 'polhode\[data\]'"):
+        write_archive(path, ARCHIVE, SAMPLES)
 
 
-def altered(content, change):
-    """A file with a right checksum whose inside was changed by other means."""
-    seal = len(_store._seal(b""))
-    memory = io.BytesIO(content[:-seal])
-    with h5py.File(memory, "r+") as root:
-        change(root)
-    inside = memory.getvalue()
+def test_a_motion_is_read_without_h5py(path, content, monkeypatch):
+    """Its library can be brought to hang, or to end the process, by a file made to."""
+    monkeypatch.setitem(sys.modules, "h5py", None)
+    assert_same(read_archive(path), ARCHIVE)
+
+
+def test_what_precedes_the_motion_is_not_looked_at(path, content):
+    path.write_bytes(sealed(packed(ARCHIVE), before=b"\x89HDF\r\n\x1a\n" + b"\xff" * 5000))
+    assert_same(read_archive(path), ARCHIVE)
+
+
+def test_a_file_of_an_earlier_version_says_so(path):
+    path.write_bytes(b"\x89HDF\r\n\x1a\n" + b"0" * 5000 + b"polhode sha-256:" + b"1" * 32)
+    with pytest.raises(StoreError, match="written by an earlier version"):
+        read_archive(path)
+
+
+@pytest.mark.parametrize("name", ["/dev/zero", "."])
+def test_what_is_no_file(name):
+    with pytest.raises(StoreError, match="cannot be read"):
+        read_archive(name)
+
+
+# -- a right checksum, and altered contents --------------------------------------------------------
+
+
+def sealed(payload, before=b"\x89HDF\r\n\x1a\n"):
+    inside = before + payload + counted(len(payload))
     return inside + _store._seal(inside)
 
 
-def replaced(name, value):
-    def change(root):
-        del root[name]
-        root[name] = value
+def taken_apart(payload):
+    length = int.from_bytes(payload[:8], "little")
+    return json.loads(payload[8 : 8 + length]), payload[8 + length :]
+
+
+def put_together(document, arrays):
+    text = document if isinstance(document, bytes) else json.dumps(document).encode()
+    return counted(len(text)) + text + arrays
+
+
+def having(**changes):
+    """A document with other values under some names."""
+    return lambda document, arrays: put_together({**document, **changes}, arrays)
+
+
+def first_stretch(**changes):
+    def change(document, arrays):
+        first, *others = document["stretches"]
+        return put_together({**document, "stretches": [{**first, **changes}, *others]}, arrays)
 
     return change
 
 
-def external(root):
-    del root["polhode.motion/declaration"]
-    root["polhode.motion/declaration"] = h5py.ExternalLink("/etc/passwd", "/")
+def without(name):
+    def change(document, arrays):
+        return put_together({k: v for k, v in document.items() if k != name}, arrays)
+
+    return change
 
 
-def compressed(root):
-    del root["t"]
-    root.create_dataset("t", data=TIMES, chunks=(50,), compression="gzip")
+def doubles(change):
+    def changed(document, arrays):
+        return put_together(document, change(np.frombuffer(arrays).copy()).tobytes())
+
+    return changed
 
 
-def enormous(root):
-    del root["polhode.motion/stretch 000000/knots"]
-    root["polhode.motion/stretch 000000"].create_dataset("knots", shape=(10**9,), dtype="f8")
+def put(place, value):
+    def change(numbers):
+        numbers[place] = value
+        return numbers
+
+    return doubles(change)
 
 
-PART = "polhode.motion/stretch 000000"
 CHANGES = {
-    "another format": lambda root: root.attrs.modify("format", "picture"),
-    "another schema": lambda root: root.attrs.modify("schema", 99),
-    "no declaration": lambda root: root["polhode.motion"].pop("declaration"),
-    "no group": lambda root: root.pop("polhode.motion"),
-    "a group for a list": lambda root: root.move("t", "polhode.motion/t"),
-    "events that are no JSON": replaced("polhode.motion/events", "["),
-    "events that are no table": replaced("polhode.motion/events", "[1, 2]"),
-    "events that are deep": replaced("polhode.motion/events", "[" * 100_000),
-    "details that are a list": replaced("polhode.motion/details", "[]"),
-    "a declaration of numbers": replaced("polhode.motion/declaration", 3.0),
-    "values for other times": replaced("mu", np.zeros(3)),
-    "whole numbers": replaced("t", np.arange(50)),
-    "a plane of times": replaced("t", np.zeros((50, 2))),
-    "knots that fall": replaced(f"{PART}/knots", np.linspace(1, 0, 7)),
-    "knots that do not fit": replaced(f"{PART}/knots", np.linspace(0, 1, 4)),
-    "no mode": lambda root: root[PART].attrs.pop("mode"),
-    "a segment that is a text": lambda root: root[PART].attrs.update({"segment": "1st"}),
-    "names without values": replaced("polhode.motion/parameters/names", ["g"]),
-    "a link elsewhere": external,
-    "a filter": compressed,
-    "more than there is": enormous,
+    "another format": having(format="picture"),
+    "another schema": having(schema=99),
+    "no declaration": without("declaration"),
+    "no times": without("times"),
+    "no stretches": without("stretches"),
+    "a declaration of numbers": having(declaration=3.0),
+    "half a character": having(declaration="\ud800"),
+    "events that are no list": having(events={}),
+    "events that are numbers": having(events=[1, 2]),
+    "details that are a list": having(details=[]),
+    "a parameter that is no number": having(parameters={"g": "9.81"}),
+    "a parameter that is not finite": having(parameters={"g": float("nan")}),
+    "a parameter beyond all numbers": having(parameters={"g": 10**400}),
+    "more times than there are": having(times=10**9),
+    "fewer times than there are": having(times=40),
+    "less than no times": having(times=-1),
+    "times that are true": having(times=True),
+    "enormous counts": first_stretch(pieces=10**12, order=10**12),
+    "counts beyond all counting": first_stretch(pieces=10**40),
+    "no pieces": first_stretch(pieces=0),
+    "no states": first_stretch(states=[]),
+    "states that are numbers": first_stretch(states=[1, 2, 3, 4]),
+    "a mode that is none": first_stretch(mode=None),
+    "a segment that is a text": first_stretch(segment="1st"),
+    "a segment before the first": first_stretch(segment=-1),
+    "constants that are a list": first_stretch(constants=[1.0]),
+    "no JSON": lambda document, arrays: put_together(b"[", arrays),
+    "no text": lambda document, arrays: put_together(b"\xff\xfe{}", arrays),
+    "a document that is deep": lambda document, arrays: put_together(b"[" * 10**6, arrays),
+    "a document that is a list": lambda document, arrays: put_together(b"[]", arrays),
+    "numbers of many digits": lambda document, arrays: put_together(b"9" * 10**6, arrays),
+    "nothing": lambda document, arrays: b"",
+    "a length that is too long": lambda document, arrays: counted(2**60) + b"{}",
+    "part of a number": lambda document, arrays: put_together(document, arrays[:-3]),
+    "a number less": doubles(lambda numbers: numbers[:-1]),
+    "a number more": doubles(lambda numbers: np.append(numbers, 1.0)),
+    "a time that is not finite": put(3, np.nan),
+    "a state that is not finite": put(-1, np.inf),
+    "steps that fall": put(len(TIMES) + 2, -5.0),
+    "knots that begin elsewhere": put(len(TIMES) + 7, -5.0),
 }
 
 
 @pytest.mark.parametrize("name", CHANGES)
-def test_files_that_were_tampered_with_are_refused(path, content, name):
-    path.write_bytes(altered(content, CHANGES[name]))
+def test_files_that_were_tampered_with_are_refused(path, name):
+    path.write_bytes(sealed(CHANGES[name](*taken_apart(packed(ARCHIVE)))))
     with pytest.raises(StoreError, match="is damaged"):
         read_archive(path)
 
 
-def test_a_file_altered_in_nothing_is_read(path, content):
-    path.write_bytes(altered(content, lambda root: None))
+def test_a_length_that_is_longer_than_the_file(path):
+    inside = b"\x89HDF\r\n\x1a\n" + counted(2**63)
+    path.write_bytes(inside + _store._seal(inside))
+    with pytest.raises(StoreError, match="is damaged"):
+        read_archive(path)
+
+
+def test_a_file_altered_in_nothing_is_read(path):
+    path.write_bytes(sealed(put_together(*taken_apart(packed(ARCHIVE)))))
     assert_same(read_archive(path), ARCHIVE)
+
+
+def test_bytes_come_back_as_the_motion():
+    assert_same(unpacked(packed(ARCHIVE)), ARCHIVE)

@@ -16,6 +16,7 @@ from types import CodeType, FunctionType
 from typing import Any, NamedTuple, TypeAlias
 
 from polhode.algebra._generators import Symbol
+from polhode.base import NumericError
 
 
 class Op(Enum):
@@ -96,6 +97,9 @@ class Program:
 
         Numbers are rounded once to the arithmetic's nearest. An output that depends on no
         argument comes as a single number whatever the shape of the arguments.
+
+        Raises:
+            NumericError: for a coefficient beyond the arithmetic's numbers.
         """
         names = {f"_{op.value}": call for op, call in arithmetic.functions.items()}
         names |= _numbers(self, arithmetic)
@@ -113,11 +117,23 @@ def _numbers(program: Program, arithmetic: Arithmetic) -> dict[str, Any]:
     """The constants, under the names by which the code knows them."""
     steps = enumerate(program.instructions)
     constants = {
-        f"c{i}": arithmetic.number(Fraction(step.value or 0))
+        f"c{i}": _rounded(Fraction(step.value or 0), arithmetic)
         for i, step in steps
         if step.op is Op.CONST
     }
     return {**constants, "pi": arithmetic.pi}
+
+
+def _rounded(value: Fraction, arithmetic: Arithmetic) -> Any:
+    try:
+        return arithmetic.number(value)
+    except OverflowError as error:
+        power = round(math.log10(abs(value.numerator)) - math.log10(value.denominator))
+        raise NumericError(
+            f"a coefficient of about 1e{power} in an expression",
+            expected="coefficients within the range of the numbers that it is computed in",
+            advice="check the units and powers in the declaration",
+        ) from error
 
 
 def _code(program: Program) -> CodeType:

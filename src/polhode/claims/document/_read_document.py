@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from polhode.base import ParseError
+from polhode.base import ParseError, read_whole
 from polhode.claims.document._document import CONTEXTS, QUANTIFIERS, Claim, Document, Part
 from polhode.claims.document._document_table import Table, tables
 
@@ -34,7 +34,7 @@ def read_document(source: str | Path) -> Document:
 
     Raises:
         ParseError: for what is no such document, with the line, the field and what to do.
-        OSError: for a file that cannot be opened.
+        StoreError: for a file that cannot be read.
     """
     text = _text_of(source) if isinstance(source, Path) else source
     if len(text) > LONGEST:
@@ -52,8 +52,9 @@ def read_document(source: str | Path) -> Document:
 
 
 def _text_of(path: Path) -> str:
+    content = read_whole(path, "a document of claims in TOML")
     try:
-        return path.read_bytes().decode("utf-8").replace("\r\n", "\n")
+        return content.decode("utf-8").replace("\r\n", "\n")
     except UnicodeDecodeError as error:
         raise ParseError(
             f"{path.name}, which is not UTF-8 from byte {error.start} on",

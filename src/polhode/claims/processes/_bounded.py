@@ -8,11 +8,10 @@ from dataclasses import replace
 from functools import partial
 from math import inf
 
-from polhode.base import NumericError, ParseError
+from polhode.base import NumericError, ParseError, Sitting, Tell, can_part, within
 from polhode.claims._check import Enquiry
 from polhode.claims._verdict import Verdict
 from polhode.claims.meaning._the import The
-from polhode.claims.processes._patience import Sitting, Tell, can_part, within
 from polhode.derive import Equations, equations_only
 
 LONGEST = 60.0  # s of processor time

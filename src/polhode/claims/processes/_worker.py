@@ -10,7 +10,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection
 
-from polhode.base import bound_memory, bound_time
+from polhode.base import bound_memory, bound_time, ended_with
 from polhode.claims._audit import Desk
 from polhode.claims._verdict import Answer, Verdict
 from polhode.claims.document._document import Claim, Part
@@ -73,7 +73,9 @@ def work(requests: Connection, replies: Connection) -> None:
             part = parts[request.claim.part] = request.subject.part
             systems[part.system] = request.subject.system
         bound_time(request.seconds)
-        replies.send((_verdict(desk, parts[request.claim.part], request.claim, replies), True))
+        with ended_with(requests.fileno()):
+            verdict = _verdict(desk, parts[request.claim.part], request.claim, replies)
+        replies.send((verdict, True))
         bound_time(0)
 
 

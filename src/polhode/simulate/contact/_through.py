@@ -54,6 +54,7 @@ class ThroughModes:
             begun.start.assumed,
             unguarded=False,
             begun=begun,
+            drive=self._drive,
             guarded=Guarded(machine, apart),
         )
 

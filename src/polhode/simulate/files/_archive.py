@@ -115,7 +115,6 @@ class Archive:
         stretches: in order of time.
         events: each by its time, kind and modes.
         times: of the samples, s.
-        samples: by name of the quantity.
         details: whatever else belongs to it and can be written as JSON.
         origin: schema, versions and seed it was made with.
     """
@@ -125,6 +124,5 @@ class Archive:
     stretches: tuple[Stretch, ...]
     events: tuple[Mapping[str, Any], ...]
     times: Array
-    samples: Mapping[str, Sampled]
     details: Mapping[str, Any] = field(default_factory=dict)
     origin: Mapping[str, Any] = field(default_factory=lambda: dict(provenance()))

@@ -3,23 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from itertools import groupby, pairwise
+from math import inf
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from polhode.algebra import SHAPES, Expr, Kind, Symbol
-from polhode.base import Codec, PolhodeError, Shape, StoreError
+from polhode.algebra import Expr, Symbol
+from polhode.base import NumericError, PolhodeError, StoreError, Tell, within
 from polhode.derive import Automaton, automaton, derive
 from polhode.model import System, read_declaration, write_declaration
-from polhode.simulate._dynamics import Dynamics
-from polhode.simulate._event import Event, placed
+from polhode.simulate._dynamics import WORK, Dynamics
+from polhode.simulate._event import placed
 from polhode.simulate._segment import Part, Segment
 from polhode.simulate._task import AS_DECLARED
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate.contact._machine import Machine
-from polhode.simulate.files._archive import Archive, Sampled, Stretch, series_of
+from polhode.simulate.files._archive import Archive, Stretch, series_of
+from polhode.simulate.files._details import (
+    Details,
+    details_of,
+    label,
+    read_details,
+    read_event,
+    symbol,
+)
 from polhode.simulate.files._sampling import samples_of
 from polhode.simulate.files._store import read_archive, write_archive
 from polhode.simulate.forcing._drive import Drive
@@ -28,22 +36,7 @@ from polhode.simulate.integrate._integrators import chosen
 from polhode.simulate.integrate._numbers import DOUBLES
 from polhode.simulate.integrate._watched import Stop
 
-
-@dataclass(frozen=True)
-class _Table:
-    """Expressions under symbols or names."""
-
-    rows: tuple[tuple[Symbol | str, Expr], ...]
-
-
-def _table(rows: tuple[tuple[Any, Any], ...]) -> _Table:
-    for name, expression in rows:
-        if not isinstance(name, Symbol | str) or not isinstance(expression, Expr):
-            raise ValueError("a table of something else than expressions")
-    return _Table(rows)
-
-
-_CODEC = Codec((*SHAPES, Shape("table", (_Table,), lambda table: {"rows": table.rows}, _table)))
+LONGEST = 60.0  # s of processor time
 
 
 def save(run: Trajectory, path: str | Path) -> None:
@@ -59,24 +52,50 @@ def save(run: Trajectory, path: str | Path) -> None:
             expected="a motion in doubles",
             advice="save run.rounded(), or its samples with to_csv, which keeps all digits",
         )
-    write_archive(path, archive_of(run, samples_of(run)))
+    write_archive(path, archive_of(run), samples_of(run))
 
 
-def load(path: str | Path) -> Trajectory:
+def load(path: str | Path, *, seconds: float | None = LONGEST) -> Trajectory:
     """The motion that was kept in a file, known at every instant as it was.
 
-    Its equations are derived again from the declaration in the file; nothing in it is run.
+    Its equations are derived again from the declaration in the file; nothing in it is run. A file
+    may have been made to declare what takes for ever: so they are derived first in a process that
+    is ended where it takes too long. On macOS and Windows that is interrupted instead, between
+    steps of Python and in the main thread alone.
+
+    Args:
+        path: of the file.
+        seconds: of processor time that the equations may take; None for a file that is trusted,
+            for as long as they take.
 
     Raises:
-        StoreError: for a file that is damaged, or that polhode did not write.
+        StoreError: for a file that is damaged, or that polhode did not write, and for one whose
+            equations take longer, or too much memory.
     """
-    return trajectory_of(read_archive(path))
+    archive = read_archive(path)
+    if seconds is not None:
+        _rehearse(archive, seconds)
+    return trajectory_of(archive)
+
+
+def _rehearse(archive: Archive, seconds: float) -> None:
+    """See in a process of its own that a motion can be had in time."""
+    if not 0 < seconds < inf:
+        raise StoreError(f"{seconds!r} s to load in", expected="some time, or None for no bound")
+
+    def rehearsed(tell: Tell[None]) -> None:
+        trajectory_of(archive)
+
+    try:
+        within(seconds, rehearsed, advice="allow more with load(path, seconds=...)")
+    except NumericError as error:
+        raise _unfit(str(error)) from error
 
 
 # -- from a trajectory -----------------------------------------------------------------------------
 
 
-def archive_of(run: Trajectory, samples: Mapping[str, Sampled]) -> Archive:
+def archive_of(run: Trajectory) -> Archive:
     """What is kept of a motion.
 
     Raises:
@@ -88,24 +107,13 @@ def archive_of(run: Trajectory, samples: Mapping[str, Sampled]) -> Archive:
         for part in segment.parts
         if part.begin < part.end
     ]
-    turned = {_label(s): _label(t) for *_, p in parts for s, t in p.solution.turned.items()}
     return Archive(
         declaration=write_declaration(run.system),
         parameters=run.parameters,
         stretches=tuple(_stretch(i, segment, part) for i, segment, part in parts),
         events=tuple(event.as_json() for event in run.events),
         times=run.t,
-        samples=samples,
-        details={
-            "duration": run.duration,
-            "mode": run.mode,
-            "assumed": dict(run.assumed),
-            "seconds": dict(run.seconds),
-            "integrator": run.integrator,
-            "turned": turned,
-            "forcing": _CODEC.write(_Table(tuple(run.dynamics.prescribed.items()))),
-            "invariants": _CODEC.write(_Table(tuple(run.invariants.items()))),
-        },
+        details=details_of(run).as_json(),
     )
 
 
@@ -117,16 +125,12 @@ def _stretch(number: int, segment: Segment, part: Part) -> Stretch:
     return Stretch(
         segment=number,
         mode=segment.mode,
-        states=tuple(map(_label, solution.symbols)),
+        states=tuple(map(label, solution.symbols)),
         constants=dict(zip(names, part.constants.tolist(), strict=True)),
         steps=steps,
         knots=knots,
         series=series,
     )
-
-
-def _label(symbol: Symbol) -> str:
-    return f"{symbol.kind.value} {symbol.order} {symbol.name}"
 
 
 # -- and back --------------------------------------------------------------------------------------
@@ -139,27 +143,28 @@ def trajectory_of(archive: Archive) -> Trajectory:
         StoreError: for an archive that does not fit together.
     """
     system = read_declaration(archive.declaration)
-    if not archive.stretches:
-        raise _unfit("there is nothing in it")
-    details = archive.details
     try:
-        invariants = dict(_CODEC.read(details["invariants"], _Table).rows)
-        segments = tuple(_segments(archive, system))
-        events = (Event(e["time"], e["kind"], e["from"], e["to"]) for e in archive.events)
+        details = read_details(archive.details)
+        _refuse_gaps(archive, details.duration)
+        segments = tuple(_segments(archive, system, details))
+        events = (read_event(event, details.duration) for event in archive.events)
         return Trajectory(
             system=system,
             segments=segments,
             parameters=archive.parameters,
-            duration=float(details["duration"]),
+            duration=details.duration,
             t=archive.times,
-            mode=details["mode"],
+            mode=details.mode,
             events=placed(events, segments),
-            assumed=details["assumed"],
-            seconds=details["seconds"],
-            integrator=details["integrator"],
-            invariants={str(name): value for name, value in invariants.items()},
+            assumed=details.assumed,
+            seconds=details.seconds,
+            integrator=details.integrator,
+            invariants=details.invariants,
+            resolution=details.resolution,
         )
-    except (PolhodeError, LookupError, TypeError, ValueError) as error:
+    except (ArithmeticError, AttributeError, LookupError, RecursionError) as error:
+        raise _unfit(str(error)) from error
+    except (PolhodeError, TypeError, ValueError) as error:
         raise _unfit(str(error)) from error
 
 
@@ -169,16 +174,29 @@ def _unfit(what: str) -> StoreError:
     )
 
 
-def _segments(archive: Archive, system: System) -> Iterable[Segment]:
-    forcing = dict(_CODEC.read(archive.details["forcing"], _Table).rows)
-    prescribed = {s: e for s, e in forcing.items() if isinstance(s, Symbol)}
-    turned = {_symbol(a): _symbol(b) for a, b in archive.details["turned"].items()}
-    known = _Modes(automaton(system), prescribed)
-    numbers = sorted({stretch.segment for stretch in archive.stretches})
-    for number in numbers:
-        own = [stretch for stretch in archive.stretches if stretch.segment == number]
+def _refuse_gaps(archive: Archive, duration: float) -> None:
+    """See that the stretches are one motion, from 0 to its end, with samples along it."""
+    stretches = archive.stretches
+    if not stretches:
+        raise ValueError("there is nothing in it")
+    ends = [0.0, *(stretch.end for stretch in stretches)]
+    if any(s.begin != end for s, end in zip(stretches, ends, strict=False)) or ends[-1] != duration:
+        raise ValueError("stretches that do not follow one another from 0 to the end")
+    numbers = [0, *(stretch.segment for stretch in stretches)]
+    if any(after - before not in (0, 1) for before, after in pairwise(numbers)):
+        raise ValueError("segments that do not follow one another")
+    if not np.all((archive.times >= 0) & (archive.times <= duration)):
+        raise ValueError("samples outside the motion")
+
+
+def _segments(archive: Archive, system: System, details: Details) -> Iterable[Segment]:
+    known = _Modes(automaton(system), details.prescribed)
+    for _, group in groupby(archive.stretches, lambda stretch: stretch.segment):
+        own = list(group)
+        if len({stretch.mode for stretch in own}) > 1:
+            raise ValueError("a segment in several modes")
         dynamics = known.dynamics(own[0])
-        parts = tuple(_part(stretch, dynamics, turned) for stretch in own)
+        parts = tuple(_part(stretch, dynamics, details.turned) for stretch in own)
         yield Segment(own[0].mode, parts[0].begin, parts[-1].end, dynamics, parts)
 
 
@@ -207,7 +225,10 @@ class _Modes:
 
 
 def _part(stretch: Stretch, dynamics: Dynamics, turned: Mapping[Symbol, Symbol]) -> Part:
-    symbols = tuple(map(_symbol, stretch.states))
+    symbols = tuple(map(symbol, stretch.states))
+    missing = set(dynamics.states) - set(symbols) - {WORK}
+    if missing or len(set(symbols)) < len(symbols):
+        raise ValueError("states that are not those of the system")
     solution = Solution(
         symbols,
         {angle: less for angle, less in turned.items() if less in symbols},
@@ -218,8 +239,3 @@ def _part(stretch: Stretch, dynamics: Dynamics, turned: Mapping[Symbol, Symbol])
     )
     constants = np.array([stretch.constants[s.published] for s in dynamics.parameters])
     return Part(stretch.begin, stretch.end, solution, constants)
-
-
-def _symbol(label: str) -> Symbol:
-    kind, order, name = label.split(" ", 2)
-    return Symbol(name, Kind(kind), int(order))

@@ -2,33 +2,48 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise
 from math import inf, isfinite
 
 import numpy as np
-from numpy.polynomial import chebyshev
+from numpy.polynomial import chebyshev, polynomial
 
 from polhode.base import NumericError
-from polhode.simulate.forcing._pieces import Pieces
+from polhode.simulate.forcing._approximation import (
+    Approximation,
+    Function,
+    looked_at,
+    values_of,
+)
 from polhode.simulate.integrate._stepping import Array
-
-Function = Callable[[float], float]
 
 _DEGREE = 11
 _ROUNDING = 6 * np.finfo(float).eps
 _NOTHING = np.finfo(float).eps / 2  # a coefficient that small is rounding
+_LEAST = np.finfo(float).tiny  # numbers below have fewer digits
 _HELPED = 64  # by what halving a piece reduces its error at least, and in fact by 4096
 _AT_ENDS = 16  # roundings by which a piece may be off where it ends
 _SHORTEST = 1e-7  # length of a piece over the whole: shorter ones mean a corner
 _MOST = 100_000  # pieces
+_LOOKS = 2000  # resolutions in a span, where none is given
+_MOST_LOOKS = 10_000_000
 
 
 def approximated(
-    function: Function, start: float, end: float, *, corners: Iterable[float] = ()
-) -> Pieces:
+    function: Function,
+    start: float,
+    end: float,
+    *,
+    corners: Iterable[float] = (),
+    resolution: float | None = None,
+) -> Approximation:
     """A smooth Python function of time as polynomials that agree with it to rounding.
+
+    The function is evaluated at times that are at most the resolution apart, and more often where
+    that is not enough. So nothing that it does for longer than the resolution is missed; what it
+    does for less may be. A motion that is computed with it evaluates it again between its steps.
 
     Outside the span it is at rest where the span ends.
 
@@ -37,20 +52,64 @@ def approximated(
         start: s.
         end: s.
         corners: times at which the function or its rate jumps.
+        resolution: s; by default a 2000th of the span. The function is evaluated 1.6 times in
+            every resolution.
 
     Raises:
-        NumericError: for a function that has no finite value, or is not smooth between corners.
+        NumericError: for a function that has no finite value, or is not smooth between corners,
+            and for a resolution that is none.
     """
     bounds = [start, *sorted(float(t) for t in corners if start < t < end), end]
     if not (isfinite(start) and isfinite(end) and start < end):
         raise NumericError(f"a span from {start:g} s to {end:g} s", expected="a span of time")
+    finest = _resolution(resolution, end - start)
     knots, tables, jerks = np.array([start]), list[Array](), list[int]()
+    allowed = list[Array]()
     for left, right in pairwise(bounds):
-        ends, table = _joined(_resolved(function, left, right, _SHORTEST * (end - start)))
+        seen = _seen(function, left, right, finest)
+        pieces = _resolved(function, left, right, _SHORTEST * (end - start), seen)
+        ends, table = _joined(pieces)
         knots = np.concatenate([knots, ends])
         tables.append(table)
         jerks.append(len(knots) - 1)
-    return Pieces(knots, np.vstack(tables), tuple(jerks[:-1]))
+        allowed.append(np.array([2 * piece.allowed for piece in pieces]))  # and for the joints
+    return Approximation(
+        knots,
+        np.vstack(tables),
+        tuple(jerks[:-1]),
+        resolution=finest,
+        function=function,
+        allowed=np.concatenate(allowed),
+    )
+
+
+def _resolution(given: float | None, span: float) -> float:
+    if given is None:
+        return span / _LOOKS
+    if not (isfinite(given) and span / _MOST_LOOKS <= given):
+        raise NumericError(
+            f"a resolution of {given:g} s over {span:g} s",
+            expected=f"a time of at least {span / _MOST_LOOKS:g} s",
+            advice="give the duration of the shortest thing that the function does",
+        )
+    return float(given)
+
+
+@dataclass(frozen=True)
+class _Seen:
+    """Values of the function at increasing times that no polynomial is made of."""
+
+    times: Array
+    values: Array
+
+    def within(self, left: float, right: float) -> _Seen:
+        first, last = np.searchsorted(self.times, [left, right]).tolist()
+        return _Seen(self.times[first:last], self.values[first:last])
+
+
+def _seen(function: Function, left: float, right: float, resolution: float) -> _Seen:
+    times = looked_at(left, right, resolution)
+    return _Seen(times, values_of(function, times))
 
 
 @dataclass(frozen=True)
@@ -61,6 +120,7 @@ class _Piece:
         size: of the function's values.
         rounding: what the function's values are uncertain by, as far as they tell.
         error: by how much they differ from it between the values that it was made of.
+        allowed: by how much they may differ from it elsewhere.
     """
 
     left: float
@@ -69,22 +129,34 @@ class _Piece:
     size: float
     rounding: float
     error: float
+    allowed: float
+
+    def passes_by(self, seen: _Seen) -> bool:
+        """Whether it differs by more than allowed from one of the function's values within it."""
+        own = seen.within(self.left, self.right)
+        values = polynomial.polyval(own.times - self.left, self.powers)
+        return bool(np.any(np.abs(values - own.values) > self.allowed))
 
 
-def _resolved(function: Function, left: float, right: float, shortest: float) -> list[_Piece]:
+def _resolved(
+    function: Function, left: float, right: float, shortest: float, seen: _Seen
+) -> list[_Piece]:
     """Pieces from left to right, halved until each agrees with the function."""
-    whole = _fitted(function, left, right)
+    noise = _ROUNDING * float(np.max(np.abs(seen.values)))
+    whole = _fitted(function, left, right, noise)
+    noise = max(noise, _ROUNDING * whole.size)
     done, waiting = list[_Piece](), [(whole, inf)]
     while waiting:
         piece, before = waiting.pop()
         a, b = piece.left, piece.right
-        if _agrees(piece, before, _ROUNDING * whole.size):
+        is_short = b - a < shortest
+        if _agrees(piece, 0.0 if is_short else before, noise) and not piece.passes_by(seen):
             done.append(piece)
-        elif b - a < shortest or len(done) > _MOST:
+        elif is_short or len(done) > _MOST:
             raise _not_smooth(a)
         else:
             halves = ((a + b) / 2, b), (a, (a + b) / 2)
-            waiting += [(_fitted(function, *half), piece.error) for half in halves]
+            waiting += [(_fitted(function, *half, noise), piece.error) for half in halves]
     return done
 
 
@@ -96,18 +168,20 @@ def _agrees(piece: _Piece, before: float, noise: float) -> bool:
     return piece.error <= piece.rounding or before / _HELPED < piece.error <= noise
 
 
-def _fitted(function: Function, left: float, right: float) -> _Piece:
+def _fitted(function: Function, left: float, right: float, noise: float) -> _Piece:
     """The polynomial through the function's values, compared with it in between."""
     values = _values(function, left, right, _NODES)
     series = _SERIES @ (values - values[0])
     size = float(np.max(np.abs(values)))
     series[np.abs(series) < _NOTHING * size] = 0.0
     series[0] += values[0]
-    error = chebyshev.chebval(_BETWEEN, series) - _values(function, left, right, _BETWEEN)
+    apart = chebyshev.chebval(_BETWEEN, series) - _values(function, left, right, _BETWEEN)
+    error = float(np.max(np.abs(apart)))
     rate = float(np.max(np.abs(np.diff(values) / np.diff(_NODES)))) * 2 / (right - left)
-    rounding = _ROUNDING * (size + max(abs(left), abs(right)) * rate)
+    rounding = _ROUNDING * (size + max(abs(left), abs(right)) * rate) + _LEAST
     powers = _POWERS @ series / (right - left) ** np.arange(_DEGREE + 1)
-    return _Piece(left, right, powers, size, rounding, float(np.max(np.abs(error))))
+    allowed = _AT_ENDS * max(rounding, error, noise)
+    return _Piece(left, right, powers, size, rounding, error, allowed)
 
 
 def _not_smooth(time: float) -> NumericError:
@@ -120,20 +194,7 @@ def _not_smooth(time: float) -> NumericError:
 
 def _values(function: Function, left: float, right: float, places: Array) -> Array:
     """Of the function, at places between -1 and 1."""
-    times = (left + right + (right - left) * places) / 2
-    try:
-        values = np.array([float(function(t)) for t in times.tolist()])
-    except Exception as error:  # whatever a user's function may raise
-        raise NumericError(
-            f"a prescribed motion that fails between {left:.6g} s and {right:.6g} s ({error})",
-            expected="a function from a time in seconds to a number",
-        ) from error
-    if not np.all(np.isfinite(values)):
-        raise NumericError(
-            f"a prescribed motion that is not finite at t = {times[~np.isfinite(values)][0]:.6g} s",
-            expected="a number at every time",
-        )
-    return values
+    return values_of(function, (left + right + (right - left) * places) / 2)
 
 
 def _joined(pieces: list[_Piece]) -> tuple[Array, Array]:
@@ -155,7 +216,7 @@ def _joined(pieces: list[_Piece]) -> tuple[Array, Array]:
         ]
     )
     apart = table.T[:2, 1:] - reached[:, :-1]
-    unsure = _AT_ENDS * np.array([max(piece.rounding, piece.error) for piece in pieces])
+    unsure = np.array([piece.allowed for piece in pieces])
     unsure = np.array([unsure, 2 * _DEGREE**2 / span * unsure])  # Markov's inequality
     torn = np.flatnonzero(np.any(np.abs(apart) > unsure[:, 1:] + unsure[:, :-1], axis=0))
     if len(torn):

@@ -12,8 +12,10 @@ from typing import Any
 from polhode.algebra import ZERO, Expr, Kind, Symbol, time
 from polhode.base import DeclarationError, look_up
 from polhode.simulate._names import Name, by_name, published
+from polhode.simulate.forcing._approximation import Approximation
 from polhode.simulate.forcing._callable import approximated
 from polhode.simulate.forcing._pieces import Pieces
+from polhode.simulate.integrate._stepping import Array
 
 
 @dataclass(frozen=True)
@@ -53,6 +55,24 @@ class Drive:
     def jerks(self) -> frozenset[float]:
         """Instants at which a velocity jumps, s."""
         return frozenset(jump.time for p in self.pieces.values() for jump in p.jumps)
+
+    @cached_property
+    def resolution(self) -> dict[str, float]:
+        """Of those that were given as Python functions, by name, s."""
+        return {symbol.published: p.resolution for symbol, p in self._approximations.items()}
+
+    def confirm(self, steps: Array) -> None:
+        """Evaluate Python functions again, within the steps of a motion.
+
+        Raises:
+            NumericError: where one does not have the value that the motion was computed with.
+        """
+        for symbol, pieces in self._approximations.items():
+            pieces.confirm(symbol.published, steps)
+
+    @property
+    def _approximations(self) -> dict[Symbol, Approximation]:
+        return {s: p for s, p in self.pieces.items() if isinstance(p, Approximation)}
 
     def until(self, now: float, end: float) -> float:
         """How far the coefficients hold, at most to the end."""

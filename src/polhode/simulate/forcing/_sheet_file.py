@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from polhode.base import ParseError, StoreError
+from polhode.base import ParseError, read_whole
 from polhode.simulate.forcing._pieces import Pieces
 from polhode.simulate.forcing._spline import sampled
 from polhode.simulate.integrate._stepping import Array
@@ -86,12 +86,9 @@ class _Row:
 
 def _lines(path: Path) -> Iterator[_Line]:
     """The lines of a table, without comments and without the empty ones at its end."""
+    content = read_whole(path, "a file of comma-separated text")
     try:
-        text = path.read_bytes().decode("utf-8-sig")
-    except OSError as error:
-        raise StoreError(
-            f"{path} cannot be read ({error.strerror})", expected="a file of comma-separated text"
-        ) from error
+        text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1
         raise _bad(line, "bytes that are no text", "a file of comma-separated text") from error

@@ -9,11 +9,14 @@ import sys
 import warnings
 from collections.abc import Callable, Collection, Iterator
 from contextlib import closing, contextmanager, suppress
-from multiprocessing.connection import Connection, Pipe
 from threading import current_thread, main_thread
-from typing import Any, Generic, NoReturn, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NoReturn, TypeVar
 
-from polhode.base import NumericError, PolhodeError, bound_growth, bound_time
+from polhode.base._bounds import bound_growth, bound_time, ended_with
+from polhode.base._errors import NumericError, PolhodeError
+
+if TYPE_CHECKING:
+    from multiprocessing.connection import Connection
 
 Question = TypeVar("Question")
 Said = TypeVar("Said")
@@ -69,6 +72,8 @@ class Sitting(Generic[Question, Said]):
     """
 
     def __init__(self, answer: Callable[[Question, Tell[Said]], Said]) -> None:
+        from multiprocessing.connection import Pipe  # what few need, and takes long to load
+
         theirs, self._questions = Pipe(duplex=False)
         self._replies, mine = Pipe(duplex=False)
         self._status: int | None = None
@@ -150,8 +155,10 @@ def _work(
         _let_go({questions.fileno(), replies.fileno()})
         while True:
             question, seconds = questions.recv()
-            _bound(seconds)
-            replies.send(_reply(answer, question, replies))
+            with ended_with(questions.fileno()):
+                _bound(seconds)
+                reply = _reply(answer, question, replies)
+            replies.send(reply)
             _bound(0.0)
     finally:
         os._exit(0)
@@ -159,8 +166,8 @@ def _work(
 
 def _settle() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # who waits for us ends us
-    for clock in _CLOCKS:
-        signal.signal(getattr(signal, clock), signal.SIG_DFL)
+    for ending in (*_CLOCKS, "SIGIO"):
+        signal.signal(getattr(signal, ending), signal.SIG_DFL)
     bound_growth(_MEMORY)
 
 

@@ -1,0 +1,155 @@
+"""What belongs to a motion besides its declaration and its series, as plain JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from polhode.algebra import SHAPES, Expr, Kind, Symbol
+from polhode.base import Codec, Shape
+from polhode.simulate._event import Event
+from polhode.simulate._trajectory import Trajectory
+from polhode.simulate.files._payload import mapping, number, numbers, text
+
+
+@dataclass(frozen=True)
+class _Table:
+    """Expressions under symbols or names."""
+
+    rows: tuple[tuple[Symbol | str, Expr], ...]
+
+
+def _table(rows: tuple[tuple[Any, Any], ...]) -> _Table:
+    for name, expression in rows:
+        if not isinstance(name, Symbol | str) or not isinstance(expression, Expr):
+            raise ValueError("a table of something else than expressions")
+    return _Table(rows)
+
+
+_CODEC = Codec((*SHAPES, Shape("table", (_Table,), lambda table: {"rows": table.rows}, _table)))
+
+
+@dataclass(frozen=True)
+class Details:
+    """What is kept of a motion by name.
+
+    Attributes:
+        duration, mode, assumed, seconds, integrator, invariants, resolution: as of the trajectory.
+        turned: of large angles: the symbol of the angle less whole turns.
+        prescribed: every prescribed function as an expression of time.
+    """
+
+    duration: float
+    mode: str
+    assumed: Mapping[str, float]
+    seconds: Mapping[str, float]
+    integrator: str
+    resolution: Mapping[str, float]
+    turned: Mapping[Symbol, Symbol]
+    prescribed: Mapping[Symbol, Expr]
+    invariants: Mapping[str, Expr]
+
+    def as_json(self) -> dict[str, Any]:
+        """As plain values, which `read_details` reads."""
+        return {
+            "duration": self.duration,
+            "mode": self.mode,
+            "assumed": dict(self.assumed),
+            "seconds": dict(self.seconds),
+            "integrator": self.integrator,
+            "resolution": dict(self.resolution),
+            "turned": {label(a): label(b) for a, b in self.turned.items()},
+            "forcing": _CODEC.write(_Table(tuple(self.prescribed.items()))),
+            "invariants": _CODEC.write(_Table(tuple(self.invariants.items()))),
+        }
+
+
+def details_of(run: Trajectory) -> Details:
+    """What is kept of a motion by name."""
+    parts = (part for segment in run.segments for part in segment.parts)
+    return Details(
+        duration=run.duration,
+        mode=run.mode,
+        assumed=run.assumed,
+        seconds=run.seconds,
+        integrator=run.integrator,
+        resolution=run.resolution,
+        turned={s: t for part in parts for s, t in part.solution.turned.items()},
+        prescribed=run.dynamics.prescribed,
+        invariants=run.invariants,
+    )
+
+
+def read_details(given: Mapping[str, Any]) -> Details:
+    """The details that were written.
+
+    Raises:
+        LookupError, ValueError: where something is missing, or is of another kind.
+        StoreError: for expressions that cannot be read.
+    """
+    return Details(
+        duration=number(given["duration"]),
+        mode=text(given["mode"]),
+        assumed=numbers(given["assumed"]),
+        seconds=numbers(given["seconds"]),
+        integrator=text(given["integrator"]),
+        resolution=numbers(given["resolution"]),
+        turned={symbol(a): symbol(text(b)) for a, b in mapping(given["turned"]).items()},
+        prescribed=_prescribed(_rows(given["forcing"])),
+        invariants={text(name): value for name, value in _rows(given["invariants"])},
+    )
+
+
+def _rows(document: Any) -> tuple[tuple[Any, Expr], ...]:
+    return _CODEC.read(text(document), _Table).rows
+
+
+def _prescribed(rows: tuple[tuple[Any, Expr], ...]) -> dict[Symbol, Expr]:
+    """Functions as expressions of time, each at most by way of one other: the time since a knot."""
+    table = {name: value for name, value in rows if isinstance(name, Symbol)}
+    plain = {s for s, value in table.items() if all(map(_is_given, value.symbols()))}
+    for name, value in table.items():
+        if not all(_is_given(s) or s in plain for s in value.symbols()):
+            raise ValueError(f"{name.published} is no function of time")
+    return table
+
+
+def _is_given(symbol: Symbol) -> bool:
+    return symbol.kind in (Kind.TIME, Kind.PARAMETER)
+
+
+# -- events ----------------------------------------------------------------------------------------
+
+
+def read_event(given: Mapping[str, Any], duration: float) -> Event:
+    """An event of a motion of some duration.
+
+    Raises:
+        LookupError, ValueError: where something is missing, or is of another kind.
+    """
+    before, after = (None if given[end] is None else text(given[end]) for end in ("from", "to"))
+    time = number(given["time"])
+    if not 0 <= time <= duration:
+        raise ValueError(f"an event at t = {time:g} s in a motion of {duration:g} s")
+    return Event(time, text(given["kind"]), before, after)
+
+
+# -- symbols ---------------------------------------------------------------------------------------
+
+
+def label(symbol: Symbol) -> str:
+    """A symbol as a text."""
+    return f"{symbol.kind.value} {symbol.order} {symbol.name}"
+
+
+def symbol(label: str) -> Symbol:
+    """The symbol that a text stands for.
+
+    Raises:
+        ValueError: where it stands for none.
+    """
+    kind, order, name = label.split(" ", 2)
+    if order not in ("0", "1", "2"):
+        raise ValueError(f"the derivative {order[:20]}")
+    return Symbol(name, Kind(kind), int(order))
