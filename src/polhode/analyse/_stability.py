@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property, lru_cache
 from typing import Any
 
-from polhode.algebra import ONE, ZERO, Expr, ExprLike, Row, Symbol, as_symbol, eliminate, sqrt
+from polhode.algebra import ONE, ZERO, Expr, Row, Symbol, eliminate, sqrt
 from polhode.analyse._conditions import Condition, Truth, positive
+from polhode.analyse._given import Given, values_given
 from polhode.analyse._steady import SteadyMotion
 from polhode.base import NumericError, Shown
 
@@ -127,16 +128,20 @@ class Stability(Shown):
         return f"Stability: {self}"
 
 
-def stability(family: SteadyMotion, at: Mapping[Any, ExprLike] | None = None) -> Stability:
+def stability(family: SteadyMotion, at: Mapping[Any, Given] | None = None) -> Stability:
     """Linearise about a family of steady motions.
 
     Args:
         family: from `steady`.
-        at: further values of coordinates, speeds or parameters.
+        at: further values of coordinates, speeds or parameters: by name or symbol, as an
+            expression, an SI number or text with a unit.
 
-    Raises `NumericError` where the coordinates are singular on the family.
+    Raises:
+        DeclarationError: for a name the system does not have.
+        NumericError: where the coordinates are singular on the family.
+        UnitError: for a value that cannot be read or has the wrong dimension.
     """
-    given = {as_symbol(symbol): Expr.of(value) for symbol, value in (at or {}).items()}
+    given = values_given(family.reduced.equations, at)
     if not given:
         return _about(family)
     there = _about(_narrowed(family, given))

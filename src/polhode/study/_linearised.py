@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from typing import Any
 
@@ -38,7 +38,7 @@ class Linearised(Shown):
 
     states: tuple[str, ...]
     matrix: Array
-    nearby: Array | None = None
+    nearby: Array | None = field(default=None, repr=False)
 
     @cached_property
     def eigenvalues(self) -> NDArray[np.complex128]:
