@@ -232,6 +232,8 @@ def _motion(mechanics: Mechanics) -> Iterator[tuple[Node, str]]:
         Name("p", decoration=_VECTOR): "momentum",
         Name("L", decoration=_VECTOR): "angular momentum about cm",
         Name("L", "cm", decoration=_VECTOR): "angular momentum about cm",
+        Name("L", "O", decoration=_VECTOR): "angular momentum about origin",
+        Name("P", "total", decoration=_VECTOR): "momentum",
         Name("tau", decoration=_VECTOR): "torque about cm",
         Name("tau", "cm", decoration=_VECTOR): "torque about cm",
         Name("I", decoration=_VECTOR): "inertia",
@@ -270,7 +272,9 @@ def _labels(element: Element) -> tuple[str, ...]:
 
 def _directions(mechanics: Mechanics) -> Iterator[tuple[Node, str]]:
     axes = mechanics.body.axes
-    for frame in dict.fromkeys((*reversed(axes.lineage), axes.root, axes)):
+    between = reversed(axes.lineage[1:-1])
+    # The laboratory's z goes before that of frames between it and the body's axes.
+    for frame in dict.fromkeys((*between, axes.root, axes)):
         for label in frame.labels:
             yield Name(label, decoration=_HAT), f"axis {label} of {frame.name}"
         short = all(len(label) == 1 for label in frame.labels)
