@@ -62,7 +62,7 @@ class Chart:
 
     @classmethod
     def of(cls, equations: Equations, body: Body, axis: Row) -> Chart | None:
-        """The chart of a body, with its axis along its own axes; None where it is of another form."""
+        """The chart of a body, with an axis along its own; None where it is of another form."""
         fixed = body.fixed_axes
         turns = _turns(body)
         if fixed is None or turns is None:
@@ -169,7 +169,9 @@ class Placed:
         if len(self.chart.angles) == 2:
             return self._two(reals, axis)
         m1, m2, _, m3 = (list(map(reals.number, v)) for v in self._directions)
-        constant = [[reals.number(self.data.number(e)) for e in r] for r in self.chart.constant.rows]
+        constant = [
+            [reals.number(self.data.number(e)) for e in r] for r in self.chart.constant.rows
+        ]
         turned = [[scalar(row, line) for line in constant] for row in attitude]  # R Kᵀ
         first, second = self._two(reals, [scalar(row, m3) for row in turned])
         across = [scalar(row, m2) for row in turned]
@@ -212,7 +214,9 @@ def _evaluated(
     function = program.function(Arithmetic.of(context, make))
     lanes = np.broadcast_arrays(*varying)
     shape = lanes[0].shape
-    found = [function(*place, *constants) for place in zip(*(v.ravel() for v in lanes), strict=True)]
+    found = [
+        function(*place, *constants) for place in zip(*(v.ravel() for v in lanes), strict=True)
+    ]
     columns = zip(*found, strict=True)
     return [_objects(column).reshape(shape) for column in columns]
 
@@ -246,4 +250,3 @@ def _rotated(reals: Reals, axis: Vec, angle: Array, vector: Vec) -> list[Array]:
     return [
         c * v + s * b + (1 - c) * along * a for v, b, a in zip(vector, beside, axis, strict=True)
     ]
-

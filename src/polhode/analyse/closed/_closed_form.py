@@ -11,6 +11,7 @@ from typing import Any
 from polhode.algebra import Expr, Symbol
 from polhode.analyse.closed import (
     _coin,
+    _free_attitude,
     _free_body,
     _gyrocompass,
     _heavy_top,
@@ -41,6 +42,7 @@ _FAMILIES: tuple[Callable[[Equations], Solvable | None], ...] = (
     _gyrocompass.recognise,
     _marble.recognise,
     _symmetric.recognise,
+    _free_attitude.recognise,
 )
 
 
