@@ -97,9 +97,9 @@ def _places(equations: Equations) -> Iterator[_Place]:
     for element in kinetics.elements:
         restraints = [r for r in kinetics.restraints[element.name] if not r.is_couple]
         name = _label(element, taken)
-        if restraints and name and restraints[0].arm is not None:
+        first = restraints[0] if restraints else None
+        if first is not None and first.arm is not None and name:
             taken.add(name)
-            first = restraints[0]
             touching = isinstance(element, Contact)
             words = f"the point of contact at {element.name}" if touching else element.name
             yield _Place(name, words, kinetics.places[first.body] + first.arm)

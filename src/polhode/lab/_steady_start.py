@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 from polhode.algebra import FLOATS, Expr, Symbol, compile_program, pi
 from polhode.analyse import ContactForces, contact_forces
@@ -14,6 +15,7 @@ from polhode.model import Contact, Coulomb, System
 from polhode.simulate import Dynamics, read_parameters, read_start
 
 Values = Mapping[str, float]
+Name = str | Symbol | Expr
 
 _PI = 3.141592653589793
 
@@ -39,9 +41,10 @@ class SteadyStart:
         own = (*self.equations.coordinates, *self.equations.speeds)
         constants = {s.published: s for s in self._dynamics.parameters}
         try:
-            given = {name: v for name, v in state.items() if name in constants}
+            given: dict[Name, Any] = {n: v for n, v in state.items() if n in constants}
             numbers = read_parameters(self._dynamics, given)
-            start = {s.published: state[s.published] for s in own if s.published in state}
+            names = (s.published for s in own)
+            start: dict[Name, Any] = {name: state[name] for name in names if name in state}
             read_start(self._dynamics, start, numbers)
         except PolhodeError:
             return False

@@ -25,7 +25,7 @@ def elsewhere(values: Array) -> Array:
     """Values near by, changed at random and each by another share."""
     random = np.random.default_rng(_SEED)
     shares = random.uniform(0.5, 1, len(values)) * random.choice([-1, 1], len(values))
-    return values * (1 + _CHANGE * shares)
+    return np.asarray(values * (1 + _CHANGE * shares))
 
 
 def steady_near(state: Array, residual: Callable[[Array], tuple[Array, Array]]) -> Array:
