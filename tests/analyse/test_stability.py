@@ -231,3 +231,20 @@ def test_tall_cosine_of_a_damped_pendulum_needs_hurwitz():
     assert truths["theta = pi"] is Truth.NEVER
     assert not stability(families[0]).is_even
     assert cos(theta).dt() != 0
+
+
+def test_the_threshold_itself_is_not_stable():
+    """Two exponents meet at zero there, and a tilt grows in proportion to time."""
+    straight, s = on_edge("rolling-disk", "phi_dot")
+    assert "3*a*omega_3**2 - g > 0" in str(straight)
+    threshold = sqrt(s["g"] / (3 * s["a"]))
+    for share, verdict in ((Fraction(9, 10), "unstable"), (1, "unstable"), (2, "stable")):
+        there = stability(straight.family, {s["omega_3"]: share * threshold})
+        assert str(there) == verdict
+
+
+def test_what_stops_turning_everywhere_is_no_threshold():
+    """On a table at rest a marble keeps any velocity: nothing grows."""
+    derived = equations("marble-on-turntable")
+    (resting,) = steady(derived)
+    assert str(stability(resting, {ph.symbol("Omega"): 0})) == "stable"

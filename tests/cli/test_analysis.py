@@ -73,7 +73,7 @@ def test_people_read_it_too(capsys):
     [
         (["steady", "ball-on-paper"], "depend on time"),
         (["steady", "gyroscope", "--at", "thet=1"], "did you mean theta"),
-        (["steady", "gyroscope", "--at", "theta=3kg"], "expected a quantity in 1"),
+        (["steady", "gyroscope", "--at", "theta=3kg"], "expected a pure number or an angle"),
         (["steady", "gyroscope/vertical-plane", "--at", "theta=pi/2"], "contradict"),
         (["invariants", "nothing"], "is no system"),
     ],

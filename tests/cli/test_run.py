@@ -43,7 +43,7 @@ def test_what_is_set_and_started_is_what_runs(document):
 
 def test_constants_of_the_motion_are_watched(document):
     drifts = document("run", "gyroscope", "--duration", "0.2s")["drift"]["invariants"]
-    assert drifts.keys() == {"E", "omega_1", "L_z"}
+    assert drifts.keys() == {"E", "omega_1", "L_pivot_z"}
     assert max(drifts.values()) < 1e-13
 
 

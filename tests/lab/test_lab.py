@@ -236,3 +236,37 @@ def test_a_system_of_ones_own_is_offered():
         assert {c["name"] for c in described["parameters"]} == {"m", "l", "g"}
         found = opened(client.post("/api/run", json={"system": own.name, "duration": "1 s"}))
         assert found["duration"] == 1
+
+
+def test_no_verdict_on_a_start_that_is_no_steady_motion(ask):
+    """A disk let go at 80 degrees falls, whatever the condition would be for its spin."""
+    start = {"theta": "80 deg", "omega_3": "40 rad/s"}
+    family = answer(ask("standing", system="rolling-disk", start=start))["families"][0]
+    assert not family["here"]
+    assert family["verdict"] == ""
+    assert family["conditions"]
+    assert all("holds" not in c and c["ratio"] is None for c in family["conditions"])
+
+
+@pytest.mark.parametrize(("friction", "slips"), [("0.3", False), ("0.05", True)])
+def test_a_steady_motion_that_the_contact_cannot_hold_is_no_steady_motion(ask, friction, slips):
+    start = {"theta": "80 deg", "omega_3": "40 rad/s"}
+    asked = {"system": "rolling-disk", "contact": "friction", "settings": {"mu": friction}}
+    family = answer(ask("standing", **asked, start=start))["families"][0]
+    rate = min((b["value"] for b in family["branches"]), key=abs)
+    kept = {**start, "phi_dot": f"{rate!r} rad/s"}
+    there = answer(ask("standing", **asked, start=kept))["families"][0]
+    assert there["here"]
+    assert ("ground slips" in there["broken"]) == slips
+    assert there["verdict"] == ("" if slips else "stable")
+
+
+def test_only_what_can_be_started_is_offered(ask):
+    """At θ = 0 the gyroscope's azimuth has no value, and a precession has one only beside it."""
+    for start, precesses in (({"theta": "60 deg"}, True), ({"theta": "0 deg"}, False)):
+        given = {**start, "omega_1": "150 rad/s"}
+        precession, *upright = answer(ask("standing", system="gyroscope", start=given))["families"]
+        assert {branch["startable"] for branch in precession["branches"]} == {precesses}
+        assert not any(family["startable"] for family in upright)
+    families = answer(ask("standing", system="gyroscope/upright"))["families"]
+    assert all(family["startable"] for family in families)

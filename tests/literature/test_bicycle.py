@@ -5,6 +5,7 @@ Proc. R. Soc. A 463 (2007) 1955-1982; Table 2, and the speeds at which stability
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import polhode as ph
 from derive.bicycles import BENCHMARK, bicycle
@@ -39,10 +40,15 @@ WEAVE_SPEED = 4.29238253634111
 CAPSIZE_SPEED = 6.02426201538837
 
 
+def running(speed: float) -> ph.Linearised:
+    """Small departures from upright straight running."""
+    upright = {"phi": 0, "delta": 0, "omega_y_R": speed / BENCHMARK["r_R"]}
+    return ph.linearised(bicycle(), BENCHMARK, upright)
+
+
 def eigenvalues(speed: float) -> np.ndarray:
     """Of upright straight running, without the zero of the forward speed itself."""
-    running = {"phi": 0, "delta": 0, "omega_y_R": speed / BENCHMARK["r_R"]}
-    found = ph.linearised(bicycle(), BENCHMARK, running)
+    found = running(speed)
     assert found.states == ("phi", "delta", "phi_dot", "delta_dot", "omega_y_R")
     assert not np.any(found.matrix[-1])
     assert not np.any(found.matrix[:, -1])
@@ -70,3 +76,24 @@ def test_it_is_stable_by_itself_between_the_weave_and_the_capsize_speed():
     assert max(eigenvalues(WEAVE_SPEED - 0.01).real) > 1e-3
     assert max(eigenvalues((WEAVE_SPEED + CAPSIZE_SPEED) / 2).real) < -1e-3
     assert max(eigenvalues(CAPSIZE_SPEED + 0.01).real) > 1e-5
+
+
+def test_only_the_zero_of_the_forward_speed_is_left_out():
+    """Also where another eigenvalue is as small as it."""
+    for speed in (0.0, 3.0, CAPSIZE_SPEED, 8.0):
+        found = running(speed)
+        assert found.neutral == 1
+        assert len(found.eigenvalues) == len(found.exponents) + 1
+        assert np.sort(found.exponents) == pytest.approx(np.sort(eigenvalues(speed)), abs=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("between", "published"), [((4.0, 5.0), WEAVE_SPEED), ((5.0, 7.0), CAPSIZE_SPEED)]
+)
+def test_the_speeds_at_which_stability_changes_are_found_to_all_printed_digits(between, published):
+    """That of capsizing too, at which an eigenvalue passes through zero itself."""
+
+    def growth(speed: float) -> float:
+        return float(max(running(speed).exponents.real))
+
+    assert brentq(growth, *between, xtol=1e-14) == pytest.approx(published, rel=0, abs=3e-14)

@@ -11,10 +11,11 @@ from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import combinations_with_replacement
-from random import Random
+from itertools import chain, combinations_with_replacement
+from math import prod
+from typing import Any
 
-from flint import fmpq_mat
+from flint import nmod_mat
 
 from polhode.algebra import (
     ONE,
@@ -30,10 +31,13 @@ from polhode.algebra import (
     time,
     variables,
 )
-from polhode.analyse._points import Point, random_values
+from polhode.analyse._points import points
 from polhode.analyse._reduced import reduced
 from polhode.base import NumericError
 from polhode.derive import Equations
+
+#: Points beyond the number of unknowns, so that no accident passes for an integral.
+_SPARE, _SEED = 4, 7
 
 
 @dataclass(frozen=True)
@@ -43,95 +47,177 @@ class Ansatz:
     Attributes:
         speeds: highest degree in the speeds.
         trigonometric: highest degree in sines and cosines of angles.
-        lengths: highest degree in coordinates that are no angles.
+        lengths: highest degree in coordinates that stand outside sines and cosines.
     """
 
     speeds: int = 2
     trigonometric: int = 2
-    lengths: int = 1
+    lengths: int = 2
 
     def describe(self) -> str:
         """In words."""
         return (
-            f"polynomials of degree {self.speeds} in the speeds, {self.trigonometric} in sines and "
-            f"cosines of essential angles and {self.lengths} in lengths, and time"
+            f"polynomials of degree {self.speeds} in the speeds and {self.trigonometric} in sines "
+            f"and cosines of essential angles; of degree {self.speeds} in the speeds and "
+            f"{self.lengths} in essential coordinates outside sines and cosines, {self.together} "
+            f"together; these coordinates over square roots that occur in the equations; and time"
         )
+
+    @property
+    def together(self) -> int:
+        """Highest degree in speeds and such coordinates together."""
+        return min(self.speeds + self.lengths, 1 + max(self.speeds, self.lengths))
+
+
+#: A product of factors, each by its position, in ascending order.
+Monomial = tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Terms:
+    """Monomials that an integral may be a sum of.
+
+    Attributes:
+        factors: what they are products of.
+        monomials: all of them, simple ones first.
+    """
+
+    factors: tuple[Expr, ...]
+    monomials: tuple[Monomial, ...]
+
+    def expression(self, monomial: Monomial) -> Expr:
+        """A monomial written out."""
+        return prod((self.factors[i] for i in monomial), start=ONE)
 
 
 def search(equations: Equations, ansatz: Ansatz) -> Iterator[Expr]:
     """Integrals within the ansatz, simple ones first; none for driven systems."""
-    try:
-        essential = reduced(equations).essential
-    except NumericError:
+    if not is_searched(equations):
         return
-    monomials = _monomials(equations, essential, ansatz)
-    rates = [equations.rate(m) for m in monomials]
-    moving = [(m, r) for m, r in zip(monomials, rates, strict=True) if not m.rational]
-    for support in _supports([rate for _, rate in moving]):
-        chosen = [moving[i] for i in support]
-        coefficients = _coefficients([rate for _, rate in chosen])
+    terms = _terms(equations, reduced(equations).essential, ansatz)
+    for support in _supports(equations, terms):
+        chosen = [terms.expression(terms.monomials[i]) for i in support]
+        coefficients = _coefficients([equations.rate(m) for m in chosen])
         if coefficients is not None:
-            terms = (c * m for c, (m, _) in zip(coefficients, chosen, strict=True))
-            yield sum(terms, ZERO)
+            yield sum((c * m for c, m in zip(coefficients, chosen, strict=True)), ZERO)
 
 
-def _monomials(equations: Equations, essential: tuple[Symbol, ...], ansatz: Ansatz) -> list[Expr]:
+def is_searched(equations: Equations) -> bool:
+    """Whether the ansatz suits the equations: they must not depend on time explicitly."""
+    try:
+        reduced(equations)
+    except NumericError:
+        return False
+    return True
+
+
+def _terms(equations: Equations, essential: tuple[Symbol, ...], ansatz: Ansatz) -> Terms:
+    factors: dict[Expr, int] = {}
+
+    def place(factor: Expr) -> Monomial:
+        return (factors.setdefault(factor, len(factors)),)
+
     angles = [q for q in essential if _is_angle(equations, q)]
     lengths = [q for q in equations.coordinates if not _is_angle(equations, q)]
-    waves = _waves([Expr.generator(angle) for angle in angles], ansatz.trigonometric)
-    places = _products([Expr.generator(q) for q in lengths], ansatz.lengths)
-    speeds = _products([Expr.generator(u) for u in equations.speeds], ansatz.speeds)
-    found = dict.fromkeys(u * w for u in speeds for w in waves)
-    found.update(dict.fromkeys([*places, time]))
-    return list(found)
+    speeds = [place(Expr.generator(u)) for u in equations.speeds]
+    waves = [_joined(*map(place, w)) for w in _waves(angles, ansatz.trigonometric)]
+    swift = _products(speeds, ansatz.speeds)
+    found = dict.fromkeys(_joined(u, w) for u in swift for w in waves)
+    found |= dict.fromkeys(
+        _products([place(Expr.generator(q)) for q in lengths], ansatz.lengths and 1)
+    )
+    found[place(time)] = None
+    used = _generators(equations)
+    places = [place(Expr.generator(q)) for q in essential if q in used]
+    outside = _products(places, ansatz.lengths)
+    pairs = (_joined(u, x) for x in outside for u in swift)
+    found |= dict.fromkeys(m for m in pairs if len(m) <= ansatz.together)
+    if ansatz.lengths:
+        roots = [Expr.generator(g) for g in used if _varies(g, essential)]
+        found |= dict.fromkeys(map(place, roots))
+        shares = [place(1 / root) for root in roots]
+        found |= dict.fromkeys(_joined(s, x) for s in shares for x in _products(places, 1))
+    found.pop((), None)
+    return Terms(tuple(factors), tuple(found))
 
 
-def _waves(angles: Sequence[Expr], degree: int) -> list[Expr]:
-    """Products of sines and cosines; cos² is left out, being 1 - sin²."""
-    found = {0: [ONE]}
+def _generators(equations: Equations) -> list[Generator]:
+    """Symbols outside functions, and functions, that occur in the accelerations."""
+    entries = [e for row in equations.mass.rows for e in row]
+    entries += [*equations.forcing, *equations.kinematics.values()]
+    return list(dict.fromkeys(g for e in entries for g in e.generators))
+
+
+def _varies(generator: Generator, essential: tuple[Symbol, ...]) -> bool:
+    """Whether it is a square root of coordinates."""
+    is_root = bool(generator.depth) and generator.partner() is None
+    symbols = {s for s in generator.symbols() if s.kind.varies}
+    return is_root and bool(symbols) and symbols <= set(essential)
+
+
+def _joined(*monomials: Monomial) -> Monomial:
+    return tuple(sorted(chain.from_iterable(monomials)))
+
+
+def _waves(angles: Sequence[Symbol], degree: int) -> list[list[Expr]]:
+    """Products of sines and cosines, by their factors; cos² is left out, being 1 - sin²."""
+    found: dict[int, list[list[Expr]]] = {0: [[]]}
     for angle in angles:
-        s, c = sin(angle), cos(angle)
-        own = [(j + i, s**j * c**i) for i in (0, 1) for j in range(degree + 1 - i)]
-        wider: dict[int, list[Expr]] = {}
+        s, c = sin(Expr.generator(angle)), cos(Expr.generator(angle))
+        own = [(j + i, [s] * j + [c] * i) for i in (0, 1) for j in range(degree + 1 - i)]
+        wider: dict[int, list[list[Expr]]] = {}
         for power, waves in found.items():
             for extra, wave in own:
                 if power + extra <= degree:
-                    wider.setdefault(power + extra, []).extend(w * wave for w in waves)
+                    wider.setdefault(power + extra, []).extend(w + wave for w in waves)
         found = wider
     return [wave for waves in found.values() for wave in waves]
 
 
-def _products(factors: Sequence[Expr], degree: int) -> list[Expr]:
-    found = [ONE]
-    for size in range(1, degree + 1):
-        for chosen in combinations_with_replacement(factors, size):
-            product = ONE
-            for factor in chosen:
-                product = product * factor
-            found.append(product)
-    return found
+def _products(factors: Sequence[Monomial], degree: int) -> list[Monomial]:
+    sizes = range(degree + 1)
+    return [_joined(*m) for n in sizes for m in combinations_with_replacement(factors, n)]
 
 
 def _is_angle(equations: Equations, coordinate: Symbol) -> bool:
     return str(equations.dimensions.get(coordinate, "")) == "1"
 
 
-def _supports(rates: Sequence[Expr]) -> Iterator[list[int]]:
+def _supports(equations: Equations, terms: Terms) -> Iterator[list[int]]:
     """Positions of the monomials in each independent solution, at random parameters."""
-    symbols = sorted(variables(rates), key=lambda s: (s.kind is Kind.PARAMETER, s.published))
-    varying = sum(s.kind is not Kind.PARAMETER for s in symbols)
-    random = Random(7)
-    constants = random_values(symbols[varying:], random)
-    rows = [
-        Point({**random_values(symbols[:varying], random), **constants}).all(rates)
-        for _ in range(len(rates) + 4)
-    ]
-    echelon, rank = fmpq_mat(rows).rref()
-    columns = range(len(rates))
-    pivots = [next(j for j in columns if echelon[i, j] != 0) for i in range(rank)]
+    import numpy as np
+
+    rates = [equations.rate(factor) for factor in terms.factors]
+    needed = (*terms.factors, *rates)
+    varying = [s for s in variables(needed) if s.kind is not Kind.PARAMETER]
+    width = len(terms.monomials)
+    sample = points(needed, varying, width + _SPARE, _SEED)
+    prime = sample[0].field.prime
+    longest = max(map(len, terms.monomials), default=0)
+    one = len(terms.factors)  # stands for the factor 1, which does not change
+    table = np.array([[*m, *[one] * (longest - len(m))] for m in terms.monomials])
+    rows = []
+    for point in sample:
+        values = np.array([*point.all(terms.factors), 1])[table]
+        changes = np.array([*point.all(rates), 0])[table]
+        rows.extend(_sum_rule(values, changes, prime).tolist())
+    echelon, rank = nmod_mat(len(sample), width, rows, prime).rref()
+    columns = range(width)
+    pivots = [next(j for j in columns if int(echelon[i, j])) for i in range(rank)]
     for free in (j for j in columns if j not in pivots):
-        used = [pivots[i] for i in range(rank) if echelon[i, free] != 0]
+        used = [pivots[i] for i in range(rank) if int(echelon[i, free])]
         yield sorted([*used, free])
+
+
+def _sum_rule(values: Any, changes: Any, prime: int) -> Any:
+    """Rates of products, of the values and rates of their factors in columns, modulo a prime."""
+    import numpy as np
+
+    product, rate = np.ones(len(values), dtype=np.int64), np.zeros(len(values), dtype=np.int64)
+    for value, change in zip(values.T, changes.T, strict=True):
+        rate = (rate * value % prime + product * change % prime) % prime
+        product = product * value % prime
+    return rate
 
 
 def _is_constant(generator: Generator) -> bool:

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from polhode.algebra import Expr, ExprLike, Symbol, as_symbol, taylor
+from polhode.algebra import Expr, Symbol, as_symbol, taylor
+from polhode.analyse._given import Given, images_given
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,7 @@ def expand(
     small: Expr | Symbol,
     order: int = 1,
     *,
-    about: Mapping[Any, ExprLike] | None = None,
+    about: Mapping[Any, Given] | None = None,
 ) -> Expansion:
     """Expand in a small quantity.
 
@@ -42,10 +43,11 @@ def expand(
         expression: exact.
         small: the small quantity; it must not vary.
         order: highest power to keep.
-        about: quantities as exact functions of the small one, with their rates.
+        about: quantities by name or symbol, as exact functions of the small one; also numbers and
+            text with a unit.
     """
     parameter = as_symbol(small)
-    images = _with_rates({as_symbol(s): Expr.of(v) for s, v in (about or {}).items()})
+    images = _with_rates(images_given(expression, about))
     placed = expression.subs(images)
     polynomial = taylor(placed, parameter, order)
     return Expansion(parameter, order, polynomial, _dropped(placed, parameter, order))

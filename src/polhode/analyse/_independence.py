@@ -3,31 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from random import Random
 
-from flint import fmpq_mat
+from flint import nmod_mat
 
 from polhode.algebra import Expr, Symbol
-from polhode.analyse._points import Point, Rational, random_values
+from polhode.analyse._points import points
+
+_SEED = 20261121
 
 
 class Independent:
     """A growing set of functions of the state none of which is a function of the others.
 
-    Decided at one random rational point: rank can only be lost there by a rare accident.
+    Decided at one random point: rank can only be lost there by a rare accident.
     """
 
-    def __init__(self, state: Iterable[Symbol], constants: Iterable[Symbol]) -> None:
+    def __init__(self, state: Iterable[Symbol]) -> None:
         self._state = tuple(state)
-        symbols = (*self._state, *constants)
-        self._point = Point(random_values(symbols, Random(20261121)))
-        self._gradients: list[list[Rational]] = []
+        self._gradients: list[list[Expr]] = []
 
     def takes(self, expression: Expr) -> bool:
         """Add an expression if it is independent of those taken before."""
-        gradient = self._point.all(expression.diff(symbol) for symbol in self._state)
-        table = fmpq_mat([*self._gradients, gradient])
-        if table.rank() == len(self._gradients):
+        gradients = [*self._gradients, [expression.diff(symbol) for symbol in self._state]]
+        entries = [entry for gradient in gradients for entry in gradient]
+        (point,) = points(entries, self._state, 1, _SEED)
+        table = nmod_mat(len(gradients), len(self._state), point.all(entries), point.field.prime)
+        if table.rank() < len(gradients):
             return False
-        self._gradients.append(gradient)
+        self._gradients = gradients
         return True

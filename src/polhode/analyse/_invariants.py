@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from polhode.algebra import Expr, Symbol, Vector, dot, pi, time
-from polhode.analyse._ansatz import Ansatz, search
+from polhode.algebra import Expr, Symbol
+from polhode.analyse._ansatz import Ansatz, is_searched, search
 from polhode.analyse._independence import Independent
 from polhode.analyse._linear_integrals import LinearIntegrals, linear_integrals
+from polhode.analyse._momenta import momenta
 from polhode.analyse._reduced import refuse_parts
 from polhode.base import NumericError, Shown, look_up
 from polhode.derive import Equations, equations_only
-from polhode.model import Body, Contact
 
 
 @dataclass(frozen=True)
@@ -28,6 +28,13 @@ class Invariant(Shown):
     name: str
     expression: Expr
     meaning: str
+
+    @property
+    def letter(self) -> str:
+        """LaTeX of the name, as claims read it: `L_{\\mathrm{pivot},z}` for `L_pivot_z`."""
+        plain = self.name.removesuffix("_dot")
+        letter = Expr.generator(Symbol(plain)).latex()
+        return letter if plain == self.name else rf"\dot{{{letter}}}"
 
 
 @dataclass(frozen=True, repr=False)
@@ -46,7 +53,7 @@ class Invariants(Shown):
     linear: LinearIntegrals | None = None
 
     def __str__(self) -> str:
-        found = [f"{i.name} = {i.expression.pretty()}    ({i.meaning})" for i in self.found]
+        found = [f"{i.name} = {i.expression.pretty()}    ({_told(i)})" for i in self.found]
         limits = f"Searched: {self.ansatz}. Nothing outside it is excluded."
         return "\n".join([*found, *self._beyond(), limits])
 
@@ -78,6 +85,13 @@ class Invariants(Shown):
         return look_up(name, {i.name: i for i in self.found}, "invariant that was found")
 
 
+def _told(invariant: Invariant) -> str:
+    """What it is, and how it is written where that is not how it is spelled."""
+    if invariant.name.count("_") < 2 or invariant.name.endswith("_dot"):
+        return invariant.meaning
+    return f"{invariant.meaning}; in LaTeX {invariant.letter}"
+
+
 def invariants(equations: Equations, ansatz: Ansatz | None = None) -> Invariants:
     """First integrals of the motion, each verified exactly.
 
@@ -91,13 +105,14 @@ def invariants(equations: Equations, ansatz: Ansatz | None = None) -> Invariants
     refuse_parts(equations)
     chosen = ansatz or Ansatz()
     found: list[Invariant] = []
-    independent = Independent(*_symbols(equations))
+    independent = Independent(_state(equations))
     for candidate in (*_named(equations), *_searched(equations, chosen)):
         constant = not equations.rate(candidate.expression)
         if constant and independent.takes(candidate.expression):
             found.append(candidate)
     numbered = _numbered(found)
-    searched = f"energy, momenta and speeds; {chosen.describe()}"
+    beyond = chosen.describe() if is_searched(equations) else "nothing else in driven equations"
+    searched = f"energy, momenta and speeds; {beyond}"
     return Invariants(numbered, searched, _linear(equations, numbered))
 
 
@@ -112,15 +127,14 @@ def _linear(equations: Equations, found: Iterable[Invariant]) -> LinearIntegrals
     return linear
 
 
-def _symbols(equations: Equations) -> tuple[list[Symbol], list[Symbol]]:
-    """What integrals may vary with, and the constants in them."""
+def _state(equations: Equations) -> list[Symbol]:
+    """What integrals may vary with; time itself is none of it."""
     driven = [
         rate
         for f in equations.functions
         for rate in (f, f.derivative(), f.derivative().derivative())
     ]
-    state = [*equations.coordinates, *equations.speeds, *driven]
-    return state, [*equations.parameters, *time.symbols(), *pi.symbols()]
+    return [*equations.coordinates, *equations.speeds, *driven]
 
 
 def _named(equations: Equations) -> Iterator[Invariant]:
@@ -128,38 +142,8 @@ def _named(equations: Equations) -> Iterator[Invariant]:
     for speed in equations.speeds:
         expression = Expr.generator(speed)
         yield Invariant(speed.published, expression, f"the speed {speed.published}")
-    for body in equations.system.bodies:
-        momentum = _spin(equations, body)
-        for label in body.axes.labels:
-            meaning = f"angular momentum of {body.name} about its axis {label}"
-            yield Invariant(f"L_{label}{body.tag}", momentum.dot(body.axes[label]), meaning)
-    yield from _momenta(equations)
-
-
-def _momenta(equations: Equations) -> Iterator[Invariant]:
-    root = equations.system.root
-    for body in equations.system.bodies:
-        momentum = _spin(equations, body)
-        for label in reversed(root.labels):
-            meaning = f"angular momentum of {body.name} about its centre along {label}"
-            yield Invariant(f"S_{label}{body.tag}", momentum.dot(root[label]), meaning)
-    angular, linear = equations.angular_momentum(), equations.linear_momentum
-    for label in reversed(root.labels):
-        yield Invariant(f"L_{label}", angular.dot(root[label]), f"angular momentum about {label}")
-    yield Invariant("L2", dot(angular.components, angular.components), "angular momentum squared")
-    for label in root.labels:
-        yield Invariant(f"P_{label}", linear.dot(root[label]), f"linear momentum along {label}")
-    for contact in equations.system.elements:
-        if isinstance(contact, Contact):
-            body = contact.body
-            meaning = f"Jellett's: spin of {body.name} along its line to where it touches"
-            yield Invariant(f"J{body.tag}", -_spin(equations, body).dot(contact.arm), meaning)
-
-
-def _spin(equations: Equations, body: Body) -> Vector:
-    """Angular momentum about the centre of mass."""
-    angular_velocity = equations.kinetics.velocities[body][1]
-    return Vector(body.inertia.times(angular_velocity.components), angular_velocity.triad)
+    for momentum in momenta(equations):
+        yield Invariant(momentum.name, momentum.expression, momentum.meaning)
 
 
 def _searched(equations: Equations, ansatz: Ansatz) -> Iterator[Invariant]:

@@ -9,7 +9,8 @@ from typing import Any
 
 from flint import fmpq, fmpq_poly
 
-from polhode.algebra import Expr, ExprLike, Symbol, as_symbol, pi
+from polhode.algebra import Expr, Symbol, as_symbol, pi
+from polhode.analyse._given import Given, values_given
 from polhode.analyse._steady import SteadyMotion
 from polhode.base import NumericError, Shown
 
@@ -32,16 +33,17 @@ class SteadyValues(Shown):
     degree: int
 
 
-def steady_values(family: SteadyMotion, at: Mapping[Any, ExprLike]) -> SteadyValues:
+def steady_values(family: SteadyMotion, at: Mapping[Any, Given]) -> SteadyValues:
     """Every value that one quantity can have when all others are given numbers.
 
     The roots are isolated in exact arithmetic: none is missed and none is spurious.
 
     Args:
         family: with one relation.
-        at: numbers for all parameters and all state variables but one.
+        at: numbers for all parameters and all state variables but one: by name or symbol, in SI
+            units or as text with a unit.
     """
-    given = {as_symbol(s): Expr.of(v) for s, v in at.items()}
+    given = values_given(family.reduced.equations, at)
     relations = [r for e in family.relations if (r := e.subs(family.fixed).subs(given))]
     unknown = sorted({s for r in relations for s in r.symbols()}, key=lambda s: s.published)
     if len(relations) != 1 or len(unknown) != 1:

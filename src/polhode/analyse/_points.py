@@ -1,66 +1,157 @@
-"""Exact evaluation at random rational points, with sines and cosines on the unit circle."""
+"""Evaluation at random points of a prime field, with every algebraic relation intact.
+
+sin x → 2h/(1 + h²) and cos x → (1 - h²)/(1 + h²) with a random h stand in for the sine and cosine,
+and a square root is one of the field: other points than those of space, but all that identities
+ask for. What vanishes at random points of a large field vanishes identically, but for an accident
+of one in millions.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import islice
 from random import Random
 from typing import Any
 
-from flint import fmpq
+from flint import fmpq, fmpz
 
 from polhode.algebra import Expr, Generator, Symbol
 from polhode.base import NumericError
 
-Rational = Any  # flint.fmpq
-Values = Mapping[Symbol, Rational]
+#: Primes p = 3 mod 4 from here downwards: in their fields d^((p + 1)/4) is a root of a square d.
+_LARGEST = 2**31 - 1
+_FIELDS = 4000
+_MISSES = 64
+
+
+class _NoValueError(Exception):
+    """A denominator that vanishes at a point, or a radicand without a root there."""
+
+
+@dataclass(frozen=True)
+class Field:
+    """Numbers modulo a prime, with one value for all that does not vary.
+
+    Attributes:
+        prime: what they are counted modulo.
+        random: where values come from.
+        varying: symbols with another value at every point.
+        fixed: values of the others, and of what the functions of these alone are made of.
+    """
+
+    prime: int
+    random: Random
+    varying: frozenset[Symbol]
+    fixed: dict[Generator, int] = field(default_factory=dict)
+
+    def inverse(self, number: int) -> int:
+        """One over a number."""
+        if number % self.prime == 0:
+            raise _NoValueError
+        return pow(number, -1, self.prime)
+
+    def root(self, square: int) -> int:
+        """A square root."""
+        found = pow(square, (self.prime + 1) // 4, self.prime)
+        if (found * found - square) % self.prime:
+            raise _NoValueError
+        return found
 
 
 class Point:
-    """A rational value for every symbol, and what generators are there.
+    """A random value for every symbol, and what generators are there."""
 
-    sin x → 2x/(1 + x²) and cos x → (1 - x²)/(1 + x²) stand in for the sine and cosine: other
-    points, but with every algebraic relation intact, which is all that identities ask for.
-    """
+    def __init__(self, among: Field) -> None:
+        self.field = among
+        self._own: dict[Generator, int] = {}
+        self._values: dict[Generator, int] = {}
+        self._in_ring: dict[object, list[int]] = {}
 
-    def __init__(self, values: Values) -> None:
-        self._known: dict[Generator, Rational] = dict(values.items())
-        self._in_ring: dict[object, list[Rational]] = {}
-
-    def __call__(self, expression: Expr) -> Rational:
-        """The exact value of an expression."""
+    def __call__(self, expression: Expr) -> int:
+        """The value of an expression."""
         ring = expression.ring
         if ring not in self._in_ring:
             self._in_ring[ring] = [self._value(generator) for generator in ring.generators]
         values = self._in_ring[ring]
-        above = fmpq(expression.num(*values))
-        return above if expression.is_polynomial else above / fmpq(expression.den(*values))
+        above, below = (self._residue(part(*values)) for part in (expression.num, expression.den))
+        return above * self.field.inverse(below) % self.field.prime
 
-    def all(self, expressions: Iterable[Expr]) -> list[Rational]:
-        """The exact values of several expressions."""
+    def all(self, expressions: Iterable[Expr]) -> list[int]:
+        """The values of several expressions."""
         return [self(expression) for expression in expressions]
 
-    def _value(self, generator: Generator) -> Rational:
-        if generator not in self._known:
-            self._known[generator] = self._function(generator)
-        return self._known[generator]
+    def has(self, expressions: Iterable[Expr]) -> bool:
+        """Whether all of them have a value here."""
+        try:
+            self.all(expressions)
+        except _NoValueError:
+            return False
+        return True
 
-    def _function(self, generator: Generator) -> Rational:
-        even = next((g for g in generator.companions() if g.partner()), None)
+    def _residue(self, value: Any) -> int:
+        number = fmpq(value)
+        return int(number.p) * self.field.inverse(int(number.q))
+
+    def _value(self, generator: Generator) -> int:
+        if generator not in self._values:
+            self._values[generator] = self._function(generator)
+        return self._values[generator]
+
+    def _function(self, generator: Generator) -> int:
+        even = next(
+            (g for g in generator.companions() if generator.arguments and g.partner()), None
+        )
         partner = even.partner() if even is not None else None
-        if partner is None:
-            if isinstance(generator, Symbol):
-                return fmpq(1)  # in the ring, but not in the expression
-            raise NumericError(
-                "a square root or an exponential in a search for integrals",
-                expected="equations in polynomials, sines and cosines",
-                advice="the named candidates are still tried",
-            )
-        sign = partner[1]
-        x = self(generator.arguments[0])
-        above = 1 + sign * x * x if generator == even else 2 * x
-        return above / (1 - sign * x * x)
+        if partner is not None and generator in (even, partner[0]):
+            half, sign = self._drawn(partner[0]), partner[1]
+            above = 1 + sign * half * half if generator == even else 2 * half
+            return above * self.field.inverse(1 - sign * half * half) % self.field.prime
+        if generator.depth:
+            return self.field.root(self(generator.arguments[0]))
+        return self._drawn(generator)  # a symbol, or an exponential: independent of all others
+
+    def _drawn(self, generator: Generator) -> int:
+        varies = not generator.symbols().isdisjoint(self.field.varying)
+        known = self._own if varies else self.field.fixed
+        if generator not in known:
+            known[generator] = self.field.random.randrange(2, self.field.prime)
+        return known[generator]
 
 
-def random_values(symbols: Sequence[Symbol], random: Random) -> dict[Symbol, Rational]:
-    """Rational numbers between 0 and 1, where no sine or cosine vanishes."""
-    return {s: fmpq(random.randint(2, 97), random.randint(101, 197)) for s in symbols}
+def points(
+    expressions: Sequence[Expr], varying: Iterable[Symbol], count: int, seed: int
+) -> list[Point]:
+    """Random points of one field at which all expressions have a value.
+
+    Args:
+        expressions: what is to be evaluated there.
+        varying: symbols with another value at every point; all others have the same at all.
+        count: how many points.
+        seed: of the random values.
+
+    Raises `NumericError` where no such points are found.
+    """
+    random, changing = Random(seed), frozenset(varying)
+    for prime in islice(_primes(), _FIELDS):
+        found = list(islice(_regular(Field(prime, random, changing), expressions), count))
+        if len(found) == count:
+            return found
+    raise NumericError(
+        "integrals of expressions that have no value at random points",
+        expected="expressions that are defined somewhere",
+    )
+
+
+def _regular(among: Field, expressions: Sequence[Expr]) -> Iterator[Point]:
+    misses = 0
+    while misses < _MISSES:
+        point = Point(among)
+        if point.has(expressions):
+            misses = 0
+            yield point
+        misses += 1
+
+
+def _primes() -> Iterator[int]:
+    return (n for n in range(_LARGEST, 3, -4) if fmpz(n).is_probable_prime())

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from functools import cache, cached_property, lru_cache
 from typing import Any
 
-from polhode.algebra import ONE, ZERO, Expr, ExprLike, Row, Symbol, as_symbol, eliminate, sqrt
+from polhode.algebra import ONE, ZERO, Expr, Row, Symbol, eliminate, sqrt
 from polhode.analyse._conditions import Condition, Truth, positive
+from polhode.analyse._given import Given, values_given
 from polhode.analyse._steady import SteadyMotion
 from polhode.base import NumericError, Shown
 
@@ -31,12 +33,15 @@ class Stability(Shown):
         neutral: multiplicity of the exponent zero.
         directions: independent departures that neither grow nor oscillate; along the family
             itself and its parameters. Fewer than `neutral` of them means steady drift.
+        is_marginal: whether values given besides bring exponents to zero that are not so all along
+            the family, with departures that grow in proportion to time: the very threshold.
     """
 
     family: SteadyMotion
     polynomial: Row
     neutral: int
     directions: int
+    is_marginal: bool = False
 
     @property
     def drifts(self) -> bool:
@@ -59,6 +64,8 @@ class Stability(Shown):
     @cached_property
     def conditions(self) -> tuple[Condition, ...]:
         """All of them together are linear stability; what holds anyway is left out."""
+        if self.is_marginal:
+            return (Condition(-ONE),)
         demanded = _even(self.oscillating[::2]) if self.is_even else _hurwitz(self.oscillating)
         assumed = self.family.reduced.equations.assumed_positive
         found = dict.fromkeys(_condition(e, self.family, assumed) for e in demanded)
@@ -121,32 +128,48 @@ class Stability(Shown):
         return f"Stability: {self}"
 
 
-def stability(family: SteadyMotion, at: Mapping[Any, ExprLike] | None = None) -> Stability:
+def stability(family: SteadyMotion, at: Mapping[Any, Given] | None = None) -> Stability:
     """Linearise about a family of steady motions.
 
     Args:
         family: from `steady`.
-        at: further values of coordinates, speeds or parameters.
+        at: further values of coordinates, speeds or parameters: by name or symbol, as an
+            expression, an SI number or text with a unit.
 
-    Raises `NumericError` where the coordinates are singular on the family.
+    Raises:
+        DeclarationError: for a name the system does not have.
+        NumericError: where the coordinates are singular on the family.
+        UnitError: for a value that cannot be read or has the wrong dimension.
     """
-    given = {as_symbol(symbol): Expr.of(value) for symbol, value in (at or {}).items()}
-    narrowed = _narrowed(family, given)
-    left, right = _linearised(narrowed)
+    given = values_given(family.reduced.equations, at)
+    if not given:
+        return _about(family)
+    there = _about(_narrowed(family, given))
+    if not there.drifts or there.neutral < 2:
+        return there
+    with suppress(NumericError):  # without the values the relations may not be linear
+        everywhere = _about(family)
+        shortfall = everywhere.neutral - everywhere.directions
+        return replace(there, is_marginal=there.neutral - there.directions > shortfall)
+    return there
+
+
+def _about(family: SteadyMotion) -> Stability:
+    left, right = _linearised(family)
     size = range(len(left))
     exponent = Expr.generator(_EXPONENT)
     matrix = tuple(tuple(exponent * left[i][j] - right[i][j] for j in size) for i in size)
     polynomial = _coefficients(_determinant(matrix), len(left))
-    if vanishes(polynomial[-1], narrowed):
+    if vanishes(polynomial[-1], family):
         raise NumericError(
-            f"stability of {narrowed} of {family.reduced.equations.system.name}",
+            f"stability of {family} of {family.reduced.equations.system.name}",
             expected="coordinates that are not singular there",
             advice="describe the attitude by other angles, such as two tilts for an upright top",
         )
-    neutral = next(i for i, c in enumerate(polynomial) if not vanishes(c, narrowed))
-    frozen = [[_on(entry, narrowed) for entry in row] for row in right]
+    neutral = next(i for i, c in enumerate(polynomial) if not vanishes(c, family))
+    frozen = [[_on(entry, family) for entry in row] for row in right]
     rank = len(eliminate(frozen, [ZERO] * len(frozen)).solved)
-    return Stability(narrowed, polynomial, neutral, len(left) - rank)
+    return Stability(family, polynomial, neutral, len(left) - rank)
 
 
 def _narrowed(family: SteadyMotion, given: Mapping[Symbol, Expr]) -> SteadyMotion:

@@ -11,10 +11,8 @@ from polhode.algebra import (
     ONE,
     ZERO,
     Expr,
-    ExprLike,
     Kind,
     Symbol,
-    as_symbol,
     cos,
     eliminate,
     factors,
@@ -25,6 +23,7 @@ from polhode.algebra import (
     taylor,
 )
 from polhode.analyse._conditions import Condition, positive
+from polhode.analyse._given import Given, values_given
 from polhode.analyse._reduced import Reduced, reduced
 from polhode.base import NumericError, Shown
 from polhode.derive import Equations, equations_only
@@ -106,20 +105,22 @@ class SteadyMotion(Shown):
         return ", ".join([*pieces, *(f"{r} = 0" for r in self.relations)]) or "every state"
 
 
-def steady(
-    equations: Equations, at: Mapping[Any, ExprLike] | None = None
-) -> tuple[SteadyMotion, ...]:
+def steady(equations: Equations, at: Mapping[Any, Given] | None = None) -> tuple[SteadyMotion, ...]:
     """All families of steady motions.
 
     Args:
         equations: derived equations, autonomous.
-        at: coordinates, speeds or parameters that are given a value first.
+        at: coordinates, speeds or parameters that are given a value first: by name or symbol, as
+            an expression, an SI number or text with a unit.
 
-    Raises `NumericError` where there is no steady motion.
+    Raises:
+        DeclarationError: for a name the system does not have.
+        NumericError: where there is no steady motion.
+        UnitError: for a value that cannot be read or has the wrong dimension.
     """
     equations_only(equations, "steady motions")
     system = reduced(equations)
-    given = {as_symbol(symbol): Expr.of(value) for symbol, value in (at or {}).items()}
+    given = values_given(equations, at)
     _refuse_strangers(equations, given)
     rows = [row.subs(given) for row in (*system.rates, *equations.forcing)]
     found = [

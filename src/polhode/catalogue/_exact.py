@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from fractions import Fraction
 
-from polhode.algebra import Expr, Symbol, pi
-from polhode.base import PURE, TIME, Quantity, UnitError, look_up, read_quantity
+from polhode.algebra import Expr, Symbol
+from polhode.analyse import exact_value
+from polhode.base import look_up
 from polhode.catalogue._values import read_value
 from polhode.derive import Equations
-
-#: Angles in these fractions of π have sines that are square roots; others are kept as decimals.
-_EXACT_FRACTION = 12
 
 
 def exact_values(equations: Equations, texts: Mapping[str, str]) -> dict[Symbol, Expr]:
@@ -33,25 +30,5 @@ def exact_values(equations: Equations, texts: Mapping[str, str]) -> dict[Symbol,
     for name, text in texts.items():
         symbol = look_up(name, known, f"quantity of {equations.system.name}")
         value = read_value(name, text, constants)
-        found[symbol] = _measured(equations, symbol, value) if isinstance(value, str) else value
+        found[symbol] = exact_value(value, symbol, equations.dimensions)
     return found
-
-
-def _measured(equations: Equations, symbol: Symbol, text: str) -> Expr:
-    quantity = read_quantity(text)
-    base = equations.dimensions.get(symbol.base())
-    wanted = base / TIME**symbol.order if base is not None else None
-    if wanted is not None and quantity.dimension not in (None, wanted):
-        raise UnitError(
-            f"{symbol.published} = {text!r} is a quantity in {quantity.dimension}",
-            expected=f"a quantity in {wanted}",
-            advice="give a bare SI number or a unit of that dimension",
-        )
-    return _exactly(quantity)
-
-
-def _exactly(quantity: Quantity) -> Expr:
-    is_turn = quantity.pi_power == 1 and quantity.dimension == PURE
-    if is_turn and _EXACT_FRACTION % quantity.coefficient.denominator:
-        return Expr.of(Fraction(repr(quantity.value)))
-    return Expr.of(quantity.coefficient) * pi**quantity.pi_power

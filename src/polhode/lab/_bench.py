@@ -92,11 +92,11 @@ class Bench:
     def _standing(self, fields: Fields) -> bytes:
         wish = wish_of(fields.only(*_WISH))
         desk = self._desk(wish.system)
-        equations = desk.variant(wish.contact).equations
+        chosen = desk.variant(wish.contact)
         key = (wish.system, wish.contact)
         if key not in self._families:
-            self._families[key] = families_of(equations)
-            self._invariants[key] = invariants_of(equations)
+            self._families[key] = families_of(chosen.equations, chosen.system)
+            self._invariants[key] = invariants_of(chosen.equations)
         numbers = desk.numbers(wish)
         state = {**numbers.parameters, **numbers.start}
         return _json(

@@ -10,24 +10,33 @@ from typing import Any
 
 import numpy as np
 
-from polhode.algebra import FLOATS, Expr, Generator, Symbol, compile_program
+from polhode.algebra import ZERO, Expr, Generator, Symbol, eliminate
 from polhode.analyse import Branch, Condition, Stability, SteadyMotion, Truth, stability, steady
 from polhode.base import NumericError, PolhodeError
 from polhode.derive import Equations
 from polhode.lab._controls import unit_of
+from polhode.lab._steady_start import SteadyStart, Values, value
+from polhode.model import System
 from polhode.view import typeset
 
 _LARGEST = 1e15
 _REMEMBERED = 512  # formulas
 _LONGEST = 1500  # letters of a formula that is still shown
-Values = Mapping[str, float]
+#: What vanishes on a family, against its terms, where a state counts as on it.
+NEAR = 1e-5
 
 
 @dataclass(frozen=True)
 class Family:
-    """A family of steady motions with what is known of its stability."""
+    """A family of steady motions with what is known of its stability.
+
+    Attributes:
+        motion: the family.
+        system: that it is a motion of, with its contacts.
+    """
 
     motion: SteadyMotion
+    system: System
 
     @cached_property
     def judged(self) -> Stability | NumericError:
@@ -40,39 +49,75 @@ class Family:
     def standing(self, state: Values) -> dict[str, Any]:
         """The family as plain data, with every quantity's value at a state.
 
+        Conditions are about states on the family: `verdict` is given there alone, and of the whole
+        condition. Of a state beside it they are compared at the steady motion that has its free
+        quantities, where that is on the family.
+
         Args:
             state: parameters, coordinates and speeds in SI units, by published name.
         """
-        here = {**state, **self._held(state)}
+        there = {**state, **self._held(state)}
+        is_here, is_there = (self._distance(s) < NEAR for s in (state, there))
         document: dict[str, Any] = {
             "formula": _formula(self.motion.latex()),
             "spoken": str(self.motion)[:_LONGEST],
             "on": _finite(self._distance(state)),
-            "branches": [self._branch(branch, here) for branch in self.motion.branches],
+            "here": is_here,
+            "broken": self._start.broken(there) if is_here else "",
+            "branches": [self._branch(branch, there) for branch in self.motion.branches],
             "set": {n: v for n, v in self._held(state).items() if isfinite(v)},
+            "startable": self._is_possible(there),
+            "verdict": "",
         }
         if isinstance(self.judged, NumericError):
             return document | {"undecided": str(self.judged), "conditions": [], "frequencies": []}
+        if is_here and not document["broken"]:
+            document["verdict"] = self._verdict(self.judged, there)
         return document | {
             "stable": self.judged.truth.value,
-            "conditions": [_condition(c, here) for c in self.judged.conditions],
-            "frequencies": [_named(e, here) for e in self.judged.frequencies],
-            "growth": [_named(e, here) for e in self.judged.growth],
+            "conditions": [_condition(c, there, is_there) for c in self.judged.conditions],
+            "frequencies": [_named(e, there, is_there) for e in self.judged.frequencies],
+            "growth": [_named(e, there, is_there) for e in self.judged.growth],
             "loss": self.judged.loss,
         }
 
+    @cached_property
+    def _start(self) -> SteadyStart:
+        return SteadyStart(self.motion.reduced.equations, self.system)
+
+    @cached_property
+    def _is_singular(self) -> bool:
+        """Whether the coordinates are singular all along the family, exactly."""
+        mass = self.motion.reduced.equations.mass.rows
+        rows = [[entry.subs(self.motion.fixed) for entry in row] for row in mass]
+        return bool(eliminate(rows, [ZERO] * len(rows)).free)
+
+    def _is_possible(self, start: Values) -> bool:
+        on_it = self._distance(start) < NEAR and not self._is_singular
+        return on_it and self._start.is_possible(start)
+
+    def _verdict(self, judged: Stability, here: Values) -> str:
+        """Of a state on the family, by all conditions together."""
+        if judged.truth is not Truth.OPEN:
+            return "stable" if judged.truth is Truth.ALWAYS else "unstable"
+        holding = (value(c.expression, here) > 0 for c in judged.conditions)
+        return "stable" if all(holding) else "unstable"
+
     def _branch(self, branch: Branch, here: Values) -> dict[str, Any]:
         name, equations = branch.quantity.symbol, self.motion.reduced.equations
+        rate = value(branch.value, here)
+        there = {**here, name.published: rate} if name and isfinite(rate) else {}
         return {
             "formula": _formula(f"{branch.quantity.latex()} = {branch.value.latex()}"),
             "name": name.published if name else "",
             "unit": unit_of(name, equations) if name else "",
-            "value": _finite(_value(branch.value, here)),
+            "value": _finite(rate),
+            "startable": bool(there) and self._is_possible(there),
         }
 
     def _held(self, state: Values) -> dict[str, float]:
         """What has a definite value on the family."""
-        return {s.published: _value(e, state) for s, e in self.motion.fixed.items()}
+        return {s.published: value(e, state) for s, e in self.motion.fixed.items()}
 
     def _distance(self, state: Values) -> float:
         """How far a state is from the family: the largest of what vanishes on it, each against
@@ -86,37 +131,40 @@ def _departure(expression: Expr, state: Values) -> float:
         abs(number) * prod(abs(known.get(g.published, 0.0)) ** p for g, p in _symbols(powers))
         for powers, number in expression.numerator.terms()
     )
-    return abs(_value(expression.numerator, state)) / size if size else 0.0
+    return abs(value(expression.numerator, state)) / size if size else 0.0
 
 
 def _symbols(powers: Mapping[Generator, int]) -> Iterator[tuple[Symbol, int]]:
     return ((g, power) for g, power in powers.items() if isinstance(g, Symbol))
 
 
-def families_of(equations: Equations) -> list[Family]:
-    """All families; none where there is no steady motion or none can be found."""
+def families_of(equations: Equations, system: System) -> list[Family]:
+    """All families; none where there is no steady motion or none can be found.
+
+    Args:
+        equations: of motion with every contact touching, and sticking where it can.
+        system: as it is declared, with the friction of its contacts.
+    """
     try:
-        return [Family(motion) for motion in steady(equations)]
+        return [Family(motion, system) for motion in steady(equations)]
     except PolhodeError:
         return []
 
 
-def _condition(condition: Condition, here: Values) -> dict[str, Any]:
+def _condition(condition: Condition, here: Values, is_on: bool) -> dict[str, Any]:
     """An inequality, and the ratio of what speaks for it to what speaks against it.
 
-    The threshold is where the ratio is one.
+    The threshold is where the ratio is one. Off the family there is none.
     """
     if condition.truth is not Truth.OPEN:
         return {"formula": "", "spoken": condition.truth.value, "ratio": None}
-    terms = [_value(term, here) for term in _terms(condition.expression)]
+    stated = {"formula": _formula(condition.latex()), "spoken": str(condition)[:_LONGEST]}
+    if not is_on:
+        return {**stated, "ratio": None}
+    terms = [value(term, here) for term in _terms(condition.expression)]
     above, below = sum(t for t in terms if t > 0), -sum(t for t in terms if t < 0)
     ratio = above / below if below else float("inf")
-    return {
-        "formula": _formula(condition.latex()),
-        "spoken": str(condition)[:_LONGEST],
-        "holds": above > below,
-        "ratio": _finite(ratio),
-    }
+    return {**stated, "holds": above > below, "ratio": _finite(ratio)}
 
 
 def _terms(expression: Expr) -> Iterator[Expr]:
@@ -125,25 +173,14 @@ def _terms(expression: Expr) -> Iterator[Expr]:
         yield prod(factors, start=Expr.of(number))
 
 
-def _named(expression: Expr, here: Values) -> dict[str, Any]:
-    value = _finite(_value(expression, here))
-    return {"formula": _formula(expression.latex()), "value": value}
+def _named(expression: Expr, here: Values, is_on: bool) -> dict[str, Any]:
+    found = _finite(value(expression, here)) if is_on else None
+    return {"formula": _formula(expression.latex()), "value": found, "on": is_on}
 
 
 @lru_cache(_REMEMBERED)
 def _formula(latex: str) -> str:
     return typeset(latex) if len(latex) <= _LONGEST else ""
-
-
-def _value(expression: Expr, known: Values) -> float:
-    """Not a number where it is not defined."""
-    symbols = tuple(expression.symbols())
-    values = {"pi": np.pi, **known}
-    function = compile_program([expression], symbols).function(FLOATS)
-    try:
-        return float(function(*(values.get(s.published, 0.0) for s in symbols))[0])
-    except (ArithmeticError, ValueError):
-        return float("nan")
 
 
 def _finite(value: float) -> float | None:

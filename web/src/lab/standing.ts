@@ -4,7 +4,6 @@ import { formula, make } from "../dom";
 import { shownNumber } from "./sliders";
 import type { Family, Standing, Valued } from "./types";
 
-const NEAR = 1e-5; // what vanishes on a family, against its terms, where a state counts as on it
 const DECADES = 1; // to either side of a threshold, on its scale
 
 export type Go = (values: Record<string, number>) => void;
@@ -17,13 +16,14 @@ export function steadyMotions({ families }: Standing, go: Go): HTMLElement[] {
 
 function shown(family: Family, go: Go): HTMLElement {
   const title = make("h3", { class: "equation" }, family.formula ? formula(family.formula) : family.spoken);
-  const state = family.on !== null && family.on < NEAR ? badge("you are here", "holds") : "";
+  const state = family.here ? badge("you are here", "holds") : make("span", { class: "told" }, "the start is no such motion");
   const held = make("button", { type: "button", class: "switch" }, "Start there");
   held.addEventListener("click", () => go(family.set));
   return make(
     "article",
     { class: "family" },
-    make("div", { class: "head" }, title, state, ...(Object.keys(family.set).length ? [held] : [])),
+    make("div", { class: "head" }, title, state, ...(family.startable && Object.keys(family.set).length ? [held] : [])),
+    ...(family.broken ? [make("p", {}, badge("does not last", "fails"), ` ${family.broken}`)] : []),
     ...branches(family, go),
     ...stability(family),
     ...valued("frequencies of small oscillations", family.frequencies),
@@ -35,8 +35,8 @@ function branches(family: Family, go: Go): HTMLElement[] {
   return family.branches.map((branch) => {
     const value = make("span", { class: "number" }, branch.value === null ? " not real here" : ` = ${inUnit(branch.value, branch.unit)} here`);
     const row = make("p", { class: "branch" }, branch.formula ? formula(branch.formula) : branch.name, value);
-    const { name, value: si } = branch;
-    if (name && si !== null) {
+    const { name, value: si, startable } = branch;
+    if (name && si !== null && startable) {
       const button = make("button", { type: "button", class: "switch" }, "Start there");
       button.addEventListener("click", () => go({ ...family.set, [name]: si }));
       row.append(" ", button);
@@ -55,11 +55,11 @@ function stability(family: Family): HTMLElement[] {
   if (family.stable === "true") return [make("p", {}, badge("stable", "holds"), " at every rate, to first order")];
   if (family.stable === "false") return [make("p", {}, badge("unstable", "fails"), " at every rate")];
   const rows = family.conditions.map((condition) => {
-    const word = condition.holds ? badge("stable here", "holds") : badge("unstable here", "fails");
     const told = condition.formula ? formula(condition.formula) : make("span", { class: "long" }, condition.spoken);
-    return make("div", { class: "condition" }, make("p", {}, "stable when ", told), scale(condition.ratio), word);
+    return make("div", { class: "condition" }, make("p", {}, "stable when ", told), ...(condition.holds === undefined ? [] : [scale(condition.ratio)]));
   });
-  return [...rows, make("p", { class: "long" }, `Loss: ${family.loss ?? ""}`)];
+  const verdict = family.verdict ? [make("p", {}, badge(`${family.verdict} here`, family.verdict === "stable" ? "holds" : "fails"))] : [];
+  return [...rows, ...verdict, make("p", { class: "long" }, `Loss: ${family.loss ?? ""}`)];
 }
 
 /** What speaks for an inequality over what speaks against it; the threshold is in the middle. */
@@ -74,8 +74,8 @@ function scale(ratio: number | null): HTMLElement {
 
 function valued(title: string, values: Valued[]): HTMLElement[] {
   if (!values.length) return [];
-  const pieces = values.map(({ formula: text, value }) =>
-    make("span", { class: "valued" }, text ? formula(text) : "(long)", ` = ${value === null ? "not real here" : `${shownNumber(value)} rad/s`}`),
+  const pieces = values.map(({ formula: text, value, on }) =>
+    make("span", { class: "valued" }, text ? formula(text) : "(long)", on === false ? "" : ` = ${value === null ? "not real here" : `${shownNumber(value)} rad/s`}`),
   );
   return [make("p", { class: "freq" }, `${title}: `, ...pieces)];
 }

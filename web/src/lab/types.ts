@@ -52,13 +52,18 @@ export interface Reading {
 export interface Valued {
   formula: string;
   value: number | null;
+  on?: boolean;
 }
 
 export interface Family {
   formula: string;
   spoken: string;
   on: number | null;
-  branches: (Valued & { name: string; unit: string })[];
+  here: boolean;
+  broken: string;
+  startable: boolean;
+  verdict: string;
+  branches: (Valued & { name: string; unit: string; startable: boolean })[];
   set: Record<string, number>;
   undecided?: string;
   stable?: string;

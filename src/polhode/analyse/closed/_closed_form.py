@@ -9,7 +9,16 @@ from functools import cached_property
 from typing import Any
 
 from polhode.algebra import Expr, Symbol
-from polhode.analyse.closed import _coin, _free_body, _gyrocompass, _heavy_top, _marble, _pendulum
+from polhode.analyse.closed import (
+    _coin,
+    _free_attitude,
+    _free_body,
+    _gyrocompass,
+    _heavy_top,
+    _marble,
+    _pendulum,
+    _symmetric,
+)
 from polhode.analyse.closed._exact_data import Data, exact_data
 from polhode.analyse.closed._reals import Array, Digits, Doubles, Reals
 from polhode.analyse.closed._solution import Solution, Solvable
@@ -32,6 +41,8 @@ _FAMILIES: tuple[Callable[[Equations], Solvable | None], ...] = (
     _pendulum.recognise,
     _gyrocompass.recognise,
     _marble.recognise,
+    _symmetric.recognise,
+    _free_attitude.recognise,
 )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from fractions import Fraction
@@ -19,14 +20,16 @@ from polhode.algebra import (
     as_symbol,
     compile_program,
     pi,
+    sin,
     variables,
 )
+from polhode.analyse._given import measured
 from polhode.base import (
     PURE,
+    TIME,
     DeclarationError,
     Dimension,
     NumericError,
-    read_quantity,
     to_si,
 )
 from polhode.derive import Equations
@@ -37,6 +40,10 @@ Name = str | Symbol | Expr
 SPARE = 50
 #: How many times the digits are tried, before a number lost in rounding is given up.
 _REFINEMENTS = (1, 2, 4, 8, 16, 32)
+
+
+#: Stands for π where its multiples have no sine that can be written down.
+_ANY = Symbol("any_angle", positive=True)
 
 
 class Tools:
@@ -104,13 +111,21 @@ class Data:
         for fine in approximations:
             if fine and abs(fine - coarse) <= abs(fine) * self.context.eps:
                 return self.context.convert(fine)
-            if expression.subs(self.values).is_zero:
+            if self._vanishes(expression):
                 return self.context.zero
             coarse = fine
         raise NumericError(
             f"{expression} is smaller than any number of {_REFINEMENTS[-1] * self.digits} digits",
             expected="values for which it is zero or not",
         )
+
+    def _vanishes(self, expression: Expr) -> bool:
+        """Whether it is zero exactly; an angle whose sine is no square root may be any angle."""
+        if "generic" not in self._seen:
+            self._seen["generic"] = {s: _generic(value) for s, value in self.values.items()}
+        with suppress(NumericError):  # a sine that cannot be written down
+            return expression.subs(self._seen["generic"]).is_zero
+        return False
 
     def _approximations(self, expression: Expr) -> Iterator[Any]:
         for times in _REFINEMENTS:
@@ -214,14 +229,16 @@ class _Reader:
     def _value(self, value: Any, symbol: Symbol) -> Expr:
         if isinstance(value, Expr):
             return value
-        exact = read_quantity(value) if isinstance(value, str) else None
-        stated = (exact and exact.dimension) or PURE
-        number = to_si(value, self.dimensions.get(symbol, stated), symbol.published)
+        exact = measured(value, symbol, self.dimensions)
         if exact:
             return Expr.constant(exact.coefficient) * pi**exact.pi_power
         if isinstance(value, int | Fraction):
             return Expr.constant(value)
-        return Expr.constant(Fraction(number))
+        return Expr.constant(Fraction(to_si(value, self._dimension(symbol), symbol.published)))
+
+    def _dimension(self, symbol: Symbol) -> Dimension:
+        base = self.dimensions.get(symbol.base())
+        return PURE if base is None else base / TIME**symbol.order
 
 
 def _unknown(name: str, known: Mapping[str, Symbol], what: str) -> DeclarationError:
@@ -231,6 +248,15 @@ def _unknown(name: str, known: Mapping[str, Symbol], what: str) -> DeclarationEr
         expected=f"one of {', '.join(sorted(known))}",
         advice=f"did you mean {' or '.join(near)}?" if near else "",
     )
+
+
+def _generic(value: Expr) -> Expr:
+    """A value in which multiples of π are those of any number, if their sines are no roots."""
+    try:
+        sin(value)
+    except NumericError:
+        return value.subs({as_symbol(pi): Expr.generator(_ANY)})
+    return value
 
 
 def _fraction(context: Any, number: Fraction) -> Any:

@@ -52,15 +52,18 @@ class FreeBody(Solvable):
         return self.speeds
 
     def solve(self, data: Data) -> Solution:
-        return FreeRotation.start(data, self)
-
-    def excess(self, axis: int) -> Expr:
-        """L² - 2 T I for the moment of one axis, in which nothing cancels but between two terms."""
-        terms = (
-            moment * (moment - self.moments[axis]) * Expr.generator(speed) ** 2
-            for moment, speed in zip(self.moments, self.speeds, strict=True)
+        names = tuple(s.published for s in self.speeds)
+        return FreeRotation.start(
+            data, self.moments, tuple(map(Expr.generator, self.speeds)), names
         )
-        return sum(terms, start=ZERO)
+
+
+def _excess(moments: Three, omega: Three, axis: int) -> Expr:
+    """L² - 2 T I for the moment of one axis, in which nothing cancels but between two terms."""
+    terms = (
+        moment * (moment - moments[axis]) * w**2 for moment, w in zip(moments, omega, strict=True)
+    )
+    return sum(terms, start=ZERO)
 
 
 @dataclass(frozen=True)
@@ -88,26 +91,28 @@ class FreeRotation(Solution):
     momentum: Any
 
     @classmethod
-    def start(cls, data: Data, body: FreeBody) -> FreeRotation:
-        """From a start that is not steady."""
-        moments = tuple(map(data.number, body.moments))
+    def start(
+        cls, data: Data, inertia: Three, rates: Three, names: tuple[str, ...]
+    ) -> FreeRotation:
+        """From a start that is not steady, with moments and angular velocity as expressions."""
+        moments = tuple(map(data.number, inertia))
         order = tuple(sorted(range(3), key=lambda i: moments[i]))
-        if data.number(body.excess(order[1])) < 0:
+        if data.number(_excess(inertia, rates, order[1])) < 0:
             order = order[::-1]
         first, second, _ = order
         A, B, C = (moments[i] for i in order)
-        of_a, of_b, of_c = (data.number(body.excess(i)) for i in order)
+        of_a, of_b, of_c = (data.number(_excess(inertia, rates, i)) for i in order)
         sqrt = data.context.sqrt
         rate = sqrt((C - B) * of_a / (A * B * C))
         m1 = (C - A) * of_b / ((C - B) * of_a)
         sizes = (sqrt(of_c / (A * (A - C))), sqrt(of_c / (B * (B - C))), sqrt(of_a / (C * (C - A))))
-        omega = tuple(data.number(Expr.generator(s)) for s in body.speeds)
+        omega = tuple(map(data.number, rates))
         signs = _signs(order, C > A, omega, m1)
         amplitudes = tuple(sign * size for sign, size in zip(signs, sizes, strict=True))
         sn, cn = omega[second] / amplitudes[1], omega[first] / amplitudes[0]
         return cls(
             data.context,
-            tuple(s.published for s in body.speeds),
+            names,
             order,
             moments,
             amplitudes,

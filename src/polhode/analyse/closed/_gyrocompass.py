@@ -11,7 +11,7 @@ from polhode.analyse.closed._exact_data import Data
 from polhode.analyse.closed._reals import Array, Reals
 from polhode.analyse.closed._solution import Solution, Solvable, is_constant, rates
 from polhode.analyse.closed._swing_solution import SwingSolution
-from polhode.analyse.closed._swing_start import Swinging, swinging
+from polhode.analyse.closed._swing_start import SHIFTS, Swinging, swinging
 from polhode.derive import Equations
 
 
@@ -30,6 +30,7 @@ class Gyrocompass(Solvable):
         second: q, 1/s², of the second order in Ω.
         drag: r, 1/s.
         gain: s, 1/s.
+        shift: what is to be added to the coordinate to give θ, rad.
     """
 
     angle: Symbol
@@ -39,6 +40,7 @@ class Gyrocompass(Solvable):
     second: Expr
     drag: Expr
     gain: Expr
+    shift: Expr = ZERO
 
     name = "gyrocompass"
     formula = (
@@ -59,7 +61,11 @@ class Gyrocompass(Solvable):
     def _whole_spin(self) -> Expr:
         if self.spin is None:
             return ZERO
-        return Expr.generator(self.spin) + self.gain * cos(Expr.generator(self.angle))
+        return Expr.generator(self.spin) + self.gain * cos(self._theta)
+
+    @property
+    def _theta(self) -> Expr:
+        return Expr.generator(self.angle) + self.shift
 
     @property
     def _restoring(self) -> Expr:
@@ -71,20 +77,22 @@ class Gyrocompass(Solvable):
         return -(self.push + (self.drag * Expr.generator(self.spin) if self.spin else ZERO))
 
     def solve(self, data: Data) -> Solution:
-        theta, rate = (Expr.generator(s) for s in (self.angle, self.rate))
+        theta, rate = self._theta, Expr.generator(self.rate)
+        shift = data.number(self.shift)
         A, B = self.parts.values()
         approximate = None
         if data.number(self.first_order):
-            approximate = swinging(data, self.first_order, ZERO, theta, rate)
+            approximate = swinging(data, self.first_order, ZERO, theta, rate).shifted(shift)
         return Seeking(
             self.angle,
             self.rate,
-            swinging(data, A, B, theta, rate),
+            swinging(data, A, B, theta, rate).shifted(shift),
             self.spin,
             approximate,
             abs(data.number(A)) - data.number(B),
             data.number(self._whole_spin),
             data.number(self.gain),
+            shift,
         )
 
 
@@ -98,6 +106,7 @@ class Seeking(SwingSolution):
         stiffness: square of the frequency of small swings, exact in Ω, 1/s².
         whole_spin: n = ω + s cos θ, 1/s.
         gain: s, 1/s.
+        shift: what is to be added to the coordinate to give θ, rad.
     """
 
     spin: Symbol | None
@@ -105,6 +114,7 @@ class Seeking(SwingSolution):
     stiffness: Any
     whole_spin: Any
     gain: Any
+    shift: Any
 
     @property
     def figures(self) -> dict[str, Any]:
@@ -119,7 +129,8 @@ class Seeking(SwingSolution):
         found = super().at(reals, times)
         if self.spin is None:
             return found
-        cosine = reals.cos(found[self.angle.published])
+        theta = found[self.angle.published]
+        cosine = reals.cos(theta + reals.number(self.shift) if self.shift else theta)
         spin = reals.number(self.whole_spin) - reals.number(self.gain) * cosine
         return {**found, self.spin.published: spin}
 
@@ -139,16 +150,18 @@ def recognise(equations: Equations) -> Gyrocompass | None:
         return None
     for rate, *others in permutations(moving):
         if rate in angles:
-            found = _read(equations, angles[rate], rate, others[0] if others else None)
+            spin = others[0] if others else None
+            readings = (_read(equations, angles[rate], rate, spin, shift) for shift in SHIFTS)
+            found = next((compass for compass in readings if compass), None)
             if found is not None:
                 return found
     return None
 
 
 def _read(
-    equations: Equations, angle: Symbol, rate: Symbol, spin: Symbol | None
+    equations: Equations, angle: Symbol, rate: Symbol, spin: Symbol | None, shift: Expr
 ) -> Gyrocompass | None:
-    theta, velocity = Expr.generator(angle), Expr.generator(rate)
+    theta, velocity = Expr.generator(angle) + shift, Expr.generator(rate)
     pull = equations.accelerations[rate.derivative()] / sin(theta)
     drag = gain = ZERO
     if spin is not None:
@@ -158,5 +171,5 @@ def _read(
     second = -pull.diff(angle) / sin(theta)
     push = pull - second * cos(theta)
     if all(map(is_constant, (push, second, drag, gain))):
-        return Gyrocompass(angle, rate, spin, push, second, drag, gain)
+        return Gyrocompass(angle, rate, spin, push, second, drag, gain, shift)
     return None

@@ -9,7 +9,7 @@ from polhode.algebra import ZERO, Expr, Symbol, sin
 from polhode.analyse.closed._exact_data import Data
 from polhode.analyse.closed._solution import Solution, Solvable, is_constant, rates
 from polhode.analyse.closed._swing_solution import SwingSolution
-from polhode.analyse.closed._swing_start import swinging
+from polhode.analyse.closed._swing_start import SHIFTS, swinging
 from polhode.derive import Equations
 
 
@@ -21,11 +21,13 @@ class Pendulum(Solvable):
         angle: θ, from the upright where μ is positive.
         rate: θ̇, a speed of the equations.
         strength: μ, 1/s².
+        shift: what is to be added to the coordinate to give θ, rad.
     """
 
     angle: Symbol
     rate: Symbol
     strength: Expr
+    shift: Expr = ZERO
 
     name = "pendulum"
     formula = (
@@ -44,11 +46,11 @@ class Pendulum(Solvable):
         return self.angle, self.rate
 
     def solve(self, data: Data) -> Solution:
-        theta, rate = (Expr.generator(s) for s in (self.angle, self.rate))
+        theta, rate = Expr.generator(self.angle) + self.shift, Expr.generator(self.rate)
         lowest = data.context.pi if data.number(self.strength) > 0 else data.context.zero
-        return Fall(
-            self.angle, self.rate, swinging(data, -self.strength, ZERO, theta, rate), lowest
-        )
+        shift = data.number(self.shift)
+        motion = swinging(data, -self.strength, ZERO, theta, rate).shifted(shift)
+        return Fall(self.angle, self.rate, motion, lowest - shift)
 
 
 @dataclass(frozen=True)
@@ -81,5 +83,9 @@ def recognise(equations: Equations) -> Pendulum | None:
     if len(moving) != 1 or moving[0] not in angles:
         return None
     angle = angles[moving[0]]
-    strength = equations.accelerations[moving[0].derivative()] / sin(Expr.generator(angle))
-    return Pendulum(angle, moving[0], strength) if is_constant(strength) else None
+    for shift in SHIFTS:
+        theta = Expr.generator(angle) + shift
+        strength = equations.accelerations[moving[0].derivative()] / sin(theta)
+        if is_constant(strength):
+            return Pendulum(angle, moving[0], strength, shift)
+    return None

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
-from polhode.algebra import Expr, cos, sin
+from polhode.algebra import ZERO, Expr, cos, pi, sin
 from polhode.analyse.closed._exact_data import Data
 from polhode.analyse.closed._phase import Phase
 from polhode.analyse.closed._reals import Array, Digits, Reals
 from polhode.analyse.closed._swing import Across, AcrossWell, Beside, Half, Over, OverWell, Swing
 from polhode.base import NumericError
+
+#: From where angles may be counted: that of a swing from its equilibria, or from across them.
+SHIFTS = (ZERO, pi / 2)
 
 
 @dataclass(frozen=True)
@@ -33,6 +36,10 @@ class Swinging:
     def first_arrival(self, angle: Any) -> Any:
         """First time from 0 on at which θ is `angle` up to whole turns, s; None if never."""
         return self.swing.first_arrival(angle - self.origin)
+
+    def shifted(self, shift: Any) -> Swinging:
+        """The same of a coordinate that is less by `shift`."""
+        return replace(self, origin=self.origin - shift) if shift else self
 
     @property
     def figures(self) -> dict[str, Any]:

@@ -75,11 +75,14 @@ def _motion(mechanics: Mechanics) -> Iterator[Entry]:
         Name("a", "cm", decoration=_VECTOR): ("acceleration of cm",),
         Name("r", "cm", decoration=_VECTOR): ("position of cm",),
         Name("P", decoration=_VECTOR): ("momentum",),
+        Name("P", "total", decoration=_VECTOR): ("momentum",),
         Name("p", decoration=_VECTOR): ("momentum",),
         Name("L", decoration=_VECTOR): _about_points("angular momentum", mechanics),
         Name("L", "cm", decoration=_VECTOR): ("angular momentum about cm",),
+        Name("L", "O", decoration=_VECTOR): ("angular momentum about origin",),
         Name("tau", decoration=_VECTOR): _about_points("torque", mechanics),
         Name("tau", "cm", decoration=_VECTOR): ("torque about cm",),
+        Name("tau", "O", decoration=_VECTOR): ("torque about origin",),
         Name("F", "total", decoration=_VECTOR): ("total force",),
     }.items()
     if any(isinstance(load, Gravity) for load in mechanics.equations.system.loads):
@@ -93,9 +96,15 @@ def _of_each(quantity: str, mechanics: Mechanics) -> tuple[str, ...]:
 
 
 def _about_points(quantity: str, mechanics: Mechanics) -> tuple[str, ...]:
-    """The quantity about the centre of mass, and about every point that a pivot keeps at rest."""
-    fixed = (e.name for e in mechanics.equations.kinetics.elements if _keeps_at_rest(e))
-    return tuple(f"{quantity} about {point}" for point in ("cm", *fixed))
+    """The quantity about the centre of mass, and about every point that a pivot keeps at rest.
+
+    A particle has none about itself: that of a free one is about the origin.
+    """
+    fixed = [e.name for e in mechanics.equations.kinetics.elements if _keeps_at_rest(e)]
+    bodies = mechanics.equations.system.bodies
+    is_particle = len(bodies) == 1 and not any(any(row) for row in bodies[0].inertia.rows)
+    points = (fixed or ["origin"]) if is_particle else ["cm", *fixed]
+    return tuple(f"{quantity} about {point}" for point in points)
 
 
 def _keeps_at_rest(element: Element) -> bool:

@@ -1,0 +1,252 @@
+"""Coordinates and speeds of a body from its attitude, whatever rotations its angles stand for.
+
+R = Rot(m₁, q₁) Rot(m₂, q₂) Rot(m₃, q₃) K with m₂ across m₁ and m₃ (P. Davenport 1973): every usual
+sequence of angles is of this form, also with signs turned and constant rotations in between.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+from typing import Any
+
+from polhode.algebra import (
+    ONE,
+    Arithmetic,
+    Expr,
+    Kind,
+    Matrix,
+    Row,
+    Symbol,
+    arrays,
+    compile_program,
+    cos,
+    dot,
+    eliminate,
+    linear_parts,
+    rotation,
+    sin,
+    variables,
+)
+from polhode.analyse.closed._exact_data import Data
+from polhode.analyse.closed._reals import Array, Doubles, Reals
+from polhode.base import NumericError
+from polhode.derive import Equations
+from polhode.model import Body
+
+Vec = Sequence[Any]
+
+_W = tuple(Symbol(f"turning along {label}") for label in "xyz")
+
+
+@dataclass(frozen=True)
+class Chart:
+    """The angles that say how a body lies.
+
+    Attributes:
+        body: it.
+        angles: three coordinates, or two of a body whose turn about its axis is of no account.
+        axes: m₁, m₂ and m₃, or the body's axis at q = 0 in place of the last.
+        constant: K.
+        speeds: the body's own.
+        solved: the speeds in terms of the angles and the angular velocity along the root's axes.
+    """
+
+    body: Body
+    angles: tuple[Symbol, ...]
+    axes: tuple[Row, Row, Row]
+    constant: Matrix
+    speeds: tuple[Symbol, ...]
+    solved: Row
+
+    @classmethod
+    def of(cls, equations: Equations, body: Body, axis: Row) -> Chart | None:
+        """The chart of a body, with an axis along its own; None where it is of another form."""
+        fixed = body.fixed_axes
+        turns = _turns(body)
+        if fixed is None or turns is None:
+            return None
+        angles, about, constant = turns
+        if len(angles) == 2:
+            about = (*about, constant.times(axis))
+        if len(about) != 3 or dot(about[0], about[1]) or dot(about[1], about[2]):
+            return None
+        solved = _solved(equations, body, axis, len(angles))
+        if solved is None:
+            return None
+        first, second, third = about
+        return cls(body, angles, (first, second, third), constant, *solved)
+
+    @property
+    def attitude(self) -> Matrix:
+        """Components along axes fixed in the body → along the root's, in terms of the angles."""
+        fixed = self.body.fixed_axes or self.body.axes
+        return fixed.rotation_to(self.body.axes.root)
+
+
+def _turns(body: Body) -> tuple[tuple[Symbol, ...], tuple[Row, ...], Matrix] | None:
+    """Angles, directions they turn about at q = 0, and the constant rotation that is left."""
+    angles: list[Symbol] = []
+    about: list[Row] = []
+    constant = Matrix.diagonal([1, 1, 1])
+    frames = [] if body.fixed_axes is None else body.fixed_axes.lineage[-2::-1]
+    for frame in frames:
+        turning = [s for s in frame.angle.symbols() if s.kind.varies]
+        rest = frame.angle
+        if turning:
+            (angle, *more) = turning
+            slope = frame.angle.diff(angle)
+            if more or angle.kind is not Kind.COORDINATE or slope not in (ONE, -ONE):
+                return None
+            rest = frame.angle - slope * Expr.generator(angle)
+            angles.append(angle)
+            about.append(tuple(slope * c for c in constant.times(frame.axis)))
+        constant = constant @ rotation(frame.axis, cos(rest), sin(rest))
+    return (tuple(angles), tuple(about), constant) if len(set(angles)) == len(about) else None
+
+
+def _solved(
+    equations: Equations, body: Body, axis: Row, count: int
+) -> tuple[tuple[Symbol, ...], Row] | None:
+    turning = equations.kinetics.velocities[body][1].express(body.axes).components
+    speeds = tuple(s for s in equations.speeds if s in variables(turning))
+    given = body.axes.root.rotation_to(body.axes).times([Expr.generator(s) for s in _W])
+    if count == 2:  # of the angular velocity only what moves the axis is known
+        turning, given = _across(turning, axis), _across(given, axis)
+    try:
+        parts = [linear_parts(component, speeds) for component in turning]
+    except NumericError:
+        return None
+    right = [g - rest for g, (_, rest) in zip(given, parts, strict=True)]
+    found = eliminate([row for row, _ in parts], right)
+    if len(speeds) != count or found.free:
+        return None
+    return speeds, tuple(found.solved[j][1] for j in range(count))
+
+
+def _across(vector: Row, axis: Row) -> Row:
+    along = dot(vector, axis)
+    return tuple(c - along * a for c, a in zip(vector, axis, strict=True))
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A chart at numbers.
+
+    Attributes:
+        chart: the chart.
+        data: exact values of parameters and start.
+    """
+
+    chart: Chart
+    data: Data
+
+    @cached_property
+    def start(self) -> list[list[Any]]:
+        """The attitude at t = 0."""
+        return [[self.data.number(entry) for entry in row] for row in self.chart.attitude.rows]
+
+    @cached_property
+    def _directions(self) -> tuple[list[Any], ...]:
+        """m₁, m₂, m₁ × m₂ and m₃."""
+        first, second, third = ([self.data.number(c) for c in row] for row in self.chart.axes)
+        return first, second, cross(first, second), third
+
+    @cached_property
+    def _lag(self) -> Any:
+        """Angle from m₁ to m₃ in the plane that q₂ turns them in."""
+        first, _, beside, third = self._directions
+        return self.data.context.atan2(scalar(third, beside), scalar(third, first))
+
+    @cached_property
+    def _side(self) -> int:
+        """Sign of sin(λ - q₂), which no motion changes that keeps off the singular position."""
+        return 1 if self.data.context.sin(self._lag - self.begun[1]) > 0 else -1
+
+    def angles(self, reals: Reals, attitude: Sequence[Vec], axis: Vec) -> list[Array]:
+        """Angles, but for whole turns, at which the attitude and the body's axis are these."""
+        if len(self.chart.angles) == 2:
+            return self._two(reals, axis)
+        m1, m2, _, m3 = (list(map(reals.number, v)) for v in self._directions)
+        constant = [
+            [reals.number(self.data.number(e)) for e in r] for r in self.chart.constant.rows
+        ]
+        turned = [[scalar(row, line) for line in constant] for row in attitude]  # R Kᵀ
+        first, second = self._two(reals, [scalar(row, m3) for row in turned])
+        across = [scalar(row, m2) for row in turned]
+        back = _rotated(reals, m2, -second, _rotated(reals, m1, -first, across))
+        third = reals.atan2(scalar(back, cross(m3, m2)), scalar(back, m2))
+        return [first, second, third]
+
+    def _two(self, reals: Reals, image: Vec) -> list[Array]:
+        m1, m2, beside, _ = (list(map(reals.number, v)) for v in self._directions)
+        along, sideways, ahead = (scalar(image, v) for v in (m1, m2, beside))
+        lean = self._side * reals.atan2(reals.sqrt(sideways**2 + ahead**2), along)
+        first = reals.atan2(-self._side * sideways, self._side * ahead)
+        return [first, reals.number(self._lag) - lean]
+
+    def speeds(self, reals: Reals, angles: Sequence[Array], turning: Vec) -> dict[str, Array]:
+        """Speeds at these angles and this angular velocity along the root's axes."""
+        known = (*self.chart.angles, *_W)
+        constants = sorted(variables(self.chart.solved) - set(known), key=lambda s: s.published)
+        program = compile_program(self.chart.solved, (*known, *constants))
+        numbers = [self.data.number(Expr.generator(s)) for s in constants]
+        values = _evaluated(reals, self.data, program, [*angles, *turning], numbers)
+        return {s.published: v for s, v in zip(self.chart.speeds, values, strict=True)}
+
+    @property
+    def begun(self) -> list[Any]:
+        """The angles at t = 0."""
+        return [self.data.number(Expr.generator(q)) for q in self.chart.angles]
+
+
+def _evaluated(
+    reals: Reals, data: Data, program: Any, varying: Sequence[Array], constants: Sequence[Any]
+) -> list[Array]:
+    import numpy as np
+
+    if isinstance(reals, Doubles):
+        given = (*np.broadcast_arrays(*varying), *map(float, constants))
+        return [np.asarray(v, dtype=float) for v in program.function(arrays())(*given)]
+    context = data.context
+    make = partial(_ratio, context)
+    function = program.function(Arithmetic.of(context, make))
+    lanes = np.broadcast_arrays(*varying)
+    shape = lanes[0].shape
+    found = [
+        function(*place, *constants) for place in zip(*(v.ravel() for v in lanes), strict=True)
+    ]
+    columns = zip(*found, strict=True)
+    return [_objects(column).reshape(shape) for column in columns]
+
+
+def _objects(values: Sequence[Any]) -> Array:
+    import numpy as np
+
+    made = np.empty(len(values), dtype=object)
+    made[:] = values
+    return made
+
+
+def _ratio(context: Any, number: Any) -> Any:
+    return context.mpf(number.numerator) / number.denominator
+
+
+def scalar(a: Vec, b: Vec) -> Any:
+    """Scalar product."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a: Vec, b: Vec) -> list[Any]:
+    """Vector product."""
+    return [a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3)]
+
+
+def _rotated(reals: Reals, axis: Vec, angle: Array, vector: Vec) -> list[Array]:
+    """A vector turned about a unit axis."""
+    c, s = reals.cos(angle), reals.sin(angle)
+    along, beside = scalar(axis, vector), cross(axis, vector)
+    return [
+        c * v + s * b + (1 - c) * along * a for v, b, a in zip(vector, beside, axis, strict=True)
+    ]
