@@ -202,6 +202,11 @@ class Equations(Shown):
         """Names of reaction components that Newton's laws leave open."""
         return self._solved.undetermined
 
+    @property
+    def unexplained(self) -> tuple[Expr, ...]:
+        """Balances of bodies that no reaction takes up; they vanish along the motion."""
+        return self._solved.unexplained
+
     @cached_property
     def reactions(self) -> dict[str, Reaction]:
         """Force and couple of every contact and joint on its body, by its name."""

@@ -68,11 +68,13 @@ class Reactions:
         undetermined: components that Newton's laws leave open, or that depend on open ones.
         least: the values with the smallest sum of squares of all forces and, where these leave
             couples open, with the smallest sum of squares of all couples.
+        unexplained: what the balances demand that no component can supply.
     """
 
     values: dict[str, Expr]
     undetermined: tuple[str, ...]
     least: dict[str, Expr]
+    unexplained: tuple[Expr, ...]
 
 
 def lines(motion: Motion) -> tuple[Line, ...]:
@@ -211,10 +213,11 @@ def _unheld(motion: Motion, demanding: list[Body]) -> ConstraintError:
 
 def _named(outcome: Elimination, columns: tuple[Line, ...], eliminated: Solve) -> Reactions:
     names = [line.name for line in columns]
+    left = tuple(outcome.leftover[i] for i in outcome.contradictory)
     if not outcome.free:
         values = {names[j]: constant for j, (_, constant) in outcome.solved.items()}
         ordered = {name: values[name] for name in names}
-        return Reactions(ordered, (), ordered)
+        return Reactions(ordered, (), ordered, left)
     told = _in_terms_of_open(outcome)
     open_ = tuple(Expr.generator(Symbol(names[j])) for j in outcome.free)
     least_open = _least(told, columns, eliminated)
@@ -222,6 +225,7 @@ def _named(outcome: Elimination, columns: tuple[Line, ...], eliminated: Solve) -
         {name: _sum(told[j], open_) for j, name in enumerate(names)},
         tuple(name for j, name in enumerate(names) if any(told[j][0])),
         {name: _sum(told[j], least_open) for j, name in enumerate(names)},
+        left,
     )
 
 
