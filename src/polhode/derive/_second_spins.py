@@ -20,8 +20,8 @@ def refuse_second_spins(motion: Unconstrained) -> None:
         idle = [s for s in angles if s.kind is Kind.COORDINATE and _is_idle(motion, body, s)]
         if idle:
             raise DeclarationError(
-                f"body {body.name!r}, which spins about {', '.join(loose)} while its axes turn with "
-                f"{', '.join(sorted(s.published for s in idle))} as it does",
+                f"body {body.name!r}, which spins about {', '.join(loose)} while its axes turn "
+                f"likewise with {', '.join(sorted(s.published for s in idle))}",
                 expected="axes that do not turn about the axis of spin, or turn with other bodies",
                 advice="say spin=WithAxes() if the axes are fixed in the body, or leave out that "
                 "rotation",

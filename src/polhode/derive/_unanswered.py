@@ -37,8 +37,7 @@ def refuse_unanswered(motion: Unconstrained) -> None:
 def _refuse_loads(motion: Unconstrained) -> None:
     for load in motion.system.loads:
         for push in load.on_places(motion.places, motion.velocities):
-            axes = push.velocity.triad.directions
-            moving = [s for axis in axes for s in motion.moving(push.velocity, axis)]
+            moving = motion.gaining(push.velocity)
             held = motion.carried(*load.bodies)
             others = [b for b in motion.movers(moving) if b not in held]
             works = [s for s in moving if motion.slope(push.velocity, s).dot(push.force)]

@@ -39,6 +39,12 @@ class Unconstrained:
         slopes, _ = linear_parts(along, self.speeds)
         return [speed for speed, slope in zip(self.speeds, slopes, strict=True) if slope]
 
+    def gaining(self, velocity: Vector) -> list[Symbol]:
+        """The speeds on which a place's velocity depends in any direction."""
+        return [
+            s for s in self.speeds if is_moved(velocity) and not self.slope(velocity, s).is_zero
+        ]
+
     def slope(self, velocity: Vector, speed: Symbol) -> Vector:
         """What a velocity gains with a speed."""
         given = (c.subs(self.rates) for c in velocity.components)

@@ -197,17 +197,15 @@ class Spring(Load):
         length: ExprLike = 0,
         name: str = "spring",
     ) -> None:
-        values = {
-            "start": start,
-            "end": end,
+        laws = {
             "stiffness": quantity(stiffness, f"stiffness of {name!r}"),
             "length": not_negative(length, f"length of {name!r}"),
-            "name": name,
         }
+        for field, value in laws.items():
+            without_coordinates([value], f"{field} of {name!r}", _NO_POTENTIAL)
+        values = {"start": start, "end": end, **laws, "name": name}
         for field, value in values.items():
             object.__setattr__(self, field, value)
-        for field in ("stiffness", "length"):
-            without_coordinates([values[field]], f"{field} of {name!r}", _NO_POTENTIAL)
         _require_points(start, end, name)
         for point in (start, end):
             if isinstance(point, BodyPoint):
