@@ -1,4 +1,4 @@
-"""Trailers in a row against Newton's and Euler's equations by hand; every symbol means something."""
+"""Trailers in a row against Newton's and Euler's equations by hand; no symbol is unknown."""
 
 from functools import cache
 

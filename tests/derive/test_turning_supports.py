@@ -136,9 +136,7 @@ def test_a_plane_that_turns_may_be_told_by_its_normal_or_by_its_frame() -> None:
     turn = Omega * ph.time
     normals = (DRIVEN["x"], LAB.vector(ph.cos(turn), ph.sin(turn), 0))
     first, second = (
-        ph.derive(
-            ph.System(ph.Pivot(rotor), ph.Guide(rotor, axis="3", normal=normal, label="q"))
-        )
+        ph.derive(ph.System(ph.Pivot(rotor), ph.Guide(rotor, axis="3", normal=normal, label="q")))
         for normal in normals
     )
     assert first.dependent == second.dependent

@@ -33,9 +33,7 @@ def train(size: int, *, hitch: bool = True, redundant: bool = False) -> ph.Syste
             end = before.point(before.axes["x"] * -(c if hitch else 0))
             only = "" if redundant else "x y"
             at = axes["x"] * b
-            parts.append(
-                ph.Pivot(trailer, at=at, to=end, name=f"hitch {k}", force="H", only=only)
-            )
+            parts.append(ph.Pivot(trailer, at=at, to=end, name=f"hitch {k}", force="H", only=only))
         before = trailer
     return ph.System(*parts, ph.Gravity(g), name=f"{size} trailers")
 
