@@ -201,8 +201,8 @@ class Spring(Load):
             "stiffness": quantity(stiffness, f"stiffness of {name!r}"),
             "length": not_negative(length, f"length of {name!r}"),
         }
-        for field, value in laws.items():
-            without_coordinates([value], f"{field} of {name!r}", _NO_POTENTIAL)
+        for field, law in laws.items():
+            without_coordinates([law], f"{field} of {name!r}", _NO_POTENTIAL)
         values = {"start": start, "end": end, **laws, "name": name}
         for field, value in values.items():
             object.__setattr__(self, field, value)
