@@ -126,16 +126,38 @@ def test_a_hinge_and_one_pivot_tell_everything() -> None:
     assert equations.components["tau_y"] == -m * g * a - m * a * spin**2 * h / 2
 
 
-def test_the_least_choice_is_the_smallest_of_all() -> None:
-    """Moving any open component away from it makes the sum of squares grow."""
+def test_the_least_choice_has_the_least_forces_and_then_the_least_couples() -> None:
+    """No change of the open components makes the forces smaller, and none that keeps the forces
+    makes the couples smaller. What may change: the pivots against each other, and with a couple.
+    """
     equations = door("top", "hinge")
-    open_ = [ph.symbol(name) for name in equations.undetermined]
-    squares = sum((force**2 for force in equations.components.values()), ph.Expr.of(0))
-    least = {ph.symbol(name): equations.least[name] for name in equations.undetermined}
-    free = [s for s in open_ if equations.components[str(s)] == s]
-    assert free
-    for symbol in free:
-        assert squares.diff(symbol).subs(least).is_zero
+    forces = ("F_x", "F_y", "F_z", "G_x", "G_y", "G_z")
+    apart = [{"F_x": 1, "G_x": -1, "tau_y": h}, {"F_y": 1, "G_y": -1, "tau_x": -h}]
+    lifted = {"F_z": 1, "G_z": -1}
+    for change in (*apart, lifted):
+        slope = sum((equations.least[name] * change.get(name, 0) for name in forces), ph.Expr.of(0))
+        assert slope.is_zero
+    # Every change alters a force, so that nothing is left for the couples to choose.
+    assert equations.least["tau_y"] == -m * g * a
+    assert equations.least["F_x"] == equations.least["G_x"] == push(equations) / 2
+
+
+def test_where_forces_leave_couples_open_the_least_couples_are_chosen() -> None:
+    """A shaft in two bearings that are at one place: each bears half of every couple."""
+    axes = LAB.rotated(ph.coordinates("theta")[0], "z")
+    shaft = ph.Body("shaft", mass=m, inertia=ph.symbols("A B C"), axes=axes)
+    load = ph.Torque(shaft, LAB["x"] * ph.symbol("N"))
+    bearings = (ph.Hinge(shaft, axis="z"), ph.Hinge(shaft, axis="z", name="two", torque="sigma"))
+    equations = ph.derive(ph.System(ph.Pivot(shaft), *bearings, load))
+    assert set(equations.undetermined) == {"tau_x", "tau_y", "sigma_x", "sigma_y"}
+    for label in "xy":
+        assert equations.least[f"tau_{label}"] == equations.least[f"sigma_{label}"]
+
+
+def test_least_reactions_are_of_the_dimensions_of_a_force_and_a_couple() -> None:
+    """A sum of squares of forces and couples took (2 + h²) for a sum like any other."""
+    dimensions = {s.published: str(d) for s, d in door("top", "hinge").dimensions.items()}
+    assert (dimensions["h"], dimensions["a"], dimensions["g"]) == ("m", "m", "m/s^2")
 
 
 # -- welds, motors, moving pivots ------------------------------------------------------------------

@@ -145,7 +145,10 @@ def test_every_public_part_of_a_system_can_be_written():
     assert known - made <= written
 
 
-angles = st.sampled_from([theta, phi - ph.pi / 3, 2 * psi, ph.functions("chi")[0] * ph.symbol("n")])
+beta = ph.coordinate("beta")
+angles = st.sampled_from(
+    [theta, phi - ph.pi / 3, 2 * beta, ph.functions("chi")[0] * ph.symbol("n")]
+)
 turns = st.lists(st.tuples(angles, st.sampled_from("123")), max_size=3)
 lengths = st.sampled_from([a, a / 3, ph.sqrt(a * m), a + ph.symbol("d") ** 2])
 contacts = st.sampled_from([ph.Rolling, ph.Smooth, lambda *w, **k: ph.Coulomb(*w, mu=mu, **k)])

@@ -35,6 +35,7 @@ from polhode.algebra._linear import length as length
 from polhode.algebra._linear import rotation as rotation
 from polhode.algebra._linear import solve as solve
 from polhode.algebra._linear import variables as variables
+from polhode.algebra._parts import has_parts as has_parts
 from polhode.algebra._parts import named as named
 from polhode.algebra._parts import under_letters as under_letters
 from polhode.algebra._parts import under_name as under_name

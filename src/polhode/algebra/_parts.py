@@ -120,20 +120,30 @@ def under_name(generator: Generator) -> Expr | None:
     return generator.meaning if isinstance(generator, Part) else None
 
 
-def under_letters(expressions: Sequence[Expr]) -> tuple[tuple[Expr, ...], dict[Symbol, Generator]]:
+def has_parts(expression: Expr) -> bool:
+    """Whether something in it stands under a name."""
+    return any(map(_hides, expression.generators))
+
+
+def under_letters(
+    expressions: Sequence[Expr], known: Iterable[Symbol] = ()
+) -> tuple[tuple[Expr, ...], dict[Symbol, Generator]]:
     """Expressions with a symbol z_1, z_2, ... for every part, for print; and what those stand for.
 
-    The letter is another one where a symbol has such a name already.
+    The letter is another one where a symbol in them, or one of those known, has such a name.
     """
     parts = dict.fromkeys(g for e in expressions for g in e.generators if _hides(g))
-    taken = {s.name.partition("_")[0] for e in expressions for s in e.symbols()}
+    symbols = {*known, *(s for e in expressions for s in e.symbols())} if parts else set()
+    taken = {s.name.partition("_")[0] for s in symbols}
     letter = next(letter for letter in ("z", "Z", "zeta", "part") if letter not in taken)
-    symbols = {part: Symbol(f"{letter}_{i}") for i, part in enumerate(parts, 1)}
-    images = {part: Expr.generator(symbol) for part, symbol in symbols.items()}
-    written = tuple(
-        e.recast({g: images[g] for g in e.generators if g in images}) for e in expressions
-    )
-    return written, {symbol: part for part, symbol in symbols.items()}
+    letters = {part: Symbol(f"{letter}_{i}") for i, part in enumerate(parts, 1)}
+    images = {part: Expr.generator(symbol) for part, symbol in letters.items()}
+
+    def written(expression: Expr) -> Expr:
+        hidden = {g: images[g] for g in expression.generators if g in images}
+        return expression.recast(hidden) if hidden else expression
+
+    return tuple(map(written, expressions)), {symbol: part for part, symbol in letters.items()}
 
 
 def _hides(generator: Generator) -> bool:

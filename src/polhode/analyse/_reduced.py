@@ -57,7 +57,7 @@ def reduced(equations: Equations) -> Reduced:
 
 def refuse_parts(equations: Equations) -> None:
     """Refuse equations that are too long to be written out, with `NumericError`."""
-    if equations.in_parts:
+    if equations.motion_in_parts:
         raise NumericError(
             f"equations of {equations.system.name!r} in named parts",
             expected="equations in closed form, short enough to be written out",

@@ -13,7 +13,7 @@ from polhode.cli._document import print_document, printed
 from polhode.cli._parser import Parser
 from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.cli._text import wrapped
-from polhode.derive import Equations, derive
+from polhode.derive import Equations, derive, lettered
 
 
 def configure(parser: Parser) -> None:
@@ -67,22 +67,24 @@ def _told(entry: Entry, equations: Equations) -> Iterator[str]:
     yield str(equations)
     if equations.undetermined:
         yield "  of which the least forces are"
-        yield from (
-            f"  {name} = {equations.least[name].pretty()}" for name in equations.undetermined
-        )
+        least = {name: equations.least[name] for name in equations.undetermined}
+        yield from _assigned(equations, least)
     others = {s: e for s, e in equations.dependent.items() if s not in equations.kinematics}
     if others:
         yield "Speeds that the constraints give"
-        yield from _assigned(others)
-    yield f"Energy\n  E = {equations.energy.pretty()}"
+        named = {Expr.generator(symbol).pretty(): value for symbol, value in others.items()}
+        yield from _assigned(equations, named)
+    yield "Energy"
+    yield from _assigned(equations, {"E": equations.energy})
     if equations.assumed_positive:
         yield "Assumed"
         yield from (f"  {sign.pretty()} > 0" for sign in equations.assumed_positive)
 
 
-def _assigned(values: Mapping[Symbol, Expr]) -> Iterator[str]:
-    for symbol, value in values.items():
-        yield f"  {Expr.generator(symbol).pretty()} = {value.pretty()}"
+def _assigned(equations: Equations, values: Mapping[str, Expr]) -> Iterator[str]:
+    written, legend = lettered(equations, values.values())
+    yield from (f"  {name} = {value.pretty()}" for name, value in zip(values, written, strict=True))
+    yield from (f"  {line}" for line in legend)
 
 
 def _names(symbols: Iterable[Symbol]) -> list[str]:

@@ -6,6 +6,7 @@ from polhode.derive._automaton import Mode as Mode
 from polhode.derive._automaton import automaton as automaton
 from polhode.derive._derive import derive as derive
 from polhode.derive._derive import equations_only as equations_only
+from polhode.derive._display import lettered as lettered
 from polhode.derive._equations import Equations as Equations
 from polhode.derive._equations import Reaction as Reaction
 from polhode.derive._guards import Guard as Guard

@@ -20,8 +20,9 @@ from polhode.derive._balance import Wrench, demands
 from polhode.derive._equations import Equations
 from polhode.derive._form import CLOSED, IN_PARTS, Form
 from polhode.derive._motion import Motion, motion_of
-from polhode.derive._names import refuse_shared_names
+from polhode.derive._names import refuse_shared_names, refuse_unknown_coordinates
 from polhode.derive._reactions import Line, lines, solve_reactions
+from polhode.derive._unbalanced import refuse_unbalanced
 from polhode.model import Body, System
 
 
@@ -66,6 +67,7 @@ def _derived(system: System, form: Form) -> Equations:
     motion = motion_of(system, form)
     needs = demands(motion)
     refuse_shared_names(motion, needs)
+    refuse_unknown_coordinates(motion, needs)
     columns = lines(motion)
     rows = _projected(motion, needs)
     rubbing = [c for c in columns if c.leans]
@@ -77,7 +79,10 @@ def _derived(system: System, form: Form) -> Equations:
         )
     parts = [linear_parts(row, motion.accelerations) for row in rows]
     mass = _mirrored([coefficients for coefficients, _ in parts])
-    return Equations(system, motion, needs, columns, rows, mass, tuple(-rest for _, rest in parts))
+    forcing = tuple(-rest for _, rest in parts)
+    equations = Equations(system, motion, needs, columns, rows, mass, forcing)
+    refuse_unbalanced(equations)
+    return equations
 
 
 def _mirrored(rows: Sequence[Row]) -> Matrix:

@@ -187,3 +187,7 @@ def uses_of(
         yield Use(f"rate of {coordinate.base().published}", quotient, PURE)
     yield from (Use(name, energy, ENERGY) for name, energy in energies.items())
     yield from (Use(name, value, d) for name, (value, d) in reactions.items())
+    for restraint in (r for group in motion.restraints.values() for r in group):
+        for arm in (restraint.arm, restraint.other_arm):
+            lengths = () if arm is None else arm.components
+            yield from (Use(f"place of {restraint.name}", c, LENGTH) for c in lengths)

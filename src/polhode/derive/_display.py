@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from polhode.algebra import Expr, Symbol, dot, under_letters
@@ -13,32 +13,52 @@ if TYPE_CHECKING:
 
 def equations_text(equations: Equations) -> str:
     """Kinematics, equations of motion and reactions, one to a line."""
-    title = f"Equations of motion of {equations.system.name}"
-    if equations.in_parts:
-        return "\n".join([title, *_in_parts(equations)])
-    blocks = {
-        title: [f"{row.pretty()} = 0" for row in equations.motion],
-        "with": _assignments(_told_rates(equations)),
-        "Reactions": [f"{name} = {value.pretty()}" for name, value in equations.components.items()],
-    }
-    lines = []
-    for heading, block in blocks.items():
-        if block:
-            lines += [heading, *(f"  {line}" for line in block)]
+    lines = [f"Equations of motion of {equations.system.name}"]
+    lines += _in_parts(equations) if equations.motion_in_parts else _closed(equations)
     if equations.undetermined:
         lines.append(f"Not determined: {', '.join(equations.undetermined)}")
     return "\n".join(lines)
 
 
-def _in_parts(equations: Equations) -> list[str]:
-    rows, parts = under_letters(_rows(equations))
+def _closed(equations: Equations) -> Iterator[str]:
+    yield from (f"  {row.pretty()} = 0" for row in equations.motion)
+    if rates := _told_rates(equations):
+        yield "with"
+        yield from (f"  {line}" for line in _assignments(rates))
+    if equations.components:
+        yield "Reactions"
+        values, legend = lettered(equations, equations.components.values())
+        named = zip(equations.components, values, strict=True)
+        yield from (f"  {name} = {value.pretty()}" for name, value in named)
+        yield from legend
+
+
+def _in_parts(equations: Equations) -> Iterator[str]:
+    rows, legend = lettered(equations, _rows(equations))
+    yield from (f"  {row.pretty()} = 0" for row in rows)
+    yield from legend
+    yield f"Reactions: {', '.join(line.name for line in equations.lines)}"
+
+
+def lettered(
+    equations: Equations, expressions: Iterable[Expr]
+) -> tuple[tuple[Expr, ...], tuple[str, ...]]:
+    """Expressions with a letter for everything that stands under a name, and what these are.
+
+    No symbol of the equations has such a letter. The second is a line, or none without letters.
+    """
+    written, parts = under_letters(tuple(expressions), _known(equations))
     names = [Expr.generator(symbol).pretty() for symbol in parts]
-    return [
-        *(f"  {row.pretty()} = 0" for row in rows),
-        f"where {names[0]}, ..., {names[-1]} are long expressions of coordinates and speeds, kept"
-        " under names",
-        f"Reactions: {', '.join(line.name for line in equations.lines)}",
-    ]
+    if not names:
+        return written, ()
+    one = f"{names[0]} is a long expression"
+    several = f"{names[0]}, ..., {names[-1]} are long expressions"
+    told = one if len(names) == 1 else several
+    return written, (f"where {told} of coordinates and speeds, kept under names",)
+
+
+def _known(equations: Equations) -> tuple[Symbol, ...]:
+    return (*equations.coordinates, *equations.kinetics.dependent, *equations.parameters)
 
 
 def _rows(equations: Equations) -> tuple[Expr, ...]:
@@ -60,7 +80,7 @@ def _assignments(values: Mapping[Symbol, Expr]) -> list[str]:
 def equations_latex(equations: Equations) -> str:
     """The equations of motion, aligned."""
     written = equations.motion
-    if equations.in_parts:
-        written, _ = under_letters(_rows(equations))
+    if equations.motion_in_parts:
+        written, _ = lettered(equations, _rows(equations))
     rows = r" \\ ".join(f"{row.latex()} &= 0" for row in written)
     return rf"\begin{{aligned}} {rows} \end{{aligned}}"

@@ -14,6 +14,7 @@ from polhode.algebra import (
     Row,
     Symbol,
     Vector,
+    has_parts,
     variables,
 )
 from polhode.base import Dimension, Shown
@@ -96,9 +97,17 @@ class Equations(Shown):
         return f"$\\displaystyle {self.latex()}$"
 
     @property
-    def in_parts(self) -> bool:
-        """Whether long expressions stand under names, because in closed form they are too long."""
+    def motion_in_parts(self) -> bool:
+        """Whether long expressions of the equations of motion stand under names."""
         return self.kinetics.form == IN_PARTS
+
+    @property
+    def in_parts(self) -> bool:
+        """Whether long expressions stand under names, because in closed form they are too long.
+
+        They may do so in reactions alone, while the equations of motion are closed.
+        """
+        return self.motion_in_parts or any(map(has_parts, self.components.values()))
 
     @property
     def coordinates(self) -> tuple[Symbol, ...]:
@@ -137,7 +146,7 @@ class Equations(Shown):
         Raises `NumericError` beyond five coupled speeds, where only the blocks are kept, and for
         motions that nothing resists.
         """
-        if self.in_parts:
+        if self.motion_in_parts:
             solved = accelerations_in_parts(self.mass, self.forcing)
         else:
             solved = solve_accelerations(self.speeds, self.mass, self.forcing)
@@ -192,6 +201,11 @@ class Equations(Shown):
     def undetermined(self) -> tuple[str, ...]:
         """Names of reaction components that Newton's laws leave open."""
         return self._solved.undetermined
+
+    @property
+    def unexplained(self) -> tuple[Expr, ...]:
+        """Balances of bodies that no reaction takes up; they vanish along the motion."""
+        return self._solved.unexplained
 
     @cached_property
     def reactions(self) -> dict[str, Reaction]:

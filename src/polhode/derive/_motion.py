@@ -17,6 +17,9 @@ from polhode.algebra import (
 from polhode.base import ConstraintError, DeclarationError
 from polhode.derive._constraints import Speeds, against, dependent_speeds
 from polhode.derive._form import IN_PARTS, Form
+from polhode.derive._second_spins import refuse_second_spins
+from polhode.derive._unanswered import refuse_unanswered
+from polhode.derive._unconstrained import Unconstrained
 from polhode.model import Body, Element, Restraint, System
 
 
@@ -118,6 +121,9 @@ def motion_of(system: System, form: Form) -> Motion:
         body: _kept(_raw_velocity(body, places[body], rates), form, speeds)
         for body in system.bodies
     }
+    unconstrained = Unconstrained(system, elements, places, restraints, raw, rates, speeds)
+    refuse_second_spins(unconstrained)
+    refuse_unanswered(unconstrained)
     ranks = _ranks(system, bare, quasi, brought)
     dependent = dependent_speeds(prescribed, raw, rates, ranks, form)
     independent = tuple(s for s in speeds if s not in dependent)

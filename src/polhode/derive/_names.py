@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
 
-from polhode.algebra import variables
+from polhode.algebra import Kind, variables
 from polhode.base import DeclarationError
 from polhode.derive._balance import Wrench
 from polhode.derive._motion import Motion
@@ -29,6 +29,20 @@ def refuse_shared_names(motion: Motion, demands: Mapping[Body, Wrench]) -> None:
     for name in _names(demands):
         if name in owners:
             raise _shared(name, f"{owners[name]!r}, and a symbol of the declaration")
+
+
+def refuse_unknown_coordinates(motion: Motion, demands: Mapping[Body, Wrench]) -> None:
+    """Refuse coordinates that no body is placed or turned by: nothing tells how they move."""
+    wrenches = (c for w in demands.values() for v in (w.force, w.couple) for c in v.components)
+    used = variables((*wrenches, *motion.kinematics.values(), *motion.dependent.values()))
+    coordinates = {s.base() for s in used if s.kind is Kind.COORDINATE}
+    unknown = sorted(s.published for s in coordinates - set(motion.coordinates))
+    if unknown:
+        raise DeclarationError(
+            f"the coordinate {', '.join(unknown)}, by which no body is placed or turned",
+            expected=f"one of {', '.join(s.published for s in motion.coordinates)}",
+            advice="for a motion that is given, take functions(...) or an expression of time",
+        )
 
 
 def _components(motion: Motion) -> Iterator[tuple[str, str]]:

@@ -66,12 +66,15 @@ class Reactions:
         values: each component in terms of coordinates, speeds and accelerations; components that
             are not determined appear in the others as symbols of their own names.
         undetermined: components that Newton's laws leave open, or that depend on open ones.
-        least: the values with the smallest sum of squares of all components.
+        least: the values with the smallest sum of squares of all forces and, where these leave
+            couples open, with the smallest sum of squares of all couples.
+        unexplained: what the balances demand that no component can supply.
     """
 
     values: dict[str, Expr]
     undetermined: tuple[str, ...]
     least: dict[str, Expr]
+    unexplained: tuple[Expr, ...]
 
 
 def lines(motion: Motion) -> tuple[Line, ...]:
@@ -189,7 +192,7 @@ def _solved(
     outcome = eliminated([b.row for b in balances], [b.demand for b in balances])
     if len(outcome.contradictory) > spare:
         raise _unheld(motion, [balances[i].body for i in outcome.contradictory])
-    return _named(outcome, [line.name for line in columns], eliminated)
+    return _named(outcome, columns, eliminated)
 
 
 def _part(vector: Vector, triad: Triad, index: int) -> Expr:
@@ -208,34 +211,73 @@ def _unheld(motion: Motion, demanding: list[Body]) -> ConstraintError:
     )
 
 
-def _named(outcome: Elimination, names: list[str], eliminated: Solve) -> Reactions:
+def _named(outcome: Elimination, columns: tuple[Line, ...], eliminated: Solve) -> Reactions:
+    names = [line.name for line in columns]
+    left = tuple(outcome.leftover[i] for i in outcome.contradictory)
     if not outcome.free:
         values = {names[j]: constant for j, (_, constant) in outcome.solved.items()}
         ordered = {name: values[name] for name in names}
-        return Reactions(ordered, (), ordered)
+        return Reactions(ordered, (), ordered, left)
+    told = _in_terms_of_open(outcome)
     open_ = tuple(Expr.generator(Symbol(names[j])) for j in outcome.free)
-    least_open = _least(outcome, eliminated)
-    values = dict(zip((names[j] for j in outcome.free), open_, strict=True))
-    least = dict(zip((names[j] for j in outcome.free), least_open, strict=True))
-    loose = [names[j] for j in outcome.free]
-    for j, (row, constant) in outcome.solved.items():
-        values[names[j]] = dot(row, open_) + constant
-        least[names[j]] = dot(row, least_open) + constant
-        loose += [names[j]] if any(row) else []
+    least_open = _least(told, columns, eliminated)
     return Reactions(
-        {name: values[name] for name in names},
-        tuple(name for name in names if name in loose),
-        {name: least[name] for name in names},
+        {name: _sum(told[j], open_) for j, name in enumerate(names)},
+        tuple(name for j, name in enumerate(names) if any(told[j][0])),
+        {name: _sum(told[j], least_open) for j, name in enumerate(names)},
+        left,
     )
 
 
-def _least(outcome: Elimination, eliminated: Solve) -> Row:
-    """Open components that make the sum of squares of all components smallest."""
-    pairs = list(outcome.solved.values())
-    size = range(len(outcome.free))
-    normal = [
-        tuple(sum((row[i] * row[j] for row, _ in pairs), ONE if i == j else ZERO) for j in size)
-        for i in size
-    ]
-    right = [-sum((row[i] * constant for row, constant in pairs), ZERO) for i in size]
-    return tuple(value for _, value in eliminated(normal, right).solved.values())
+#: A linear expression: coefficients, and the rest.
+Linear = tuple[Row, Expr]
+
+
+def _sum(linear: Linear, values: Row) -> Expr:
+    coefficients, rest = linear
+    return dot(coefficients, values) + rest
+
+
+def _in_terms_of_open(outcome: Elimination) -> dict[int, Linear]:
+    """Every component in terms of those that stay open."""
+    return outcome.solved | {j: (_unit(k, outcome.free), ZERO) for k, j in enumerate(outcome.free)}
+
+
+def _unit(place: int, among: Sequence[int]) -> Row:
+    return tuple(ONE if i == place else ZERO for i in range(len(among)))
+
+
+def _least(told: Mapping[int, Linear], columns: tuple[Line, ...], eliminated: Solve) -> Row:
+    """Open components that make the sum of squares of all forces smallest, then of all couples.
+
+    A force and a couple are not of one dimension: a sum of squares of both would depend on the
+    unit of length.
+    """
+    size = len(told[0][0])
+    open_: list[Linear] = [(_unit(k, range(size)), ZERO) for k in range(size)]
+    for couples in (False, True):
+        group = [told[j] for j, line in enumerate(columns) if line.restraint.is_couple is couples]
+        unknowns = len(open_[0][0])
+        if group and unknowns:
+            chosen = _smallest([_composed(one, open_) for one in group], unknowns, eliminated)
+            open_ = [_composed(one, chosen) for one in open_]
+    return tuple(rest for _, rest in open_)
+
+
+def _composed(linear: Linear, inner: Sequence[Linear]) -> Linear:
+    """A linear expression of linear expressions."""
+    coefficients, rest = linear
+    columns = zip(*(row for row, _ in inner), strict=True)
+    return (
+        tuple(dot(coefficients, column) for column in columns),
+        dot(coefficients, [constant for _, constant in inner]) + rest,
+    )
+
+
+def _smallest(group: Sequence[Linear], unknowns: int, eliminated: Solve) -> list[Linear]:
+    """The unknowns that make the sum of squares smallest, in terms of those it leaves free."""
+    size = range(unknowns)
+    normal = [tuple(sum((row[i] * row[j] for row, _ in group), ZERO) for j in size) for i in size]
+    right = [-sum((row[i] * rest for row, rest in group), ZERO) for i in size]
+    told = _in_terms_of_open(eliminated(normal, right))
+    return [told[j] for j in size]

@@ -32,6 +32,7 @@ from polhode.model._loads import Damper as Damper
 from polhode.model._loads import Force as Force
 from polhode.model._loads import Gravity as Gravity
 from polhode.model._loads import Load as Load
+from polhode.model._loads import Push as Push
 from polhode.model._loads import Spring as Spring
 from polhode.model._loads import Torque as Torque
 from polhode.model._loads import Velocities as Velocities

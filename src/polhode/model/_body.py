@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from polhode.algebra import Expr, ExprLike, Matrix, Vector
+from polhode.algebra import Expr, ExprLike, Matrix, Vector, variables
 from polhode.base import DeclarationError
-from polhode.model._checks import of_type, quantity
+from polhode.model._checks import is_varying, of_type, quantity
 from polhode.model._declared import Declared
 from polhode.model._frame import Frame
 from polhode.model._inertia import InertiaLike, check_inertia, check_mass, is_symmetric
@@ -35,8 +35,9 @@ class Body(Declared):
         tag: appended to the names of its coordinates and speeds; tells bodies apart.
 
     Raises:
-        DeclarationError: for a mass or inertia that no body can have, and for a body that is not
-            symmetric about an axis that it spins on while its axes do not.
+        DeclarationError: for a mass or inertia that no body can have, for a body that is not
+            symmetric about an axis that it spins on while its axes do not, and for one whose axes
+            turn with the angle of its spin.
     """
 
     name: str
@@ -79,6 +80,20 @@ class Body(Declared):
             object.__setattr__(self, field, value)
         for axis in chosen.loose(axes):
             self._refuse_lopsided(axis)
+        if chosen.loose(axes):
+            self._refuse_second_spin()
+
+    def _refuse_second_spin(self) -> None:
+        """Refuse to count turns by a coordinate that turns the axes already."""
+        turning = variables(frame.angle for frame in self.axes.lineage)
+        if twice := [str(q) for q in self.rates if q.symbols() & turning]:
+            raise DeclarationError(
+                f"body {self.name!r}, the turns of whose spin are counted by {', '.join(twice)}, "
+                "which turns its axes already",
+                expected="an angle of its own for the spin relative to the axes",
+                advice="say spin=WithAxes() if the axes are fixed in the body; otherwise name "
+                "another angle, as in spin=About('3', 'chi')",
+            )
 
     def _refuse_lopsided(self, axis: str) -> None:
         position = self.axes.position(axis)
@@ -146,6 +161,16 @@ class Body(Declared):
         first = self.inertia[0, 0]
         return bool(first) and self.inertia == Matrix.diagonal([first] * 3)
 
+    def keeps(self, vector: Vector) -> bool:
+        """Whether a vector is fixed in the body.
+
+        In a body that spins while its axes do not, only one along the axis of spin is.
+        """
+        axes = self.fixed_axes
+        parts = vector.components if axes is None else vector.express(axes).components
+        moving = any(is_varying(s) for part in parts for s in part.symbols())
+        return not moving and (axes is not None or not any(parts))
+
     def point(self, offset: Vector | None = None) -> BodyPoint:
         """A point fixed in the body's axes, by its vector from the centre of mass (m), or that."""
         return BodyPoint(self, self.axes.zero if offset is None else offset)
@@ -168,10 +193,7 @@ class BodyPoint(Declared):
 
         On a body that spins while its axes do not, that is every point off the axis of spin.
         """
-        axes = self.body.fixed_axes
-        parts = self.offset.components if axes is None else self.offset.express(axes).components
-        moving = any(s.kind.varies for part in parts for s in part.symbols())
-        if moving or (axes is None and any(parts)):
+        if not self.body.keeps(self.offset):
             raise DeclarationError(
                 f"{what}, ({', '.join(map(str, self.offset.components))}) "
                 f"from the centre of body {self.body.name!r}",

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from polhode.algebra import Expr, ExprLike, Vector, is_positive
+from collections.abc import Iterable
+
+from polhode.algebra import Expr, ExprLike, Kind, Symbol, Vector, is_positive, variables
 from polhode.base import DeclarationError, NumericError
 
 
@@ -37,13 +39,44 @@ def not_negative(value: ExprLike, what: str) -> Expr:
 
 def constant(expression: Expr, what: str) -> Expr:
     """An expression of parameters alone."""
-    varying = sorted(s.published for s in expression.symbols() if s.kind.varies)
+    varying = sorted(s.published for s in expression.symbols() if is_varying(s))
     if varying:
         raise DeclarationError(
             f"{what}: {expression}, which varies with {', '.join(varying)}",
             expected="a constant: bodies are rigid and keep their mass",
         )
     return expression
+
+
+def is_varying(symbol: Symbol) -> bool:
+    """Whether it changes as time goes on."""
+    return symbol.kind.varies or symbol.kind is Kind.TIME
+
+
+def without_rates(expressions: Iterable[Expr], what: str) -> None:
+    """Refuse speeds, and rates of coordinates, in what is a place or an angle."""
+    found = (s for s in variables(expressions) if _is_rate(s))
+    if rates := sorted(s.published for s in found):
+        raise DeclarationError(
+            f"{what}, which depends on {', '.join(rates)}",
+            expected="an expression of coordinates, parameters and time",
+            advice="a speed may stand in a load, or in the rate of a Motor or a Turntable",
+        )
+
+
+def without_coordinates(expressions: Iterable[Expr], what: str, advice: str) -> None:
+    """Refuse what the motion decides on, in what is given beforehand."""
+    found = (s for s in variables(expressions) if s.kind in (Kind.COORDINATE, Kind.SPEED))
+    if names := sorted(s.published for s in found):
+        raise DeclarationError(
+            f"{what}, which depends on {', '.join(names)}",
+            expected="an expression of parameters and time",
+            advice=advice,
+        )
+
+
+def _is_rate(symbol: Symbol) -> bool:
+    return symbol.kind is Kind.SPEED or (symbol.kind is Kind.COORDINATE and symbol.order > 0)
 
 
 def unit_vector(vector: Vector, what: str) -> Vector:

@@ -11,6 +11,7 @@ from polhode.algebra import (
     ZERO,
     Expr,
     ExprLike,
+    Kind,
     Matrix,
     Row,
     Vector,
@@ -18,11 +19,14 @@ from polhode.algebra import (
     pi,
     rotation,
     sin,
+    variables,
     zero_vector,
 )
 from polhode.base import DeclarationError, Shown
+from polhode.model._checks import without_rates
 
 IDENTITY = Matrix.diagonal([1, 1, 1])
+_FREE = (Kind.COORDINATE, Kind.SPEED)  # what the motion decides on
 
 
 @dataclass(frozen=True)
@@ -80,7 +84,9 @@ class Frame(Shown):
         if len(set(new)) != 3:
             raise DeclarationError(f"labels {labels!r}", expected="three different labels")
         axis = self._components(about)
-        return Frame(name or f"{self.name}'", self, Expr.of(angle), axis, new)
+        turned = Expr.of(angle)
+        without_rates([turned], f"a rotation of {self.name!r} by {turned}")
+        return Frame(name or f"{self.name}'", self, turned, axis, new)
 
     def _components(self, about: str | Sequence[ExprLike]) -> Row:
         if isinstance(about, str):
@@ -148,6 +154,11 @@ class Frame(Shown):
     def angular_velocity(self) -> Vector:
         """Angular velocity in inertial space, rad/s."""
         return Vector(self.turning, self)
+
+    @property
+    def turns_freely(self) -> bool:
+        """Whether it turns as coordinates change, and not by time alone."""
+        return any(s.kind in _FREE for s in variables(self.turning))
 
     def rotation_to(self, other: Frame) -> Matrix:
         """Turns components along these directions into components along the other's."""

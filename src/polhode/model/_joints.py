@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from polhode.algebra import Expr, ExprLike, Vector
+from polhode.base import DeclarationError
 from polhode.model._body import Body
 from polhode.model._checks import quantity, unit_vector
 from polhode.model._element import Element, Places, Restraint, require_two
@@ -98,10 +99,22 @@ class Universal(_Couple):
         super().__init__(body, to, name or f"universal{body.tag}", torque)
         for field, vector in (("arm", arm), ("other_arm", other_arm)):
             object.__setattr__(self, field, unit_vector(vector, f"{field} of {self.name!r}"))
+        self._require_fixed(body, "arm", arm)
+        if to is not None:
+            self._require_fixed(to, "other_arm", other_arm)
+
+    def _require_fixed(self, body: Body, field: str, vector: Vector) -> None:
+        if not body.keeps(vector):
+            raise DeclarationError(
+                f"{field} of {self.name!r}, ({', '.join(map(str, vector.components))})",
+                expected=f"a direction that is fixed in body {body.name!r}",
+                advice="take it along axes that turn with the body",
+            )
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
         across = self.arm.cross(self.other_arm)
-        return (self._restraint("cross", across, self._support()),)
+        carried = _carrying(self.other_arm) if self.to is None else self._support()
+        return (self._restraint("cross", across, carried),)
 
     def closures(self, places: Places) -> tuple[Expr, ...]:
         angle = self.arm.dot(self.other_arm)
@@ -117,7 +130,7 @@ class Guide(_Couple):
     Args:
         body: the body held.
         axis: label of the axis that is kept in the plane.
-        normal: unit vector perpendicular to the plane, fixed to the ground.
+        normal: unit vector perpendicular to the plane; it may turn with time.
         label: names the component of the couple: tau_2.
     """
 
@@ -137,14 +150,19 @@ class Guide(_Couple):
     ) -> None:
         super().__init__(body, None, name or f"guide{body.tag}", torque)
         unit_vector(normal, f"normal of {self.name!r}")
-        body.axes[axis]
+        if not body.keeps(body.axes[axis]):
+            raise DeclarationError(
+                f"axis {axis!r} of {self.name!r}, which does not turn with body {body.name!r}",
+                expected="an axis that is fixed in the body",
+                advice="take the axis of spin, or turn the axes with the body by one more angle",
+            )
         for field, value in (("axis", axis), ("normal", normal), ("label", label)):
             object.__setattr__(self, field, value)
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
         direction = self.body.axes[self.axis].cross(self.normal)
-        carried = self.normal.triad.angular_velocity
-        return (self._restraint(self.label, direction.express(self.body.axes), carried),)
+        along = direction.express(self.body.axes)
+        return (self._restraint(self.label, along, _carrying(self.normal)),)
 
     def closures(self, places: Places) -> tuple[Expr, ...]:
         rise = self.body.axes[self.axis].dot(self.normal)
@@ -192,3 +210,8 @@ class Motor(_Couple):
         if self.to is not None:
             frame = frame - self.to.angular_velocity
         return (self._restraint(self.axis, along, frame + along * self.rate),)
+
+
+def _carrying(direction: Vector) -> Vector:
+    """The least angular velocity in inertial space that a unit vector turns at, rad/s."""
+    return direction.cross(direction.dt())

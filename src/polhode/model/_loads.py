@@ -8,9 +8,17 @@ from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, ExprLike, Vector
 from polhode.model._body import Body, BodyPoint
-from polhode.model._checks import not_negative, of_type, quantity, unit_vector
+from polhode.model._checks import (
+    not_negative,
+    of_type,
+    quantity,
+    unit_vector,
+    without_coordinates,
+    without_rates,
+)
 from polhode.model._declared import Declared
 from polhode.model._element import Places
+from polhode.model._frame import Frame
 
 #: Velocity of the centre of mass and angular velocity of every body.
 Velocities = Mapping[Body, tuple[Vector, Vector]]
@@ -42,6 +50,14 @@ class Action:
         return self.force.dot(point) + self.couple.dot(angular)
 
 
+@dataclass(frozen=True)
+class Push:
+    """A force (N) on a place, and the velocity (m/s) at which the place is moved."""
+
+    force: Vector
+    velocity: Vector
+
+
 class Load(Declared, ABC):
     """A load; conservative where it has a potential."""
 
@@ -62,6 +78,10 @@ class Load(Declared, ABC):
         """Potential energy, J; None for a load that has none."""
         return None
 
+    def on_places(self, places: Places, velocities: Velocities) -> tuple[Push, ...]:
+        """What it does to places that are no points of bodies."""
+        return ()
+
 
 @dataclass(frozen=True, init=False)
 class Gravity(Load):
@@ -77,9 +97,13 @@ class Gravity(Load):
     name: str
 
     def __init__(self, g: ExprLike, *, up: Vector | None = None, name: str = "gravity") -> None:
+        strength = quantity(g, f"g of {name!r}")
+        without_coordinates([strength], f"g of {name!r}", _NO_POTENTIAL)
         if up is not None:
-            unit_vector(up, f"the direction up of {name!r}")
-        for field, value in (("g", quantity(g, f"g of {name!r}")), ("up", up), ("name", name)):
+            what = f"the direction up of {name!r}"
+            unit_vector(up, what)
+            without_coordinates(_at_rest(up).components, what, _NO_POTENTIAL)
+        for field, value in (("g", strength), ("up", up), ("name", name)):
             object.__setattr__(self, field, value)
 
     def _up(self, body: Body) -> Vector:
@@ -173,13 +197,13 @@ class Spring(Load):
         length: ExprLike = 0,
         name: str = "spring",
     ) -> None:
-        values = {
-            "start": start,
-            "end": end,
+        laws = {
             "stiffness": quantity(stiffness, f"stiffness of {name!r}"),
             "length": not_negative(length, f"length of {name!r}"),
-            "name": name,
         }
+        for field, law in laws.items():
+            without_coordinates([law], f"{field} of {name!r}", _NO_POTENTIAL)
+        values = {"start": start, "end": end, **laws, "name": name}
         for field, value in values.items():
             object.__setattr__(self, field, value)
         _require_points(start, end, name)
@@ -190,6 +214,9 @@ class Spring(Load):
     @property
     def bodies(self) -> tuple[Body, ...]:
         return _bodies(self.start, self.end)
+
+    def on_places(self, places: Places, velocities: Velocities) -> tuple[Push, ...]:
+        return _pushes(self.end, self.actions((), places, velocities))
 
     def _stretch(self, places: Places) -> Vector:
         return _place(self.start, places) - _place(self.end, places)
@@ -251,13 +278,19 @@ class Damper(Load):
         relative = _velocity(self.start, velocities) - _velocity(self.end, velocities)
         return _pair(self.start, self.end, relative * -self.damping)
 
+    def on_places(self, places: Places, velocities: Velocities) -> tuple[Push, ...]:
+        return _pushes(self.end, self.actions((), places, velocities))
 
+
+_NO_POTENTIAL = "say the force itself with Force or Torque, which may depend on anything"
 _POINT = "body.point() is its centre of mass, body.point(offset) any other point"
 
 
 def _require_points(start: object, end: object, name: str) -> None:
     of_type(start, BodyPoint, f"start of {name!r}", f"{_POINT}; only the end may be a place")
-    if not isinstance(end, Vector):
+    if isinstance(end, Vector):
+        without_rates(end.components, f"end of {name!r}")
+    else:
         of_type(end, BodyPoint, f"end of {name!r}", f"{_POINT}; or a place from the origin")
 
 
@@ -279,3 +312,13 @@ def _velocity(point: BodyPoint | Vector, velocities: Velocities) -> Vector:
 def _pair(start: BodyPoint, end: BodyPoint | Vector, force: Vector) -> tuple[Action, ...]:
     first = Action.at(start, force)
     return (first, Action.at(end, -force)) if isinstance(end, BodyPoint) else (first,)
+
+
+def _pushes(end: BodyPoint | Vector, actions: tuple[Action, ...]) -> tuple[Push, ...]:
+    """What the first of two opposite forces is answered by, at a place."""
+    return () if isinstance(end, BodyPoint) else (Push(-actions[0].force, end.dt()),)
+
+
+def _at_rest(vector: Vector) -> Vector:
+    """Resolved along the root frame."""
+    return vector.express(vector.triad.root) if isinstance(vector.triad, Frame) else vector

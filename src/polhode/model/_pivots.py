@@ -8,6 +8,7 @@ from typing import Any
 
 from polhode.algebra import Expr, Vector
 from polhode.model._body import Body, BodyPoint
+from polhode.model._checks import without_rates
 from polhode.model._element import Element, Places, Restraint, require_two
 from polhode.model._frame import Frame
 
@@ -20,9 +21,12 @@ class Pivot(Element):
         body: the body held.
         at: from its centre of mass to the point, m.
         to: the point: from the origin of the root frame (m; it may move with time), or a point of
-            another body; the origin by default.
+            another body; the origin by default. A place may contain coordinates of this body
+            alone: derivation refuses those that move other bodies, which would feel the force.
         along: frame whose directions name the components of the reaction.
-        only: labels of the directions in which it holds; all three by default.
+        only: labels of the directions in which it holds; all three by default. These directions
+            may turn: with two of three along axes of the other body, the point slides in a slot
+            of that body; along axes of its own body, it is the slot that slides over the place.
         force: letter of the components.
 
     Raises:
@@ -65,6 +69,8 @@ class Pivot(Element):
         if isinstance(self.to, BodyPoint):
             self.to.require_fixed(f"other point of {self.name!r}")
             require_two(self.name, body, self.to.body)
+        else:
+            without_rates(self.to.components, f"the place of {self.name!r}")
 
     @property
     def other(self) -> Body | None:
@@ -80,32 +86,57 @@ class Pivot(Element):
             return places[self.to.body] + self.to.offset
         return self.to
 
+    @property
+    def is_partial(self) -> bool:
+        """Whether it leaves the point free in some direction."""
+        return set(self.only) != set(self.along.labels)
+
     def centre(self, places: Places) -> Mapping[Body, Vector]:
-        partial = set(self.only) != set(self.along.labels)
-        if partial or (self.other is not None and self.other not in places):
+        if self.is_partial or (self.other is not None and self.other not in places):
             return {}
         return {self.body: self._target(places) - self.at}
 
+    def _gap(self, places: Places) -> Vector:
+        """From the place to the point that is held there."""
+        return places[self.body] + self.at - self._target(places)
+
     def closures(self, places: Places) -> tuple[Expr, ...]:
-        gap = places[self.body] + self.at - self._target(places)
+        gap = self._gap(places)
         return tuple(c for label in self.only if (c := gap.dot(self.along[label])))
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
         held = isinstance(self.to, BodyPoint)
         velocity = self.body.axes.zero if held else self._target(places).dt()
-        arm = self.to.offset if isinstance(self.to, BodyPoint) else None
+        arm, other_arm = self.at, self.to.offset if isinstance(self.to, BodyPoint) else None
+        if self.is_partial:
+            # Away from the place the point is held by the matter that is where the point is: by a
+            # slot of the other body; by a pin at the place in a slot of its own body; or by what
+            # turns with the directions.
+            gap = self._gap(places)
+            turns = self.along.turns_freely
+            if turns and other_arm is not None and _turns_with(self.along, self.other):
+                other_arm = other_arm + gap
+            elif turns and _turns_with(self.along, self.body):
+                arm = arm - gap
+            else:
+                velocity = velocity + self.along.angular_velocity.cross(gap)
         return tuple(
             Restraint(
                 f"{self.force}_{label}{self.body.tag}",
                 self.body,
                 self.along[label],
                 velocity,
-                self.at,
-                self.other,
                 arm,
+                self.other,
+                other_arm,
             )
             for label in self.only
         )
+
+
+def _turns_with(frame: Frame, body: Body | None) -> bool:
+    """Whether the directions of a frame are fixed in a body."""
+    return body is not None and (frame.angular_velocity - body.angular_velocity).is_zero
 
 
 @dataclass(frozen=True, init=False)

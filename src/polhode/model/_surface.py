@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, Vector, named, principal_root
-from polhode.model._checks import not_negative, positive, quantity
+from polhode.model._checks import constant, not_negative, positive, quantity
 from polhode.model._declared import Declared
 from polhode.model._frame import Frame
 
@@ -47,8 +47,8 @@ class Round(Surface):
     offset: Expr = ZERO
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "radius", positive(self.radius, "radius"))
-        object.__setattr__(self, "offset", quantity(self.offset, "offset of a sphere"))
+        object.__setattr__(self, "radius", constant(positive(self.radius, "radius"), "radius"))
+        object.__setattr__(self, "offset", _offset(self.offset, "a sphere"))
 
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
         if not self.offset:
@@ -71,7 +71,8 @@ class Rim(Surface):
     offset: Expr = ZERO
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "radius", positive(self.radius, "radius"))
+        object.__setattr__(self, "radius", constant(positive(self.radius, "radius"), "radius"))
+        object.__setattr__(self, "offset", _offset(self.offset, "a rim"))
 
     def is_symmetric(self, axes: Frame, axis: int) -> bool:
         return axes.position(self.axis) == axis
@@ -98,7 +99,8 @@ class Ellipsoidal(Surface):
     half_axes: tuple[Expr, Expr, Expr]
 
     def __post_init__(self) -> None:
-        halves = tuple(not_negative(half, "half-axis of an ellipsoid") for half in self.half_axes)
+        what = "half-axis of an ellipsoid"
+        halves = tuple(constant(not_negative(half, what), what) for half in self.half_axes)
         object.__setattr__(self, "half_axes", halves)
 
     def is_symmetric(self, axes: Frame, axis: int) -> bool:
@@ -122,7 +124,8 @@ class Face(Surface):
     height: Expr
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "height", not_negative(self.height, "height above the face"))
+        what = "height above the face"
+        object.__setattr__(self, "height", constant(not_negative(self.height, what), what))
 
     @property
     def is_face(self) -> bool:
@@ -133,6 +136,11 @@ class Face(Surface):
 
     def is_symmetric(self, axes: Frame, axis: int) -> bool:
         return False
+
+
+def _offset(value: Expr, of: str) -> Expr:
+    what = f"offset of {of}"
+    return constant(quantity(value, what), what)
 
 
 def _brief(squared: Expr) -> Expr:

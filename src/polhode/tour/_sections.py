@@ -156,7 +156,7 @@ def _reactions(worked: Worked) -> Iterator[Markup]:
             "p",
             "Newton’s laws leave open ",
             listed(map(Symbol, names)),
-            ". The choice with the smallest sum of squares is",
+            ". The choice with the smallest sum of squares, of forces and then of couples, is",
         )
         yield from _assigned({name: equations.least[name] for name in names})
 

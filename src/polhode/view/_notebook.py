@@ -19,7 +19,7 @@ from polhode.analyse import (
     stability,
 )
 from polhode.base import NumericError
-from polhode.derive import Equations
+from polhode.derive import Equations, lettered
 from polhode.model import Body, System
 from polhode.simulate import Trajectory
 from polhode.study import Ensemble
@@ -52,18 +52,18 @@ def _(thing: System) -> str:
 
 @html_of.register
 def _(thing: Equations) -> str:
-    motion = [equation("", row, _ZERO) for row in thing.motion]
     rates = {s: e for s, e in thing.kinematics.items() if s not in thing.speeds}
-    kinematics = [equation("", Expr.generator(s), e) for s, e in rates.items()]
-    reactions = [
-        equation("", Expr.generator(Symbol(name)), value)
-        for name, value in thing.components.items()
-        if name not in thing.undetermined
-    ]
+    told = {n: value for n, value in thing.components.items() if n not in thing.undetermined}
+    values, legend = lettered(thing, (*thing.motion, *rates.values(), *told.values()))
+    letters = iter(values)
+    motion = [equation("", next(letters), _ZERO) for _ in thing.motion]
+    kinematics = [equation("", Expr.generator(s), next(letters)) for s in rates]
+    reactions = [equation("", Expr.generator(Symbol(name)), next(letters)) for name in told]
     shown = f"<strong>Equations of motion of {escape(thing.system.name)}</strong>{rows(motion)}"
     shown += folded("with", kinematics) + folded("reactions", reactions)
     if thing.undetermined:
         shown += f"<p>Not determined: {escape(', '.join(thing.undetermined))}</p>"
+    shown += "".join(f"<p>{escape(line)}</p>" for line in legend)
     return framed(shown)
 
 
