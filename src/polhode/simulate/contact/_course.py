@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,9 +13,10 @@ from polhode.base import NumericError, Progress
 from polhode.derive import Guard
 from polhode.simulate._dynamics import WORK
 from polhode.simulate._segment import Part, Segment, state_at
-from polhode.simulate.contact._entry import Entry, beyond, state_on
+from polhode.simulate.contact._carried import gap_symbol, room_symbol, slip_symbols
+from polhode.simulate.contact._entry import Entry, beyond, directions_of, state_on
 from polhode.simulate.contact._lookout import Lookout
-from polhode.simulate.contact._machine import Machine, ModeMachine, gap_symbol, slip_symbols
+from polhode.simulate.contact._machine import Machine, ModeMachine
 from polhode.simulate.contact._onset import onset
 from polhode.simulate.contact._place import Place
 from polhode.simulate.contact._rise import fall_of
@@ -177,16 +178,27 @@ class Walk:
         return Outcome(segment, leaving(mode, guard, state, now, entry.place.work))
 
     def hop(self, mode: ModeMachine, entry: Entry) -> float:
-        """How far ahead a contact that opened on the way may be expected to be closed again, s.
+        """How far ahead a contact that opened on the way may be expected to be closed again, or one
+        that crossed an edge to be back at it, s.
 
         A short hop within a long step would be lost in the rounding of the long one.
         """
-        if not entry.gaps:
-            return np.inf
-        falls = mode.closing_rates(entry.state, entry.place.time)
-        rises = [meeting.velocity[2] for meeting in self._meetings(entry)]
-        hops = [fall_of(gap, rises[i], falls[i]) for i, gap in entry.gaps.items() if falls[i] < 0]
+        hops = [fall_of(*hop) for hop in self._hops(mode, entry) if hop[2] < 0]
         return 1.5 * min((hop for hop in hops if hop > 0), default=np.inf)
+
+    def _hops(self, mode: ModeMachine, entry: Entry) -> Iterator[tuple[Any, Any, Any]]:
+        """Heights and distances to an edge with their first and second rates."""
+        if not (entry.gaps or entry.rooms):
+            return
+        state, now, meetings = entry.state, entry.place.time, self._meetings(entry)
+        if entry.gaps:
+            falls = mode.closing_rates(state, now)
+            yield from ((gap, meetings[i].velocity[2], falls[i]) for i, gap in entry.gaps.items())
+        if entry.rooms:
+            bends = mode.room_rates(state, now, directions_of(entry, self._machine.numbers))
+            for i, room in entry.rooms.items():
+                is_beyond = entry.phases[i].is_beyond
+                yield room, meetings[i].leaving(is_beyond=is_beyond), bends[i]
 
     def _stretch(
         self,
@@ -243,12 +255,12 @@ def leaving(
     work: Any,
 ) -> Leaving:
     """Where a mode ends, in a state of it; the work is as before where none is done."""
-    gaps = {
-        i: state[gap_symbol(touch.contact)]
-        for i, touch in enumerate(mode.mode.touches)
-        if gap_symbol(touch.contact) in state
-    }
-    return Leaving(guard, place_of(mode, state, time, work), gaps)
+    contacts = [touch.contact for touch in mode.mode.touches]
+    gaps, rooms = (
+        {i: state[s] for i, contact in enumerate(contacts) if (s := symbol(contact)) in state}
+        for symbol in (gap_symbol, room_symbol)
+    )
+    return Leaving(guard, place_of(mode, state, time, work), gaps, rooms)
 
 
 def place_of(mode: ModeMachine, state: Mapping[Symbol, Any], time: Any, work: Any = 0.0) -> Place:
