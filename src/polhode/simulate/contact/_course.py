@@ -11,6 +11,7 @@ import numpy as np
 from polhode.algebra import Symbol
 from polhode.base import NumericError, Progress
 from polhode.derive import Guard
+from polhode.model import Rolling
 from polhode.simulate._dynamics import WORK
 from polhode.simulate._segment import Part, Segment, state_at
 from polhode.simulate.contact._carried import gap_symbol, room_symbol, slip_symbols
@@ -32,6 +33,7 @@ _LOOK = 400  # steps after which the guards are looked at
 VANISHED = 1e-14  # slip speed, relative to the velocities around, that is none
 LANDED = 1e-10  # the same at an instant at which the slip velocity turns round
 _MOST_EVENTS = 50_000
+_BEGUN = 1e-9  # of the time: a slip that begins is not told from rounding sooner
 _NO_TIME = 1e-11  # of the time of the whole motion
 _MOST_AT_ONCE = 32  # changes of mode while no time passes: far more than contacts can have
 
@@ -113,7 +115,7 @@ class Walk:
             if len(self._changes) > _MOST_EVENTS:
                 raise _chattering(time)
             if self._stands_still(end):
-                raise _undecided(time, {before, after})
+                raise self._undecided(time, {before, after})
         return Course(tuple(self._segments), tuple(self._changes), self._segments[-1].mode)
 
     def _stands_still(self, end: float) -> bool:
@@ -127,6 +129,22 @@ class Walk:
             return False
         instant = 8 * self._machine.numbers.spacing(last[-1])
         return bool(passed <= instant) or not self._rebounds()
+
+    def _undecided(self, time: float, modes: set[str]) -> NumericError:
+        # Where N vanishes while unlimited friction still pulls, the contact cannot open, for
+        # without friction it would close again; nor can it hold, for it would have to pull
+        # (Painlevé). Limited friction may bring a ball back to an edge from either side.
+        names = sorted(modes) if len(modes) > 1 else [*modes, "contact"]
+        unlimited = any(isinstance(c, Rolling) for c in self._machine.automaton.contacts)
+        give = "give the contact a friction coefficient mu, or " if unlimited else ""
+        return NumericError(
+            f"at t = {float(time):.9g} s no mode can follow: {' and '.join(names)} exclude each "
+            "other",
+            expected="friction that gives way before the contact has to open"
+            if unlimited
+            else "a contact mode that lasts for some time",
+            advice=f"{give}end the motion before that time",
+        )
 
     def _rebounds(self) -> bool:
         contacts = self._machine.automaton.contacts
@@ -157,7 +175,8 @@ class Walk:
             machine.move_on(now)
             limit = drive.until(now, end)
             if not parts:
-                limit = min(limit, now + self.hop(mode, entry))
+                least = _BEGUN * now if entry.onset else 0.0
+                limit = min(limit, now + max(self.hop(mode, entry), least))
             span = (now, limit)
             if entry.onset and not parts:
                 part = onset(mode, entry, state, span, machine.automaton.contacts)
@@ -289,17 +308,6 @@ def _settled(guard: Guard | None, time: float, drive: Drive) -> bool:
     """
     kind = guard.kind if guard is not None else ""
     return kind == "near-flat" or (kind == "sticks" and time not in drive.jerks)
-
-
-def _undecided(time: float, modes: set[str]) -> NumericError:
-    # Where N vanishes while unlimited friction still pulls, the contact cannot open, for without
-    # friction it would close again; nor can it hold, for it would have to pull (Painlevé).
-    names = sorted(modes) if len(modes) > 1 else [*modes, "contact"]
-    return NumericError(
-        f"at t = {float(time):.9g} s no mode can follow: {' and '.join(names)} exclude each other",
-        expected="friction that gives way before the contact has to open",
-        advice="give the contact a friction coefficient mu, or end the motion before that time",
-    )
 
 
 def _chattering(time: float) -> NumericError:
