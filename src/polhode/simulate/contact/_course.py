@@ -33,6 +33,7 @@ _LOOK = 400  # steps after which the guards are looked at
 VANISHED = 1e-14  # slip speed, relative to the velocities around, that is none
 LANDED = 1e-10  # the same at an instant at which the slip velocity turns round
 _MOST_EVENTS = 50_000
+_INSTANT = 32  # steps of rounding of the time: a hop that is over sooner is none
 _BEGUN = 1e-9  # of the time: a slip that begins is not told from rounding sooner
 _NO_TIME = 1e-11  # of the time of the whole motion
 _MOST_AT_ONCE = 32  # changes of mode while no time passes: far more than contacts can have
@@ -171,12 +172,12 @@ class Walk:
         state = state_on(machine, entry)
         guard: Guard | None = None
         scale = 0.0
+        shortest = _BEGUN * begin if entry.onset else _INSTANT * float(np.spacing(begin))
         while guard is None and now < end:
             machine.move_on(now)
             limit = drive.until(now, end)
             if not parts:
-                least = _BEGUN * now if entry.onset else 0.0
-                limit = min(limit, now + max(self.hop(mode, entry), least))
+                limit = min(limit, now + max(self.hop(mode, entry), shortest))
             span = (now, limit)
             if entry.onset and not parts:
                 part = onset(mode, entry, state, span, machine.automaton.contacts)
