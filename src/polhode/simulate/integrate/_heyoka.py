@@ -116,7 +116,7 @@ class _TaylorStepper:
         )
         if not steps.count:
             raise broken(begin)
-        return steps.leg(broken=outcome.name not in ("time_limit", "cb_stop"))
+        return steps.leg(end, broken=outcome.name not in ("time_limit", "cb_stop"))
 
 
 @once
