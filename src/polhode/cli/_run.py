@@ -18,6 +18,7 @@ from polhode.base import DeclarationError, Exit, NumericError, StoreError, termi
 from polhode.catalogue import Entry, about_with, contact_numbers, exactly, numbers_of
 from polhode.cli._contact_options import declared, sheet_of, watched_for
 from polhode.cli._document import print_document
+from polhode.cli._endings import MOTIONS, PAGES, refuse_other_endings
 from polhode.cli._interrupt import Interruptible
 from polhode.cli._parser import Parser, assignments
 from polhode.cli._systems import NAME_HELP, entry_of
@@ -86,6 +87,8 @@ def configure(parser: Parser) -> None:
 
 def run(options: Namespace) -> int:
     """Simulate one system and print the outcome."""
+    refuse_other_endings("--page", options.page, PAGES)
+    refuse_other_endings("--save", options.save, MOTIONS)
     entry = entry_of(options.name)
     settings = assignments(options.settings)
     began = time.perf_counter()

@@ -17,6 +17,7 @@ CASES = [
     *((seed, KINDS[seed % len(KINDS)]) for seed in range(2 * len(KINDS))),
     *((seed, "many rows") for seed in range(100, 106)),
     *((seed, "instants") for seed in (14, 390, 574)),
+    (1121, "to and fro"),  # a jerk that was passed over by the last digit of its instant
 ]
 MU, G, K = 0.1, 10.0, 0.4
 
