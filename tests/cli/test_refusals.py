@@ -47,6 +47,9 @@ REFUSALS = [
     ("run rolling-disk --mu 1e300", "mu = 1e+300 of contact 'ground'; expected zero, or a number"),
     ("run rolling-disk --mu 1e-300", "mu = 1e-300 of contact 'ground'; expected zero, or"),
     ("run rolling-disk --duration 0.1s --save /dev/full", "it is a device or a pipe"),
+    ("run rolling-disk --duration 0.1s --page x.pdf", "say --page x.html"),
+    ("run rolling-disk --duration 0.1s --save motion.csv", "say --save motion.h5"),
+    ("audit --only 1 --html report.PDF", "a name that ends in .html or .htm"),
     ("run rolling-disk --duration 3kg", "expected a quantity in s"),
     ("run tennis-racquet --set I_3=1", "triangle inequality"),
     (

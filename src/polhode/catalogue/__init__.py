@@ -1,5 +1,7 @@
 """The seven systems of the problem set, by name."""
 
+from polhode.catalogue._about import about_with as about_with
+from polhode.catalogue._about import contact_numbers as contact_numbers
 from polhode.catalogue._audit import audit as audit
 from polhode.catalogue._audit import document_of as document_of
 from polhode.catalogue._entry import Entry as Entry

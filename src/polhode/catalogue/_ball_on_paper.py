@@ -21,6 +21,11 @@ BALL_ON_PAPER = Entry(
         "However it is moved, once sheet and ball are left alone the ball has the velocity it "
         "started with. Here it rolls throughout."
     ),
+    whatever_touches=(
+        "A ball on a sheet of paper, while the sheet is moved about and turned in its plane. "
+        "However it is moved, once sheet and ball are left alone the ball has the velocity it "
+        "started with."
+    ),
     build=_ball,
     parameters=(
         Parameter("m", "kg", "50 g", "mass of the ball"),

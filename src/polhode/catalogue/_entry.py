@@ -39,6 +39,7 @@ class Entry:
         duration: of the default run.
         plots: groups of quantities worth plotting against time.
         forcing: prescribed functions of time, as expressions of t.
+        whatever_touches: what of `about` holds with other contacts than those declared.
     """
 
     name: str
@@ -50,6 +51,7 @@ class Entry:
     duration: str
     plots: tuple[tuple[str, ...], ...]
     forcing: Mapping[str, str] = field(default_factory=dict)
+    whatever_touches: str = ""
 
     @classmethod
     def bare(cls, name: str, title: str, system: System) -> Entry:

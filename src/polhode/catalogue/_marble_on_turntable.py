@@ -38,6 +38,7 @@ MARBLE_ON_TURNTABLE = Entry(
         "Seen from the laboratory its centre runs round a circle at constant speed, at two "
         "sevenths of the turntable's rate if it is uniform."
     ),
+    whatever_touches="A marble on a level turntable that turns at a constant rate.",
     build=_level,
     parameters=_PARAMETERS,
     start={"x": "0.1 m", "v_y": "0.05 m/s"},
@@ -51,6 +52,10 @@ TILTED = Entry(
     about=(
         "The turntable is tilted by α. Axis 1 is its normal, 2 points up the slope, 3 = 1 × 2 is "
         "horizontal. A steady horizontal drift is superposed on the circle."
+    ),
+    whatever_touches=(
+        "A marble on a turntable that is tilted by α. Axis 1 is its normal, 2 points up the "
+        "slope, 3 = 1 × 2 is horizontal."
     ),
     build=_tilted,
     parameters=(*_PARAMETERS, Parameter("alpha", "", "2 deg", "tilt of the turntable")),

@@ -20,6 +20,9 @@ ROLLING_DISK = Entry(
         "A thin uniform disk rolls without slipping on a horizontal plane, leaning and steering "
         "as it likes. The plane supplies whatever force that takes."
     ),
+    whatever_touches=(
+        "A thin uniform disk on a horizontal plane, leaning and steering as it likes."
+    ),
     build=_disk,
     parameters=(
         Parameter("m", "kg", "0.2 kg", "mass of the disk"),

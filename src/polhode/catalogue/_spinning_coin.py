@@ -21,6 +21,7 @@ SPINNING_COIN = Entry(
         "with its tilt; the table pushes only upwards. Stood on edge it keeps spinning if it "
         "turns fast enough, and otherwise falls over."
     ),
+    whatever_touches="A thin uniform disk spins on a horizontal table.",
     build=_coin,
     parameters=(
         Parameter("m", "kg", "7.5 g", "mass of the coin"),

@@ -9,6 +9,7 @@ from polhode.base import Exit
 from polhode.catalogue import audit, document_of
 from polhode.claims import Document, Report
 from polhode.cli._document import print_document
+from polhode.cli._endings import PAGES, refuse_other_endings
 from polhode.cli._parser import Parser
 from polhode.cli._systems import entry_of
 from polhode.model import System
@@ -32,6 +33,7 @@ def run(options: Namespace) -> int:
     Raises:
         StoreError: for a document that cannot be read, and a page that cannot be written.
     """
+    refuse_other_endings("--html", options.html, PAGES)
     document = document_of(options.file)
     report = audit(document, systems=_own(document, options.file), only=options.only)
     if options.html is not None:

@@ -31,8 +31,13 @@ def write_run(folder: Path, entry: Entry, trajectory: Trajectory) -> list[Path]:
     return [table, picture]
 
 
-def write_page(path: Path, entry: Entry, trajectory: Trajectory, claims: Collection[str]) -> Path:
+def write_page(
+    path: Path, entry: Entry, about: str, trajectory: Trajectory, claims: Collection[str]
+) -> Path:
     """Write a page that plays a run, with claims of the problem set judged, told by their ids.
+
+    Args:
+        about: what it is a run of, in a few sentences.
 
     Raises:
         StoreError: where the file cannot be written.
@@ -41,7 +46,7 @@ def write_page(path: Path, entry: Entry, trajectory: Trajectory, claims: Collect
         trajectory,
         path,
         title=entry.title,
-        about=entry.about,
+        about=about,
         plots=entry.plots,
         meanings={parameter.name: parameter.meaning for parameter in entry.parameters},
         judgements=judgements_on(claims),

@@ -15,9 +15,10 @@ from typing import Any
 from polhode.algebra import Expr
 from polhode.analyse import Ansatz, invariants
 from polhode.base import DeclarationError, Exit, NumericError, StoreError, terminal_progress
-from polhode.catalogue import Entry, exactly, numbers_of
+from polhode.catalogue import Entry, about_with, contact_numbers, exactly, numbers_of
 from polhode.cli._contact_options import declared, sheet_of, watched_for
 from polhode.cli._document import print_document
+from polhode.cli._endings import MOTIONS, PAGES, refuse_other_endings
 from polhode.cli._interrupt import Interruptible
 from polhode.cli._parser import Parser, assignments
 from polhode.cli._systems import NAME_HELP, entry_of
@@ -86,10 +87,13 @@ def configure(parser: Parser) -> None:
 
 def run(options: Namespace) -> int:
     """Simulate one system and print the outcome."""
+    refuse_other_endings("--page", options.page, PAGES)
+    refuse_other_endings("--save", options.save, MOTIONS)
     entry = entry_of(options.name)
     settings = assignments(options.settings)
     began = time.perf_counter()
-    modes = automaton(declared(entry, options, settings))
+    system = declared(entry, options, settings)
+    modes = automaton(system)
     equations = modes.together.equations
     seconds = time.perf_counter() - began
     sheet = sheet_of(options, equations)
@@ -113,8 +117,9 @@ def run(options: Namespace) -> int:
         equations,
     )
     document = _document(entry, trajectory, numbers.start, seconds)
+    document["parameters"] = contact_numbers(system) | document["parameters"]
     _refuse_overflow(document["final"] | document["drift"])
-    files = _written(options, entry, trajectory, claims)
+    files = _written(options, entry, about_with(entry, system), trajectory, claims)
     if options.json:
         print_document(document | {"files": [str(path) for path in files]})
     else:
@@ -183,7 +188,11 @@ def _is_constant(expression: Expr, equations: EquationsOfMotion) -> bool:
 
 
 def _written(
-    options: Namespace, entry: Entry, trajectory: Trajectory, claims: tuple[str, ...]
+    options: Namespace,
+    entry: Entry,
+    about: str,
+    trajectory: Trajectory,
+    claims: tuple[str, ...],
 ) -> list[Path]:
     files = []
     if options.save:
@@ -196,7 +205,7 @@ def _written(
     if options.out:
         files += write_run(options.out, entry, trajectory)
     if options.page:
-        files.append(write_page(options.page, entry, trajectory.rounded(), claims))
+        files.append(write_page(options.page, entry, about, trajectory.rounded(), claims))
     return files
 
 

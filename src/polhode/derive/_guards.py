@@ -41,8 +41,7 @@ def guards_of(
         if phase.rolls and isinstance(contact, Coulomb):
             yield Guard(contact, "slips", _reserve(equations, contact))
         if touch.reserve:
-            kept = -touch.reserve if phase.is_beyond else touch.reserve
-            yield Guard(contact, "crosses the edge", kept)
+            yield Guard(contact, "crosses the edge", touch.room)
         if phase.slides:
             first, second = touch.slip
             yield Guard(contact, "sticks", first * first + second * second)

@@ -18,6 +18,8 @@ class Touch:
     Attributes:
         contact: as declared.
         reserve: how far the place is on this side of the support's edge, m.
+        room: how far it is from that edge on the side whose surface it touches, m; zero where
+            there is no edge.
         gap: height of the lowest point of the body above the support, m.
         closing: its rate, m/s.
         slip: velocity of that point along the support, m/s.
@@ -25,6 +27,7 @@ class Touch:
 
     contact: Contact
     reserve: Expr
+    room: Expr
     gap: Expr
     closing: Expr
     slip: tuple[Expr, Expr]
@@ -43,7 +46,8 @@ def touch_of(equations: Equations, declared: Contact, phase: Phase) -> Touch:
     gap = (place + contact.arm).dot(contact.on.up)
     slips = slips_along(motion, contact, (*contact.on.tangents, contact.on.normal))
     reserve = declared.on.reserve(place + contact.arm)
-    return Touch(contact, reserve, gap, slips[2], (slips[0], slips[1]))
+    room = -reserve if phase.is_beyond else reserve
+    return Touch(contact, reserve, room, gap, slips[2], (slips[0], slips[1]))
 
 
 def slips_along(motion: Motion, contact: Contact, labels: Iterable[str]) -> list[Expr]:

@@ -7,6 +7,7 @@ from dataclasses import asdict
 from typing import Any
 
 from polhode.algebra import Expr, Symbol
+from polhode.catalogue import about_with
 from polhode.lab._controls import parameters_of, start_of, unit_of
 from polhode.lab._variants import Variant, declared_contact
 from polhode.simulate import Trajectory
@@ -28,7 +29,7 @@ def described(chosen: Variant, declared: Variant) -> dict[str, Any]:
     return {
         "name": entry.name,
         "title": entry.title,
-        "about": entry.about,
+        "about": about_with(entry, chosen.system),
         "contact": declared_contact(chosen.system),
         "declared": contact,
         "contacts": list(_CONTACTS) if contact else [],
@@ -50,7 +51,7 @@ def described(chosen: Variant, declared: Variant) -> dict[str, Any]:
 
 def seen(chosen: Variant, run: Trajectory) -> Scene:
     """What there is to look at."""
-    return scenery(run, title=chosen.entry.title, about=chosen.entry.about)
+    return scenery(run, title=chosen.entry.title, about=about_with(chosen.entry, chosen.system))
 
 
 def read(chosen: Variant, run: Trajectory) -> Account:
@@ -62,7 +63,11 @@ def shown(chosen: Variant, run: Trajectory) -> Scene:
     """All there is to see, for a page of its own."""
     entry, plots = chosen.entry, plots_of(chosen, run)
     return scene(
-        run, title=entry.title, about=entry.about, plots=plots, meanings=meanings_of(chosen)
+        run,
+        title=entry.title,
+        about=about_with(entry, chosen.system),
+        plots=plots,
+        meanings=meanings_of(chosen),
     )
 
 

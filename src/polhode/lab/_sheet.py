@@ -30,5 +30,13 @@ def sheet_path(rows: Sequence[Row]) -> tuple[Pieces, Pieces]:
     for places in (x, y):
         through = np.interp(times, t - t[0], places - places[0])
         held = np.concatenate([through, np.full(_REST, through[-1])])
-        curves.append(sampled(knots, held, noise=_TREMOR * width))
+        curves.append(_stopped(sampled(knots, held, noise=_TREMOR * width)))
     return curves[0], curves[1]
+
+
+def _stopped(path: Pieces) -> Pieces:
+    """Through the same places at its knots, and at rest at both ends: smoothing leaves a speed."""
+    from scipy.interpolate import CubicSpline
+
+    spline = CubicSpline(path.knots, path.value(path.knots), bc_type="clamped")
+    return Pieces(path.knots, np.ascontiguousarray(spline.c[::-1].T))

@@ -14,7 +14,7 @@ from polhode.simulate._trajectory import Trajectory as Trajectory
 from polhode.simulate._values import idle_parameters as idle_parameters
 from polhode.simulate._values import read_parameters as read_parameters
 from polhode.simulate._values import refuse_missing as refuse_missing
-from polhode.simulate.contact._machine import slip_symbols as slip_symbols
+from polhode.simulate.contact._carried import slip_symbols as slip_symbols
 from polhode.simulate.files._saved import load as load
 from polhode.simulate.forcing._approximation import Approximation as Approximation
 from polhode.simulate.forcing._callable import approximated as approximated

@@ -95,7 +95,8 @@ def _(thing: Automaton) -> str:
 @html_of.register
 def _(thing: Drift) -> str:
     told = [("energy − work done", _number(thing.energy), "against the energy scale")]
-    told.append(("closed loops", _number(thing.constraint), "m, largest gap"))
+    if thing.constraint:  # zero where nothing closes
+        told.append(("closed loops", _number(thing.constraint), "m, largest gap"))
     told += [
         (escape(name), _number(value), "against its largest term")
         for name, value in thing.invariants.items()

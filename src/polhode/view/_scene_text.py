@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import cast
 
@@ -175,12 +175,18 @@ def evidence_of(run: Trajectory) -> tuple[Number, ...]:
     drift = run.drift
     return (
         Number("energy − work done", "", drift.energy, "", "against the energy scale"),
-        Number("closed loops", "", drift.constraint, "m", "largest gap"),
+        *_loops(run),
         *(
             Number(name, "", value, "", "against its largest term")
             for name, value in drift.invariants.items()
         ),
     )
+
+
+def _loops(run: Trajectory) -> Iterator[Number]:
+    """The largest gap of closed loops, where there are any."""
+    if any(segment.dynamics.equations.closures for segment in run.segments):
+        yield Number("closed loops", "", run.drift.constraint, "m", "largest gap")
 
 
 def happenings_of(run: Trajectory) -> tuple[Happening, ...]:

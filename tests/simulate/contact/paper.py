@@ -109,7 +109,7 @@ def _bells(name: str) -> ph.Expr:
     return total
 
 
-def _pieces(knots: np.ndarray, tables: list[np.ndarray], corners: tuple[int, ...]) -> Any:
+def pieces(knots: np.ndarray, tables: list[np.ndarray], corners: tuple[int, ...]) -> Any:
     made = [Pieces(knots, table, corners) for table in tables]
     return dict(zip(NAMES, made, strict=True)), {}, polynomials(knots, tables, LAST)
 
@@ -127,7 +127,7 @@ def _jerking(rng: np.random.Generator, pull: float, turns: bool) -> tuple[Any, A
             table[i] = np.array([own[0], *(size * np.array(own[1:]))])
             place = float(np.polynomial.polynomial.polyval(span, table[i]))
         tables.append(table)
-    return _pieces(knots, tables, (1, 2, 3))
+    return pieces(knots, tables, (1, 2, 3))
 
 
 def _noisy(rng: np.random.Generator, pull: float, turns: bool) -> tuple[Any, Any, Any]:
@@ -159,4 +159,4 @@ def _reversing(rng: np.random.Generator, pull: float, turns: bool) -> tuple[Any,
         along[i] = [place, rate, bend / 2, 0.0]
         place, rate = place + rate * span + bend * span**2 / 2, rate + bend * span
     tables = [along * np.cos(angle), along * np.sin(angle), np.zeros((5, 4))]
-    return _pieces(knots, tables, ())
+    return pieces(knots, tables, ())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,11 +11,13 @@ import numpy as np
 from polhode.algebra import Symbol
 from polhode.base import NumericError, Progress
 from polhode.derive import Guard
+from polhode.model import Rolling
 from polhode.simulate._dynamics import WORK
 from polhode.simulate._segment import Part, Segment, state_at
-from polhode.simulate.contact._entry import Entry, beyond, state_on
+from polhode.simulate.contact._carried import gap_symbol, room_symbol, slip_symbols
+from polhode.simulate.contact._entry import Entry, beyond, directions_of, state_on
 from polhode.simulate.contact._lookout import Lookout
-from polhode.simulate.contact._machine import Machine, ModeMachine, gap_symbol, slip_symbols
+from polhode.simulate.contact._machine import Machine, ModeMachine
 from polhode.simulate.contact._onset import onset
 from polhode.simulate.contact._place import Place
 from polhode.simulate.contact._rise import fall_of
@@ -31,6 +33,8 @@ _LOOK = 400  # steps after which the guards are looked at
 VANISHED = 1e-14  # slip speed, relative to the velocities around, that is none
 LANDED = 1e-10  # the same at an instant at which the slip velocity turns round
 _MOST_EVENTS = 50_000
+_INSTANT = 32  # steps of rounding of the time: a hop that is over sooner is none
+_BEGUN = 1e-9  # of the time: a slip that begins is not told from rounding sooner
 _NO_TIME = 1e-11  # of the time of the whole motion
 _MOST_AT_ONCE = 32  # changes of mode while no time passes: far more than contacts can have
 
@@ -112,7 +116,7 @@ class Walk:
             if len(self._changes) > _MOST_EVENTS:
                 raise _chattering(time)
             if self._stands_still(end):
-                raise _undecided(time, {before, after})
+                raise self._undecided(time, {before, after})
         return Course(tuple(self._segments), tuple(self._changes), self._segments[-1].mode)
 
     def _stands_still(self, end: float) -> bool:
@@ -126,6 +130,22 @@ class Walk:
             return False
         instant = 8 * self._machine.numbers.spacing(last[-1])
         return bool(passed <= instant) or not self._rebounds()
+
+    def _undecided(self, time: float, modes: set[str]) -> NumericError:
+        # Where N vanishes while unlimited friction still pulls, the contact cannot open, for
+        # without friction it would close again; nor can it hold, for it would have to pull
+        # (Painlevé). Limited friction may bring a ball back to an edge from either side.
+        names = sorted(modes) if len(modes) > 1 else [*modes, "contact"]
+        unlimited = any(isinstance(c, Rolling) for c in self._machine.automaton.contacts)
+        give = "give the contact a friction coefficient mu, or " if unlimited else ""
+        return NumericError(
+            f"at t = {float(time):.9g} s no mode can follow: {' and '.join(names)} exclude each "
+            "other",
+            expected="friction that gives way before the contact has to open"
+            if unlimited
+            else "a contact mode that lasts for some time",
+            advice=f"{give}end the motion before that time",
+        )
 
     def _rebounds(self) -> bool:
         contacts = self._machine.automaton.contacts
@@ -152,11 +172,12 @@ class Walk:
         state = state_on(machine, entry)
         guard: Guard | None = None
         scale = 0.0
+        shortest = _BEGUN * begin if entry.onset else _INSTANT * float(np.spacing(begin))
         while guard is None and now < end:
             machine.move_on(now)
             limit = drive.until(now, end)
             if not parts:
-                limit = min(limit, now + self.hop(mode, entry))
+                limit = min(limit, now + max(self.hop(mode, entry), shortest))
             span = (now, limit)
             if entry.onset and not parts:
                 part = onset(mode, entry, state, span, machine.automaton.contacts)
@@ -177,16 +198,27 @@ class Walk:
         return Outcome(segment, leaving(mode, guard, state, now, entry.place.work))
 
     def hop(self, mode: ModeMachine, entry: Entry) -> float:
-        """How far ahead a contact that opened on the way may be expected to be closed again, s.
+        """How far ahead a contact that opened on the way may be expected to be closed again, or one
+        that crossed an edge to be back at it, s.
 
         A short hop within a long step would be lost in the rounding of the long one.
         """
-        if not entry.gaps:
-            return np.inf
-        falls = mode.closing_rates(entry.state, entry.place.time)
-        rises = [meeting.velocity[2] for meeting in self._meetings(entry)]
-        hops = [fall_of(gap, rises[i], falls[i]) for i, gap in entry.gaps.items() if falls[i] < 0]
+        hops = [fall_of(*hop) for hop in self._hops(mode, entry) if hop[2] < 0]
         return 1.5 * min((hop for hop in hops if hop > 0), default=np.inf)
+
+    def _hops(self, mode: ModeMachine, entry: Entry) -> Iterator[tuple[Any, Any, Any]]:
+        """Heights and distances to an edge with their first and second rates."""
+        if not (entry.gaps or entry.rooms):
+            return
+        state, now, meetings = entry.state, entry.place.time, self._meetings(entry)
+        if entry.gaps:
+            falls = mode.closing_rates(state, now)
+            yield from ((gap, meetings[i].velocity[2], falls[i]) for i, gap in entry.gaps.items())
+        if entry.rooms:
+            bends = mode.room_rates(state, now, directions_of(entry, self._machine.numbers))
+            for i, room in entry.rooms.items():
+                is_beyond = entry.phases[i].is_beyond
+                yield room, meetings[i].leaving(is_beyond=is_beyond), bends[i]
 
     def _stretch(
         self,
@@ -243,12 +275,12 @@ def leaving(
     work: Any,
 ) -> Leaving:
     """Where a mode ends, in a state of it; the work is as before where none is done."""
-    gaps = {
-        i: state[gap_symbol(touch.contact)]
-        for i, touch in enumerate(mode.mode.touches)
-        if gap_symbol(touch.contact) in state
-    }
-    return Leaving(guard, place_of(mode, state, time, work), gaps)
+    contacts = [touch.contact for touch in mode.mode.touches]
+    gaps, rooms = (
+        {i: state[s] for i, contact in enumerate(contacts) if (s := symbol(contact)) in state}
+        for symbol in (gap_symbol, room_symbol)
+    )
+    return Leaving(guard, place_of(mode, state, time, work), gaps, rooms)
 
 
 def place_of(mode: ModeMachine, state: Mapping[Symbol, Any], time: Any, work: Any = 0.0) -> Place:
@@ -277,17 +309,6 @@ def _settled(guard: Guard | None, time: float, drive: Drive) -> bool:
     """
     kind = guard.kind if guard is not None else ""
     return kind == "near-flat" or (kind == "sticks" and time not in drive.jerks)
-
-
-def _undecided(time: float, modes: set[str]) -> NumericError:
-    # Where N vanishes while unlimited friction still pulls, the contact cannot open, for without
-    # friction it would close again; nor can it hold, for it would have to pull (Painlevé).
-    names = sorted(modes) if len(modes) > 1 else [*modes, "contact"]
-    return NumericError(
-        f"at t = {float(time):.9g} s no mode can follow: {' and '.join(names)} exclude each other",
-        expected="friction that gives way before the contact has to open",
-        advice="give the contact a friction coefficient mu, or end the motion before that time",
-    )
 
 
 def _chattering(time: float) -> NumericError:

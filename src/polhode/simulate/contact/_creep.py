@@ -133,7 +133,7 @@ def _followed(
     times, series = [begin], list[Array]()
     length, unresolved = min(end - begin, 1e-3), np.inf
     vanished: int | None = None
-    shortest = _SHORTEST * max(end - begin, abs(begin))
+    shortest = min(_SHORTEST * max(end - begin, abs(begin)), end - begin)
     while now < end and vanished is None:
         length = min(length, end - now)
         step = _step(rates, now, length, state, pull, angles)

@@ -11,7 +11,8 @@ import numpy as np
 from polhode.algebra import Symbol
 from polhode.model import Phase
 from polhode.simulate._dynamics import WORK
-from polhode.simulate.contact._machine import Machine, ModeMachine, gap_symbol, slip_symbols
+from polhode.simulate.contact._carried import gap_symbol, room_symbol, slip_symbols
+from polhode.simulate.contact._machine import Machine, ModeMachine
 from polhode.simulate.contact._place import Place
 from polhode.simulate.contact._touching import Meeting
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
@@ -30,6 +31,7 @@ class Entry:
         onset: for contacts that begin to slip, the angle of the slip to come.
         slips: slip velocities, by contact.
         gaps: heights above the support of contacts that have just left it.
+        rooms: distances to the edge of their supports of contacts that touch, where there is one.
     """
 
     phases: tuple[Phase, ...]
@@ -39,6 +41,7 @@ class Entry:
     onset: dict[int, Any] = field(default_factory=dict)
     slips: dict[int, Array] = field(default_factory=dict)
     gaps: dict[int, float] = field(default_factory=dict)
+    rooms: dict[int, float] = field(default_factory=dict)
 
     @property
     def state(self) -> Array:
@@ -56,6 +59,7 @@ class Entry:
             onset={i: float(angle) for i, angle in self.onset.items()},
             slips={i: double(slip) for i, slip in self.slips.items()},
             gaps={i: float(gap) for i, gap in self.gaps.items()},
+            rooms={i: float(room) for i, room in self.rooms.items()},
         )
 
 
@@ -77,7 +81,19 @@ def entered(
     sliding = [i for i, phase in enumerate(phases) if phase.slides]
     none = machine.numbers.array(np.zeros(2))
     slips = {i: none if i in starting else meetings[i].velocity[:2] for i in sliding}
-    return Entry(phases, after, coordinates, speeds, dict.fromkeys(sorted(starting), 0.0), slips)
+    onset = dict.fromkeys(sorted(starting), 0.0)
+    rooms = _rooms(mode, meetings)
+    return Entry(phases, after, coordinates, speeds, onset, slips, rooms=rooms)
+
+
+def _rooms(mode: ModeMachine, meetings: Sequence[Meeting]) -> dict[int, Any]:
+    """How far contacts that touch are from the edges of their supports."""
+    there = zip(mode.mode.touches, mode.mode.phases, meetings, strict=True)
+    return {
+        i: meeting.room(is_beyond=phase.is_beyond)
+        for i, (touch, phase, meeting) in enumerate(there)
+        if touch.reserve and not phase.flies
+    }
 
 
 def _after(
@@ -123,9 +139,12 @@ def state_on(machine: Machine, entry: Entry) -> dict[Symbol, Any]:
     state = dict(zip(own, entry.state.tolist(), strict=True))
     meetings = machine.touching.at(entry.place, beyond(entry.phases))
     for i, touch in enumerate(mode.mode.touches):
-        gap, slips = gap_symbol(touch.contact), slip_symbols(touch.contact)
+        gap, room = gap_symbol(touch.contact), room_symbol(touch.contact)
+        slips = slip_symbols(touch.contact)
         if gap in carried:
             state[gap] = entry.gaps.get(i, meetings[i].gap)
+        if room in carried:
+            state[room] = entry.rooms[i]
         if slips[0] in carried:
             state |= zip(slips, entry.slips[i].tolist(), strict=True)
     return {**state, WORK: entry.place.work}

@@ -14,8 +14,9 @@ from polhode.base import NumericError
 from polhode.derive import Guard
 from polhode.simulate._dynamics import CLOCK
 from polhode.simulate._segment import Part
+from polhode.simulate.contact._carried import gap_symbol, room_symbol
 from polhode.simulate.contact._entry import Entry, beyond
-from polhode.simulate.contact._machine import Machine, ModeMachine, gap_symbol
+from polhode.simulate.contact._machine import Machine, ModeMachine
 from polhode.simulate.contact._rise import STILL, Rise
 from polhode.simulate.contact._settle import painleve
 from polhode.simulate.contact._touching import Meeting
@@ -182,20 +183,26 @@ class Lookout:
         return looked
 
     def _leaving(self, watched: list[Guard]) -> dict[int, Rise]:
-        """The guards of contacts that have just opened, and how these rise."""
+        """The guards of contacts that have just opened or crossed an edge, and how these rise."""
         found, entry = {}, self.entry
         for k, guard in enumerate(watched):
             i = index_of(guard, self.machine)
+            if i < 0:
+                continue
+            meeting, is_beyond = self.meetings[i], entry.phases[i].is_beyond
+            still = float(self.machine.numbers.finer(STILL) * meeting.scale)
             if guard.kind == "touches down" and entry.gaps.get(i) == 0.0:
-                meeting = self.meetings[i]
-                still = self.machine.numbers.finer(STILL) * meeting.scale
-                found[k] = Rise(float(meeting.velocity[2]), float(still))
+                found[k] = Rise(float(meeting.velocity[2]), still)
+            if guard.kind == "crosses the edge" and entry.rooms[i] == 0.0:
+                found[k] = Rise(float(meeting.leaving(is_beyond=is_beyond)), still)
         return found
 
     def looked_at(self, guard: Guard) -> Expr:
         """What falls through zero where a guard does."""
         if guard.kind == "touches down" and guard.contact is not None:
             return Expr.generator(gap_symbol(guard.contact))
+        if guard.kind == "crosses the edge" and guard.contact is not None:
+            return Expr.generator(room_symbol(guard.contact))
         if guard.kind == "near-flat":
             return guard.positive - self.near_flat
         return guard.positive

@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from polhode.algebra import ZERO, Compiled, Expr, Kind, Symbol, compile_program, linear_parts, sqrt
+from polhode.algebra import Compiled, Expr, Symbol, compile_program, linear_parts
 from polhode.base import NumericError
 from polhode.derive import Automaton, Mode
-from polhode.model import Contact, Coulomb, Phase, Sliding
-from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
+from polhode.model import Contact, Phase, Sliding
+from polhode.simulate._dynamics import CLOCK, Dynamics
+from polhode.simulate.contact._carried import carried_in, silent, slips_of
 from polhode.simulate.contact._place import Function, Place
 from polhode.simulate.contact._touching import Touching
 from polhode.simulate.forcing._drive import Drive
@@ -92,7 +93,7 @@ class Machine:
     @cached_property
     def touching(self) -> Touching:
         """What every contact sees, from the shared state."""
-        return Touching(self.automaton, self.apart.function)
+        return Touching(self.automaton, self.apart.function, self.numbers)
 
 
 class ModeMachine:
@@ -103,9 +104,9 @@ class ModeMachine:
         self._machine = machine
         self._numbers = machine.numbers
         self._last: tuple[Constants, Array, list[float]] = ({}, np.empty(0), [])
-        carried, meanings = _carried(mode)
+        carried, meanings = carried_in(mode)
         idle = tuple(machine.constants)
-        known = {**mode.lifted, **_silent(machine.automaton, mode), **_slips(mode, carried)}
+        known = {**mode.lifted, **silent(machine.automaton, mode), **slips_of(mode, carried)}
         self.dynamics = Dynamics(
             mode.equations, machine.drive.expressions, idle, carried, meanings, known
         )
@@ -264,6 +265,17 @@ class ModeMachine:
         return self._closing_rates(state, time, [0.0] * len(self.directions))
 
     @cached_property
+    def _room_rates(self) -> Function:
+        rate = self.mode.equations.kinetics.rate
+        return self.function(
+            [t.room.chain(rate).chain(rate) for t in self.mode.touches], self.directions
+        )
+
+    def room_rates(self, state: Array, time: float, directions: Sequence[float]) -> Array:
+        """How fast every contact leaves the edge of its support faster, m/s², shape (contacts,)."""
+        return self._room_rates(state, time, directions)
+
+    @cached_property
     def _masses(self) -> Function:
         entries = [e for row in self.mode.equations.mass.rows for e in row]
         return self.function(entries, self.directions)
@@ -312,19 +324,6 @@ class ModeMachine:
         return self._slip_rates(state, time, directions).reshape(-1, 2)
 
 
-def slip_symbols(contact: Contact) -> tuple[Symbol, Symbol]:
-    """The slip velocity of a sliding contact, carried along."""
-    first, second = (
-        Symbol(f"slip_{label}_{contact.spelled}", Kind.SPEED) for label in contact.on.tangents
-    )
-    return first, second
-
-
-def gap_symbol(contact: Contact) -> Symbol:
-    """The height of a body above its support, carried along."""
-    return Symbol(f"gap_{contact.spelled}", Kind.COORDINATE)
-
-
 def singular(time: float) -> NumericError:
     """An expression without a finite value."""
     return NumericError(
@@ -332,42 +331,3 @@ def singular(time: float) -> NumericError:
         expected="a motion away from singular positions",
         advice="start elsewhere, or end before that time",
     )
-
-
-def _silent(modes: Automaton, mode: Mode) -> dict[Symbol, Expr]:
-    """Reactions of contacts that are open, by name: nothing."""
-    own = mode.equations.components
-    return {Symbol(n): ZERO for n in modes.together.equations.components if n not in own}
-
-
-def _slips(mode: Mode, carried: Mapping[Symbol, Expr]) -> dict[Symbol, Expr]:
-    """Slip velocities of the contacts that are closed, where they follow from the state."""
-    closed = (t for t, phase in zip(mode.touches, mode.phases, strict=True) if not phase.flies)
-    slips = (zip(slip_symbols(t.contact), t.slip, strict=True) for t in closed)
-    return {symbol: slip for pair in slips for symbol, slip in pair if symbol not in carried}
-
-
-def _carried(mode: Mode) -> tuple[dict[Symbol, Expr], dict[Symbol, Expr]]:
-    """Work done, slips and gaps; and what they make of the symbols of a sliding contact."""
-    carried: dict[Symbol, Expr] = {WORK: mode.equations.power}
-    meanings: dict[Symbol, Expr] = {}
-    motion = mode.equations.kinetics
-    for touch, phase in zip(mode.touches, mode.phases, strict=True):
-        contact = touch.contact
-        if phase.flies:
-            carried[gap_symbol(contact)] = touch.closing
-        if phase.slides and isinstance(contact, Coulomb):
-            element = mode.element(contact)
-            if not isinstance(element, Sliding):
-                continue
-            slips = slip_symbols(contact)
-            carried |= {
-                s: slip.chain(motion.rate) for s, slip in zip(slips, touch.slip, strict=True)
-            }
-            along, across = (Expr.generator(s) for s in slips)
-            speed = Expr.generator(element.slip_speed)
-            meanings[element.slip_speed] = sqrt(along * along + across * across)
-            meanings[element.direction[0]] = along / speed
-            meanings[element.direction[1]] = across / speed
-            meanings[element.slowness] = contact.slowness(speed)
-    return carried, meanings

@@ -20,6 +20,7 @@ from polhode.simulate.integrate._rows import rows
 from polhode.simulate.integrate._stepping import Array
 from polhode.simulate.integrate._watched import Stop
 
+_BARELY = 1e-150  # m/s, of a slip that has a direction but no speed yet: its square is a number
 _STIFF = 30.0  # ratio of the times of slipping and of turning the slip that explicit steps bear
 
 
@@ -71,7 +72,7 @@ def onset(
 
     def at(times: Array) -> Array:
         values = found.at(times)
-        sizes, psis = values[first::2].copy(), values[first + 1 :: 2].copy()
+        sizes, psis = np.maximum(values[first::2], _BARELY), values[first + 1 :: 2].copy()
         values[first::2], values[first + 1 :: 2] = sizes * np.cos(psis), sizes * np.sin(psis)
         return values
 

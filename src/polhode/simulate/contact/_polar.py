@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from polhode.algebra import Expr, Symbol
 from polhode.model import Contact
 from polhode.simulate._dynamics import WORK
+from polhode.simulate.contact._carried import slip_symbols
 from polhode.simulate.contact._entry import Entry
-from polhode.simulate.contact._machine import ModeMachine, slip_symbols
+from polhode.simulate.contact._machine import ModeMachine
 
 
 @dataclass(frozen=True)

@@ -78,7 +78,7 @@ def _begin(machine: Machine, task: Task) -> tuple[Place, Begun, frozenset[int]]:
     """Where it starts, and which contacts are apart there.
 
     Contacts touch unless a height is given, and stick where they can unless that contradicts what
-    is given.
+    is given: to their supports, or to what is beyond the edges of those.
     """
     given = {published(name) for name in task.start}
     modes = machine.automaton
@@ -89,14 +89,26 @@ def _begin(machine: Machine, task: Task) -> tuple[Place, Begun, frozenset[int]]:
         and given & {above.height.published, above.rise.published}
     )
     if apart:
-        place, begun = _read(machine, _phases(modes, apart, slips=True), task)
-        return place, begun, apart
+        return (*_read_on_surfaces(machine, apart, task, slips=True), apart)
     try:
-        return (*_read(machine, _phases(modes, apart, slips=False), task), apart)
+        return (*_read_on_surfaces(machine, apart, task, slips=False), apart)
     except ConstraintError:
         if not any(isinstance(contact, Coulomb) for contact in modes.contacts):
             raise
-        return (*_read(machine, _phases(modes, apart, slips=True), task), apart)
+        return (*_read_on_surfaces(machine, apart, task, slips=True), apart)
+
+
+def _read_on_surfaces(
+    machine: Machine, apart: frozenset[int], task: Task, *, slips: bool
+) -> tuple[Place, Begun]:
+    """The start as it is read on the supports, or where they end on what is beyond their edges."""
+    phases = _phases(machine.automaton, apart, slips=slips)
+    place, begun = _read(machine, phases, task)
+    beyond = machine.touching.beyond(place) - apart
+    if not beyond:
+        return place, begun
+    there = (p.beyond() if i in beyond else p for i, p in enumerate(phases))
+    return _read(machine, tuple(there), task)
 
 
 def _phases(modes: Automaton, apart: frozenset[int], *, slips: bool) -> tuple[Phase, ...]:

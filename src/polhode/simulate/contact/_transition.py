@@ -39,11 +39,13 @@ class Leaving:
         guard: what ended it; None for a jerk of a support.
         place: the shared state.
         gaps: heights of the contacts that are open, as they were followed, m.
+        rooms: likewise distances to an edge, m.
     """
 
     guard: Guard | None
     place: Place
     gaps: dict[int, float]
+    rooms: dict[int, float]
 
 
 class Transitions:
@@ -61,7 +63,8 @@ class Transitions:
         """What happens where a mode ends, and how the motion enters the mode that follows."""
         self._machine.move_on(leaving.place.time)
         kind, entry, opened = self._next(before, leaving)
-        return kind, replace(entry, gaps=_gaps(before, leaving, entry, opened))
+        rooms = {i: _room(before, leaving, entry, i) for i in entry.rooms}
+        return kind, replace(entry, gaps=_gaps(before, leaving, entry, opened), rooms=rooms)
 
     def _next(self, before: Entry, leaving: Leaving) -> tuple[str, Entry, int | None]:
         """Also the contact that opens again at once, if one does."""
@@ -90,7 +93,8 @@ class Transitions:
         contact = machine.automaton.contacts[i]
         apart = frozenset(k for k, phase in enumerate(before.phases) if phase.flies)
         still = frozenset(k for k, phase in enumerate(before.phases) if phase.rolls)
-        meetings = machine.touching.at(place, machine.touching.beyond(place))
+        far = beyond(before.phases) | (machine.touching.beyond(place) & apart)
+        meetings = machine.touching.at(place, far)
         mass = machine.apart.mass(place)
         for k, phase in enumerate(before.phases):
             if not phase.flies and _feel(meetings[k], meetings[i], mass, numbers):
@@ -98,9 +102,9 @@ class Transitions:
         meeting = meetings[i]
         slow = numbers.finer(STILL) * meeting.scale
         if meeting.velocity[2] > slow:
-            return "touches down", settle(machine, place, Known(apart, still))
+            return "touches down", settle(machine, place, Known(apart, still, beyond=far))
         if meeting.velocity[2] >= -slow:
-            return "touches down", settle(machine, place, Known(apart - {i}, still))
+            return "touches down", settle(machine, place, Known(apart - {i}, still, beyond=far))
         felt = meeting.arms @ numbers.solved(mass, meeting.arms.T)
         shock = self._shock(contact, felt, meeting.velocity, place.time)
         work = shock.impulse @ (meeting.support + (meeting.velocity + shock.velocity) / 2)
@@ -109,11 +113,11 @@ class Transitions:
         hardest = max(self._hardest.get(i, 0.0), -meeting.velocity[2])
         self._hardest[i] = hardest
         if shock.velocity[2] > numbers.finer(_REBOUND) * hardest:
-            bounced = settle(machine, after, Known(apart, still))
+            bounced = settle(machine, after, Known(apart, still, beyond=far))
             if self._rises(bounced, i, shock.velocity[2]):
                 return "bounces", bounced
         stuck = still | {i} if shock.sticks else still
-        return "touches down", settle(machine, after, Known(apart - {i}, stuck))
+        return "touches down", settle(machine, after, Known(apart - {i}, stuck, beyond=far))
 
     def _rises(self, bounced: Entry, i: int, speed: Any) -> bool:
         """Whether a contact that bounces is open for longer than the rounding of the time."""
@@ -147,6 +151,17 @@ def _gaps(before: Entry, leaving: Leaving, entry: Entry, landed: int | None) -> 
         for k, phase in enumerate(entry.phases)
         if phase.flies
     }
+
+
+def _room(before: Entry, leaving: Leaving, entry: Entry, i: int) -> float:
+    """The distance to an edge: as it was followed, and none where that has just been crossed.
+
+    Where a support jerks it may have been shifted.
+    """
+    if leaving.guard is None or i not in leaving.rooms:
+        return entry.rooms[i]
+    crossed = entry.phases[i].is_beyond != before.phases[i].is_beyond
+    return 0.0 if crossed else leaving.rooms[i]
 
 
 def _feel(one: Meeting, other: Meeting, mass: Array, numbers: Numbers) -> bool:

@@ -17,6 +17,7 @@ from polhode.simulate.integrate._crossing import bisected
 from polhode.simulate.integrate._flow import Flow, Stage
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
 from polhode.simulate.integrate._quadrature import integral
+from polhode.simulate.integrate._steady import Constant, is_steady
 from polhode.simulate.integrate._stepping import Array, Leg, Stepper, broken, looks_along
 from polhode.simulate.integrate._watched import StepWatch, Stop, Watched
 
@@ -191,8 +192,12 @@ def _legs(
     watch = _Watch(steps, _TURNS * periods)
     legs, begins, turned = list[Leg](), list[float](), list[Array]()
     offset = np.zeros(len(state))
+    steady = is_steady(flow, parameters, state)
     while now < end and watch.stop is None:
-        leg = stepper.leg(parameters, now, state, end, watch)
+        if steady:
+            leg: Leg = Constant(np.array([now, end]), state)
+        else:
+            leg = stepper.leg(parameters, now, state, end, watch)
         legs.append(leg)
         begins.append(now)
         turned.append(offset)

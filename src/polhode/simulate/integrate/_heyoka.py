@@ -21,7 +21,15 @@ import numpy as np
 from polhode.algebra import Arithmetic, Kind, Program
 from polhode.base import StoreError, cache
 from polhode.simulate.integrate._flow import Flow
-from polhode.simulate.integrate._stepping import Array, Leg, Stepper, Watch, broken, looks_along
+from polhode.simulate.integrate._stepping import (
+    Array,
+    Leg,
+    Stepper,
+    Watch,
+    broken,
+    longest_step,
+    looks_along,
+)
 from polhode.simulate.integrate._taylor import Steps
 
 _LONG = 3000  # operations
@@ -102,13 +110,13 @@ class _TaylorStepper:
 
         outcome, *_ = taylor.propagate_until(
             end,
-            max_delta_t=(end - begin) / self.least_steps,  # infinite where all series end
+            max_delta_t=longest_step(begin, end, self.least_steps),  # else infinite, as series end
             write_tc=True,
             callback=looked,
         )
         if not steps.count:
             raise broken(begin)
-        return steps.leg(broken=outcome.name not in ("time_limit", "cb_stop"))
+        return steps.leg(end, broken=outcome.name not in ("time_limit", "cb_stop"))
 
 
 @once

@@ -10,7 +10,15 @@ from scipy.integrate import DOP853, OdeSolution
 
 from polhode.algebra import Compiled
 from polhode.simulate.integrate._flow import Flow
-from polhode.simulate.integrate._stepping import Array, Leg, Stepper, Watch, broken, looks_along
+from polhode.simulate.integrate._stepping import (
+    Array,
+    Leg,
+    Stepper,
+    Watch,
+    broken,
+    longest_step,
+    looks_along,
+)
 
 _TIGHTEST = 1e-13  # relative; below it rounding rules the choice of steps
 _ABSOLUTE = 1e-15
@@ -48,7 +56,7 @@ class _RungeKuttaStepper:
             begin,
             state,
             end,
-            max_step=(end - begin) / self.least_steps,
+            max_step=longest_step(begin, end, self.least_steps),
             rtol=self.tolerance,
             atol=_ABSOLUTE,
         )

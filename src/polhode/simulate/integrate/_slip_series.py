@@ -35,6 +35,7 @@ from polhode.simulate.integrate._series import Series
 
 _GROWING = 64  # places within a step at which the slips are looked at
 _HALVES = 200
+_BARELY = 500  # bits
 
 
 @dataclass(frozen=True)
@@ -150,10 +151,13 @@ class _Lengthening:
         return None
 
     def _slips(self) -> list[list[Any]]:
-        """Slip velocities along the two tangents of each support."""
-        found = []
+        """Slip velocities along the two tangents of each support.
+
+        They begin with a direction, and with less of a speed than their digits tell from none.
+        """
+        found, barely = [], flint.arb(2) ** -max(_BARELY, 2 * self._numbers.bits)
         for sizes, angles in zip(self._sizes, self._angles, strict=True):
-            size = flint.arb_series(sizes)
+            size = flint.arb_series([barely, *sizes[1:]])
             for part in _unit(angles):
                 series = size * part
                 found.append([term(series, k).mid() for k in range(self._order + 1)])

@@ -14,12 +14,18 @@ Array = NDArray[np.float64]
 
 #: Steps at least over a stretch that a pulse may drive, so that it is not stepped over.
 LOOKS = 64
+_SHORTEST = 1e-13  # of the time: within less of it nothing can be missed
 _FORESEEN = 12  # degree of a polynomial of time that a step sees whole
 
 
 def looks_along(flow: Flow) -> int:
     """Steps at least over a stretch of a motion that is driven by the time itself."""
     return int(min(LOOKS, 1 + flow.degree / _FORESEEN))
+
+
+def longest_step(begin: float, end: float, fewest: int) -> float:
+    """Length of a step with which a span takes so many, unless it is as short as rounding, s."""
+    return max((end - begin) / fewest, _SHORTEST * max(abs(begin), abs(end)))
 
 
 class Watch(Protocol):

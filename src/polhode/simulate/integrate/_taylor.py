@@ -9,6 +9,8 @@ import numpy as np
 from polhode.simulate.integrate._polynomials import evaluated, pieces_at, powers_of
 from polhode.simulate.integrate._stepping import Array
 
+_MISSED = 2  # steps of rounding by which the sum of the steps may miss their end
+
 
 class Steps:
     """Steps as they are made.
@@ -39,9 +41,16 @@ class Steps:
         self._lengths.append(length)
         self._series.append(series.copy())
 
-    def leg(self, *, broken: bool) -> TaylorLeg:
-        """All of them together."""
+    def leg(self, goal: float, *, broken: bool) -> TaylorLeg:
+        """All of them together.
+
+        Args:
+            goal: where they were to end, s: there they do where only rounding is in between, for
+                what happens at that instant would be passed over.
+        """
         times, rests = np.array(self._times).T
+        if abs(times[-1] - goal) <= _MISSED * np.spacing(abs(goal)):
+            times[-1], rests[-1] = goal, 0.0
         lengths = np.array(self._lengths)
         shares = np.array(self._series)
         with np.errstate(over="ignore", under="ignore", invalid="ignore"):

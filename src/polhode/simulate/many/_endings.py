@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from polhode.algebra import Expr, Symbol, sqrt
 from polhode.derive import Guard
 from polhode.simulate._task import AS_DECLARED
-from polhode.simulate.contact._machine import ModeMachine, slip_symbols
+from polhode.simulate.contact._carried import slip_symbols
+from polhode.simulate.contact._machine import ModeMachine
 
 
 @dataclass(frozen=True)

@@ -12,18 +12,16 @@ from polhode.algebra import Symbol
 from polhode.base import SilentProgress
 from polhode.derive import Guard
 from polhode.model import Phase
-from polhode.simulate._dynamics import WORK
 from polhode.simulate._names import Name
 from polhode.simulate._segment import Part, state_at
 from polhode.simulate._task import Task
 from polhode.simulate.contact._checks import check_numbers
-from polhode.simulate.contact._course import Course, Walk
+from polhode.simulate.contact._course import Course, Walk, leaving
 from polhode.simulate.contact._entry import Entry, state_on
 from polhode.simulate.contact._lookout import Lookout
 from polhode.simulate.contact._machine import Machine
 from polhode.simulate.contact._onset import onset
 from polhode.simulate.contact._through import first_entry
-from polhode.simulate.contact._transition import Leaving
 from polhode.simulate.many._company import Departure
 from polhode.simulate.many._stretches import Stretches
 
@@ -87,10 +85,9 @@ class Pilot(Walk):
         self._machine.move_on(self._stretches.begun_before(departure.time))
         mode = self._machine.mode(departure.phases)
         state = departure.state
-        own = {s: state[s] for s in mode.dynamics.states if s not in mode.dynamics.carried}
-        place = mode.lifted(departure.time, own, state.get(WORK, 0.0))
-        before = Entry(departure.phases, place, np.empty(0), np.empty(0))
-        return self._transitions.next(before, Leaving(departure.guard, place, {}))
+        left = leaving(mode, departure.guard, state, departure.time, 0.0)
+        before = Entry(departure.phases, left.place, np.empty(0), np.empty(0))
+        return self._transitions.next(before, left)
 
     def enter(self, entry: Entry, end: float) -> Entered:
         """The beginning of a mode: a slip that sets in, for which vectors are no use."""

@@ -9,10 +9,11 @@ from polhode.base import Progress
 from polhode.derive import Guard
 from polhode.simulate._dynamics import CLOCK
 from polhode.simulate._segment import Part, Segment
+from polhode.simulate.contact._carried import slip_symbols
 from polhode.simulate.contact._course import LANDED, VANISHED, Outcome, Walk, leaving, place_of
 from polhode.simulate.contact._entry import Entry, state_on
 from polhode.simulate.contact._lookout import Lookout
-from polhode.simulate.contact._machine import Machine, ModeMachine, slip_symbols
+from polhode.simulate.contact._machine import Machine, ModeMachine
 from polhode.simulate.integrate._watched import Stop, Watched
 from polhode.simulate.precise._first_slip import first_slip
 from polhode.simulate.precise._landing import Spot, landing
