@@ -10,7 +10,7 @@ from polhode.algebra import under_name
 from polhode.base import ParseError, PolhodeError
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims._notation import Notation
-from polhode.claims._typed import with_given, with_let, with_small
+from polhode.claims._typed import with_given, with_let, with_positive, with_small
 from polhode.claims._verdict import Answer, Correction, Verdict
 from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, read_latex, write_latex
@@ -33,6 +33,7 @@ class Enquiry:
         let: new symbols of the text.
         given: restrictions.
         small: small quantities with the order to be kept.
+        positive: quantities whose sign is stated.
     """
 
     latex: str
@@ -40,6 +41,7 @@ class Enquiry:
     let: tuple[str, ...] = ()
     given: tuple[str, ...] = ()
     small: tuple[str, ...] = ()
+    positive: tuple[str, ...] = ()
 
     def judged(
         self, equations: Equations, tell: Callable[[Verdict], object] = lambda verdict: None
@@ -53,11 +55,14 @@ class Enquiry:
         notation = Notation.of(equations)
         for say, texts in (
             (with_let, self.let),
+            (with_positive, self.positive),
             (with_given, self.given),
             (with_small, self.small),
         ):
             notation = reduce(say, texts, notation)
-        return judged_claim(self.latex, notation, self.context, tell=tell)
+        verdict = judged_claim(self.latex, notation, self.context, tell=tell)
+        signs = (f"taking {text} as positive" for text in self.positive)
+        return replace(verdict, remarks=(*verdict.remarks, *signs))
 
 
 def judged_claim(

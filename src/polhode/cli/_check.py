@@ -35,6 +35,7 @@ def configure(parser: Parser) -> None:
         ("--let", "a new symbol: --let 'epsilon = theta - pi/2'"),
         ("--given", "a restriction: --given 'theta = pi/2'"),
         ("--small", "a small quantity and the order kept: --small epsilon:1"),
+        ("--positive", "a quantity that is positive: --positive 'sin(alpha)'"),
     ):
         parser.add_argument(option, action="append", default=[], help=example)
     parser.add_argument("--json", action="store_true", help="print one JSON document")
@@ -43,7 +44,8 @@ def configure(parser: Parser) -> None:
 def run(options: Namespace) -> int:
     """Judge one equation and print the verdict; 0 where it holds, 1 where it fails, 2 where nothing is judged."""
     system = entry_of(options.name).build()
-    extra = (tuple(said) for said in (options.let, options.given, options.small))
+    said_besides = (options.let, options.given, options.small, options.positive)
+    extra = map(tuple, said_besides)
     enquiry = Enquiry(options.latex, options.context, *extra)
 
     said = _in_json if options.json else _in_words

@@ -29,6 +29,7 @@ def check(
     let: Iterable[str] = (),
     given: Iterable[str] = (),
     small: Iterable[str] = (),
+    positive: Iterable[str] = (),
     seconds: float | None = LONGEST,
     tell: Callable[[Verdict], object] = lambda verdict: None,
 ) -> Verdict:
@@ -45,6 +46,7 @@ def check(
         let: new symbols of the text, in published names or LaTeX: ``epsilon = theta - pi/2``.
         given: restrictions, such as ``theta = pi/2``.
         small: small quantities with the order to be kept, such as ``epsilon:1``.
+        positive: quantities that are positive, such as ``sin(alpha)``.
         seconds: of processor time that it may take; None for as long as it takes, in this process.
         tell: called with a failure as soon as it is found; a correction may take longer.
 
@@ -59,7 +61,8 @@ def check(
     if not isinstance(latex, str):
         raise ParseError(f"an equation of type {type(latex).__name__}", expected="LaTeX, as a str")
     equations_only(equations, "a claim about the motion")
-    enquiry = Enquiry(latex, context, _several(let), _several(given), _several(small))
+    said = map(_several, (let, given, small, positive))
+    enquiry = Enquiry(latex, context, *said)
     if seconds is None:
         return enquiry.judged(equations, tell)
     if not isinstance(seconds, int | float) or not 0 < seconds < inf:
