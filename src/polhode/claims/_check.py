@@ -17,7 +17,14 @@ from polhode.claims._readings import (
     judged_in_every_reading,
     with_readings,
 )
-from polhode.claims._typed import spoken, with_given, with_let, with_reading, with_small
+from polhode.claims._typed import (
+    spoken,
+    with_given,
+    with_let,
+    with_positive,
+    with_reading,
+    with_small,
+)
 from polhode.claims._verdict import Answer, Correction, Verdict
 from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, read_latex, write_latex
@@ -40,6 +47,7 @@ class Enquiry:
         given: restrictions.
         small: small quantities with the order to be kept.
         read: letters of several meanings, each with the one that is meant.
+        positive: quantities whose sign is stated.
     """
 
     latex: str
@@ -48,6 +56,7 @@ class Enquiry:
     given: tuple[str, ...] = ()
     small: tuple[str, ...] = ()
     read: tuple[str, ...] = ()
+    positive: tuple[str, ...] = ()
 
     def judged(
         self, equations: Equations, tell: Callable[[Verdict], object] = lambda verdict: None
@@ -58,20 +67,23 @@ class Enquiry:
         """
         if self.context not in CONTEXTS:
             raise ParseError(f"context {self.context!r}", expected=f"one of {', '.join(CONTEXTS)}")
-        said = [*self.let, *self.given, *self.small]
-        return judged_claim(
+        said = [*self.let, *self.given, *self.small, *self.positive]
+        verdict = judged_claim(
             self.latex,
             partial(self._notation, equations),
             self.context,
             spoken=lambda: [piece for text in said for piece in spoken(text)],
             tell=tell,
         )
+        signs = (f"taking {text} as positive" for text in self.positive)
+        return replace(verdict, remarks=(*verdict.remarks, *signs))
 
     def _notation(self, equations: Equations, chosen: Chosen) -> Notation:
         """With what is said besides, letters of several meanings read as chosen."""
         notation = reduce(with_reading, self.read, Notation.of(equations)).choosing(chosen)
         for say, texts in (
             (with_let, self.let),
+            (with_positive, self.positive),
             (with_given, self.given),
             (with_small, self.small),
         ):

@@ -15,7 +15,7 @@ from polhode.claims.document._document import Definition
 from polhode.claims.latex import read_latex
 from polhode.claims.latex._tree import Dots, Name, Node, Piece
 from polhode.claims.meaning._bindings import BoundRelation
-from polhode.claims.meaning._meaning import BindingError, Meaning
+from polhode.claims.meaning._meaning import BindingError, Meaning, signed
 from polhode.claims.meaning._spelling import name_of, spelled
 from polhode.claims.states._asked import Small
 
@@ -116,6 +116,15 @@ def with_small(notation: Notation, text: str) -> Notation:
     value = notation.scalar(wanted) if _is_latex(wanted) else typed(notation, wanted)
     small = Small(value, int(order) if colon else None)
     return replace(notation, small=(*notation.small, small))
+
+
+def with_positive(notation: Notation, text: str) -> Notation:
+    """With a quantity whose sign is stated: `sin(alpha)`, `v_y`, `-F_x`."""
+    value = notation.scalar(text) if _is_latex(text) else typed(notation, text)
+    vocabulary = notation.vocabulary
+    positive = (*vocabulary.positive, value)
+    told = {node: signed(meaning, positive) for node, meaning in vocabulary.told.items()}
+    return replace(notation, vocabulary=replace(vocabulary, positive=positive, told=told))
 
 
 def typed(notation: Notation, text: str) -> Expr:

@@ -42,6 +42,7 @@ def configure(parser: Parser) -> None:
         ("--given", "a restriction: --given 'theta = pi/2'"),
         ("--small", "a small quantity and the order kept: --small epsilon:1"),
         ("--read", "a letter of several meanings: --read 'L = about pivot'"),
+        ("--positive", "a quantity that is positive: --positive 'sin(alpha)'"),
     ):
         parser.add_argument(option, action="append", default=[], help=example)
     parser.add_argument("--json", action="store_true", help="print one JSON document")
@@ -50,7 +51,8 @@ def configure(parser: Parser) -> None:
 def run(options: Namespace) -> int:
     """Judge one equation and print the verdict; 0 where it holds, 1 where it fails, else 2."""
     system = entry_of(options.name).build()
-    extra = (tuple(said) for said in (options.let, options.given, options.small, options.read))
+    said_besides = (options.let, options.given, options.small, options.read, options.positive)
+    extra = map(tuple, said_besides)
     enquiry = Enquiry(options.latex, options.context, *extra)
 
     said = _in_json if options.json else _in_words

@@ -11,6 +11,7 @@ from math import prod
 from polhode.algebra import ONE
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.balance._declared import reaction_symbol
+from polhode.claims.contexts._lagrangian import remark, says_the_same
 from polhode.claims.meaning._components import Component
 from polhode.claims.states._asked import Asked
 from polhode.claims.states._circumstances import AnyState, Circumstances, TrueMotion
@@ -40,7 +41,12 @@ def judged_motion(asked: Asked) -> Verdict:
 def judged(asked: Asked, all_states: Sequence[Circumstances], context: str) -> Verdict:
     """The verdict on equations: holds, or fails with evidence."""
     found = list(failures(asked, all_states))
-    return failed(found, context) if found else Verdict(Answer.HOLDS, context)
+    alike = [f for f in found if len(asked.branches) == 1 and says_the_same(asked, f.component)]
+    wrong = [f for f in found if f not in alike]
+    if wrong:
+        return failed(wrong, context)
+    said = dict.fromkeys(remark(f.component.difference) for f in alike)
+    return Verdict(Answer.HOLDS, context, remarks=tuple(said))
 
 
 def failures(asked: Asked, all_states: Iterable[Circumstances]) -> Iterator[Failure]:

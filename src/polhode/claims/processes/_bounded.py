@@ -29,6 +29,7 @@ def check(
     given: Iterable[str] = (),
     small: Iterable[str] = (),
     read: Iterable[str] = (),
+    positive: Iterable[str] = (),
     seconds: float | None = LONGEST,
     tell: Callable[[Verdict], object] = lambda verdict: None,
 ) -> Verdict:
@@ -47,6 +48,7 @@ def check(
         small: small quantities with the order to be kept, such as ``epsilon:1``.
         read: letters that the field uses for several quantities, each with the one that is meant:
             ``L = about pivot``.
+        positive: quantities that are positive, such as ``sin(alpha)``.
         seconds: of processor time that it may take; None for as long as it takes, in this process.
         tell: called with a failure as soon as it is found; a correction may take longer.
 
@@ -62,7 +64,7 @@ def check(
     if not isinstance(latex, str):
         raise ParseError(f"an equation of type {type(latex).__name__}", expected="LaTeX, as a str")
     equations_only(equations, "a claim about the motion")
-    said = map(_several, (let, given, small, read))
+    said = map(_several, (let, given, small, read, positive))
     enquiry = Enquiry(latex, context, *said)
     if seconds is None:
         return enquiry.judged(equations, tell)
