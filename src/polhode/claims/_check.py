@@ -166,7 +166,12 @@ def _read_twice(
     from polhode.claims.contexts._read_anew import disputed  # NumPy, for what was bound alone
 
     vocabulary = notation.vocabulary
-    points = {r.letter: r.phrase.partition(" about ")[2] for r in vocabulary.readings([statement])}
+    phrases = {r.letter: r.phrase for r in vocabulary.readings([statement])} | vocabulary.chosen
+    points = {
+        letter: phrase.partition(" about ")[2]
+        for letter, phrase in phrases.items()
+        if " about " in phrase or letter in vocabulary.chosen
+    }
     dispute = disputed(verdict.answer, asked, verdict.context, statement, vocabulary.told, points)
     if not dispute:
         return verdict

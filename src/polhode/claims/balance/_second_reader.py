@@ -99,6 +99,7 @@ class _Reader:
     ) -> None:
         self._trial = trial
         self._told = told
+        self._chosen = {name for name, point in points.items() if not point}
         self._letters = Letters(system, numbers, trial, points)
 
     # -- members --------------------------------------------------------------------------------
@@ -243,6 +244,8 @@ class _Reader:
 
     @value.register
     def _(self, node: tree.Name) -> Any:
+        if node in self._chosen:  # one of several meanings that this table does not have
+            raise UnreadError
         for found in (self._defined, self._letters.scalar, self._letters.mechanical):
             value = found(node)
             if value is not None:

@@ -188,7 +188,7 @@ class Vocabulary:
     def _read(self, name: Name, phrases: tuple[str, ...]) -> Sense:
         distinct = _distinct(self.mechanics, phrases)
         meaning = quantity(self.mechanics, distinct[0])
-        if name in self._plain and len(distinct) == 1:
+        if name in self._plain and name not in self.chosen and len(distinct) == 1:
             return Sense(meaning)
         return Sense(meaning, (Reading(name, distinct[0], distinct),))
 
