@@ -38,6 +38,7 @@ from polhode.algebra._linear import variables as variables
 from polhode.algebra._parts import named as named
 from polhode.algebra._parts import under_letters as under_letters
 from polhode.algebra._reading import read_expression as read_expression
+from polhode.algebra._roots import Root as Root
 from polhode.algebra._roots import absolute as absolute
 from polhode.algebra._roots import factors as factors
 from polhode.algebra._roots import is_positive as is_positive
@@ -52,6 +53,8 @@ from polhode.algebra._symbols import speeds as speeds
 from polhode.algebra._symbols import symbol as symbol
 from polhode.algebra._symbols import symbols as symbols
 from polhode.algebra._symbols import time as time
+from polhode.algebra._sides import roots_in as roots_in
+from polhode.algebra._sides import with_roots as with_roots
 from polhode.algebra._sympy import from_sympy as from_sympy
 from polhode.algebra._sympy import to_sympy as to_sympy
 from polhode.algebra._vector import Triad as Triad

@@ -146,12 +146,12 @@ class Experiment:
 
 
 def _with_pulls(trajectory: Trajectory) -> tuple[Event, ...]:
-    """Start and end, and where a contact would have had to let go."""
+    """What happens, and where a contact would have had to let go."""
     mode = trajectory.mode
     pulls = (Event(t, f"{name} pulls", mode, mode) for t, name in pulling_contacts(trajectory))
-    start, end = trajectory.events
-    between = sorted(pulls, key=lambda event: event.time)
-    return (start, *placed(between, trajectory.segments), end)
+    start, *changes, end = trajectory.events
+    between = sorted([*changes, *placed(pulls, trajectory.segments)], key=lambda e: e.time)
+    return (start, *between, end)
 
 
 def _duration(value: Any) -> float:

@@ -12,6 +12,7 @@ from polhode.algebra import Symbol
 from polhode.base import NumericError, Progress
 from polhode.derive import Guard
 from polhode.simulate._dynamics import WORK
+from polhode.simulate._event import Change
 from polhode.simulate._segment import Part, Segment, state_at
 from polhode.simulate.contact._entry import Entry, beyond, state_on
 from polhode.simulate.contact._lookout import Lookout
@@ -33,23 +34,6 @@ LANDED = 1e-10  # the same at an instant at which the slip velocity turns round
 _MOST_EVENTS = 50_000
 _NO_TIME = 1e-11  # of the time of the whole motion
 _MOST_AT_ONCE = 32  # changes of mode while no time passes: far more than contacts can have
-
-
-@dataclass(frozen=True)
-class Change:
-    """A change of contact mode.
-
-    Attributes:
-        time: s.
-        kind: what happened.
-        before: name of the mode it ended.
-        after: name of the mode it began.
-    """
-
-    time: float
-    kind: str
-    before: str
-    after: str
 
 
 @dataclass(frozen=True)
