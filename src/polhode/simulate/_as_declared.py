@@ -21,10 +21,12 @@ from polhode.simulate._sides import (
     beyond,
     first_passage,
     overshoots,
+    nearer,
     passages_of,
     sides_at,
     told_change,
 )
+from polhode.simulate._lengths import refuse_vanishing
 from polhode.simulate._start import read_start
 from polhode.simulate._task import AS_DECLARED, Begun, Motion, Task, timed
 from polhode.simulate._values import idle_parameters, read_parameters
@@ -127,7 +129,7 @@ class _Course:
         self._end = end
         self._progress = progress
         self._tally = Tally()
-        self._turns = Turns(end)
+        self._turns = Turns()
 
     def along(self, face: _Face, here: Here) -> tuple[Here, Passage | None]:
         """As long as the same equations hold: where that ends, and what ends it."""
@@ -138,23 +140,34 @@ class _Course:
         while passage is None and now < self._end and self.is_under_way:
             constants = self._constants(face.dynamics, now)
             span = (now, self._drive.until(now, self._end))
-            watched = face.watched(constants, self._tally)
-            solution = integrate(
-                face.flow, face.stepper, constants, rest, span, self._progress, watched
-            )
-            reached = span[1] if solution.stop is Stop.TIME else float(solution.steps[-1])
-            part = Part(now, reached, solution, constants)
-            part, passage = first_passage(face.dynamics, face.passages, part)
-            if passage is None and solution.stop is Stop.STUCK:
-                raise stuck(solution)
-            self.is_under_way = solution.stop is not Stop.INTERRUPTED
+            part, passage = self._part(face, constants, rest, span)
+            self.is_under_way = part.solution.stop is not Stop.INTERRUPTED
             parts.append(part)
             now = part.end
-            rest = solution.rest(now)
+            rest = part.solution.rest(now)
         self.is_under_way = self.is_under_way and now < self._end
         self.segments.append(Segment(AS_DECLARED, begin, now, face.dynamics, tuple(parts)))
         state: dict[Symbol, Any] = {WORK: 0.0, **state_at(parts[-1], now)} if passage else {}
         return Here(state, constants, now), passage
+
+    def _part(
+        self, face: _Face, constants: Array, rest: Array, span: tuple[float, float]
+    ) -> tuple[Part, Passage | None]:
+        """Up to the end of a span, or of a side."""
+        watched = face.watched(constants, self._tally)
+        solution = integrate(
+            face.flow, face.stepper, constants, rest, span, self._progress, watched
+        )
+        reached = span[1] if solution.stop is Stop.TIME else float(solution.steps[-1])
+        whole = Part(span[0], reached, solution, constants)
+        part, passage = first_passage(face.dynamics, face.passages, whole)
+        again = nearer(whole, part) if passage is not None else None
+        if again is not None:
+            return self._part(face, constants, rest, (span[0], again))
+        refuse_vanishing(face.dynamics, part)
+        if passage is None and solution.stop is Stop.STUCK:
+            raise stuck(solution)
+        return part, passage
 
     def turned(
         self, face: _Face, here: Here, passage: Passage, dynamics: Dynamics

@@ -168,10 +168,9 @@ class Dynamics:
 
     def _held_still(self, root: Root) -> tuple[Row, Expr]:
         """What keeps the argument of an absolute value at zero: of the accelerations, and rest."""
-        equations = self.equations
-        argument = self.on_side(root.plain or ZERO).subs(equations.dependent)
+        argument = self.on_side(root.plain or ZERO)
         for _ in range(2):
-            row = tuple(argument.diff(speed) for speed in equations.speeds)
+            row = tuple(argument.diff(speed) for speed in self.equations.speeds)
             rest = argument.chain(self._rate)
             if any(row):
                 return row, rest
@@ -204,7 +203,19 @@ class Dynamics:
 
     def on_side(self, expression: Expr) -> Expr:
         """An expression with the absolute values of which the sides are known put in."""
-        return with_roots(expression, self._images)
+        return self._put_in(expression) if self.sides else expression
+
+    def _put_in(self, expression: Expr) -> Expr:
+        """Roots are the same only in the same symbols: those of the independent speeds."""
+        if not any(map(_varies, roots_in([expression]))):
+            return expression
+        return with_roots(expression.subs(self._rates_by_speeds), self._images)
+
+    @cached_property
+    def _rates_by_speeds(self) -> dict[Symbol, Expr]:
+        """Rates of coordinates and dependent speeds in terms of the independent speeds."""
+        table = {**self.equations.kinematics, **self.equations.dependent}
+        return {s: e for s, e in table.items() if s not in self.equations.speeds}
 
     @cached_property
     def _images(self) -> dict[Root, Expr]:
@@ -231,8 +242,7 @@ class Dynamics:
         relations = (*equations.kinematics.values(), *equations.dependent.values())
         driven = (*self.prescribed.values(), *self.carried.values())
         own = (*entries, *equations.forcing, equations.power, *relations, *driven)
-        moving = (root for root in roots_in(map(self.on_side, own)) if _varies(root))
-        return tuple(moving)
+        return tuple(root for root in roots_in(map(self._put_in, own)) if _varies(root))
 
     def program(
         self,

@@ -30,8 +30,10 @@ PASSES = "passes"
 _ALIKE = 1e-9  # relative difference of rates on both sides that is rounding
 _BEYOND = 1e-9  # of the largest value so far: how far beyond zero there is reason to look
 _MOST = 50_000  # changes of side in one motion
-_MOST_AT_ONCE = 32  # the same while no time passes
-_NO_TIME = 1e-11  # of the time of the whole motion
+_MOST_HURRIED = 32  # the same, one soon after the other
+_HURRIED = 1e-6  # of the longest time between two of them
+_FAR = 2.0  # times as far as the first end of a side: steps that long lose its digits
+_NEARER = 1.5  # how far to go instead
 
 Sides = Mapping[Root, int]
 
@@ -232,6 +234,15 @@ def first_passage(
     return replace(part, end=fall.time), passages[fall.guard]
 
 
+def nearer(part: Part, cut: Part) -> float | None:
+    """How far to integrate again where a step went far beyond what ends a side; None if it did not.
+
+    The digits of a long step are those of its end.
+    """
+    reached, wanted = float(part.solution.steps[-1]) - part.begin, cut.end - cut.begin
+    return part.begin + _NEARER * wanted if 0.0 < _FAR * wanted < reached else None
+
+
 def beyond(dynamics: Dynamics, here: Here, sides: Sides, passage: Passage) -> dict[Root, int]:
     """The sides that follow where one ends; `dynamics` without any.
 
@@ -251,16 +262,13 @@ def told_change(passage: Passage, after: Sides) -> str:
 
 
 class Turns:
-    """Counts how often sides end in one motion.
+    """Watches how often sides end in one motion."""
 
-    Args:
-        end: of the motion, s.
-    """
-
-    def __init__(self, end: float) -> None:
-        self._end = end
+    def __init__(self) -> None:
         self._count = 0
-        self._last = list[float]()
+        self._hurried = 0
+        self._longest = 0.0
+        self._last = 0.0
 
     def count(self, time: float, passage: Passage) -> None:
         """One more.
@@ -268,11 +276,11 @@ class Turns:
         Raises:
             NumericError: where they do not come to an end.
         """
+        passed, self._last = float(time) - self._last, float(time)
         self._count += 1
-        self._last = [*self._last[1 - _MOST_AT_ONCE :], float(time)]
-        full = len(self._last) == _MOST_AT_ONCE
-        at_once = full and self._last[-1] - self._last[0] <= _NO_TIME * self._end
-        if at_once or self._count > _MOST:
+        self._longest = max(self._longest, passed)
+        self._hurried = self._hurried + 1 if passed <= _HURRIED * self._longest else 0
+        if self._hurried >= _MOST_HURRIED or self._count > _MOST:
             raise NumericError(
                 f"{_named(passage.root)} changes sign without end near t = {float(time):.9g} s",
                 expected="a motion that settles on one side of where it is zero, or stays there",

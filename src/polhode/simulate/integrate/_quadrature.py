@@ -28,6 +28,8 @@ _NOISE = 1e-8  # last coefficients below this that no longer fall are rounding
 _FALLING = 0.25  # what is left of them when a piece that is not yet resolved is halved
 _SHORTEST = 1e-11  # length of a piece over the time: the digits of shorter ones are rounding
 _MOST = 100_000  # new pieces at a time; nothing smooth needs more
+_ALL = 0.9  # share of pieces that halving leaves as they were
+_TRIED = 6  # times that it has been tried: what is not resolved then nearly anywhere is rounding
 
 
 @dataclass(frozen=True)
@@ -76,6 +78,7 @@ def resolved(function: Callable[[Array], Array], knots: Array) -> tuple[Array, A
     before = np.full(len(left), np.inf)
     done: list[tuple[Array, Array, Array]] = []
     scale: Array | float = 0.0
+    halvings = 0
     while len(left):
         coefficients = _coefficients(function, left, right)
         largest = np.max(np.abs(coefficients), axis=(1, 2), keepdims=True)
@@ -84,6 +87,9 @@ def resolved(function: Callable[[Array], Array], knots: Array) -> tuple[Array, A
         tail = np.max(tails, axis=(0, 2), initial=0.0)
         rough = (tail > _CONVERGED) & ((tail > _NOISE) | (tail < _FALLING * before))
         rough &= (right - left > _SHORTEST * np.abs(right)) & (np.sum(rough) < _MOST)
+        if halvings >= _TRIED and np.mean(rough & (tail > _NOISE) & (tail > before / 2)) > _ALL:
+            rough[:] = False
+        halvings += 1
         done.append((left[~rough], right[~rough], coefficients[:, ~rough]))
         middle = (left[rough] + right[rough]) / 2
         left, right = np.append(left[rough], middle), np.append(middle, right[rough])
