@@ -91,9 +91,7 @@ class AsDeclared:
 class _Face:
     """Equations that are smooth, compiled, and what ends them."""
 
-    def __init__(
-        self, dynamics: Dynamics, integrator: Integrator, tolerance: float | None
-    ) -> None:
+    def __init__(self, dynamics: Dynamics, integrator: Integrator, tolerance: float | None) -> None:
         self.dynamics = dynamics
         self.passages = passages_of(dynamics)
         self._integrator = integrator
@@ -161,7 +159,7 @@ class _Course:
         reached = span[1] if solution.stop is Stop.TIME else float(solution.steps[-1])
         whole = Part(span[0], reached, solution, constants)
         part, passage = first_passage(face.dynamics, face.passages, whole)
-        again = nearer(whole, part) if passage is not None else None
+        again = nearer(whole.solution.steps, part.end) if passage is not None else None
         if again is not None:
             return self._part(face, constants, rest, (span[0], again))
         refuse_vanishing(face.dynamics, part)

@@ -11,6 +11,7 @@ from typing import Any, Protocol
 from polhode.simulate._segment import Segment
 from polhode.simulate.integrate._watched import Stop
 
+
 @dataclass(frozen=True)
 class Change:
     """A change of contact mode, or of the side of an absolute value.
@@ -57,6 +58,12 @@ class Event:
     def state_after(self) -> Mapping[str, float] | None:
         """Coordinates, speeds and rates just after, by name, SI; None after the end."""
         return None if self._entered is None else self._entered.state(self.time)
+
+    @property
+    def divides(self) -> bool:
+        """Whether other equations, or other speeds, hold after it than before."""
+        left, entered = self._left, self._entered
+        return left is not None and entered is not None and left is not entered
 
     def as_json(self) -> dict[str, Any]:
         """As the command line prints it."""

@@ -46,18 +46,18 @@ def refuse_vanishing(dynamics: Dynamics, part: Part) -> None:
     values = radicands(times)
     largest, least = values.max(axis=2), values.min(axis=2)
     for k, step in zip(*np.nonzero(least < _SMALL * largest), strict=True):
-        when = _lowest(lambda t, k=k: radicands(t)[k], times[step], values[k, step])
+        when = _lowest(radicands, int(k), times[step], values[k, step])
         if radicands(np.array([when]))[k, 0] < _NOTHING * largest[k, step]:
             raise _vanishes(roots[k], when)
 
 
-def _lowest(function: Callable[[Array], Array], times: Array, values: Array) -> float:
-    """Where a function is least within a step, beside the least of some values."""
+def _lowest(functions: Callable[[Array], Array], k: int, times: Array, values: Array) -> float:
+    """Where one of some functions is least within a step, beside the least of some values."""
     place = int(np.argmin(values))
     left, right = times[max(place - 1, 0)], times[min(place + 1, len(times) - 1)]
     for _ in range(_NARROWED):
         third = (right - left) / 3
-        first, second = function(np.array([left + third, right - third]))
+        first, second = functions(np.array([left + third, right - third]))[k]
         left, right = (left, right - third) if first < second else (left + third, right)
     return float((left + right) / 2)
 

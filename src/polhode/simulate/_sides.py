@@ -234,13 +234,13 @@ def first_passage(
     return replace(part, end=fall.time), passages[fall.guard]
 
 
-def nearer(part: Part, cut: Part) -> float | None:
-    """How far to integrate again where a step went far beyond what ends a side; None if it did not.
+def nearer(steps: Any, end: Any) -> Any | None:
+    """How far to integrate again where steps went far beyond what ends a side; None if not.
 
     The digits of a long step are those of its end.
     """
-    reached, wanted = float(part.solution.steps[-1]) - part.begin, cut.end - cut.begin
-    return part.begin + _NEARER * wanted if 0.0 < _FAR * wanted < reached else None
+    wanted = end - steps[0]
+    return steps[0] + _NEARER * wanted if 0 < _FAR * wanted < steps[-1] - steps[0] else None
 
 
 def beyond(dynamics: Dynamics, here: Here, sides: Sides, passage: Passage) -> dict[Root, int]:

@@ -189,7 +189,7 @@ def _course(run: Trajectory) -> list[tuple[str, str | None]]:
 def _felt(run: Trajectory) -> list[Event]:
     """Events that change the equations or the speeds."""
     inside = (event for event in run.events if event.after is not None)
-    return [event for event in inside if event.before != event.after or event.kind == "jerk"]
+    return [event for event in inside if event.divides]
 
 
 def _refuse_end(run: Trajectory, end: float) -> None:

@@ -134,6 +134,7 @@ class Lookout:
             NumericError: where sliding jams before.
         """
         watched = [g for g in self.mode.mode.guards if g.kind != "sticks"]
+        watched += self.mode.passages
         if not (watched or self.mode.can_jam):
             return None
         fall = first_fall(self._values(seen, watched), seen.knots)

@@ -13,6 +13,10 @@ from polhode.base import NumericError
 from polhode.derive import Automaton, Mode
 from polhode.model import Contact, Coulomb, Phase, Sliding
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
+from polhode.simulate._sides import Here, Sides, passages_of, sides_at
+from polhode.simulate.contact._carried import dynamics_of
+from polhode.simulate.contact._carried import gap_symbol as gap_symbol
+from polhode.simulate.contact._carried import slip_symbols as slip_symbols
 from polhode.simulate.contact._place import Function, Place
 from polhode.simulate.contact._touching import Touching
 from polhode.simulate.forcing._drive import Drive
@@ -98,17 +102,29 @@ class Machine:
 class ModeMachine:
     """One contact mode with numbers."""
 
-    def __init__(self, machine: Machine, mode: Mode) -> None:
+    def __init__(self, machine: Machine, mode: Mode, dynamics: Dynamics | None = None) -> None:
         self.mode = mode
         self._machine = machine
         self._numbers = machine.numbers
         self._last: tuple[Constants, Array, list[float]] = ({}, np.empty(0), [])
-        carried, meanings = _carried(mode)
-        idle = tuple(machine.constants)
-        known = {**mode.lifted, **_silent(machine.automaton, mode), **_slips(mode, carried)}
-        self.dynamics = Dynamics(
-            mode.equations, machine.drive.expressions, idle, carried, meanings, known
+        self._faces: dict[int, ModeMachine] = {}
+        self.dynamics = dynamics or dynamics_of(
+            machine.automaton, mode, machine.drive.expressions, machine.constants
         )
+        self.passages = passages_of(self.dynamics)
+
+    def on(self, sides: Sides) -> ModeMachine:
+        """The same mode on given sides of all absolute values."""
+        dynamics = self.dynamics.on(sides)
+        if dynamics is self.dynamics:
+            return self
+        if id(dynamics) not in self._faces:
+            self._faces[id(dynamics)] = ModeMachine(self._machine, self.mode, dynamics)
+        return self._faces[id(dynamics)]
+
+    def here(self, state: Mapping[Symbol, Any], time: Any) -> Here:
+        """An instant of a motion in this mode."""
+        return Here(state, self.parameters, time, self._numbers)
 
     @property
     def parameters(self) -> Array:
@@ -149,6 +165,8 @@ class ModeMachine:
         """Expressions as a function of the state, the time and values of extra symbols."""
         states = tuple(s for s in self.dynamics.states if s not in self.dynamics.carried)
         known = (*states, *extra, *self.dynamics.parameters, CLOCK)
+        if self.dynamics.undecided:
+            return self._function_by_sides(tuple(expressions), states, tuple(extra))
         compiled = self.dynamics.program(expressions, known).function(self._numbers.scalars)
 
         def values(state: Array, time: float, more: Sequence[float] = ()) -> Array:
@@ -158,6 +176,21 @@ class ModeMachine:
             except (ArithmeticError, ValueError) as error:
                 raise singular(time) from error
             return np.asarray(self._numbers.array(found))
+
+        return values
+
+    def _function_by_sides(
+        self, expressions: tuple[Expr, ...], states: tuple[Symbol, ...], extra: tuple[Symbol, ...]
+    ) -> Function:
+        """The same where absolute values occur: on whichever sides a state is."""
+        known: dict[int, Function] = {}
+
+        def values(state: Array, time: float, more: Sequence[float] = ()) -> Array:
+            now = dict(zip(states, state[: len(states)].tolist(), strict=True))
+            face = self.on(sides_at(self.dynamics, self.here(now, time)))
+            if id(face) not in known:
+                known[id(face)] = face.function(expressions, extra)
+            return known[id(face)](state, time, more)
 
         return values
 
@@ -312,19 +345,6 @@ class ModeMachine:
         return self._slip_rates(state, time, directions).reshape(-1, 2)
 
 
-def slip_symbols(contact: Contact) -> tuple[Symbol, Symbol]:
-    """The slip velocity of a sliding contact, carried along."""
-    first, second = (
-        Symbol(f"slip_{label}_{contact.spelled}", Kind.SPEED) for label in contact.on.tangents
-    )
-    return first, second
-
-
-def gap_symbol(contact: Contact) -> Symbol:
-    """The height of a body above its support, carried along."""
-    return Symbol(f"gap_{contact.spelled}", Kind.COORDINATE)
-
-
 def singular(time: float) -> NumericError:
     """An expression without a finite value."""
     return NumericError(
@@ -332,42 +352,3 @@ def singular(time: float) -> NumericError:
         expected="a motion away from singular positions",
         advice="start elsewhere, or end before that time",
     )
-
-
-def _silent(modes: Automaton, mode: Mode) -> dict[Symbol, Expr]:
-    """Reactions of contacts that are open, by name: nothing."""
-    own = mode.equations.components
-    return {Symbol(n): ZERO for n in modes.together.equations.components if n not in own}
-
-
-def _slips(mode: Mode, carried: Mapping[Symbol, Expr]) -> dict[Symbol, Expr]:
-    """Slip velocities of the contacts that are closed, where they follow from the state."""
-    closed = (t for t, phase in zip(mode.touches, mode.phases, strict=True) if not phase.flies)
-    slips = (zip(slip_symbols(t.contact), t.slip, strict=True) for t in closed)
-    return {symbol: slip for pair in slips for symbol, slip in pair if symbol not in carried}
-
-
-def _carried(mode: Mode) -> tuple[dict[Symbol, Expr], dict[Symbol, Expr]]:
-    """Work done, slips and gaps; and what they make of the symbols of a sliding contact."""
-    carried: dict[Symbol, Expr] = {WORK: mode.equations.power}
-    meanings: dict[Symbol, Expr] = {}
-    motion = mode.equations.kinetics
-    for touch, phase in zip(mode.touches, mode.phases, strict=True):
-        contact = touch.contact
-        if phase.flies:
-            carried[gap_symbol(contact)] = touch.closing
-        if phase.slides and isinstance(contact, Coulomb):
-            element = mode.element(contact)
-            if not isinstance(element, Sliding):
-                continue
-            slips = slip_symbols(contact)
-            carried |= {
-                s: slip.chain(motion.rate) for s, slip in zip(slips, touch.slip, strict=True)
-            }
-            along, across = (Expr.generator(s) for s in slips)
-            speed = Expr.generator(element.slip_speed)
-            meanings[element.slip_speed] = sqrt(along * along + across * across)
-            meanings[element.direction[0]] = along / speed
-            meanings[element.direction[1]] = across / speed
-            meanings[element.slowness] = contact.slowness(speed)
-    return carried, meanings

@@ -24,6 +24,7 @@ from polhode.simulate.integrate._series import SeriesIntegrator
 from polhode.simulate.integrate._stepping import broken
 from polhode.simulate.integrate._watched import Stop, Watched
 from polhode.simulate.precise._given import Given, exactly, read_exactly
+from polhode.simulate.precise._precise_declared import as_declared
 from polhode.simulate.precise._precise_walk import PreciseWalk
 from polhode.simulate.precise._stretch import State, Steps
 from polhode.simulate.precise._wanted import Wanted
@@ -51,7 +52,7 @@ def precisely(
     end = numbers.array([duration])[0]
     steps = Steps(_integrator(task.integrator.name), numbers, end, progress)
     if motion.guarded is None:
-        course = _as_declared(motion.segments[0].dynamics, given, steps)
+        course = as_declared(motion.begun.dynamics, given, steps)
         events = _events_beside(rough, course)
     else:
         course = _through_modes(motion.guarded, given, steps, task, progress)
@@ -71,9 +72,10 @@ def precisely(
 
 def _events_beside(rough: Trajectory, course: Course) -> tuple[Event, ...]:
     """Start and end, and between them what was seen of the motion in doubles."""
-    first, last = events_of(course)
-    seen = (event for event in rough.events[1:-1] if event.time < last.time)
-    return (first, *placed(seen, course.segments), last)
+    first, *turns, last = events_of(course)
+    seen = [e for e in rough.events[1:-1] if not e.divides and e.time < last.time]
+    between = sorted([*turns, *placed(seen, course.segments)], key=lambda event: event.time)
+    return (first, *between, last)
 
 
 def _refuse_samples(forcing: Mapping[Any, Any], numbers: Numbers) -> None:
@@ -116,35 +118,6 @@ def _through_modes(
     first = begun_at(machine, Place(zero, coordinates, speeds, zero), guarded.apart)
     walk = PreciseWalk(machine, steps, task.near_flat, progress, task.until)
     return walk.along(first, steps.end)
-
-
-@dataclass(frozen=True)
-class _Declared:
-    """The equations of the contacts as they are declared, with numbers."""
-
-    dynamics: Dynamics
-    parameters: Any
-
-
-def _as_declared(dynamics: Dynamics, given: Given, steps: Steps) -> Course:
-    """The contacts as they are declared, and kept to."""
-    careful = steps.numbers.careful
-    constants = careful.array([given.parameters[s] for s in dynamics.parameters])
-    moving = _Declared(dynamics, constants)
-    now = given.context.mpf(0)
-    state: State = given.state(dynamics.states) | {WORK: now}
-    end = steps.end
-    parts, stop = list[Part](), Stop.TIME
-    while now < end and stop is not Stop.INTERRUPTED:
-        stretch = steps.along(moving, state, (now, end), Watched(), now)
-        stop = stretch.stop
-        if stop is Stop.STUCK:
-            raise broken(float(stretch.series.times[-1]))
-        parts.append(stretch.part(stretch.series.times[-1]))
-        state = stretch.state(stretch.series.steps - 1, 1, careful)
-        now = careful.array([parts[-1].end])[0]
-    segment = Segment(AS_DECLARED, parts[0].begin, parts[-1].end, dynamics, tuple(parts))
-    return Course((segment,), (), AS_DECLARED)
 
 
 # -- samples and events ------------------------------------------------------------------------

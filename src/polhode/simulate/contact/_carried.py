@@ -1,0 +1,74 @@
+"""What is integrated in a contact mode besides its coordinates and speeds, and what it stands for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from polhode.algebra import ZERO, Expr, Kind, Symbol, sqrt
+from polhode.derive import Automaton, Mode
+from polhode.model import Contact, Coulomb, Sliding
+from polhode.simulate._dynamics import WORK, Dynamics
+
+
+def dynamics_of(
+    modes: Automaton,
+    mode: Mode,
+    prescribed: Mapping[Symbol, Expr],
+    constants: Mapping[Symbol, float],
+) -> Dynamics:
+    """The equations of a contact mode with what is carried along, and all shared states."""
+    carried, meanings = _carried(mode)
+    known = {**mode.lifted, **_silent(modes, mode), **_slips(mode, carried)}
+    return Dynamics(mode.equations, prescribed, tuple(constants), carried, meanings, known)
+
+
+def slip_symbols(contact: Contact) -> tuple[Symbol, Symbol]:
+    """The slip velocity of a sliding contact, carried along."""
+    first, second = (
+        Symbol(f"slip_{label}_{contact.spelled}", Kind.SPEED) for label in contact.on.tangents
+    )
+    return first, second
+
+
+def gap_symbol(contact: Contact) -> Symbol:
+    """The height of a body above its support, carried along."""
+    return Symbol(f"gap_{contact.spelled}", Kind.COORDINATE)
+
+
+def _silent(modes: Automaton, mode: Mode) -> dict[Symbol, Expr]:
+    """Reactions of contacts that are open, by name: nothing."""
+    own = mode.equations.components
+    return {Symbol(n): ZERO for n in modes.together.equations.components if n not in own}
+
+
+def _slips(mode: Mode, carried: Mapping[Symbol, Expr]) -> dict[Symbol, Expr]:
+    """Slip velocities of the contacts that are closed, where they follow from the state."""
+    closed = (t for t, phase in zip(mode.touches, mode.phases, strict=True) if not phase.flies)
+    slips = (zip(slip_symbols(t.contact), t.slip, strict=True) for t in closed)
+    return {symbol: slip for pair in slips for symbol, slip in pair if symbol not in carried}
+
+
+def _carried(mode: Mode) -> tuple[dict[Symbol, Expr], dict[Symbol, Expr]]:
+    """Work done, slips and gaps; and what they make of the symbols of a sliding contact."""
+    carried: dict[Symbol, Expr] = {WORK: mode.equations.power}
+    meanings: dict[Symbol, Expr] = {}
+    motion = mode.equations.kinetics
+    for touch, phase in zip(mode.touches, mode.phases, strict=True):
+        contact = touch.contact
+        if phase.flies:
+            carried[gap_symbol(contact)] = touch.closing
+        if phase.slides and isinstance(contact, Coulomb):
+            element = mode.element(contact)
+            if not isinstance(element, Sliding):
+                continue
+            slips = slip_symbols(contact)
+            carried |= {
+                s: slip.chain(motion.rate) for s, slip in zip(slips, touch.slip, strict=True)
+            }
+            along, across = (Expr.generator(s) for s in slips)
+            speed = Expr.generator(element.slip_speed)
+            meanings[element.slip_speed] = sqrt(along * along + across * across)
+            meanings[element.direction[0]] = along / speed
+            meanings[element.direction[1]] = across / speed
+            meanings[element.slowness] = contact.slowness(speed)
+    return carried, meanings
