@@ -45,6 +45,8 @@ from polhode.algebra._roots import is_positive as is_positive
 from polhode.algebra._roots import principal_root as principal_root
 from polhode.algebra._roots import sqrt as sqrt
 from polhode.algebra._shapes import SHAPES as SHAPES
+from polhode.algebra._sides import roots_in as roots_in
+from polhode.algebra._sides import with_roots as with_roots
 from polhode.algebra._symbols import coordinate as coordinate
 from polhode.algebra._symbols import coordinates as coordinates
 from polhode.algebra._symbols import functions as functions
@@ -53,8 +55,6 @@ from polhode.algebra._symbols import speeds as speeds
 from polhode.algebra._symbols import symbol as symbol
 from polhode.algebra._symbols import symbols as symbols
 from polhode.algebra._symbols import time as time
-from polhode.algebra._sides import roots_in as roots_in
-from polhode.algebra._sides import with_roots as with_roots
 from polhode.algebra._sympy import from_sympy as from_sympy
 from polhode.algebra._sympy import to_sympy as to_sympy
 from polhode.algebra._vector import Triad as Triad

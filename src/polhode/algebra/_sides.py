@@ -53,7 +53,7 @@ class _Replacement:
     """Replaces roots; remembers what became of each function and part."""
 
     def __init__(self, images: Mapping[Root, Expr]) -> None:
-        self._known: dict[Generator, Expr | None] = {**images}
+        self._known: dict[Generator, Expr | None] = {r: e for r, e in images.items()}  # noqa: C416
 
     def of(self, expression: Expr) -> Expr:
         """The expression with its images; the same object where nothing changes."""

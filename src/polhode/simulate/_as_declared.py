@@ -12,6 +12,7 @@ from polhode.algebra import Symbol
 from polhode.base import DeclarationError, Progress
 from polhode.simulate._dynamics import WORK, Dynamics, EquationsOfMotion
 from polhode.simulate._event import Change
+from polhode.simulate._lengths import refuse_vanishing
 from polhode.simulate._segment import Part, Segment, state_at
 from polhode.simulate._sides import (
     Here,
@@ -20,13 +21,12 @@ from polhode.simulate._sides import (
     Turns,
     beyond,
     first_passage,
-    overshoots,
     nearer,
+    overshoots,
     passages_of,
     sides_at,
     told_change,
 )
-from polhode.simulate._lengths import refuse_vanishing
 from polhode.simulate._start import read_start
 from polhode.simulate._task import AS_DECLARED, Begun, Motion, Task, timed
 from polhode.simulate._values import idle_parameters, read_parameters

@@ -1,4 +1,4 @@
-"""What is integrated in a contact mode besides its coordinates and speeds, and what it stands for."""
+"""What is integrated in a contact mode besides coordinates and speeds, and what it means."""
 
 from __future__ import annotations
 

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from polhode.algebra import ZERO, Compiled, Expr, Kind, Symbol, compile_program, linear_parts, sqrt
+from polhode.algebra import Compiled, Expr, Symbol, compile_program, linear_parts
 from polhode.base import NumericError
 from polhode.derive import Automaton, Mode
-from polhode.model import Contact, Coulomb, Phase, Sliding
-from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
+from polhode.model import Contact, Phase, Sliding
+from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate._sides import Here, Sides, passages_of, sides_at
 from polhode.simulate.contact._carried import dynamics_of
 from polhode.simulate.contact._carried import gap_symbol as gap_symbol

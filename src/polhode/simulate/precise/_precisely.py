@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 from polhode.algebra import Expr
 from polhode.base import DeclarationError, Progress
-from polhode.simulate._dynamics import WORK, Dynamics
 from polhode.simulate._event import Event, events_of, placed
-from polhode.simulate._segment import Part, Segment
-from polhode.simulate._task import AS_DECLARED, Guarded, Motion, Task
+from polhode.simulate._segment import Segment
+from polhode.simulate._task import Guarded, Motion, Task
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate._watching import passages
 from polhode.simulate.contact._begin import begun_at
@@ -21,12 +20,10 @@ from polhode.simulate.contact._place import Place
 from polhode.simulate.forcing._pieces import Pieces
 from polhode.simulate.integrate._numbers import Numbers
 from polhode.simulate.integrate._series import SeriesIntegrator
-from polhode.simulate.integrate._stepping import broken
-from polhode.simulate.integrate._watched import Stop, Watched
 from polhode.simulate.precise._given import Given, exactly, read_exactly
 from polhode.simulate.precise._precise_declared import as_declared
 from polhode.simulate.precise._precise_walk import PreciseWalk
-from polhode.simulate.precise._stretch import State, Steps
+from polhode.simulate.precise._stretch import Steps
 from polhode.simulate.precise._wanted import Wanted
 
 
