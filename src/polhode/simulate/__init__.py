@@ -8,6 +8,7 @@ from polhode.simulate._event import Event as Event
 from polhode.simulate._experiment import NEAR_FLAT as NEAR_FLAT
 from polhode.simulate._experiment import Experiment as Experiment
 from polhode.simulate._readable import quantity_names as quantity_names
+from polhode.simulate._sides import smooth_at as smooth_at
 from polhode.simulate._simulate import simulate as simulate
 from polhode.simulate._start import read_start as read_start
 from polhode.simulate._trajectory import Trajectory as Trajectory

@@ -8,7 +8,7 @@ Discontinuous Righthand Sides, 1988), which dry friction calls sticking.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -33,6 +33,7 @@ _MOST = 50_000  # changes of side in one motion
 _MOST_HURRIED = 32  # the same, one soon after the other
 _HURRIED = 1e-6  # of the longest time between two of them
 _FAR = 2.0  # times as far as the first end of a side: steps that long lose its digits
+_INSTANT = 64  # steps of rounding of the time
 _NEARER = 1.5  # how far to go instead
 
 Sides = Mapping[Root, int]
@@ -136,6 +137,37 @@ def _closed(dynamics: Dynamics, here: Here, known: Sides, open_: list[Root]) -> 
     return sides
 
 
+def smooth_at(
+    dynamics: Dynamics, state: Sequence[float], parameters: Mapping[Symbol, float]
+) -> Dynamics:
+    """Equations on the sides of all absolute values that a state is on.
+
+    Args:
+        state: values of all states.
+
+    Raises:
+        NumericError: where an argument of an absolute value is zero.
+    """
+    here = Here(dict(zip(dynamics.states, state, strict=True)), list(parameters.values()), 0.0)
+    zero = list[Root]()
+    sides = _closed(dynamics, here, {}, zero)
+    if zero:
+        raise NumericError(
+            f"small departures from a state at which {_named(zero[0])} is zero",
+            expected="a state around which the equations are smooth",
+            advice=f"choose one on either side of {_named(zero[0])} = 0",
+        )
+    return dynamics.on(sides)
+
+
+def sides_in_order(dynamics: Dynamics, values: Iterable[int]) -> dict[Root, int]:
+    """Sides of which only the values were kept, in the order in which they were found."""
+    sides: dict[Root, int] = {}
+    for value in values:
+        sides[dynamics.on(sides).undecided[0]] = value
+    return sides
+
+
 def _followed(dynamics: Dynamics, here: Here, sides: Sides, root: Root) -> int:
     """The side that follows where an argument is zero; 0 where it stays there."""
     above, below = (dynamics.on({**sides, root: side}) for side in (1, -1))
@@ -234,13 +266,16 @@ def first_passage(
     return replace(part, end=fall.time), passages[fall.guard]
 
 
-def nearer(steps: Any, end: Any) -> Any | None:
+def nearer(steps: Any, end: Any, numbers: Numbers = DOUBLES) -> Any | None:
     """How far to integrate again where steps went far beyond what ends a side; None if not.
 
-    The digits of a long step are those of its end.
+    The digits of a long step are those of its end. What ends within the rounding of the time, as
+    it does where two sides end together, is left as it is: nothing is known over so short a time.
     """
-    wanted = end - steps[0]
-    return steps[0] + _NEARER * wanted if 0 < _FAR * wanted < steps[-1] - steps[0] else None
+    begin, wanted = steps[0], end - steps[0]
+    if wanted <= _INSTANT * numbers.spacing(begin) or steps[-1] - begin <= _FAR * wanted:
+        return None
+    return begin + _NEARER * wanted
 
 
 def beyond(dynamics: Dynamics, here: Here, sides: Sides, passage: Passage) -> dict[Root, int]:

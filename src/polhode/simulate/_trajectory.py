@@ -65,7 +65,7 @@ class Trajectory(Shown):
     def __repr__(self) -> str:
         modes = ", ".join(dict.fromkeys(segment.mode for segment in self.segments))
         return (
-            f"Trajectory of {self.system.name!r} over {self.duration:.6g} s: {modes}; "
+            f"Trajectory of {self.system.name!r} over {float(self.duration):.6g} s: {modes}; "
             f"{len(self.events)} events"
         )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ from polhode.model import System, read_declaration, write_declaration
 from polhode.simulate._dynamics import Dynamics
 from polhode.simulate._event import Event, placed
 from polhode.simulate._segment import Part, Segment
+from polhode.simulate._sides import sides_in_order
 from polhode.simulate._task import AS_DECLARED
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate.contact._machine import Machine
@@ -105,8 +106,15 @@ def archive_of(run: Trajectory, samples: Mapping[str, Sampled]) -> Archive:
             "turned": turned,
             "forcing": _CODEC.write(_Table(tuple(run.dynamics.prescribed.items()))),
             "invariants": _CODEC.write(_Table(tuple(run.invariants.items()))),
+            **_sides(run.segments),
         },
     )
+
+
+def _sides(segments: Sequence[Segment]) -> dict[str, Any]:
+    """Of absolute values, by segment; nothing where there are none."""
+    found = {str(k): list(s.dynamics.sides.values()) for k, s in enumerate(segments)}
+    return {"sides": found} if any(found.values()) else {}
 
 
 def _stretch(number: int, segment: Segment, part: Part) -> Stretch:
@@ -174,10 +182,12 @@ def _segments(archive: Archive, system: System) -> Iterable[Segment]:
     prescribed = {s: e for s, e in forcing.items() if isinstance(s, Symbol)}
     turned = {_symbol(a): _symbol(b) for a, b in archive.details["turned"].items()}
     known = _Modes(automaton(system), prescribed)
+    sides = archive.details.get("sides", {})
     numbers = sorted({stretch.segment for stretch in archive.stretches})
     for number in numbers:
         own = [stretch for stretch in archive.stretches if stretch.segment == number]
         dynamics = known.dynamics(own[0])
+        dynamics = dynamics.on(sides_in_order(dynamics, sides.get(str(number), ())))
         parts = tuple(_part(stretch, dynamics, turned) for stretch in own)
         yield Segment(own[0].mode, parts[0].begin, parts[-1].end, dynamics, parts)
 

@@ -107,7 +107,7 @@ def _along(moving: _Declared, state: State, span: tuple[Any, Any], steps: Steps)
     else:
         spot, passage = found
         time = stretch.series.time(spot.step, spot.share)
-        again = nearer(stretch.series.times, time)
+        again = nearer(stretch.series.times, time, steps.numbers)
         if again is not None:
             return _along(moving, state, (span[0], careful.array([again])[0]), steps)
     part = stretch.part(time)
