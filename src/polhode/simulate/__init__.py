@@ -1,5 +1,6 @@
 """Numbers: start values, integration to rounding, and trajectories to read everything from."""
 
+from polhode.simulate._doubt import refuse_doubt as refuse_doubt
 from polhode.simulate._drift import Drift as Drift
 from polhode.simulate._dynamics import Dynamics as Dynamics
 from polhode.simulate._dynamics import EquationsOfMotion as EquationsOfMotion

@@ -14,6 +14,7 @@ from polhode.algebra import Expr
 from polhode.base import TIME, NumericError, Progress, SilentProgress, UnitError, to_si
 from polhode.derive import Automaton
 from polhode.model import System
+from polhode.simulate._doubt import doubt_about
 from polhode.simulate._dynamics import EquationsOfMotion
 from polhode.simulate._event import Event, events_of, placed
 from polhode.simulate._follow import prepared
@@ -103,7 +104,7 @@ class Experiment:
         start: Mapping[Name, Any],
         progress: Progress | None = None,
     ) -> Trajectory:
-        """One motion, as `simulate` gives it.
+        """One motion, as `simulate` gives it; what speaks against it is in its `doubt`.
 
         Raises:
             ConstraintError, DeclarationError, NumericError, UnitError: as `simulate`.
@@ -113,11 +114,13 @@ class Experiment:
             motion = self._ready(task).follow(task, shown)
             run = self._trajectory(motion, task)
             if self._wanted.numbers is DOUBLES:
-                return with_events(run, self._events)
-            from polhode.simulate.precise._precisely import precisely  # a room that few enter
+                run = with_events(run, self._events)
+            else:
+                from polhode.simulate.precise._precisely import precisely  # that few enter
 
-            with timed(task, "integrate"):
-                return precisely(run, motion, task, self._wanted, shown)
+                with timed(task, "integrate"):
+                    run = precisely(run, motion, task, self._wanted, shown)
+            return replace(run, doubt=doubt_about(run, task.tolerance))
 
     def _ready(self, task: Task) -> Prepared:
         if self._prepared is None:

@@ -48,6 +48,8 @@ class Trajectory(Shown):
         seconds: time spent to derive, compile and integrate.
         integrator: what integrated it.
         invariants: expressions that the motion should keep constant, watched by `drift`.
+        doubt: what speaks against the motion: a drift beyond what rounding explains. Empty where
+            nothing does.
     """
 
     system: Any
@@ -61,13 +63,15 @@ class Trajectory(Shown):
     seconds: Mapping[str, float]
     integrator: str
     invariants: Mapping[str, Expr]
+    doubt: str = ""
 
     def __repr__(self) -> str:
         modes = ", ".join(dict.fromkeys(segment.mode for segment in self.segments))
-        return (
+        told = (
             f"Trajectory of {self.system.name!r} over {float(self.duration):.6g} s: {modes}; "
             f"{len(self.events)} events"
         )
+        return f"{told}; CANNOT BE RELIED ON: {self.doubt}" if self.doubt else told
 
     @property
     def dynamics(self) -> Dynamics:

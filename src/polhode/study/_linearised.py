@@ -64,7 +64,7 @@ def linearised(
     dynamics = Dynamics(equations, {}, idle_parameters(equations, parameters))
     numbers = read_parameters(dynamics, parameters)
     state = read_start(dynamics, at, numbers).state
-    dynamics = smooth_at(dynamics, state, numbers)
+    dynamics = smooth_at(dynamics, state.tolist(), numbers)
     values, slopes = _with_slopes(dynamics, state, [numbers[s] for s in dynamics.parameters])
     size = len(state)
     kept = _essential(slopes, len(equations.coordinates), size)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from polhode.algebra import Expr, Symbol, as_symbol
 from polhode.base import NumericError, Shown, look_up
-from polhode.simulate import Dynamics, Event, Experiment, Trajectory
+from polhode.simulate import Dynamics, Event, Experiment, Trajectory, refuse_doubt
 from polhode.simulate.many import Stretch, Tangents
 from polhode.study._block import Subject
 from polhode.study._columns import Array, Name, published_names, several
@@ -110,6 +110,7 @@ class Varied:
     def along(self, parameters: Mapping[Any, Any], start: Mapping[Any, Any], times: Array) -> Along:
         """One motion: by the variational equations, or by differences where modes change."""
         run = self._experiment.run({**parameters}, {**start})
+        refuse_doubt(run)
         _refuse_end(run, float(np.max(times)))
         dynamics = run.segments[0].dynamics.without_carried
         known = {s.published: s for s in (*dynamics.parameters, *dynamics.states)}

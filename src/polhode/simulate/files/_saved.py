@@ -107,6 +107,7 @@ def archive_of(run: Trajectory, samples: Mapping[str, Sampled]) -> Archive:
             "forcing": _CODEC.write(_Table(tuple(run.dynamics.prescribed.items()))),
             "invariants": _CODEC.write(_Table(tuple(run.invariants.items()))),
             **_sides(run.segments),
+            **({"doubt": run.doubt} if run.doubt else {}),
         },
     )
 
@@ -166,6 +167,7 @@ def trajectory_of(archive: Archive) -> Trajectory:
             seconds=details["seconds"],
             integrator=details["integrator"],
             invariants={str(name): value for name, value in invariants.items()},
+            doubt=str(details.get("doubt", "")),
         )
     except (PolhodeError, LookupError, TypeError, ValueError) as error:
         raise _unfit(str(error)) from error

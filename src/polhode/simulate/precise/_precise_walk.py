@@ -106,8 +106,10 @@ class PreciseWalk(Walk):
         watched = self._watched_in(lookout.mode, lookout.entry, state, span[0])
         stretch = self._steps.along(lookout.mode, state, span, watched, begin)
         cut = self._cut(lookout, stretch, watched)
-        again = nearer(stretch.series.times, cut.part.end, self._steps.numbers)
-        if isinstance(cut.guard, Passage) and again is not None:
+        again = None
+        if isinstance(cut.guard, Passage):
+            again = nearer(stretch.series.times, cut.part.end, self._steps.numbers)
+        if again is not None:
             limit = self._machine.numbers.array([again])[0]
             return self._next(lookout, state, (span[0], limit), begin)
         refuse_vanishing(lookout.mode.dynamics, cut.part.rounded())
