@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from polhode.algebra import ZERO, Expr, Root, Symbol
+from polhode.algebra import ZERO, Expr, Kind, Root, Symbol
 from polhode.base import DeclarationError, NumericError
 from polhode.derive import Guard
-from polhode.simulate._dynamics import CLOCK, Dynamics, sign_symbol
+from polhode.simulate._dynamics import CLOCK, Dynamics, EquationsOfMotion, sign_symbol
 from polhode.simulate._segment import Part, values_of
 from polhode.simulate.integrate._crossing import first_fall
 from polhode.simulate.integrate._flow import Flow
@@ -31,12 +31,14 @@ _ALIKE = 1e-9  # relative difference of rates on both sides that is rounding
 _BEYOND = 1e-9  # of the largest value so far: how far beyond zero there is reason to look
 _MOST = 50_000  # changes of side in one motion
 _MOST_HURRIED = 32  # the same, one soon after the other
+_RESIDUAL = 1e-9  # of the largest value on a stretch: what may be left of zero where it begins
 _HURRIED = 1e-6  # of the longest time between two of them
 _FAR = 2.0  # times as far as the first end of a side: steps that long lose its digits
 _INSTANT = 64  # steps of rounding of the time
 _NEARER = 1.5  # how far to go instead
 
 Sides = Mapping[Root, int]
+Values = Callable[[Array], Array]
 
 
 @dataclass(frozen=True)
@@ -204,16 +206,27 @@ def _refuse_jump(above: Dynamics, below: Dynamics, here: Here, root: Root) -> No
     equations = above.equations
     own = [*equations.kinematics.values(), *equations.dependent.values()]
     own += [entry for row in equations.mass.rows for entry in row]
-    bodies = getattr(equations, "kinetics", None)
-    for pair in bodies.velocities.values() if bodies is not None else ():
-        own += [component for vector in pair for component in vector.components]
-    feeling = [e for e in own if above.on_side(e) != below.on_side(e)]
+    own += _places_and_velocities(equations)
+    feeling = [e for e in own if _is_driven(e) or above.on_side(e) != below.on_side(e)]
     if feeling and not _alike(above, below, here, feeling):
         raise NumericError(
-            f"a velocity that jumps where {_named(root)} passes zero, at t = {_told(here)} s",
+            f"a place or velocity that jumps where {_named(root)} is zero, at t = {_told(here)} s",
             expected="positions and prescribed motions without corners",
             advice="round the corner off, or end the motion before that time",
         )
+
+
+def _places_and_velocities(equations: EquationsOfMotion) -> list[Expr]:
+    """Of all bodies, where the equations know of bodies."""
+    motion = getattr(equations, "kinetics", None)
+    if motion is None:
+        return []
+    velocities = (vector for pair in motion.velocities.values() for vector in pair)
+    return [c for vector in (*motion.places.values(), *velocities) for c in vector.components]
+
+
+def _is_driven(expression: Expr) -> bool:
+    return any(symbol.kind is Kind.FUNCTION for symbol in expression.symbols())
 
 
 # -- along a motion --------------------------------------------------------------------------------
@@ -260,10 +273,30 @@ def first_passage(
     def values(times: Array) -> Array:
         return values_of(dynamics, part, expressions, times)
 
-    fall = first_fall(values, part.solution.steps)
+    fall = first_fall(from_zero(values, part.solution.steps), part.solution.steps)
     if fall is None:
         return part, None
     return replace(part, end=fall.time), passages[fall.guard]
+
+
+def from_zero(values: Values, knots: Array, first: int = 0) -> Values:
+    """Values along a stretch, moved up by what they are below zero where it begins.
+
+    A side begins where its argument is zero, to the rounding of the time: a little before or after.
+
+    Args:
+        values: at some times or places, shape (functions, times).
+        knots: of the stretch.
+        first: of the functions to be moved; those before stay as they are.
+    """
+    there = values(knots)
+    largest = np.max(np.abs(there), axis=1, initial=0.0)
+    below = -there[:, 0]
+    moved = (np.arange(len(there)) >= first) & (below > 0) & (below <= _RESIDUAL * largest)
+    if not np.any(moved):
+        return values
+    shift = np.where(moved, below, 0.0)[:, None]
+    return lambda times: values(times) + shift
 
 
 def nearer(steps: Any, end: Any, numbers: Numbers = DOUBLES) -> Any | None:

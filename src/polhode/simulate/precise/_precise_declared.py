@@ -17,6 +17,7 @@ from polhode.simulate._sides import (
     Passage,
     Turns,
     beyond,
+    from_zero,
     nearer,
     passages_of,
     sides_at,
@@ -130,7 +131,7 @@ def _passed(
         found = function(*seen.at(places), *seen.constants, seen.times(places))
         return np.asarray(rows(found, len(places)))
 
-    fall = first_fall(values, seen.knots)
+    fall = first_fall(from_zero(values, seen.knots), seen.knots)
     if fall is None:
         return None
     passage = passages[fall.guard]
