@@ -57,6 +57,17 @@ def test_a_ball_bounces_on_a_floor_like_a_spring(integrator, stiffness):
     assert run.doubt == ""
 
 
+@pytest.mark.parametrize("precision", [None, 30])
+def test_events_that_were_asked_for_where_sides_change_are_seen_once(precision):
+    values = {"m": 1, "g": 9.81, "k": 1000}
+    asked = {"ground": x, "within": x + 0.01, "turns": v}
+    run = ph.simulate(FLOOR, values, {"x": 1}, 5, events=asked, precision=precision)
+    changes = [float(t) for t in times(run)]
+    assert [float(t) for t in times(run, "ground")] == pytest.approx(changes, abs=1e-15)
+    assert len(times(run, "within")) == 10
+    assert len(times(run, "turns")) == 10
+
+
 def test_the_same_ball_upside_down():
     body = ph.point_mass("p", mass=m, axes=lab)
     down = -x

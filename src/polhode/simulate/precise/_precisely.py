@@ -132,12 +132,13 @@ def _samples(wanted: Wanted, duration: Any, end: Any) -> Any:
 
 def _with_events(run: Trajectory, events: Mapping[str, Expr]) -> Trajectory:
     """The same motion with an event wherever one of some expressions passes through zero."""
-    found = [
-        Event(_root(segment, expression, time), name, segment.mode, segment.mode, segment, segment)
-        for name, expression in events.items()
-        for segment in run.segments
-        for time in passages(segment.rounded(), expression)
-    ]
+    segments = run.segments
+    found = []
+    for name, expression in events.items():
+        for near, k, begins in passages([s.rounded() for s in segments], expression):
+            segment, mode = segments[k], segments[k].mode
+            time = segment.begin if begins else _root(segment, expression, near)
+            found.append(Event(time, name, mode, mode, segment, segment))
     first, *between, last = run.events
     inside = sorted([*between, *found], key=lambda event: event.time)
     return replace(run, events=(first, *inside, last))
