@@ -63,6 +63,7 @@ if TYPE_CHECKING:
     from polhode.analyse import steady_values as steady_values
     from polhode.base import ConstraintError as ConstraintError
     from polhode.base import DeclarationError as DeclarationError
+    from polhode.base import DriftWarning as DriftWarning
     from polhode.base import NumericError as NumericError
     from polhode.base import ParseError as ParseError
     from polhode.base import PolhodeError as PolhodeError
@@ -258,6 +259,7 @@ _ROOMS = {
     "base": (
         "ConstraintError",
         "DeclarationError",
+        "DriftWarning",
         "NumericError",
         "ParseError",
         "PolhodeError",

@@ -152,6 +152,7 @@ export interface AccountData {
   start: NumberData[];
   evidence: NumberData[];
   happenings: { time: number; what: string }[];
+  doubt: string;
 }
 
 export interface SceneData extends AccountData {

@@ -5,7 +5,12 @@ import type { AccountData, FormulaData, JudgementData, NoteData, NumberData, Sce
 
 export function heading(scene: SceneData): HTMLElement {
   const about = scene.about ? [make("p", { class: "about" }, scene.about)] : [];
-  return make("header", {}, make("h1", {}, scene.title), ...about);
+  const doubt = scene.doubt ? [make("p", { class: "doubt", role: "alert" }, doubted(scene.doubt))] : [];
+  return make("header", {}, make("h1", {}, scene.title), ...doubt, ...about);
+}
+
+export function doubted(doubt: string): string {
+  return `This motion cannot be relied on: ${doubt}.`;
 }
 
 export function sections(scene: AccountData): HTMLElement[] {

@@ -40,12 +40,15 @@ from polhode.algebra._parts import named as named
 from polhode.algebra._parts import under_letters as under_letters
 from polhode.algebra._parts import under_name as under_name
 from polhode.algebra._reading import read_expression as read_expression
+from polhode.algebra._roots import Root as Root
 from polhode.algebra._roots import absolute as absolute
 from polhode.algebra._roots import factors as factors
 from polhode.algebra._roots import is_positive as is_positive
 from polhode.algebra._roots import principal_root as principal_root
 from polhode.algebra._roots import sqrt as sqrt
 from polhode.algebra._shapes import SHAPES as SHAPES
+from polhode.algebra._sides import roots_in as roots_in
+from polhode.algebra._sides import with_roots as with_roots
 from polhode.algebra._symbols import coordinate as coordinate
 from polhode.algebra._symbols import coordinates as coordinates
 from polhode.algebra._symbols import functions as functions

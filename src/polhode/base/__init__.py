@@ -7,6 +7,7 @@ from polhode.base._display import Shown, show_with
 from polhode.base._errors import (
     ConstraintError,
     DeclarationError,
+    DriftWarning,
     Exit,
     NumericError,
     ParseError,
@@ -36,6 +37,7 @@ __all__ = [
     "ConstraintError",
     "DeclarationError",
     "Dimension",
+    "DriftWarning",
     "Enough",
     "Exit",
     "NumericError",

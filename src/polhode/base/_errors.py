@@ -55,6 +55,10 @@ class StoreError(PolhodeError):
     """A file or store that is missing, damaged or of another schema."""
 
 
+class DriftWarning(UserWarning):
+    """A motion whose energy balance or closed loops are off by more than rounding explains."""
+
+
 class Exit(IntEnum):
     """Exit codes of the command line."""
 

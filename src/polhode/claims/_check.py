@@ -166,7 +166,9 @@ def _read_twice(
     from polhode.claims.contexts._read_anew import disputed  # NumPy, for what was bound alone
 
     vocabulary = notation.vocabulary
-    phrases = {r.letter: r.phrase for r in vocabulary.readings([statement])} | vocabulary.chosen
+    phrases = {r.letter: r.phrase for r in vocabulary.readings([statement])} | dict(
+        vocabulary.chosen
+    )
     points = {
         letter: phrase.partition(" about ")[2]
         for letter, phrase in phrases.items()

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import gc
 import sys
+import warnings
 from collections.abc import Sequence
 from contextlib import suppress
 from importlib import import_module
 from types import ModuleType
 from warnings import catch_warnings, simplefilter
 
-from polhode.base import installed_version
+from polhode.base import DriftWarning, installed_version
 from polhode.cli._failure import report
 from polhode.cli._parser import Parser
 
@@ -42,6 +43,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         with catch_warnings():
             simplefilter("ignore")  # what matters of them comes as an error
+            simplefilter("always", DriftWarning)  # but for this
+            warnings.showwarning = _tell
             options = _parser(arguments).parse_args(arguments)
             code = int(options.run(options))
         sys.stdout.flush()
@@ -79,6 +82,10 @@ def _loaded(command: str) -> ModuleType:
         return import_module(f"polhode.cli._{command}")
     finally:
         gc.enable()
+
+
+def _tell(message: Warning | str, *_: object, **__: object) -> None:
+    print(f"polhode: warning: {message}", file=sys.stderr)
 
 
 def _version() -> str:

@@ -123,7 +123,8 @@ def run(options: Namespace) -> int:
     if options.json:
         print_document(document | {"files": [str(path) for path in files]})
     else:
-        print("\n".join(_told(entry, document, files, everything=bool(options.events))))
+        lines = _told(entry, document, files, trajectory.doubt, everything=bool(options.events))
+        print("\n".join(lines))
     return _code(trajectory)
 
 
@@ -243,7 +244,12 @@ def _refuse_overflow(results: Mapping[str, Any]) -> None:
 
 
 def _told(
-    entry: Entry, document: Mapping[str, Any], files: Sequence[Path], *, everything: bool
+    entry: Entry,
+    document: Mapping[str, Any],
+    files: Sequence[Path],
+    doubt: str,
+    *,
+    everything: bool,
 ) -> Iterator[str]:
     final = {name: value for name, value in document["final"].items() if name != "mode"}
     drift = document["drift"]
@@ -254,6 +260,8 @@ def _told(
     yield from wrapped("assumed", values(document["assumed"]))
     yield from wrapped("final", values(final))
     yield from wrapped("drift", [f"{name} {size:.1e}," for name, size in drifts.items()])
+    if doubt:
+        yield from wrapped("DOUBT", doubt.split())
     yield from _events(document["events"], everything)
     yield from wrapped("seconds", [f"{what} {s:.2f}," for what, s in document["seconds"].items()])
     if files:

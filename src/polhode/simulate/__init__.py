@@ -1,5 +1,6 @@
 """Numbers: start values, integration to rounding, and trajectories to read everything from."""
 
+from polhode.simulate._doubt import refuse_doubt as refuse_doubt
 from polhode.simulate._drift import Drift as Drift
 from polhode.simulate._dynamics import Dynamics as Dynamics
 from polhode.simulate._dynamics import EquationsOfMotion as EquationsOfMotion
@@ -8,6 +9,7 @@ from polhode.simulate._event import Event as Event
 from polhode.simulate._experiment import NEAR_FLAT as NEAR_FLAT
 from polhode.simulate._experiment import Experiment as Experiment
 from polhode.simulate._readable import quantity_names as quantity_names
+from polhode.simulate._sides import smooth_at as smooth_at
 from polhode.simulate._simulate import simulate as simulate
 from polhode.simulate._start import read_start as read_start
 from polhode.simulate._trajectory import Trajectory as Trajectory

@@ -16,6 +16,7 @@ from polhode.simulate.integrate._ascending import ascending
 from polhode.simulate.integrate._stepping import Array
 
 _MOST_CHECKED = 20_000  # instants of a segment that are looked at
+_FEW = 64  # the same, where it is only asked whether the motion can be believed
 
 
 @dataclass(frozen=True)
@@ -56,9 +57,21 @@ def drift_of(segments: Sequence[Segment], invariants: Mapping[str, Expr], sample
     )
 
 
-def _instants(segment: Segment, samples: Array) -> Array:
+def imbalance_of(segments: Sequence[Segment]) -> dict[str, float]:
+    """What must balance, by name, over the size of what it is the difference of; at few instants.
+
+    What has once gone out of balance stays so.
+    """
+    looks = [_Look(segment, _instants(segment, segment.steps[:0], _FEW)) for segment in segments]
+    found = {"the energy balance": _energy(looks)}
+    if any(segment.dynamics.equations.closures for segment in segments):
+        found["a closed loop"] = max(look.relative_gap() for look in looks)
+    return found
+
+
+def _instants(segment: Segment, samples: Array, most: int = _MOST_CHECKED) -> Array:
     steps = segment.steps
-    picked = steps[:: len(steps) // _MOST_CHECKED + 1]
+    picked = steps[:: len(steps) // most + 1]
     inside = samples[(samples >= segment.begin) & (samples < segment.end)]
     # Just before its end: at the end itself the next mode has begun.
     return ascending([np.array([segment.begin, segment.end]), picked, inside])
@@ -77,6 +90,15 @@ class _Look:
     def gap(self) -> float:
         closures = list(self.segment.dynamics.equations.closures)
         return float(np.max(np.abs(self.values(closures)), initial=0.0)) if closures else 0.0
+
+    def relative_gap(self) -> float:
+        """The largest gap over the lengths that close."""
+        gaps = [0.0]
+        for closure in self.segment.dynamics.equations.closures:
+            sizes = np.sum(np.abs(self.values(_terms(closure))), axis=0)
+            (values,) = self.values([closure])
+            gaps.append(_relative(np.max(np.abs(values)), np.max(sizes)))
+        return max(gaps)
 
 
 def _energy(looks: Sequence[_Look]) -> float:

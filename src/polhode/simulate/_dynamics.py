@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import Any, Protocol
 
 from polhode.algebra import (
+    ONE,
     ZERO,
     Compiled,
     Expr,
@@ -16,11 +17,16 @@ from polhode.algebra import (
     LinearSolve,
     Matrix,
     Program,
+    Root,
+    Row,
     Symbol,
     compile_program,
+    linear_parts,
+    roots_in,
     time,
+    with_roots,
 )
-from polhode.base import DeclarationError
+from polhode.base import DeclarationError, NumericError
 from polhode.simulate._memory import Memory
 from polhode.simulate.integrate._numbers import DOUBLES, Numbers
 
@@ -67,6 +73,15 @@ WORK = Symbol("work done", Kind.COORDINATE)
 _programs: Memory[Program] = Memory()
 
 
+def sign_symbol(root: Root) -> Symbol:
+    """Stands for the sign that keeps the argument of an absolute value at zero, from -1 to 1."""
+    return Symbol(f"sign of {root.plain}", Kind.SPEED)
+
+
+def _varies(root: Root) -> bool:
+    return any(s.kind is not Kind.PARAMETER for s in root.symbols())
+
+
 def constants(expressions: Iterable[Expr]) -> Iterator[Symbol]:
     """The parameters in expressions."""
     for expression in expressions:
@@ -87,6 +102,8 @@ class Dynamics:
             rates: near zero they would drown in the rounding of what they follow from.
         meanings: what other symbols of the equations stand for.
         lifted: coordinates and speeds of other modes that follow from those of this one.
+        sides: of absolute values: 1 or -1 where their arguments are positive or negative, 0 where
+            they are held at zero.
     """
 
     equations: EquationsOfMotion
@@ -95,6 +112,7 @@ class Dynamics:
     carried: Mapping[Symbol, Expr] = field(default_factory=dict)
     meanings: Mapping[Symbol, Expr] = field(default_factory=dict)
     lifted: Mapping[Symbol, Expr] = field(default_factory=dict)
+    sides: Mapping[Root, int] = field(default_factory=dict)
 
     @cached_property
     def states(self) -> tuple[Symbol, ...]:
@@ -129,9 +147,102 @@ class Dynamics:
 
     @cached_property
     def accelerations(self) -> LinearSolve:
-        """The accelerations, as the solution of mass · accelerations = forcing."""
+        """The accelerations, as the solution of mass · accelerations = forcing.
+
+        What is held at zero adds an equation, and what its sign would have to be as an unknown.
+        """
         unknowns = tuple(speed.derivative() for speed in self.equations.speeds)
-        return LinearSolve(unknowns, self.equations.mass, tuple(self.equations.forcing))
+        mass = Matrix(tuple(tuple(map(self.on_side, row)) for row in self.equations.mass.rows))
+        forcing = tuple(map(self.on_side, self.equations.forcing))
+        held = [root for root, side in self.sides.items() if not side]
+        if not held:
+            return LinearSolve(unknowns, mass, forcing)
+        signs = tuple(sign_symbol(root) for root in held)
+        parts = [linear_parts(force, signs) for force in forcing]
+        kept = [self._held_still(root) for root in held]
+        none = (ZERO,) * len(held)
+        above = [(*row, *(-c for c in own)) for row, (own, _) in zip(mass.rows, parts, strict=True)]
+        below = [(*row, *none) for row, _ in kept]
+        right = (*(rest for _, rest in parts), *(-rest for _, rest in kept))
+        return LinearSolve((*unknowns, *signs), Matrix((*above, *below)), right)
+
+    def _held_still(self, root: Root) -> tuple[Row, Expr]:
+        """What keeps the argument of an absolute value at zero: of the accelerations, and rest."""
+        argument = self.on_side(root.plain or ZERO)
+        for _ in range(2):
+            row = tuple(argument.diff(speed) for speed in self.equations.speeds)
+            rest = argument.chain(self._rate)
+            if any(row):
+                return row, rest
+            argument = rest
+        raise NumericError(
+            f"{root.plain} that stays zero",
+            expected="an argument of an absolute value that accelerations depend on",
+            advice="end the motion before, or start elsewhere",
+        )
+
+    def _rate(self, symbol: Symbol) -> Expr:
+        """Rate of a symbol at no acceleration."""
+        if symbol in self.equations.speeds or not symbol.kind.varies:
+            return ONE if symbol == CLOCK else ZERO
+        rate = symbol.derivative()
+        return self.on_side(self.equations.kinematics.get(rate, Expr.generator(rate)))
+
+    # -- absolute values ------------------------------------------------------------------------
+
+    def on(self, sides: Mapping[Root, int]) -> Dynamics:
+        """The same equations on given sides of where arguments of absolute values vanish."""
+        key = tuple(sides.items())
+        if key not in self._faces:
+            self._faces[key] = replace(self, sides=sides) if sides else self
+        return self._faces[key]
+
+    @cached_property
+    def _faces(self) -> dict[Any, Dynamics]:
+        return {}
+
+    def on_side(self, expression: Expr) -> Expr:
+        """An expression with the absolute values of which the sides are known put in."""
+        return self._put_in(expression) if self.sides else expression
+
+    def _put_in(self, expression: Expr) -> Expr:
+        """Roots are the same only in the same symbols: those of the independent speeds."""
+        if not any(map(_varies, roots_in([expression]))):
+            return expression
+        return with_roots(expression.subs(self._rates_by_speeds), self._images)
+
+    @cached_property
+    def _rates_by_speeds(self) -> dict[Symbol, Expr]:
+        """Rates of coordinates and dependent speeds in terms of the independent speeds."""
+        table = {**self.equations.kinematics, **self.equations.dependent}
+        return {s: e for s, e in table.items() if s not in self.equations.speeds}
+
+    @cached_property
+    def _images(self) -> dict[Root, Expr]:
+        def image(root: Root, side: int) -> Expr:
+            sign = Expr.constant(side) if side else Expr.generator(sign_symbol(root))
+            return sign * (root.plain or ZERO)
+
+        return {root: image(root, side) for root, side in self.sides.items()}
+
+    @cached_property
+    def undecided(self) -> tuple[Root, ...]:
+        """The absolute values of what moves that stand in the equations, inner ones first."""
+        return tuple(root for root in self._roots if root.plain is not None)
+
+    @cached_property
+    def lengths(self) -> tuple[Root, ...]:
+        """The other square roots of what moves, such as lengths of vectors."""
+        return tuple(root for root in self._roots if root.plain is None)
+
+    @cached_property
+    def _roots(self) -> tuple[Root, ...]:
+        equations = self.equations
+        entries = (entry for row in equations.mass.rows for entry in row)
+        relations = (*equations.kinematics.values(), *equations.dependent.values())
+        driven = (*self.prescribed.values(), *self.carried.values())
+        own = (*entries, *equations.forcing, equations.power, *relations, *driven)
+        return tuple(root for root in roots_in(map(self._put_in, own)) if _varies(root))
 
     def program(
         self,
@@ -143,7 +254,7 @@ class Dynamics:
 
         The same ones are written only once for the same equations.
         """
-        wanted = tuple(expressions)
+        wanted = tuple(map(self.on_side, expressions))
         key = (wanted, arguments, tuple(turned.items()), self._meant)
         return _programs.recall(
             self.equations,
@@ -154,7 +265,8 @@ class Dynamics:
     @cached_property
     def _meant(self) -> tuple[Any, ...]:
         """What, besides the equations, says what symbols stand for."""
-        return (tuple(self.prescribed.items()), tuple(self.meanings.items()))
+        own = (self.prescribed, self.meanings, self.sides)
+        return tuple(tuple(table.items()) for table in own)
 
     def function(
         self,
@@ -179,6 +291,10 @@ class Dynamics:
 
     def meaning(self, symbol: Symbol) -> Expr | None:
         """What a symbol that is neither state, parameter nor acceleration stands for."""
+        meaning = self._meaning(symbol)
+        return None if meaning is None else self.on_side(meaning)
+
+    def _meaning(self, symbol: Symbol) -> Expr | None:
         equations = self.equations
         for table in (equations.kinematics, equations.dependent, self.prescribed, self.meanings):
             if symbol in table:

@@ -6,13 +6,27 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 from polhode.simulate._segment import Segment
 from polhode.simulate.integrate._watched import Stop
 
-if TYPE_CHECKING:
-    from polhode.simulate.contact._course import Change
+
+@dataclass(frozen=True)
+class Change:
+    """A change of contact mode, or of the side of an absolute value.
+
+    Attributes:
+        time: s.
+        kind: what happened.
+        before: name of the mode it ended.
+        after: name of the mode it began.
+    """
+
+    time: float
+    kind: str
+    before: str
+    after: str
 
 
 @dataclass(frozen=True)
@@ -22,7 +36,8 @@ class Event:
     Attributes:
         time: s.
         kind: what happened: start, slips, sticks, lifts off, touches down, bounces, jerk, crosses
-            the edge, goes flat, interrupted, end, or the name of an event that was asked for.
+            the edge, goes flat, interrupted, end, or the name of an event that was asked for; of
+            the argument of an absolute value: changes sign, stays zero, leaves zero.
         before: name of the mode up to then.
         after: name of the mode from then on.
     """
@@ -43,6 +58,12 @@ class Event:
     def state_after(self) -> Mapping[str, float] | None:
         """Coordinates, speeds and rates just after, by name, SI; None after the end."""
         return None if self._entered is None else self._entered.state(self.time)
+
+    @property
+    def divides(self) -> bool:
+        """Whether other equations, or other speeds, hold after it than before."""
+        left, entered = self._left, self._entered
+        return left is not None and entered is not None and left is not entered
 
     def as_json(self) -> dict[str, Any]:
         """As the command line prints it."""

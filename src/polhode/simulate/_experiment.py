@@ -14,6 +14,7 @@ from polhode.algebra import Expr
 from polhode.base import TIME, NumericError, Progress, SilentProgress, UnitError, to_si
 from polhode.derive import Automaton
 from polhode.model import System
+from polhode.simulate._doubt import doubt_about
 from polhode.simulate._dynamics import EquationsOfMotion
 from polhode.simulate._event import Event, events_of, placed
 from polhode.simulate._follow import prepared
@@ -103,7 +104,7 @@ class Experiment:
         start: Mapping[Name, Any],
         progress: Progress | None = None,
     ) -> Trajectory:
-        """One motion, as `simulate` gives it.
+        """One motion, as `simulate` gives it; what speaks against it is in its `doubt`.
 
         Raises:
             ConstraintError, DeclarationError, NumericError, UnitError: as `simulate`.
@@ -113,11 +114,13 @@ class Experiment:
             motion = self._ready(task).follow(task, shown)
             run = self._trajectory(motion, task)
             if self._wanted.numbers is DOUBLES:
-                return with_events(run, self._events)
-            from polhode.simulate.precise._precisely import precisely  # a room that few enter
+                run = with_events(run, self._events)
+            else:
+                from polhode.simulate.precise._precisely import precisely  # that few enter
 
-            with timed(task, "integrate"):
-                return precisely(run, motion, task, self._wanted, shown)
+                with timed(task, "integrate"):
+                    run = precisely(run, motion, task, self._wanted, shown)
+            return replace(run, doubt=doubt_about(run, task.tolerance))
 
     def _ready(self, task: Task) -> Prepared:
         if self._prepared is None:
@@ -149,12 +152,12 @@ class Experiment:
 
 
 def _with_pulls(trajectory: Trajectory) -> tuple[Event, ...]:
-    """Start and end, and where a contact would have had to let go."""
+    """What happens, and where a contact would have had to let go."""
     mode = trajectory.mode
     pulls = (Event(t, f"{name} pulls", mode, mode) for t, name in pulling_contacts(trajectory))
-    start, end = trajectory.events
-    between = sorted(pulls, key=lambda event: event.time)
-    return (start, *placed(between, trajectory.segments), end)
+    start, *changes, end = trajectory.events
+    between = sorted([*changes, *placed(pulls, trajectory.segments)], key=lambda e: e.time)
+    return (start, *between, end)
 
 
 def _duration(value: Any) -> float:

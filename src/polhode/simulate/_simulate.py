@@ -11,6 +11,7 @@ from polhode.algebra import Expr
 from polhode.base import Progress
 from polhode.derive import Automaton
 from polhode.model import System
+from polhode.simulate._doubt import warn_of
 from polhode.simulate._dynamics import EquationsOfMotion
 from polhode.simulate._experiment import NEAR_FLAT, SAMPLES, Experiment
 from polhode.simulate._names import Name
@@ -39,6 +40,13 @@ def simulate(
     is found to rounding. Equations, on the other hand, are those of one contact mode: they are
     kept to, and a contact that would have to pull is an event.
 
+    Absolute values in loads, |x| and x/|x|, are followed from one side of zero to the other: where
+    x passes zero is an event. Where forces drive it back to zero from both sides, as dry friction
+    does a slip that has come to rest, it stays zero for as long as they do.
+
+    A motion whose energy balance or closed loops are off by more than rounding explains says so by
+    a `DriftWarning` and in its `doubt`.
+
     Names may be symbols or published names; values are SI numbers, texts with a unit, or exact
     expressions.
 
@@ -66,7 +74,8 @@ def simulate(
     Raises:
         ConstraintError: for start values that contradict each other or the constraints.
         DeclarationError: for names that are not known, and values that are missing or impossible.
-        NumericError: where the motion is not defined or cannot be continued.
+        NumericError: where the motion is not defined or cannot be continued, or where it is wrong
+            beyond doubt, as its drift tells.
         UnitError: for a value that cannot be read or has the wrong dimension.
     """
     experiment = Experiment(
@@ -80,4 +89,6 @@ def simulate(
         near_flat=near_flat,
         precision=precision,
     )
-    return experiment.run(parameters, start, progress)
+    run = experiment.run(parameters, start, progress)
+    warn_of(run)
+    return run

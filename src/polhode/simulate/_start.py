@@ -14,6 +14,7 @@ from polhode.base import ConstraintError, NumericError
 from polhode.simulate._closures import close
 from polhode.simulate._dynamics import Dynamics
 from polhode.simulate._names import Name, by_name
+from polhode.simulate._sides import Here, sides_at
 from polhode.simulate._values import Numbers, read_values
 
 Array = NDArray[np.float64]
@@ -59,8 +60,16 @@ def read_start(dynamics: Dynamics, given: Mapping[Name, Any], parameters: Number
     state = [configuration[q] for q in equations.coordinates]
     state += [speeds.get(u, 0.0) for u in equations.speeds]
     start = Start(np.array(state), assumed)
-    _check(dynamics, start, parameters)
+    _check(_settled(dynamics, start, parameters), start, parameters)
     return start
+
+
+def _settled(dynamics: Dynamics, start: Start, parameters: Numbers) -> Dynamics:
+    """The equations on the sides of absolute values that the motion starts on."""
+    if not dynamics.undecided:
+        return dynamics
+    state = dict(zip(dynamics.states, start.state, strict=True))
+    return dynamics.on(sides_at(dynamics, Here(state, list(parameters.values()), 0.0)))
 
 
 class _Relations:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from polhode.base import Progress
 from polhode.simulate._dynamics import Dynamics
+from polhode.simulate._event import Change
 from polhode.simulate._names import Name
 from polhode.simulate._segment import Segment
 from polhode.simulate._start import Start
@@ -17,7 +18,6 @@ from polhode.simulate.forcing._drive import Drive
 from polhode.simulate.integrate._stepping import Integrator
 
 if TYPE_CHECKING:
-    from polhode.simulate.contact._course import Change
     from polhode.simulate.contact._machine import Machine
 
 AS_DECLARED = "as declared"

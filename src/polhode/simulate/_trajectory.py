@@ -50,6 +50,8 @@ class Trajectory(Shown):
         invariants: expressions that the motion should keep constant, watched by `drift`.
         resolution: of prescribed motions given as Python functions, by name, s: what such a
             function does for less than that may have been missed.
+        doubt: what speaks against the motion: a drift beyond what rounding explains. Empty where
+            nothing does.
     """
 
     system: Any
@@ -64,13 +66,15 @@ class Trajectory(Shown):
     integrator: str
     invariants: Mapping[str, Expr]
     resolution: Mapping[str, float] = field(default_factory=dict)
+    doubt: str = ""
 
     def __repr__(self) -> str:
         modes = ", ".join(dict.fromkeys(segment.mode for segment in self.segments))
-        return (
-            f"Trajectory of {self.system.name!r} over {self.duration:.6g} s: {modes}; "
+        told = (
+            f"Trajectory of {self.system.name!r} over {float(self.duration):.6g} s: {modes}; "
             f"{len(self.events)} events{self._unseen}"
         )
+        return f"{told}; CANNOT BE RELIED ON: {self.doubt}" if self.doubt else told
 
     @property
     def _unseen(self) -> str:

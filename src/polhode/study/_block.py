@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from polhode.base import DeclarationError, PolhodeError
 from polhode.derive import Automaton, Equations, automaton, derive
 from polhode.model import System
-from polhode.simulate import NEAR_FLAT, Experiment
+from polhode.simulate import NEAR_FLAT, Experiment, refuse_doubt
 from polhode.simulate.many import Abreast, Plan, abreast
 from polhode.study._columns import Array, Members
 from polhode.study._happenings import OF_EVENTS
@@ -147,6 +147,7 @@ class Crew:
         for i in range(members.count):
             try:
                 run = experiment.run(members.parameters_of(i), members.start_of(i))
+                refuse_doubt(run)
                 found = {name: o.of(run, order.legend) for name, o in order.outputs.items()}
             except Exception as error:  # whatever it is, it is this member's alone
                 block.reason[i] = reason_of(error)

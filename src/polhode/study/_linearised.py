@@ -15,7 +15,7 @@ from polhode.algebra import FLOATS, Compiled, Program
 from polhode.base import NumericError, Shown
 from polhode.derive import Equations, derive
 from polhode.model import System
-from polhode.simulate import Dynamics, idle_parameters, read_parameters, read_start
+from polhode.simulate import Dynamics, idle_parameters, read_parameters, read_start, smooth_at
 from polhode.simulate.many import Dual, duals
 from polhode.study._columns import Array, Name
 from polhode.study._neutral import Neutral, elsewhere, steady_near
@@ -100,13 +100,14 @@ def linearised(
     Raises:
         ConstraintError: for values that contradict each other or the constraints.
         DeclarationError: for names that are not known, and for supports moved in a given way.
-        NumericError: for a motion that is not steady.
+        NumericError: for a motion that is not steady, or where the equations are not smooth.
         UnitError: for a value that cannot be read.
     """
     equations = subject if isinstance(subject, Equations) else derive(subject)
     dynamics = Dynamics(equations, {}, idle_parameters(equations, parameters))
     numbers = read_parameters(dynamics, parameters)
     state = read_start(dynamics, at, numbers).state
+    dynamics = smooth_at(dynamics, state.tolist(), numbers)
     given = np.array([numbers[s] for s in dynamics.parameters])
     kept = _essential(dynamics, state, given)
     values, slopes = _with_slopes(dynamics, state, given)

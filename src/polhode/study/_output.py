@@ -23,6 +23,8 @@ KINDS = (
     "jerk",
     "turns round",
 )
+SIGNS = ("changes sign", "stays zero", "leaves zero")
+"""What happens to arguments of absolute values."""
 AS_DECLARED, NEAR_FLAT = "as declared", "near-flat"
 
 
@@ -46,7 +48,7 @@ def legend_of(subject: Any, events: Sequence[str]) -> Legend:
     if isinstance(subject, Automaton):
         modes += subject.names
         kinds += [f"{contact.name} pulls" for contact in subject.contacts]
-    return Legend((*dict.fromkeys(modes), NEAR_FLAT), (*dict.fromkeys([*kinds, *events]),))
+    return Legend((*dict.fromkeys(modes), NEAR_FLAT), (*dict.fromkeys([*kinds, *events, *SIGNS]),))
 
 
 @runtime_checkable

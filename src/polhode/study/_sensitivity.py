@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from polhode.algebra import Expr, Symbol, as_symbol
 from polhode.base import NumericError, Shown, look_up
-from polhode.simulate import Dynamics, Event, Experiment, Trajectory
+from polhode.simulate import Dynamics, Event, Experiment, Trajectory, refuse_doubt
 from polhode.simulate.many import Stretch, Tangents
 from polhode.study._block import Subject
 from polhode.study._columns import Array, Name, published_names, several
@@ -110,6 +110,7 @@ class Varied:
     def along(self, parameters: Mapping[Any, Any], start: Mapping[Any, Any], times: Array) -> Along:
         """One motion: by the variational equations, or by differences where modes change."""
         run = self._experiment.run({**parameters}, {**start})
+        refuse_doubt(run)
         _refuse_end(run, float(np.max(times)))
         dynamics = run.segments[0].dynamics.without_carried
         known = {s.published: s for s in (*dynamics.parameters, *dynamics.states)}
@@ -189,7 +190,7 @@ def _course(run: Trajectory) -> list[tuple[str, str | None]]:
 def _felt(run: Trajectory) -> list[Event]:
     """Events that change the equations or the speeds."""
     inside = (event for event in run.events if event.after is not None)
-    return [event for event in inside if event.before != event.after or event.kind == "jerk"]
+    return [event for event in inside if event.divides]
 
 
 def _refuse_end(run: Trajectory, end: float) -> None:

@@ -256,6 +256,7 @@ class Account:
     start: tuple[Number, ...]
     evidence: tuple[Number, ...]
     happenings: tuple[Happening, ...]
+    doubt: str = ""
 
 
 @dataclass(frozen=True)
@@ -275,6 +276,7 @@ class Scene(Shown):
         parameters, start: numbers it was made with.
         evidence: how far what must stay constant has drifted, relative.
         happenings: events.
+        doubt: what speaks against the motion; empty where nothing does.
         judgements: verdicts on claims.
         origin: schema, versions, declaration and seed.
     """
@@ -299,6 +301,7 @@ class Scene(Shown):
     start: tuple[Number, ...] = ()
     evidence: tuple[Number, ...] = ()
     happenings: tuple[Happening, ...] = ()
+    doubt: str = ""
     judgements: tuple[Judgement, ...] = ()
     origin: Mapping[str, Any] = field(default_factory=dict)
 

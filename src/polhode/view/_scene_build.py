@@ -93,6 +93,7 @@ def account(
         start=start_of(run),
         evidence=evidence_of(run),
         happenings=happenings_of(run),
+        doubt=run.doubt,
     )
 
 

@@ -5,7 +5,7 @@ import "../page.css";
 import "./lab.css";
 import { formula, make, painted } from "../dom";
 import type { SceneData } from "../scene";
-import { sections } from "../text";
+import { doubted, sections } from "../text";
 import { ask, Asker, askForNumbers } from "./ask";
 import { asking, Claims, said } from "./claims";
 import { keepingFocus } from "./focus";
@@ -220,6 +220,7 @@ class Lab {
     this.outcome.replaceChildren(...(this.state.sheet.length ? [returned(outcome)] : []));
     for (const field of this.fields) field.wrong("");
     this.tell("");
+    if (account.doubt) this.warn(doubted(account.doubt));
     document.body.dataset.ready = "yes";
     counted("answers");
   }
@@ -244,9 +245,13 @@ class Lab {
 
   private refused(message: string): void {
     for (const field of this.fields) field.wrong(isAbout(message, field.name) ? message : "");
+    this.warn(message);
+    document.body.dataset.ready = "yes";
+  }
+
+  private warn(message: string): void {
     this.message.classList.add("wrong");
     this.message.textContent = message;
-    document.body.dataset.ready = "yes";
   }
 
   private tell(message: string): void {

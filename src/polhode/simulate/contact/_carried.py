@@ -1,4 +1,4 @@
-"""What is integrated besides coordinates and speeds: work, slips, heights, distances to an edge."""
+"""What is integrated in a contact mode besides coordinates and speeds, and what it means."""
 
 from __future__ import annotations
 
@@ -7,7 +7,19 @@ from collections.abc import Mapping
 from polhode.algebra import ZERO, Expr, Kind, Symbol, sqrt
 from polhode.derive import Automaton, Mode
 from polhode.model import Contact, Coulomb, Sliding
-from polhode.simulate._dynamics import WORK
+from polhode.simulate._dynamics import WORK, Dynamics
+
+
+def dynamics_of(
+    modes: Automaton,
+    mode: Mode,
+    prescribed: Mapping[Symbol, Expr],
+    constants: Mapping[Symbol, float],
+) -> Dynamics:
+    """The equations of a contact mode with what is carried along, and all shared states."""
+    carried, meanings = _carried(mode)
+    known = {**mode.lifted, **_silent(modes, mode), **_slips(mode, carried)}
+    return Dynamics(mode.equations, prescribed, tuple(constants), carried, meanings, known)
 
 
 def slip_symbols(contact: Contact) -> tuple[Symbol, Symbol]:
@@ -28,20 +40,20 @@ def room_symbol(contact: Contact) -> Symbol:
     return Symbol(f"room_{contact.spelled}", Kind.COORDINATE)
 
 
-def silent(modes: Automaton, mode: Mode) -> dict[Symbol, Expr]:
+def _silent(modes: Automaton, mode: Mode) -> dict[Symbol, Expr]:
     """Reactions of contacts that are open, by name: nothing."""
     own = mode.equations.components
     return {Symbol(n): ZERO for n in modes.together.equations.components if n not in own}
 
 
-def slips_of(mode: Mode, carried: Mapping[Symbol, Expr]) -> dict[Symbol, Expr]:
+def _slips(mode: Mode, carried: Mapping[Symbol, Expr]) -> dict[Symbol, Expr]:
     """Slip velocities of the contacts that are closed, where they follow from the state."""
     closed = (t for t, phase in zip(mode.touches, mode.phases, strict=True) if not phase.flies)
     slips = (zip(slip_symbols(t.contact), t.slip, strict=True) for t in closed)
     return {symbol: slip for pair in slips for symbol, slip in pair if symbol not in carried}
 
 
-def carried_in(mode: Mode) -> tuple[dict[Symbol, Expr], dict[Symbol, Expr]]:
+def _carried(mode: Mode) -> tuple[dict[Symbol, Expr], dict[Symbol, Expr]]:
     """Work done, slips, heights and distances to an edge; and what they make of the symbols of a
     sliding contact."""
     carried: dict[Symbol, Expr] = {WORK: mode.equations.power}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,11 @@ from polhode.base import NumericError, Progress
 from polhode.derive import Guard
 from polhode.model import Rolling
 from polhode.simulate._dynamics import WORK
+from polhode.simulate._event import Change
+from polhode.simulate._lengths import refuse_vanishing
 from polhode.simulate._segment import Part, Segment, state_at
+from polhode.simulate._sides import Passage, Sides, Turns, nearer, overshoots, sides_at, told_change
+from polhode.simulate._sides import beyond as beyond_side
 from polhode.simulate.contact._carried import gap_symbol, room_symbol, slip_symbols
 from polhode.simulate.contact._entry import Entry, beyond, directions_of, state_on
 from polhode.simulate.contact._lookout import Lookout
@@ -37,23 +41,6 @@ _INSTANT = 32  # steps of rounding of the time: a hop that is over sooner is non
 _BEGUN = 1e-9  # of the time: a slip that begins is not told from rounding sooner
 _NO_TIME = 1e-11  # of the time of the whole motion
 _MOST_AT_ONCE = 32  # changes of mode while no time passes: far more than contacts can have
-
-
-@dataclass(frozen=True)
-class Change:
-    """A change of contact mode.
-
-    Attributes:
-        time: s.
-        kind: what happened.
-        before: name of the mode it ended.
-        after: name of the mode it began.
-    """
-
-    time: float
-    kind: str
-    before: str
-    after: str
 
 
 @dataclass(frozen=True)
@@ -92,6 +79,7 @@ class Walk:
         self._instants: list[float] = []
         self._transitions = Transitions(machine)
         self._tally = Tally()
+        self._sides_ended = Turns()
 
     def along(self, entry: Entry, end: float) -> Course:
         """Follow the motion up to a time, or to where it goes flat.
@@ -101,7 +89,8 @@ class Walk:
         """
         while entry.place.time < end:
             outcome = self.stay(entry, end)
-            self._segments.append(outcome.segment)
+            self._segments.extend(outcome.segments)
+            self._changes.extend(outcome.turns)
             now = outcome.leaving.place.time
             if outcome.leaving.guard is None and (now >= end or outcome.interrupted):
                 break
@@ -164,38 +153,77 @@ class Walk:
 
     def stay(self, entry: Entry, end: float) -> Outcome:
         """As long as the mode lasts."""
-        mode = self._machine.mode(entry.phases)
+        whole = self._machine.mode(entry.phases)
         begin = now = entry.place.time
         machine, drive = self._machine, self._machine.drive
         parts = list[Part]()
-        lookout = Lookout(machine, self._near_flat, mode, entry)
+        before, turns = list[Segment](), list[Change]()
         state = state_on(machine, entry)
+        mode = whole.on(sides_at(whole.dynamics, whole.here(state, now)))
+        lookout = Lookout(machine, self._near_flat, mode, entry)
         guard: Guard | None = None
         scale = 0.0
         shortest = _BEGUN * begin if entry.onset else _INSTANT * float(np.spacing(begin))
         while guard is None and now < end:
             machine.move_on(now)
             limit = drive.until(now, end)
-            if not parts:
+            first = not (parts or before)
+            if first:
                 limit = min(limit, now + max(self.hop(mode, entry), shortest))
             span = (now, limit)
-            if entry.onset and not parts:
+            if entry.onset and first:
                 part = onset(mode, entry, state, span, machine.automaton.contacts)
+                part, guard = lookout.cut(part)
             else:
                 rest = parts[-1].solution.rest(now) if parts else mode.rest(state, now)
                 if entry.slips:
                     scale = max(scale, self.scale_at(place_of(mode, state, now), entry))
                 watched = self._watched(mode, entry, scale or 1.0)
-                part = self._stretch(mode, rest, span, watched)
-            part, guard = lookout.cut(part)
+                part, guard = self._up_to(lookout, rest, span, watched)
             parts.append(part)
             now, state = part.end, state_at(part, part.end)
-            if now > span[0] and now in drive.breaks and not _settled(guard, now, drive):
+            if isinstance(guard, Passage):
+                machine.move_on(now)
+                sides = self._turned(whole, mode, state, now, guard)
+                if sides != mode.dynamics.sides:
+                    kind, name = told_change(guard, sides), mode.mode.name
+                    turns.append(Change(now, kind, name, name))
+                before.append(Segment(mode.mode.name, begin, now, mode.dynamics, tuple(parts)))
+                begin, parts, guard = now, [], None
+                mode = whole.on(sides)
+                lookout = replace(lookout, mode=mode)
+            elif now > span[0] and now in drive.breaks and not _settled(guard, now, drive):
                 guard = None
             if part.solution.stop is Stop.INTERRUPTED or now in drive.jerks:
                 break
-        segment = Segment(mode.mode.name, begin, now, mode.dynamics, tuple(parts))
-        return Outcome(segment, leaving(mode, guard, state, now, entry.place.work))
+        if parts:
+            before.append(Segment(mode.mode.name, begin, now, mode.dynamics, tuple(parts)))
+        there = leaving(mode, guard, state, now, entry.place.work)
+        return Outcome(tuple(before), tuple(turns), there)
+
+    def _turned(
+        self,
+        whole: ModeMachine,
+        mode: ModeMachine,
+        state: Mapping[Symbol, Any],
+        now: Any,
+        passage: Passage,
+    ) -> Sides:
+        """The sides of absolute values that follow where one ends."""
+        self._sides_ended.count(now, passage)
+        return beyond_side(whole.dynamics, whole.here(state, now), mode.dynamics.sides, passage)
+
+    def _up_to(
+        self, lookout: Lookout, rest: Array, span: tuple[float, float], watched: Watched
+    ) -> tuple[Part, Guard | None]:
+        """Up to the end of a span, or to the first guard that falls."""
+        whole = self._stretch(lookout.mode, rest, span, watched)
+        part, guard = lookout.cut(whole)
+        again = nearer(whole.solution.steps, part.end) if isinstance(guard, Passage) else None
+        if again is not None:
+            return self._up_to(lookout, rest, (span[0], again), watched)
+        refuse_vanishing(lookout.mode.dynamics, part)
+        return part, guard
 
     def hop(self, mode: ModeMachine, entry: Entry) -> float:
         """How far ahead a contact that opened on the way may be expected to be closed again, or one
@@ -233,14 +261,18 @@ class Walk:
         return Part(span[0], float(solution.steps[-1]), solution, constants)
 
     def _watched(self, mode: ModeMachine, entry: Entry, scale: float) -> Watched:
-        if not mode.mode.guards:
+        if not (mode.mode.guards or mode.passages):
             return Watched(tally=self._tally)
         core = mode.flow.core.symbols
         vectors = [slip_symbols(self._machine.automaton.contacts[i]) for i in sorted(entry.slips)]
         places = tuple(
             tuple(core.index(s) for s in pair) for pair in vectors if set(pair) <= set(core)
         )
-        over = self._is_flat(mode)
+        flat, passed = self._is_flat(mode), self._has_passed(mode)
+
+        def over(time: float, state: Sequence[float]) -> bool:
+            return flat(time, state) or passed(time, state)
+
         least, passing = VANISHED * scale, LANDED * scale
         return Watched(_LOOK, places, least, passing, over, self._tally)
 
@@ -253,6 +285,12 @@ class Walk:
             return lambda time, state: False
         values, constants, least = mode.sides, mode.parameters.tolist(), self._near_flat
         return lambda time, state: min(values(*state, *constants, time)) < least
+
+    def _has_passed(self, mode: ModeMachine) -> Callable[[float, Sequence[float]], bool]:
+        """Whether a state of the core is beyond the end of a side."""
+        if not mode.passages:
+            return lambda time, state: False
+        return overshoots(mode.dynamics, mode.passages, mode.flow, mode.parameters)
 
     def _speed_scale(self, entry: Entry) -> float:
         return self.scale_at(entry.place, entry) or 1.0
@@ -291,10 +329,22 @@ def place_of(mode: ModeMachine, state: Mapping[Symbol, Any], time: Any, work: An
 
 @dataclass(frozen=True)
 class Outcome:
-    """A stay in a mode, and where it ended."""
+    """A stay in a mode, and where it ended.
 
-    segment: Segment
+    Attributes:
+        segments: one for every set of sides of absolute values.
+        turns: the changes of these.
+        leaving: how it ended.
+    """
+
+    segments: tuple[Segment, ...]
+    turns: tuple[Change, ...]
     leaving: Leaving
+
+    @property
+    def segment(self) -> Segment:
+        """The last of them."""
+        return self.segments[-1]
 
     @property
     def interrupted(self) -> bool:

@@ -14,6 +14,7 @@ from polhode.base import NumericError
 from polhode.derive import Guard
 from polhode.simulate._dynamics import CLOCK
 from polhode.simulate._segment import Part
+from polhode.simulate._sides import from_zero
 from polhode.simulate.contact._carried import gap_symbol, room_symbol
 from polhode.simulate.contact._entry import Entry, beyond
 from polhode.simulate.contact._machine import Machine, ModeMachine
@@ -135,9 +136,13 @@ class Lookout:
             NumericError: where sliding jams before.
         """
         watched = [g for g in self.mode.mode.guards if g.kind != "sticks"]
+        watched += self.mode.passages
         if not (watched or self.mode.can_jam):
             return None
-        fall = first_fall(self._values(seen, watched), seen.knots)
+        values = self._values(seen, watched)
+        if self.mode.passages:
+            values = from_zero(values, seen.knots, len(watched) - len(self.mode.passages))
+        fall = first_fall(values, seen.knots)
         if fall is None:
             return None
         if fall.guard == len(watched):

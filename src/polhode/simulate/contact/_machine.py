@@ -13,7 +13,8 @@ from polhode.base import NumericError
 from polhode.derive import Automaton, Mode
 from polhode.model import Contact, Phase, Sliding
 from polhode.simulate._dynamics import CLOCK, Dynamics
-from polhode.simulate.contact._carried import carried_in, silent, slips_of
+from polhode.simulate._sides import Here, Sides, passages_of, sides_at
+from polhode.simulate.contact._carried import dynamics_of
 from polhode.simulate.contact._place import Function, Place
 from polhode.simulate.contact._touching import Touching
 from polhode.simulate.forcing._drive import Drive
@@ -99,17 +100,29 @@ class Machine:
 class ModeMachine:
     """One contact mode with numbers."""
 
-    def __init__(self, machine: Machine, mode: Mode) -> None:
+    def __init__(self, machine: Machine, mode: Mode, dynamics: Dynamics | None = None) -> None:
         self.mode = mode
         self._machine = machine
         self._numbers = machine.numbers
         self._last: tuple[Constants, Array, list[float]] = ({}, np.empty(0), [])
-        carried, meanings = carried_in(mode)
-        idle = tuple(machine.constants)
-        known = {**mode.lifted, **silent(machine.automaton, mode), **slips_of(mode, carried)}
-        self.dynamics = Dynamics(
-            mode.equations, machine.drive.expressions, idle, carried, meanings, known
+        self._faces: dict[int, ModeMachine] = {}
+        self.dynamics = dynamics or dynamics_of(
+            machine.automaton, mode, machine.drive.expressions, machine.constants
         )
+        self.passages = passages_of(self.dynamics)
+
+    def on(self, sides: Sides) -> ModeMachine:
+        """The same mode on given sides of all absolute values."""
+        dynamics = self.dynamics.on(sides)
+        if dynamics is self.dynamics:
+            return self
+        if id(dynamics) not in self._faces:
+            self._faces[id(dynamics)] = ModeMachine(self._machine, self.mode, dynamics)
+        return self._faces[id(dynamics)]
+
+    def here(self, state: Mapping[Symbol, Any], time: Any) -> Here:
+        """An instant of a motion in this mode."""
+        return Here(state, self.parameters, time, self._numbers)
 
     @property
     def parameters(self) -> Array:
@@ -150,6 +163,8 @@ class ModeMachine:
         """Expressions as a function of the state, the time and values of extra symbols."""
         states = tuple(s for s in self.dynamics.states if s not in self.dynamics.carried)
         known = (*states, *extra, *self.dynamics.parameters, CLOCK)
+        if self.dynamics.undecided:
+            return self._function_by_sides(tuple(expressions), states, tuple(extra))
         compiled = self.dynamics.program(expressions, known).function(self._numbers.scalars)
 
         def values(state: Array, time: float, more: Sequence[float] = ()) -> Array:
@@ -159,6 +174,21 @@ class ModeMachine:
             except (ArithmeticError, ValueError) as error:
                 raise singular(time) from error
             return np.asarray(self._numbers.array(found))
+
+        return values
+
+    def _function_by_sides(
+        self, expressions: tuple[Expr, ...], states: tuple[Symbol, ...], extra: tuple[Symbol, ...]
+    ) -> Function:
+        """The same where absolute values occur: on whichever sides a state is."""
+        known: dict[int, Function] = {}
+
+        def values(state: Array, time: float, more: Sequence[float] = ()) -> Array:
+            now = dict(zip(states, state[: len(states)].tolist(), strict=True))
+            face = self.on(sides_at(self.dynamics, self.here(now, time)))
+            if id(face) not in known:
+                known[id(face)] = face.function(expressions, extra)
+            return known[id(face)](state, time, more)
 
         return values
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from polhode.algebra import SHAPES, Expr, Kind, Symbol
 from polhode.base import Codec, Shape
 from polhode.simulate._event import Event
+from polhode.simulate._segment import Segment
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate.files._payload import mapping, number, numbers, text
 
@@ -38,6 +39,8 @@ class Details:
         duration, mode, assumed, seconds, integrator, invariants, resolution: as of the trajectory.
         turned: of large angles: the symbol of the angle less whole turns.
         prescribed: every prescribed function as an expression of time.
+        sides: of absolute values, in order, by number of the segment; none where there are none.
+        doubt: as of the trajectory.
     """
 
     duration: float
@@ -49,6 +52,8 @@ class Details:
     turned: Mapping[Symbol, Symbol]
     prescribed: Mapping[Symbol, Expr]
     invariants: Mapping[str, Expr]
+    sides: Mapping[int, Sequence[int]]
+    doubt: str
 
     def as_json(self) -> dict[str, Any]:
         """As plain values, which `read_details` reads."""
@@ -62,6 +67,8 @@ class Details:
             "turned": {label(a): label(b) for a, b in self.turned.items()},
             "forcing": _CODEC.write(_Table(tuple(self.prescribed.items()))),
             "invariants": _CODEC.write(_Table(tuple(self.invariants.items()))),
+            "sides": {str(number): list(sides) for number, sides in self.sides.items()},
+            "doubt": self.doubt,
         }
 
 
@@ -78,7 +85,14 @@ def details_of(run: Trajectory) -> Details:
         turned={s: t for part in parts for s, t in part.solution.turned.items()},
         prescribed=run.dynamics.prescribed,
         invariants=run.invariants,
+        sides={i: s for i, segment in enumerate(run.segments) if (s := _sides(segment))},
+        doubt=run.doubt,
     )
+
+
+def _sides(segment: Segment) -> tuple[int, ...]:
+    """On which sides of their zeros the insides of absolute values are."""
+    return tuple(segment.dynamics.sides.values())
 
 
 def read_details(given: Mapping[str, Any]) -> Details:
@@ -98,7 +112,15 @@ def read_details(given: Mapping[str, Any]) -> Details:
         turned={symbol(a): symbol(text(b)) for a, b in mapping(given["turned"]).items()},
         prescribed=_prescribed(_rows(given["forcing"])),
         invariants={text(name): value for name, value in _rows(given["invariants"])},
+        sides={int(i): tuple(map(_side, s)) for i, s in mapping(given["sides"]).items()},
+        doubt=text(given["doubt"]),
     )
+
+
+def _side(given: object) -> int:
+    if given not in (-1, 0, 1):
+        raise ValueError("a side of zero that is neither")
+    return int(number(given))
 
 
 def _rows(document: Any) -> tuple[tuple[Any, Expr], ...]:

@@ -16,6 +16,7 @@ from polhode.model import System, read_declaration, write_declaration
 from polhode.simulate._dynamics import WORK, Dynamics
 from polhode.simulate._event import placed
 from polhode.simulate._segment import Part, Segment
+from polhode.simulate._sides import sides_in_order
 from polhode.simulate._task import AS_DECLARED
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate.contact._machine import Machine
@@ -161,6 +162,7 @@ def trajectory_of(archive: Archive) -> Trajectory:
             integrator=details.integrator,
             invariants=details.invariants,
             resolution=details.resolution,
+            doubt=details.doubt,
         )
     except (ArithmeticError, AttributeError, LookupError, RecursionError) as error:
         raise _unfit(str(error)) from error
@@ -196,6 +198,7 @@ def _segments(archive: Archive, system: System, details: Details) -> Iterable[Se
         if len({stretch.mode for stretch in own}) > 1:
             raise ValueError("a segment in several modes")
         dynamics = known.dynamics(own[0])
+        dynamics = dynamics.on(sides_in_order(dynamics, details.sides.get(own[0].segment, ())))
         parts = tuple(_part(stretch, dynamics, details.turned) for stretch in own)
         yield Segment(own[0].mode, parts[0].begin, parts[-1].end, dynamics, parts)
 

@@ -22,6 +22,7 @@ from polhode.simulate.integrate._stepping import Array, Leg, Stepper, broken, lo
 from polhode.simulate.integrate._watched import StepWatch, Stop, Watched
 
 _FEW = 10_000  # times for which states are remembered
+_ROUNDING = 8 * float(np.finfo(float).eps)
 _TURNS = 4  # periods after which an angle is counted from zero again
 
 States: TypeAlias = Callable[[Array], Array]
@@ -239,8 +240,17 @@ def _summed(
     def rates(times: Array) -> Array:
         return flow.values(stage.rates, inner(times), parameters, times)
 
-    found = integral(rates, steps)
+    found = integral(rates, steps, _noise(stage, flow, inner(steps), parameters, steps))
     return lambda times: start[:, None] + found.at(times)
+
+
+def _noise(stage: Stage, flow: Flow, states: Array, parameters: Array, times: Array) -> Array:
+    """What rates are uncertain by: how they change with the rounding of the states."""
+    moved = states * (1.0 + _ROUNDING * np.where(np.arange(len(states)) % 2, -1.0, 1.0)[:, None])
+    with np.errstate(all="ignore"):
+        here, there = (flow.values(stage.rates, s, parameters, times) for s in (states, moved))
+        noise = np.max(np.abs(there - here), axis=1, initial=0.0)
+    return np.where(np.isfinite(noise), noise, 0.0)
 
 
 class _Remembered:

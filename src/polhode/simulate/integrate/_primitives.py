@@ -44,13 +44,13 @@ def _written_out(dynamics: Dynamics, state: Symbol) -> Expr | None:
     """The rate of a coordinate, or of a speed that has a row of the equations to itself."""
     equations, own = dynamics.equations, state.derivative()
     if own in equations.kinematics:
-        return equations.kinematics[own].subs(equations.dependent)
+        return dynamics.on_side(equations.kinematics[own].subs(equations.dependent))
     if own not in dynamics.accelerations.unknowns:
         return None
     row = dynamics.accelerations.unknowns.index(own)
-    masses = equations.mass.rows[row]
+    masses = dynamics.accelerations.matrix.rows[row]
     alone = not any(mass for k, mass in enumerate(masses) if k != row)
-    return equations.forcing[row] / masses[row] if alone else None
+    return dynamics.accelerations.right[row] / masses[row] if alone else None
 
 
 def _is_rate(symbol: Symbol) -> bool:

@@ -27,6 +27,7 @@ _CONVERGED = 1e-14  # last coefficients, relative to the largest value anywhere
 _NOISE = 1e-8  # last coefficients below this that no longer fall are rounding
 _FALLING = 0.25  # what is left of them when a piece that is not yet resolved is halved
 _SHORTEST = 1e-11  # length of a piece over the time: the digits of shorter ones are rounding
+_DROWNED = 1e-3  # what values are uncertain by, over the largest, where they are rounding
 _MOST = 100_000  # new pieces at a time; nothing smooth needs more
 
 
@@ -53,14 +54,17 @@ class Integral:
         return np.asarray(self.totals[:, piece] + evaluated(self.powers, piece, place))
 
 
-def integral(function: Callable[[Array], Array], knots: Array) -> Integral:
+def integral(
+    function: Callable[[Array], Array], knots: Array, noise: Array | None = None
+) -> Integral:
     """Integrate smooth functions of time to rounding.
 
     Args:
         function: values at some times, shape (functions, times).
         knots: first guess of pieces on which 16 nodes may do, s.
+        noise: what the values of each function are uncertain by, shape (functions,).
     """
-    left, right, coefficients = resolved(function, knots)
+    left, right, coefficients = resolved(function, knots, noise)
     halves = (right - left) / 2
     inside = (coefficients @ _ANTIDERIVATIVES) * halves[None, :, None]
     pieces = 2 * halves * coefficients[:, :, 0]
@@ -70,17 +74,25 @@ def integral(function: Callable[[Array], Array], knots: Array) -> Integral:
     return Integral(knots, np.hstack([start, totals]), np.ascontiguousarray(inside.swapaxes(0, 1)))
 
 
-def resolved(function: Callable[[Array], Array], knots: Array) -> tuple[Array, Array, Array]:
-    """Pieces on which the Legendre coefficients have died out, in order, and the coefficients."""
+def resolved(
+    function: Callable[[Array], Array], knots: Array, noise: Array | None = None
+) -> tuple[Array, Array, Array]:
+    """Pieces on which the Legendre coefficients have died out, in order, and the coefficients.
+
+    Functions that are nothing but noise, as the sum of forces on a body that rests, are not looked
+    at: their coefficients never die out.
+    """
     left, right = knots[:-1], knots[1:]
     before = np.full(len(left), np.inf)
     done: list[tuple[Array, Array, Array]] = []
-    scale: Array | float = 0.0
+    scale = np.zeros((1, 1, 1))
     while len(left):
         coefficients = _coefficients(function, left, right)
         largest = np.max(np.abs(coefficients), axis=(1, 2), keepdims=True)
         scale = np.maximum(scale, largest)
         tails = np.abs(coefficients[:, :, -2:]) / np.where(scale > 0, scale, 1.0)
+        if noise is not None:
+            tails[(noise > _DROWNED * scale[:, 0, 0]).nonzero()] = 0.0
         tail = np.max(tails, axis=(0, 2), initial=0.0)
         rough = (tail > _CONVERGED) & ((tail > _NOISE) | (tail < _FALLING * before))
         rough &= (right - left > _SHORTEST * np.abs(right)) & (np.sum(rough) < _MOST)

@@ -113,8 +113,8 @@ def abreast(subject: Automaton | EquationsOfMotion, plan: Plan) -> Abreast | Non
         found = all_modes(subject, plan, integrator)
     else:
         found = one_mode(subject, plan)
-    if found is None:
-        return None
+    if found is None or found.dynamics.undecided:
+        return None  # absolute values are followed from side to side, one motion by itself
     names = by_name(found.dynamics.states)
     start: dict[Name, Any] = {published(name): value for name, value in plan.start.items()}
     if not start.keys() <= names.keys():

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from polhode.algebra import Expr, Symbol, sqrt
 from polhode.derive import Guard
+from polhode.simulate._dynamics import Dynamics
 from polhode.simulate._task import AS_DECLARED
 from polhode.simulate.contact._carried import slip_symbols
 from polhode.simulate.contact._machine import ModeMachine
@@ -53,11 +54,22 @@ def _endings(mode: ModeMachine, near_flat: float, until: Collection[str]) -> Ite
             first, second = (Expr.generator(s) for s in slips)
             speed = sqrt(first * first + second * second)
             yield Ending(speed, kind, name, guard, slips=slips)
+    yield from vanishings_of(mode.dynamics, name)
 
 
 def _slips(mode: ModeMachine, guard: Guard) -> tuple[Symbol, Symbol]:
     contacts = (touch.contact for touch in mode.mode.touches)
     return next(slip_symbols(c) for c in contacts if guard.contact and c.name == guard.contact.name)
+
+
+def vanishings_of(dynamics: Dynamics, mode: str) -> Iterator[Ending]:
+    """Lengths that vanish: a motion that comes to that is followed by itself.
+
+    Seen by a series, the length goes on below zero.
+    """
+    for root in dynamics.lengths:
+        length = Expr.generator(root)
+        yield Ending(length, "", mode, Guard(None, "vanishes", length))
 
 
 def sides_of(positive: Collection[Expr]) -> tuple[Ending, ...]:

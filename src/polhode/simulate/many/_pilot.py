@@ -67,10 +67,14 @@ class Pilot(Walk):
         return first_entry(self._machine, replace(self._task, start=start))[0]
 
     def goes_abreast(self, entry: Entry) -> bool:
-        """Whether its mode is one for lanes: what flies lands with a shock, one by one."""
+        """Whether its mode is one for lanes: what flies lands with a shock, one by one.
+
+        Absolute values are followed from side to side, one motion by itself.
+        """
         mode = self._machine.mode(entry.phases)
         large = mode.can_jam and len(mode.mode.equations.mass.rows) > _LARGE
-        return not large and not any(phase.flies for phase in entry.phases)
+        smooth = not mode.dynamics.undecided
+        return smooth and not large and not any(phase.flies for phase in entry.phases)
 
     def take(self, constants: Mapping[Symbol, float]) -> None:
         """Take the numbers of a motion."""

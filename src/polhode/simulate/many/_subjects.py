@@ -20,7 +20,7 @@ from polhode.simulate.contact._machine import Machine
 from polhode.simulate.forcing._drive import drive_of
 from polhode.simulate.integrate._stepping import Integrator
 from polhode.simulate.many._company import Company, Phases, Starts
-from polhode.simulate.many._endings import endings_of, sides_of
+from polhode.simulate.many._endings import endings_of, sides_of, vanishings_of
 from polhode.simulate.many._pilot import Pilot
 from polhode.simulate.many._sightings import Sightings
 from polhode.simulate.many._stay import Quantity, Stay
@@ -124,7 +124,7 @@ class OneMode:
         return Stay(
             self.dynamics,
             AS_DECLARED,
-            sides_of(sides),
+            (*sides_of(sides), *vanishings_of(self.dynamics, AS_DECLARED)),
             plan.quantities,
             (),
             plan.tolerance,

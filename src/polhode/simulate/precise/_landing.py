@@ -1,4 +1,4 @@
-"""Where a slip velocity vanishes at the end of a stretch, in numbers of higher precision."""
+"""Where a stretch ends, in numbers of higher precision: a slip vanishes, or a guard falls."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from polhode.algebra import Expr
+from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate.integrate._crossing import bisected
 from polhode.simulate.integrate._series import Series
 from polhode.simulate.integrate._watched import Stop, Watched
@@ -24,6 +26,26 @@ class Spot:
 
     step: int
     share: Any
+
+
+def fallen(dynamics: Dynamics, positive: Expr, stretch: Stretch, place: float) -> Spot:
+    """Where an expression falls through zero, to the rounding of the numbers.
+
+    Args:
+        dynamics: in whose symbols it is.
+        place: where it does so in doubles, in steps.
+    """
+    series, numbers = stretch.series, stretch.series.numbers
+    step = min(int(place), series.steps - 1)
+    arguments = (*stretch.symbols, *dynamics.parameters, CLOCK)
+    function = dynamics.function([positive], arguments, numbers=numbers)
+    constants = numbers.array(stretch.constants)
+
+    def value(share: Any) -> Any:
+        return function(*series.state(step, share), *constants, series.time(step, share))[0]
+
+    share = numbers.zero(value, place - step)
+    return Spot(step, min(max(share, 0), 1))
 
 
 def landing(stretch: Stretch, watched: Watched) -> tuple[Spot, int] | None:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 from polhode.base import Progress
 from polhode.derive import Guard
-from polhode.simulate._dynamics import CLOCK
+from polhode.simulate._event import Change
+from polhode.simulate._lengths import refuse_vanishing
 from polhode.simulate._segment import Part, Segment
+from polhode.simulate._sides import Passage, nearer, sides_at, told_change
 from polhode.simulate.contact._carried import slip_symbols
 from polhode.simulate.contact._course import LANDED, VANISHED, Outcome, Walk, leaving, place_of
 from polhode.simulate.contact._entry import Entry, state_on
@@ -16,7 +19,7 @@ from polhode.simulate.contact._lookout import Lookout
 from polhode.simulate.contact._machine import Machine, ModeMachine
 from polhode.simulate.integrate._watched import Stop, Watched
 from polhode.simulate.precise._first_slip import first_slip
-from polhode.simulate.precise._landing import Spot, landing
+from polhode.simulate.precise._landing import Spot, fallen, landing
 from polhode.simulate.precise._stretch import InDoubles, State, Steps, Stretch
 
 _LOOK = 12  # steps after which the guards are looked at
@@ -58,28 +61,60 @@ class PreciseWalk(Walk):
     def stay(self, entry: Entry, end: Any) -> Outcome:
         """As long as the mode lasts."""
         machine = self._machine
-        mode = machine.mode(entry.phases)
-        lookout = Lookout(machine, self._near_flat, mode, entry)
-        begin = now = entry.place.time
+        whole = machine.mode(entry.phases)
+        begin = now = since = entry.place.time
         state: State = state_on(machine, entry)
+        mode = whole.on(sides_at(whole.dynamics, whole.here(state, now)))
+        lookout = Lookout(machine, self._near_flat, mode, entry)
         parts = list[Part]()
+        before, turns = list[Segment](), list[Change]()
         guard, stop = None, Stop.PAUSE
         shortest = _INSTANT * machine.numbers.spacing(begin)
         limit = min(end, begin + max(self.hop(mode, entry), shortest))
         while guard is None and now < end and stop is not Stop.INTERRUPTED:
-            watched = self._watched_in(mode, entry, state, now)
-            if entry.onset and not parts:
+            if entry.onset and not (parts or before):
+                watched = self._watched_in(mode, entry, state, now)
                 contacts = machine.automaton.contacts
                 stretch = first_slip(mode, entry, state, limit, contacts, self._steps.numbers)
+                cut = self._cut(lookout, stretch, watched)
             else:
-                stretch = self._steps.along(mode, state, (now, limit), watched, begin)
-            cut = self._cut(lookout, stretch, watched)
+                stretch, cut = self._next(lookout, state, (now, limit), begin)
             parts.append(cut.part)
             state, now, guard, stop = cut.state, cut.time, cut.guard, stretch.stop
             limit = end
-        ends = self._steps.numbers.array([begin, now])
-        segment = Segment(mode.mode.name, ends[0], ends[1], mode.dynamics, tuple(parts))
-        return Outcome(segment, leaving(mode, guard, state, now, entry.place.work))
+            if isinstance(guard, Passage):
+                sides = self._turned(whole, mode, state, now, guard)
+                if sides != mode.dynamics.sides:
+                    kind, name = told_change(guard, sides), mode.mode.name
+                    turns.append(Change(self._steps.numbers.array([now])[0], kind, name, name))
+                before.append(self._segment(mode, since, now, parts))
+                since, parts, guard = now, [], None
+                mode = whole.on(sides)
+                lookout = replace(lookout, mode=mode)
+        if parts:
+            before.append(self._segment(mode, since, now, parts))
+        there = leaving(mode, guard, state, now, entry.place.work)
+        return Outcome(tuple(before), tuple(turns), there)
+
+    def _segment(self, mode: ModeMachine, begin: Any, end: Any, parts: Sequence[Part]) -> Segment:
+        ends = self._steps.numbers.array([begin, end])
+        return Segment(mode.mode.name, ends[0], ends[1], mode.dynamics, tuple(parts))
+
+    def _next(
+        self, lookout: Lookout, state: State, span: tuple[Any, Any], begin: Any
+    ) -> tuple[Stretch, _Cut]:
+        """Up to the end of a span, or to the first guard that falls."""
+        watched = self._watched_in(lookout.mode, lookout.entry, state, span[0])
+        stretch = self._steps.along(lookout.mode, state, span, watched, begin)
+        cut = self._cut(lookout, stretch, watched)
+        again = None
+        if isinstance(cut.guard, Passage):
+            again = nearer(stretch.series.times, cut.part.end, self._steps.numbers)
+        if again is not None:
+            limit = self._machine.numbers.array([again])[0]
+            return self._next(lookout, state, (span[0], limit), begin)
+        refuse_vanishing(lookout.mode.dynamics, cut.part.rounded())
+        return stretch, cut
 
     def _watched_in(self, mode: ModeMachine, entry: Entry, state: State, now: Any) -> Watched:
         """What to look at from a state on."""
@@ -102,27 +137,11 @@ class PreciseWalk(Walk):
         if landed is not None:
             spot, guard = landed[0], lookout.landing(landed[1])
         if fall is not None and fall[0] < spot.step + float(spot.share):
-            spot, guard = self._fallen(lookout, stretch, *fall)
+            guard = fall[1]
+            spot = fallen(lookout.mode.dynamics, lookout.looked_at(guard), stretch, fall[0])
         if guard is None and stretch.stop is Stop.STUCK:
             raise lookout.broken(seen)
         time = stretch.series.time(spot.step, spot.share)
         careful = self._machine.numbers
         state = stretch.state(spot.step, spot.share, careful)
         return _Cut(stretch.part(time), state, careful.array([time])[0], guard)
-
-    def _fallen(
-        self, lookout: Lookout, stretch: Stretch, place: float, guard: Guard
-    ) -> tuple[Spot, Guard]:
-        """Where a guard falls, to the rounding of the numbers."""
-        series, numbers = stretch.series, stretch.series.numbers
-        step = min(int(place), series.steps - 1)
-        dynamics = lookout.mode.dynamics
-        arguments = (*stretch.symbols, *dynamics.parameters, CLOCK)
-        function = dynamics.function([lookout.looked_at(guard)], arguments, numbers=numbers)
-        constants = numbers.array(stretch.constants)
-
-        def value(share: Any) -> Any:
-            return function(*series.state(step, share), *constants, series.time(step, share))[0]
-
-        share = numbers.zero(value, place - step)
-        return Spot(step, min(max(share, 0), 1)), guard

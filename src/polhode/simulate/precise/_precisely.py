@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 from polhode.algebra import Expr
 from polhode.base import DeclarationError, Progress
-from polhode.simulate._dynamics import WORK, Dynamics
 from polhode.simulate._event import Event, events_of, placed
-from polhode.simulate._segment import Part, Segment
-from polhode.simulate._task import AS_DECLARED, Guarded, Motion, Task
+from polhode.simulate._segment import Segment
+from polhode.simulate._task import Guarded, Motion, Task
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate._watching import passages
 from polhode.simulate.contact._begin import begun_at
@@ -21,11 +20,10 @@ from polhode.simulate.contact._place import Place
 from polhode.simulate.forcing._pieces import Pieces
 from polhode.simulate.integrate._numbers import Numbers
 from polhode.simulate.integrate._series import SeriesIntegrator
-from polhode.simulate.integrate._stepping import broken
-from polhode.simulate.integrate._watched import Stop, Watched
 from polhode.simulate.precise._given import Given, exactly, read_exactly
+from polhode.simulate.precise._precise_declared import as_declared
 from polhode.simulate.precise._precise_walk import PreciseWalk
-from polhode.simulate.precise._stretch import State, Steps
+from polhode.simulate.precise._stretch import Steps
 from polhode.simulate.precise._wanted import Wanted
 
 
@@ -51,7 +49,7 @@ def precisely(
     end = numbers.array([duration])[0]
     steps = Steps(_integrator(task.integrator.name), numbers, end, progress)
     if motion.guarded is None:
-        course = _as_declared(motion.segments[0].dynamics, given, steps)
+        course = as_declared(motion.begun.dynamics, given, steps)
         events = _events_beside(rough, course)
     else:
         course = _through_modes(motion.guarded, given, steps, task, progress)
@@ -71,9 +69,10 @@ def precisely(
 
 def _events_beside(rough: Trajectory, course: Course) -> tuple[Event, ...]:
     """Start and end, and between them what was seen of the motion in doubles."""
-    first, last = events_of(course)
-    seen = (event for event in rough.events[1:-1] if event.time < last.time)
-    return (first, *placed(seen, course.segments), last)
+    first, *turns, last = events_of(course)
+    seen = [e for e in rough.events[1:-1] if not e.divides and e.time < last.time]
+    between = sorted([*turns, *placed(seen, course.segments)], key=lambda event: event.time)
+    return (first, *between, last)
 
 
 def _refuse_samples(forcing: Mapping[Any, Any], numbers: Numbers) -> None:
@@ -118,35 +117,6 @@ def _through_modes(
     return walk.along(first, steps.end)
 
 
-@dataclass(frozen=True)
-class _Declared:
-    """The equations of the contacts as they are declared, with numbers."""
-
-    dynamics: Dynamics
-    parameters: Any
-
-
-def _as_declared(dynamics: Dynamics, given: Given, steps: Steps) -> Course:
-    """The contacts as they are declared, and kept to."""
-    careful = steps.numbers.careful
-    constants = careful.array([given.parameters[s] for s in dynamics.parameters])
-    moving = _Declared(dynamics, constants)
-    now = given.context.mpf(0)
-    state: State = given.state(dynamics.states) | {WORK: now}
-    end = steps.end
-    parts, stop = list[Part](), Stop.TIME
-    while now < end and stop is not Stop.INTERRUPTED:
-        stretch = steps.along(moving, state, (now, end), Watched(), now)
-        stop = stretch.stop
-        if stop is Stop.STUCK:
-            raise broken(float(stretch.series.times[-1]))
-        parts.append(stretch.part(stretch.series.times[-1]))
-        state = stretch.state(stretch.series.steps - 1, 1, careful)
-        now = careful.array([parts[-1].end])[0]
-    segment = Segment(AS_DECLARED, parts[0].begin, parts[-1].end, dynamics, tuple(parts))
-    return Course((segment,), (), AS_DECLARED)
-
-
 # -- samples and events ------------------------------------------------------------------------
 
 
@@ -162,12 +132,13 @@ def _samples(wanted: Wanted, duration: Any, end: Any) -> Any:
 
 def _with_events(run: Trajectory, events: Mapping[str, Expr]) -> Trajectory:
     """The same motion with an event wherever one of some expressions passes through zero."""
-    found = [
-        Event(_root(segment, expression, time), name, segment.mode, segment.mode, segment, segment)
-        for name, expression in events.items()
-        for segment in run.segments
-        for time in passages(segment.rounded(), expression)
-    ]
+    segments = run.segments
+    found = []
+    for name, expression in events.items():
+        for near, k, begins in passages([s.rounded() for s in segments], expression):
+            segment, mode = segments[k], segments[k].mode
+            time = segment.begin if begins else _root(segment, expression, near)
+            found.append(Event(time, name, mode, mode, segment, segment))
     first, *between, last = run.events
     inside = sorted([*between, *found], key=lambda event: event.time)
     return replace(run, events=(first, *inside, last))
