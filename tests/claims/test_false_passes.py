@@ -1,7 +1,7 @@
 """False statements that were once let through, with others of their families.
 
-The truth of each is that of the textbooks: a fast top sleeps for I₁²ω₁² > 4Mga(I₂ + Ma²), a disk rolls
-upright for ω₃² > g/3a, a pendulum has θ̈ = -(g/l)(θ - θ³/6 + ...), and so on.
+The truth of each is that of the textbooks: a fast top sleeps for I₁²ω₁² > 4Mga(I₂ + Ma²), a disk
+rolls upright for ω₃² > g/3a, a pendulum has θ̈ = -(g/l)(θ - θ³/6 + ...), and so on.
 """
 
 from functools import cache
@@ -14,7 +14,7 @@ from polhode.claims import Answer
 
 PASSES = (Answer.HOLDS, Answer.APPROXIMATE)
 
-m, l, g, R, omega = ph.symbols("m l g R omega", positive=True)  # noqa: E741
+m, l, g, R, omega = ph.symbols("m l g R omega", positive=True)
 M, h, A, C = ph.symbols("M h A C", positive=True)
 I_1, I_2, I_3 = ph.symbols("I_1 I_2 I_3", positive=True)
 phi, theta, psi = ph.coordinates("phi theta psi")
@@ -320,7 +320,11 @@ def test_what_is_false_or_unclear_does_not_hold(name, latex, asked):
 
 RIGHT = [
     ("tennis-racquet", r"\dot\omega_3 = 0\quad (\text{if } \omega_1 = 0)", {}),
-    ("tennis-racquet", r"\dot\omega_3 = 0\quad (\text{for } \omega_1 = 0 \text{ and } \omega_2 = 0)", {}),
+    (
+        "tennis-racquet",
+        r"\dot\omega_3 = 0\quad (\text{for } \omega_1 = 0 \text{ and } \omega_2 = 0)",
+        {},
+    ),
     ("tennis-racquet", r"\dot\omega_3 = 0\quad (\omega_1 = 0)", {"given": ["omega_1 = 0"]}),
     ("tennis-racquet", r"E = T\quad (V = 0)", {}),
     ("plane", r"\dot\theta = \pm\sqrt{\dot\theta^2}", {}),

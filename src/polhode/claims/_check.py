@@ -16,7 +16,7 @@ from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, read_latex, write_latex
 from polhode.claims.latex._tree import Node, Statement
 from polhode.claims.meaning._bindings import Bound
-from polhode.claims.meaning._evaluate import UnclearDerivative
+from polhode.claims.meaning._evaluate import UnclearDerivativeError
 from polhode.claims.meaning._read_as import read_as
 from polhode.claims.meaning._vocabulary import spelled
 from polhode.claims.states._asked import Asked
@@ -82,7 +82,7 @@ def judged_claim(
         if bound.is_definition:
             return Verdict(Answer.DEFINITION, context, reason=_defined(bound.defined))
         asked = replace(notation.asked(statement, {}), when=when)
-    except UnclearDerivative as error:
+    except UnclearDerivativeError as error:
         return _by_readings(latex, notation, context, when, error)
     except (PolhodeError, ZeroDivisionError) as error:
         return Verdict(Answer.UNREAD, context, reason=f"{error}{_hint(latex)}")
@@ -105,7 +105,7 @@ def _is_under_names(verdict: Verdict) -> bool:
 
 
 def _by_readings(
-    latex: str, notation: Notation, context: str, when: str, unclear: UnclearDerivative
+    latex: str, notation: Notation, context: str, when: str, unclear: UnclearDerivativeError
 ) -> Verdict:
     """The verdict where every reading of dE/dθ comes to the same; else it stays open."""
     plain = notation.vocabulary

@@ -42,7 +42,7 @@ def configure(parser: Parser) -> None:
 
 
 def run(options: Namespace) -> int:
-    """Judge one equation and print the verdict; 0 where it holds, 1 where it fails, 2 where nothing is judged."""
+    """Judge one equation and print the verdict; 0 where it holds, 1 where it fails, else 2."""
     system = entry_of(options.name).build()
     said_besides = (options.let, options.given, options.small, options.positive)
     extra = map(tuple, said_besides)

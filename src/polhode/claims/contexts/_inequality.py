@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from operator import eq
 
@@ -97,6 +97,4 @@ def judged_unequal(asked: Asked, component: Component, states: Circumstances) ->
         return Verdict(Answer.FAILS, "", reason="both sides are the same", residuals=(residual,))
     if asked.when == "sometimes" or strict_sign(difference, states.signs):
         return Verdict(Answer.HOLDS, "", reason=f"they differ by {difference}")
-    return Verdict(
-        Answer.UNREAD, "", reason="it was read, but not decided", residuals=(residual,)
-    )
+    return Verdict(Answer.UNREAD, "", reason="it was read, but not decided", residuals=(residual,))

@@ -10,8 +10,8 @@ from math import inf, log
 from polhode.algebra import ONE, ZERO, Expr, Symbol
 from polhode.base import NumericError, ParseError, PolhodeError
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
-from polhode.claims.contexts._counterexample import refutation
 from polhode.claims.balance._declared import reaction_symbol
+from polhode.claims.contexts._counterexample import refutation
 from polhode.claims.contexts._remainder import Remainder
 from polhode.claims.contexts._roots_of_steady import steady_roots
 from polhode.claims.contexts._scaling import SMALLNESS, restored, scaled
@@ -20,6 +20,7 @@ from polhode.claims.states._asked import EQUALITY, Asked
 from polhode.claims.states._bench import real_states
 from polhode.claims.states._circumstances import AnyState, Circumstances, TrueMotion
 from polhode.claims.states._numeric import number
+
 _DIGITS = 30  # binary ones that a remainder may lose to rounding
 _STEEPEST = 15
 
@@ -96,9 +97,9 @@ def _is_dynamic(side: Expr, states: Circumstances) -> bool:
 def _remainder(
     component: Component, states: Circumstances, asked: Asked, root: Expr | None = None
 ) -> Remainder:
-    left = component.left if root is None else root
-    sides = (scaled(states.on(side), asked.small) for side in (left, component.right))
-    return Remainder(component, states, *sides, _positive(asked), asked, root is not None)
+    first = component.left if root is None else root
+    left, right = (scaled(states.on(side), asked.small) for side in (first, component.right))
+    return Remainder(component, states, left, right, _positive(asked), asked, root is not None)
 
 
 def _positive(asked: Asked) -> tuple[Expr, ...]:

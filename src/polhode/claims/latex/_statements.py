@@ -12,7 +12,8 @@ from polhode.claims.latex._tree import Case, Cases, Name, Node, Relation, Statem
 _OR = re.compile(r"(?:\(.*\) *)?or")
 _WORDS_OF_CASE = re.compile(r"(?:\((.*)\) *)?(?:or)?")
 _ASSUMED = re.compile(
-    r"(?:only )?(?:if|for|where|when|whenever|at|assuming|provided|given|as long as)\b", re.IGNORECASE
+    r"(?:only )?(?:if|for|where|when|whenever|at|assuming|provided|given|as long as)\b",
+    re.IGNORECASE,
 )
 _JOINED = re.compile(r"and|also|,", re.IGNORECASE)
 _WRAPPED = re.compile(r"\\(?:text|textrm|mbox|mathrm)\{([^{}]*)\}")

@@ -58,7 +58,7 @@ class Printed:
 
         Raises `BindingError` for a side whose terms cannot be told.
         """
-        letter = {_LETTER: Expr.generator(_STRETCH)}
+        letter: dict[Node, Meaning] = {_LETTER: Expr.generator(_STRETCH)}
         vocabulary = self.evaluator.vocabulary.saying(letter)
         return tuple(_terms(node, replace(self.evaluator, vocabulary=vocabulary)))
 
@@ -105,9 +105,7 @@ def _leaves(node: Node, argument: Node | None = None) -> Iterator[tuple[Node, No
             yield from _leaves(term, around)
 
 
-def _sums(
-    piece: tree.Piece, argument: Node | None
-) -> Iterator[tuple[tree.Sum, Node | None]]:
+def _sums(piece: tree.Piece, argument: Node | None) -> Iterator[tuple[tree.Sum, Node | None]]:
     """The outermost sums in a piece, each with the argument of a function that it stands in."""
     if isinstance(piece, tree.Sum):
         yield piece, argument
