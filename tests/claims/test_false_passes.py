@@ -1,7 +1,7 @@
 """False statements that were once let through, with others of their families.
 
-The truth of each is that of the textbooks: a fast top sleeps for I₁²ω₁² > 4Mga(I₂ + Ma²), a disk rolls
-upright for ω₃² > g/3a, a pendulum has θ̈ = -(g/l)(θ - θ³/6 + ...), and so on.
+The truth of each is that of the textbooks: a fast top sleeps for I₁²ω₁² > 4Mga(I₂ + Ma²), a disk
+rolls upright for ω₃² > g/3a, a pendulum has θ̈ = -(g/l)(θ - θ³/6 + ...), and so on.
 """
 
 from functools import cache

@@ -30,7 +30,7 @@ from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, read_latex, write_latex
 from polhode.claims.latex._tree import Node, Piece, Statement
 from polhode.claims.meaning._bindings import Bound
-from polhode.claims.meaning._evaluate import UnclearDerivative
+from polhode.claims.meaning._evaluate import UnclearDerivativeError
 from polhode.claims.meaning._spelling import spelled
 from polhode.claims.states._asked import Asked
 from polhode.derive import Equations
@@ -148,7 +148,7 @@ def _judged_reading(
             verdict = Verdict(Answer.DEFINITION, context, reason=_defined(bound.defined))
             return JudgedReading(chosen, notation, None, verdict)
         asked = replace(notation.asked(statement, {}), when=when)
-    except UnclearDerivative as error:
+    except UnclearDerivativeError as error:
         return _by_derivatives(statement, chosen, notation, context, when, latex, error)
     except (PolhodeError, ZeroDivisionError) as error:
         unread = Verdict.unread(context, error, _hint(latex))
@@ -193,7 +193,7 @@ def _by_derivatives(
     context: str,
     when: str,
     latex: str,
-    unclear: UnclearDerivative,
+    unclear: UnclearDerivativeError,
 ) -> JudgedReading:
     """The verdict where every reading of dE/dθ comes to the same; else it is ambiguous."""
     plain = notation.vocabulary

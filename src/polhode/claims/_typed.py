@@ -78,16 +78,18 @@ def with_let(notation: Notation, text: str) -> Notation:
 
 
 def _refuse_redefined(notation: Notation, new: Node, meaning: Meaning) -> None:
-    """A letter that stands for a scalar already may be spelled out, but not given another value."""
+    """A quantity of the motion may be spelled out, but a text cannot make another one of it."""
     known = notation.vocabulary.find(new)
-    if isinstance(known, Expr) and isinstance(meaning, Expr) and known != meaning:
-        mechanics = notation.vocabulary.mechanics
-        if mechanics.in_rates(known) != mechanics.in_rates(meaning):
-            raise ParseError(
-                f"{spelled(new)} = {meaning}, though {spelled(new)} is known as {known}",
-                expected="a definition of a new symbol",
-                advice="restrict a known quantity with --given instead",
-            )
+    if not isinstance(known, Expr) or not isinstance(meaning, Expr):
+        return
+    in_rates = notation.vocabulary.mechanics.in_rates
+    moves = any(symbol.kind.varies for symbol in known.symbols())
+    if moves and in_rates(known) != in_rates(meaning):
+        raise ParseError(
+            f"{spelled(new)} = {meaning}, though {spelled(new)} is known as {known}",
+            expected="a definition of a new symbol",
+            advice="restrict a known quantity with --given instead",
+        )
 
 
 def with_given(notation: Notation, text: str) -> Notation:

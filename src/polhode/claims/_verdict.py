@@ -162,11 +162,6 @@ class Verdict(Shown):
         """Whether the claim was judged and found true, exactly or to its order."""
         return self.answer in (Answer.HOLDS, Answer.APPROXIMATE)
 
-    @property
-    def is_judged(self) -> bool:
-        """Whether anything was decided: a definition is not judged."""
-        return self.holds or self.answer is Answer.FAILS
-
     def proved(self) -> Verdict:
         """With all evidence for it."""
         return self

@@ -117,7 +117,8 @@ class Comparison:
                 allowed = allowed & np.isfinite(value)
             said = reduce(np.logical_and, (a > b for a, b in sides))
             true = reduce(np.logical_and, (c > 0 for c in exact))
-        return np.where(allowed, np.asarray(said == true, dtype=float), np.nan)
+        alike = np.asarray(said == true, dtype=float)
+        return np.asarray(np.where(allowed, alike, np.nan))
 
     @cached_property
     def symbols(self) -> tuple[Symbol, ...]:
@@ -160,7 +161,7 @@ class Comparison:
             return size
         if symbol.kind is Kind.COORDINATE and not symbol.order:
             return np.asarray(random.uniform(-pi, pi, _DRAWN))
-        return size * random.choice([-1, 1], _DRAWN)
+        return np.asarray(size * random.choice([-1, 1], _DRAWN))
 
     def _beside(self, start: Mapping[Symbol, float], symbol: Symbol) -> dict[Symbol, float] | None:
         """A parting state on the way through a start on which one number changes."""

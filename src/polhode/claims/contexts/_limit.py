@@ -98,9 +98,9 @@ def _is_dynamic(side: Expr, states: Circumstances) -> bool:
 def _remainder(
     component: Component, states: Circumstances, asked: Asked, root: Expr | None = None
 ) -> Remainder:
-    left = component.left if root is None else root
-    sides = (scaled(states.on(side), asked.small) for side in (left, component.right))
-    return Remainder(component, states, *sides, _positive(asked), asked, root is not None)
+    first = component.left if root is None else root
+    left, right = (scaled(states.on(side), asked.small) for side in (first, component.right))
+    return Remainder(component, states, left, right, _positive(asked), asked, root is not None)
 
 
 def _positive(asked: Asked) -> tuple[Expr, ...]:

@@ -106,7 +106,10 @@ class Remainder:
             return f"the sides differ at order {order} already"
         highest = max(self.printed.kept, default=order - 1)
         if order <= highest:
-            return f"the sides differ at order {order} already, and terms of order {highest} are printed"
+            return (
+                f"the sides differ at order {order} already, and terms of order {highest} are "
+                "printed"
+            )
         sign = self.asked.members[self.component.member].sign
         if sign in EQUALITY and stated_order(self.asked.small) is None:
             return f"the sides differ at order {order}; = is exact where --small states no order"
@@ -125,12 +128,10 @@ class Remainder:
             return PrintedOrders(right.orders, self._order(self.left))
         left = self._terms(printed.terms(printed.left))
         if not left.count or not right.count:
-            return PrintedOrders(
-                self._to_vanish(printed, printed.left if left.count else printed.right)
-            )
-        return PrintedOrders(
-            right.orders, max((_LOWEST, *left.orders)) if printed.is_first else _LOWEST
-        )
+            alone = printed.left if left.count else printed.right
+            return PrintedOrders(self._to_vanish(printed, alone))
+        aside = left.orders if printed.is_first else ()
+        return PrintedOrders(right.orders, max((_LOWEST, *aside)))
 
     def _terms(self, terms: Iterable[Term]) -> _Terms:
         """How many terms of a side this component has, and the orders of what they contribute.

@@ -29,9 +29,8 @@ def judged_steady(asked: Asked) -> Verdict:
     if not any(solved):
         return _on_families(asked, families)
     found = [f for branch in solved for f in _at_odds(branch, families[0])]
-    found = found or [
-        f for branch in solved for member in branch for f in _not_steady(asked, member)
-    ]
+    members = (member for branch in solved for member in branch)
+    found = found or [f for member in members for f in _not_steady(asked, member)]
     if found:
         return failed(found, "steady")
     named = {member.member for member in solved[0]}

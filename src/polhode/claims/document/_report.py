@@ -51,15 +51,14 @@ class Consequence:
         feeds: ids of the judged claims drawn from it, directly or through others.
         results: those of them from which nothing more is drawn.
         surviving: those of the results that hold all the same.
-        open: those of the results that are not judged: definitions, and what cannot be read or
-            decided.
+        unjudged: those of the results that are definitions, which nothing judges.
     """
 
     failed: str
     feeds: tuple[str, ...]
     results: tuple[str, ...]
     surviving: tuple[str, ...]
-    open: tuple[str, ...] = ()
+    unjudged: tuple[str, ...] = ()
 
     def __str__(self) -> str:
         return f"({self.failed}) {self.told}"
@@ -69,13 +68,13 @@ class Consequence:
         """What it feeds, and which results survive, in words."""
         if not self.feeds:
             return "feeds no other claim"
-        lost = [id for id in self.results if id not in (*self.surviving, *self.open)]
+        lost = [id for id in self.results if id not in (*self.surviving, *self.unjudged)]
         said = f"feeds {_listed(self.feeds)}"
         if self.surviving:
             said += f"; what survives: {_listed(self.surviving)}"
         if lost:
             said += f"; what does not: {_listed(lost)}"
-        return said + (f"; not judged: {_listed(self.open)}" if self.open else "")
+        return said + (f"; not judged: {_listed(self.unjudged)}" if self.unjudged else "")
 
 
 @dataclass(frozen=True)
@@ -114,8 +113,8 @@ class Report(Shown):
         feeds = tuple(id for id in self.document.consequences(failed) if id in verdicts)
         results = tuple(id for id in feeds if not self.document.consequences(id))
         surviving = tuple(id for id in results if verdicts[id].holds)
-        left = tuple(id for id in results if not verdicts[id].is_judged)
-        return Consequence(failed, feeds, results, surviving, left)
+        defined = tuple(id for id in results if verdicts[id].answer is Answer.DEFINITION)
+        return Consequence(failed, feeds, results, surviving, defined)
 
     def by_part(self) -> tuple[tuple[Part, tuple[Judged, ...]], ...]:
         """The judged claims of each part of the text that has some."""

@@ -109,13 +109,12 @@ def _is_of_state(relation: BoundRelation, vocabulary: Vocabulary) -> bool:
     """Whether it sets a coordinate or speed against a constant, as no equation of a model does."""
     equations = vocabulary.mechanics.equations
     state = {*equations.coordinates, *equations.speeds}
-    sides = relation.left, relation.right
-    if not all(isinstance(side, Expr) for side in sides) or relation.sign == "≈":
+    left, right = relation.left, relation.right
+    if not isinstance(left, Expr) or not isinstance(right, Expr) or relation.sign == "≈":
         return False
-    varying = [{s for s in side.symbols() if s.kind.varies} for side in sides]
     return any(
-        one.symbol in state and not other
-        for one, other in zip(sides, reversed(varying), strict=True)
+        one.symbol in state and not any(s.kind.varies for s in other.symbols())
+        for one, other in ((left, right), (right, left))
     )
 
 

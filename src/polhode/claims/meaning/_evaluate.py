@@ -60,7 +60,7 @@ FORWARD: dict[str, Callable[[Expr], Expr]] = {
 }
 
 
-class UnclearDerivative(BindingError):
+class UnclearDerivativeError(BindingError):
     """A derivative with d by a coordinate, of a quantity that varies otherwise as well."""
 
     def __init__(self, of: str, by: str) -> None:
@@ -152,17 +152,15 @@ class Evaluator:
     def _total(self, node: tree.Derivative, whole: Expr, variable: Symbol) -> Expr:
         """dE/dθ where E depends on more than θ: two readings, neither of which goes by itself.
 
-        Raises `UnclearDerivative` where the vocabulary settles on none.
+        Raises `UnclearDerivativeError` where the vocabulary settles on none.
         """
         match self.vocabulary.totals:
             case "partial":
-                change = lambda value: value.diff(variable)  # noqa: E731
+                return reduce(lambda value, _: value.diff(variable), range(node.order), whole)
             case "along the motion":
                 rate = Expr.generator(variable).dt()
-                change = lambda value: value.dt() / rate  # noqa: E731
-            case _:
-                raise UnclearDerivative(spelled(node.of), spelled(node.by))
-        return reduce(lambda value, _: change(value), range(node.order), whole)
+                return reduce(lambda value, _: value.dt() / rate, range(node.order), whole)
+        raise UnclearDerivativeError(spelled(node.of), spelled(node.by))
 
     def _seen_from_axes(self, value: Meaning) -> Meaning:
         """∂L/∂t of a vector: the rate that its axes see."""

@@ -58,7 +58,7 @@ class Printed:
 
         Raises `BindingError` for a side whose terms cannot be told.
         """
-        letter = {_LETTER: Expr.generator(_STRETCH)}
+        letter: dict[Node, Meaning] = {_LETTER: Expr.generator(_STRETCH)}
         vocabulary = self.evaluator.vocabulary.saying(letter)
         return tuple(_terms(node, replace(self.evaluator, vocabulary=vocabulary)))
 

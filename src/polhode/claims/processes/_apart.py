@@ -108,7 +108,7 @@ def _cases(
         try:
             system = declared(part.system)
         except PolhodeError as error:
-            unread[claim.id] = Verdict.unread(claim.context, error)
+            unread[claim.id] = Verdict(Answer.UNREAD, claim.context, reason=str(error))
         else:
             cases.append(_Case(claim, Subject(part, system)))
     return cases, unread
@@ -217,9 +217,8 @@ class _Worker:
         """What is known of a claim whose process ended."""
         if self._failure is not None:
             return replace(self._failure, remarks=(*self._failure.remarks, self._why))
-        return Verdict(
-            Answer.UNREAD, claim.context, reason=f"it was read, but not decided: {self._why}"
-        )
+        why = f"it was read, but not decided: {self._why}"
+        return Verdict(Answer.UNREAD, claim.context, reason=why)
 
     @property
     def _why(self) -> str:
