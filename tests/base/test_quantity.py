@@ -160,3 +160,9 @@ def test_a_temperature_is_not_mechanical():
 def test_any_text_is_read_or_refused_by_a_unit_error(text):
     with suppress(UnitError):
         assert math.isfinite(read_quantity(text).value)
+
+
+@pytest.mark.parametrize("text", ["1" * 5000, "0." + "1" * 5000, "1/" + "3" * 5000 + " kg"])
+def test_a_number_of_thousands_of_digits_is_refused(text):
+    with pytest.raises(UnitError, match=r"a number of 500\d characters"):
+        read_quantity(text)

@@ -83,3 +83,25 @@ def test_a_folder_that_cannot_be_made(polhode, tmp_path):
     assert (code, out) == (2, "")
     assert "cannot be made" in err
     assert (tmp_path / "file").read_text() == "kept"
+
+
+def test_two_dashes_for_a_value_are_refused(polhode):
+    code, _, err = polhode("check", "gyroscope", "F_z = M g", "--let=--")
+    assert (code, err.count("\n")) == (2, 1)
+    assert "-- where a value is expected" in err
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("run", "marble-on-turntable", "--set", "g=" + "1" * 5000, "--duration", "0.1s"),
+        ("check", "gyroscope", "F_z = M g", "--given", "I_1=" + "1" * 5000),
+        ("check", "gyroscope", "F_z = M g", "--given", "I_1=M*" + "1" * 5000),
+        ("steady", "gyroscope", "--at", "theta=" + "1" * 5000),
+    ],
+)
+def test_numbers_of_thousands_of_digits_are_refused(polhode, words):
+    code, _, err = polhode(*words)
+    assert (code, err.count("\n")) == (2, 1)
+    assert "characters" in err
+    assert "report it" not in err

@@ -92,6 +92,7 @@ def to_si(value: Value, dimension: Dimension, name: str) -> float:
     return quantity.value
 
 
+_LONGEST = 2000  # characters; Python itself reads no more than 4300 digits
 _DECIMAL = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3}(?![0-9]))?"
 _NUMBER = re.compile(
     rf"""\s*(?P<sign>[+\-−]?)\s*
@@ -103,6 +104,10 @@ _NUMBER = re.compile(
 
 
 def _signed(match: re.Match[str]) -> Fraction:
+    if match.end() > _LONGEST:
+        raise UnitError(
+            f"a number of {match.end()} characters", expected=f"one of at most {_LONGEST}"
+        )
     divisor = Fraction(match["divisor"] or 1)
     if not (match["factor"] or match["pi"]) or divisor == 0:
         raise _unreadable(match.string)

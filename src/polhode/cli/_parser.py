@@ -30,6 +30,11 @@ class Parser(ArgumentParser):
             self.error(f"unrecognized arguments: {' '.join(unknown)}")
         return known, unknown
 
+    def _get_values(self, action: Any, arg_strings: Any) -> Any:
+        if action.option_strings and arg_strings == ["--"]:  # argparse would take it for no value
+            self.error(f"argument {'/'.join(action.option_strings)}: -- where a value is expected")
+        return super()._get_values(action, arg_strings)
+
     def _parse_optional(self, arg_string: str) -> Any:
         if not arg_string.startswith("--") and arg_string not in self._option_string_actions:
             return None

@@ -175,3 +175,9 @@ def test_nothing_is_evaluated(monkeypatch: pytest.MonkeyPatch) -> None:
     for latex in ("__import__('os').system('true')", r"\input{x}", r"\write18{true}", "9^9^9^9"):
         read_or_refused(latex)
     assert read_latex("9^{9^{9^{9}}}")
+
+
+@pytest.mark.parametrize("latex", ["F = {} M g", "F = M g^{{{}}}", "F = 0.{} M", "{} = 1"])
+def test_a_number_of_thousands_of_digits_is_refused(latex):
+    with pytest.raises(ParseError, match=r"a number of \d+ characters"):
+        read_latex(latex.format("1" * 5000))

@@ -21,6 +21,7 @@ LONGEST = 20_000  # characters
 SHOWN = 40  # of them on either side of a place
 
 _SPACES = " \t\r\n\N{NO-BREAK SPACE}\N{THIN SPACE}\N{NARROW NO-BREAK SPACE}"
+_LONGEST = 1000  # characters of a number
 _NUMBER = r"[0-9]+(?:\.[0-9]+)?|\.[0-9]+"
 _PATTERN = re.compile(
     rf"""
@@ -137,6 +138,9 @@ class _Scanner:
 
     def _number(self, text: str, start: int) -> Iterator[Token]:
         """A number; what wants a single token is given its first digit, as TeX does."""
+        if len(text) > _LONGEST:
+            problem = f"a number of {len(text)} characters"
+            raise self._refused(start, problem, f"one of at most {_LONGEST}")
         digits = self._single_digits()
         if "." in text[:digits]:
             raise self._refused(start, f"{text} without braces", "a decimal number in braces")
