@@ -21,7 +21,8 @@ def test_with_friction_it_is_not_said_to_roll_throughout(name: str) -> None:
     entry = CATALOGUE[name]
     told = about_with(entry, with_friction(entry.build(), 0.1))
     assert "μ = 0.1" in told
-    assert told.startswith(entry.whatever_touches) and entry.whatever_touches
+    assert entry.whatever_touches
+    assert told.startswith(entry.whatever_touches)
     assert not any(words in told for words in ("without slipping", "throughout", "frictionless"))
 
 
