@@ -32,6 +32,7 @@ from polhode.algebra._linear import Row as Row
 from polhode.algebra._linear import dot as dot
 from polhode.algebra._linear import eliminate as eliminate
 from polhode.algebra._linear import length as length
+from polhode.algebra._linear import refuse_long as refuse_long
 from polhode.algebra._linear import rotation as rotation
 from polhode.algebra._linear import solve as solve
 from polhode.algebra._linear import variables as variables

@@ -171,10 +171,15 @@ def _clear(table: list[list[Expr]], i: int, j: int) -> None:
 
 def _refuse_long(table: list[list[Expr]]) -> None:
     # Elimination multiplies lengths: what has grown this long takes hours two pivots later.
-    longest = max(length(entry) for row in table for entry in row)
+    refuse_long((entry for row in table for entry in row), "linear equations")
+
+
+def refuse_long(expressions: Iterable[Expr], what: str) -> None:
+    """Refuse what is too long to be written out, with `OutgrownError`."""
+    longest = max(map(length, expressions), default=0)
     if longest > LONGEST:
         raise OutgrownError(
-            f"linear equations whose exact solution has grown to {longest} terms",
+            f"{what} whose exact solution has grown to {longest} terms",
             expected=f"at most {LONGEST}",
             advice="put in numbers or fewer parameters, or choose coordinates that suit them",
         )

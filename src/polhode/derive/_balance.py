@@ -44,5 +44,7 @@ def _demand(motion: Motion, body: Body, actions: tuple[Action, ...]) -> Wrench:
         if action.body == body:
             force = force - action.force
             couple = couple - action.couple - action.arm.cross(action.force).express(body.axes)
-    kept = motion.form.kept
-    return Wrench(kept(force, motion.accelerations), kept(couple, motion.accelerations))
+    form, accelerations = motion.form, motion.accelerations
+    wrench = Wrench(form.kept(force, accelerations), form.kept(couple, accelerations))
+    form.settle((*wrench.force.components, *wrench.couple.components))
+    return wrench

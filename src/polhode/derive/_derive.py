@@ -98,11 +98,12 @@ def _mirrored(rows: Sequence[Row]) -> Matrix:
 
 def _projected(motion: Motion, needs: Mapping[Body, Wrench]) -> tuple[Expr, ...]:
     """One row per independent speed: power of all demands in a unit of that speed alone."""
-    rows = (
-        total(_share(motion, body, need, speed) for body, need in needs.items())
-        for speed in motion.speeds
-    )
-    return tuple(motion.form.keep(row, motion.accelerations) for row in rows)
+    rows = []
+    for speed in motion.speeds:
+        row = total(_share(motion, body, need, speed) for body, need in needs.items())
+        rows.append(motion.form.keep(row, motion.accelerations))
+        motion.form.settle(rows)
+    return tuple(rows)
 
 
 def _share(motion: Motion, body: Body, need: Wrench, speed: Symbol) -> Expr:

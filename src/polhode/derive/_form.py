@@ -16,6 +16,7 @@ from polhode.algebra import (
     eliminate,
     eliminate_in_parts,
     named,
+    refuse_long,
 )
 
 
@@ -39,11 +40,13 @@ class Form:
     Attributes:
         name: what the form is called.
         keep: an expression as it is worked on; polynomials in some symbols stay such.
+        settle: what has become of an equation; it may be refused as too long.
         eliminate: how linear equations are solved.
     """
 
     name: str
     keep: Callable[[Expr, Iterable[Symbol]], Expr]
+    settle: Callable[[Iterable[Expr]], None]
     eliminate: Solver
 
     def express(self, vector: Vector, triad: Triad) -> Vector:
@@ -63,6 +66,7 @@ class Form:
 CLOSED = Form(
     "closed",
     lambda expression, visible: expression,
+    lambda expressions: refuse_long(expressions, "equations of motion"),
     lambda rows, right, rank, visible: eliminate(rows, right, rank),
 )
-IN_PARTS = Form("in parts", named, eliminate_in_parts)
+IN_PARTS = Form("in parts", named, lambda expressions: None, eliminate_in_parts)
