@@ -38,8 +38,8 @@ def disputed(
         context: where it is to hold.
         statement: the claim, as LaTeX was parsed.
         told: letters that the text defines.
-        points: of moments that may be about several points, which was taken; empty for other letters
-            that may mean several quantities.
+        points: of moments that may be about several points, which was taken; empty for other
+            letters of which one of several meanings was chosen.
     """
     if context not in _KINDS or any(isinstance(p, PlusMinus) for p in walk(statement)):
         return ""
