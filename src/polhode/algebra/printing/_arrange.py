@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 
 from polhode.algebra._functions import Elementary, Even
@@ -17,7 +17,6 @@ _MASSES, _INERTIAS, _GRAVITY = ("m", "M"), ("I",), ("g",)
 CONSTANT_SUM: Rank = (1, 1)
 VARYING_SUM: Rank = (6,)
 EXPONENTIAL: Rank = (3,)
-ABSOLUTE_VALUE: Rank = (5,)
 
 
 @lru_cache(maxsize=4096)
@@ -42,6 +41,11 @@ def radical_rank(inside: Sequence[Generator], key: str = "") -> Rank:
     if not inside:
         return (0, key)
     return (1, 2, key) if all(map(is_constant, inside)) else (4, key)
+
+
+def absolute_value_rank(inside: Iterable[Generator]) -> Rank:
+    """Where an absolute value stands: behind all else, in the order of what is inside."""
+    return (5, sorted(map(factor_rank, inside)))
 
 
 def _symbol_rank(symbol: Symbol) -> Rank:

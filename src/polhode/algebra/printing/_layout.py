@@ -17,11 +17,11 @@ from polhode.algebra._parts import under_letters
 from polhode.algebra._ring import Monomial, Polynomial, Ring
 from polhode.algebra._squares import in_shortest_squares
 from polhode.algebra.printing._arrange import (
-    ABSOLUTE_VALUE,
     CONSTANT_SUM,
     EXPONENTIAL,
     VARYING_SUM,
     Rank,
+    absolute_value_rank,
     factor_rank,
     is_constant,
     radical_rank,
@@ -199,7 +199,7 @@ def _roots(radicals: Radicals) -> Iterator[Placed]:
         radicand = Radical(layout(radicals.radicand))
         yield radical_rank(radicals.radicand.generators), radicand, radicals.power
     for size, exponent in radicals.sizes.items():
-        yield ABSOLUTE_VALUE, Call("abs", layout(size)), exponent
+        yield absolute_value_rank(size.generators), Call("abs", layout(size)), exponent
     for root, exponent in radicals.loose.items():
         yield factor_rank(root), Radical(layout(root.radicand)), exponent
 
