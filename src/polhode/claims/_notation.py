@@ -241,5 +241,6 @@ def _refuse_unclear(bound: Bound, given: Mapping[Expr, Expr]) -> None:
                 f"{relation.left} = {relation.right} in brackets, which was read but may be a "
                 "condition or a claim",
                 expected="a word that tells, such as (if ...)",
-                advice="write \\text{if} inside the bracket, or say it with --given",
+                advice="write \\text{if} inside the bracket, or state it as given",
+                option="given",
             )

@@ -88,7 +88,8 @@ def _refuse_redefined(notation: Notation, new: Node, meaning: Meaning) -> None:
         raise ParseError(
             f"{spelled(new)} = {meaning}, though {spelled(new)} is known as {known}",
             expected="a definition of a new symbol",
-            advice="restrict a known quantity with --given instead",
+            advice="restrict a known quantity instead",
+            option="given",
         )
 
 

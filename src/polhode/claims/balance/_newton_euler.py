@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from polhode.algebra import Symbol, Vector
+from polhode.algebra import Kind, Symbol, Vector
 from polhode.base import NumericError
 from polhode.claims.balance._declared import Declared, declared, reaction_symbol
 from polhode.claims.balance._jets import Array
@@ -50,11 +50,20 @@ def true_motion(system: System, state: Mapping[Symbol, float]) -> Numbers:
 
 
 def trial_of(system: System, numbers: Mapping[Symbol, float]) -> Trial:
-    """The motion of all bodies with these numbers: of speeds, their rates, and all else."""
+    """The motion of all bodies with these numbers: of speeds, their rates, and all that is given.
+
+    Reactions are no part of it, for their rates are not known.
+    """
     known = declared(system)
+    given = (Kind.PARAMETER, Kind.COORDINATE, Kind.TIME)
+    state = {
+        s: number
+        for s, number in numbers.items()
+        if (s.kind in given and not s.order) or s.base() in known.functions
+    }
     speeds = {s: np.array([numbers[s]]) for s in known.speeds}
     rates = {s: np.array([numbers[s.derivative()]]) for s in known.speeds}
-    return Trial(known, numbers, speeds, rates)
+    return Trial(known, state, speeds, rates)
 
 
 def constrained_motion(

@@ -179,11 +179,19 @@ class Vocabulary:
         component = self._component(name, self._exactly) if phrases else None
         if component is not None and len(component.readings) == 2:
             vector, axis = component.readings
-            if axis.phrase.startswith("axis "):  # and no length of a vector taken out
-                phrases = (*phrases, f"{vector.phrase} along {axis.phrase}")
+            along = [f"{vector.phrase} along {phrase}" for phrase in axis.phrases]
+            if not axis.phrase.startswith("axis "):  # a length taken out of a vector
+                along = []
+            if name in self._plain and self._is_one_of(self._plain[name], along):
+                return Sense(self._plain[name])  # along an axis at rest, as the declaration has it
+            phrases = (*phrases, *along[:1])
         if len(phrases) == 1 and name in self._plain:
             return Sense(self._plain[name])
         return self._read(name, phrases) if phrases else None
+
+    def _is_one_of(self, meaning: Meaning, phrases: Iterable[str]) -> bool:
+        found = (self.mechanics.in_speeds(quantity(self.mechanics, phrase)) for phrase in phrases)
+        return any(alike(self.mechanics.in_speeds(meaning), other) for other in found)
 
     def _read(self, name: Name, phrases: tuple[str, ...]) -> Sense:
         distinct = _distinct(self.mechanics, phrases)
