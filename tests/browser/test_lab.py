@@ -265,11 +265,14 @@ def test_contacts_are_switched(coin):
 def test_steady_motions_say_where_one_stands(coin):
     coin.page.get_by_role("tab", name="Steady motions").click()
     coin.page.wait_for_selector("[role=tabpanel][aria-busy=false] .family math", timeout=PATIENCE)
-    assert coin.page.locator(".family .scale").count() > 0
+    assert coin.page.get_by_text("the start is no such motion").count() > 0
+    assert coin.page.locator(".family .scale").count() == 0
     start = coin.page.get_by_role("button", name="Start there")
     with answered(coin):
         start.last.click()
     coin.page.wait_for_selector(".badge:text('you are here')", timeout=PATIENCE)
+    on_it = coin.page.locator(".family", has=coin.page.locator(".badge:text('you are here')"))
+    assert coin.page.locator(".family .scale").count() == on_it.locator(".scale").count()
 
 
 def test_a_typed_claim_is_judged(coin):
