@@ -76,8 +76,8 @@ def _refuse_magnitudes(asked: Asked) -> None:
             raise ParseError(
                 f"the sign {relation.sign}, which was read; no state decides what is much larger",
                 expected="= ≈ or an inequality",
-                advice="say what is small with --small, and judge what follows from it with "
-                "--context limit",
+                advice="state what is small, and judge what follows from it in the context limit",
+                option="small",
             )
 
 

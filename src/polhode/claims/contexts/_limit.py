@@ -147,7 +147,7 @@ def _untested(left: Remainder, order: int) -> Verdict:
         "limit",
         reason=f"it was read and is true up to order {order - 1}, but its left side has a term of "
         f"order {left.printed.left_aside} that is neither met by the right side nor right by "
-        "itself; leave it out, or state its order with --small",
+        "itself; leave it out, or state the order of what is small",
         order=order - 1,
     )
 
