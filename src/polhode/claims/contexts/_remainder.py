@@ -112,7 +112,7 @@ class Remainder:
             )
         sign = self.asked.members[self.component.member].sign
         if sign in EQUALITY and stated_order(self.asked.small) is None:
-            return f"the sides differ at order {order}; = is exact where no order of what is small is stated"
+            return f"the sides differ at order {order}, and = is exact where no order is stated"
         return ""
 
     # -- terms as printed -----------------------------------------------------------------------
