@@ -100,7 +100,8 @@ def with_readings(verdict: Verdict, vocabulary: Vocabulary, pieces: Iterable[Pie
     """The verdict with what the letters of the claim were taken to mean, where that is settled."""
     every = vocabulary.readings(pieces)
     found = [r for r in every if verdict.answer is not Answer.AMBIGUOUS or len(r.phrases) == 1]
-    return replace(verdict, readings=tuple(Read(name_latex(r.letter), r.phrase) for r in found))
+    read = (Read(name_latex(r.letter), r.phrase, plain(r.letter)) for r in found)
+    return replace(verdict, readings=tuple(read))
 
 
 def judged_in_every_reading(

@@ -31,10 +31,15 @@ class Read:
     Attributes:
         letter: as LaTeX.
         meaning: the quantity, such as "angular momentum about cm".
+        plain: the letter in ASCII, as it is typed to choose another reading.
     """
 
     letter: str
     meaning: str
+    plain: str
+
+    def __str__(self) -> str:
+        return f"{self.plain} as {self.meaning}"
 
     def to_json(self) -> dict[str, str]:
         """As it stands in a JSON document."""
@@ -161,6 +166,12 @@ class Verdict(Shown):
     def holds(self) -> bool:
         """Whether the claim was judged and found true, exactly or to its order."""
         return self.answer in (Answer.HOLDS, Answer.APPROXIMATE)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What is shown beside the verdict: remarks, and what letters were taken to mean."""
+        read = (f"read: {'; '.join(map(str, self.readings))}",) if self.readings else ()
+        return (*self.remarks, *read)
 
     def proved(self) -> Verdict:
         """With all evidence for it."""

@@ -28,7 +28,7 @@ def configure(parser: Parser) -> None:
 
 
 def run(options: Namespace) -> int:
-    """Judge them and print the report; 0 where all hold, 1 where one fails, 2 where one is unread.
+    """Judge them and print the report; 0 where all hold, 1 where one fails, 2 where one is open.
 
     Raises:
         StoreError: for a document that cannot be read, and a page that cannot be written.
@@ -59,4 +59,5 @@ def _code(report: Report) -> int:
         return Exit.INTERRUPTED
     if report.failures:
         return Exit.FAILED
-    return Exit.REFUSED if report.counts["unread"] else Exit.DONE
+    open_ = report.counts["unread"] or report.counts["ambiguous"]
+    return Exit.REFUSED if open_ else Exit.DONE

@@ -136,6 +136,4 @@ def _told(verdict: Verdict) -> Iterator[str]:
         yield f"  numeric Newton-Euler says {said}: {second.left:.9g} and {second.right:.9g}"
     if verdict.dropped is not None:
         yield f"  left out: {verdict.dropped}"
-    yield from (f"  {remark}" for remark in verdict.remarks)
-    if verdict.readings:
-        yield f"  read: {'; '.join(f'{r.letter} as {r.meaning}' for r in verdict.readings)}"
+    yield from (f"  {note}" for note in verdict.notes)

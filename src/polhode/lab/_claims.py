@@ -85,5 +85,5 @@ def _told(verdict: Verdict) -> dict[str, Any]:
             "left": str(example.left)[:_LONGEST],
             "right": str(example.right)[:_LONGEST],
         },
-        "remarks": list(verdict.remarks),
+        "remarks": list(verdict.notes),
     }

@@ -84,7 +84,7 @@ def _told(judged: Judged, part: str) -> Told:
         reason=verdict.reason,
         correction=verdict.correction.latex if verdict.correction is not None else "",
         judgement=Judgement.on(judged),
-        notes=(*claim.notes, *(Note("note", remark) for remark in verdict.remarks)),
+        notes=(*claim.notes, *(Note("note", note) for note in verdict.notes)),
         part=part,
         convention=judged.convention,
     )

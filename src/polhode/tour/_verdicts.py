@@ -15,6 +15,7 @@ from polhode.view import typeset
 _KINDS = {"holds": "good", "fails": "bad"}
 _WORDS = {
     "holds": "holds",
+    "ambiguous": "ambiguous",
     "approximate": "approximately",
     "definition": "definition",
     "fails": "fails",

@@ -30,6 +30,7 @@ from polhode.view._typeset import typeset, typeset_change
 _SHOWN = 1200  # characters of a residual or of one side of a counterexample
 _SAID = {
     Answer.HOLDS: "holds",
+    Answer.AMBIGUOUS: "ambiguous",
     Answer.APPROXIMATE: "approximately",
     Answer.DEFINITION: "definition",
     Answer.FAILS: "fails",
@@ -254,7 +255,7 @@ def _example(verdict: Verdict) -> Iterator[str]:
 
 def _remarks(verdict: Verdict) -> str:
     """What else is to be known of a verdict, such as how letters were read."""
-    return "".join(f"<p class='remark'>{escape(remark)}</p>" for remark in verdict.remarks)
+    return "".join(f"<p class='remark'>{escape(note)}</p>" for note in verdict.notes)
 
 
 def _consequences(report: Report) -> str:

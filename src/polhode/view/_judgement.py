@@ -33,7 +33,7 @@ class Judgement:
 
     Attributes:
         claim: in words, or as its source prints it.
-        verdict: holds, approximate, definition, fails or unread.
+        verdict: holds, ambiguous, approximate, definition, fails or unread.
         reason: in words.
         formula: the claim in MathML; empty where it is in words.
         correction: what holds in its place, in MathML; empty for none.
@@ -53,7 +53,7 @@ class Judgement:
     def of(cls, latex: str, verdict: Verdict) -> Judgement:
         """What `polhode.check` said of an equation."""
         put_right = typeset(verdict.correction.latex) if verdict.correction else ""
-        notes = tuple(NoteShown("note", remark) for remark in verdict.remarks)
+        notes = tuple(NoteShown("note", note) for note in verdict.notes)
         return cls(latex, verdict.answer.value, verdict.reason, typeset(latex), put_right, notes)
 
     @classmethod

@@ -1,0 +1,62 @@
+"""The page of an audit: every answer that a verdict may have, with how letters were read."""
+
+import pytest
+
+import polhode as ph
+from polhode.claims import Answer
+from polhode.tour._verdicts import _WORDS
+from polhode.view import audit_html
+
+DOCUMENT = r"""
+[document]
+title = "Letters"
+[[part]]
+id = "top"
+system = "gyroscope"
+[[claim]]
+id = "1"
+part = "top"
+latex = '\dot L_z = 0'
+[[claim]]
+id = "2"
+part = "top"
+latex = '\dot L_{p,z} = 0'
+[[claim]]
+id = "3"
+part = "top"
+latex = 'Q = L_{p,z}'
+[[claim]]
+id = "4"
+part = "top"
+latex = '\dot L_{p,z} = M'
+[[claim]]
+id = "5"
+part = "top"
+latex = 'L_{p,z} = '
+"""
+
+
+@pytest.fixture(scope="module")
+def report():
+    return ph.audit(DOCUMENT)
+
+
+def test_every_answer_has_its_word(report):
+    answers = [judged.answer for judged in report.judged]
+    assert answers == [
+        Answer.AMBIGUOUS,
+        Answer.HOLDS,
+        Answer.DEFINITION,
+        Answer.FAILS,
+        Answer.UNREAD,
+    ]
+    page = audit_html(report)
+    for answer in answers:
+        assert f"<span class='verdict {answer.value}'>" in page
+    assert set(_WORDS) == {answer.value for answer in Answer}
+
+
+def test_what_letters_were_taken_to_mean_stands_beside_the_verdict(report):
+    page = audit_html(report)
+    assert "to choose, state the reading" in page
+    assert "read: L_p as angular momentum about pivot; z as axis z of lab" in page
