@@ -44,11 +44,11 @@ def told(seconds: float, members: int, ends: dict[str, np.ndarray]) -> dict[str,
 def ours(members: int) -> dict[str, object]:
     from polhode.catalogue import CATALOGUE
     from polhode.derive import derive
-    from polhode.study import Crew, Final, Order, members_of
+    from polhode.study import EnsembleRunner, EnsembleSpec, Final, members_of
 
     equations = derive(CATALOGUE["rolling-disk"].build())
-    order = Order(equations, DURATION, {name: Final(name) for name in STATES})
-    crew = Crew(order)
+    order = EnsembleSpec(equations, DURATION, {name: Final(name) for name in STATES})
+    crew = EnsembleRunner(order)
     everybody = members_of(NUMBERS, starts(members), None, 0)
     crew.follow(everybody.rows(slice(0, 64)), lambda count: None)
     began = perf_counter()

@@ -50,11 +50,13 @@ def told(seconds: float, members: int, ends: dict[str, np.ndarray]) -> dict[str,
 
 
 def ours(members: int) -> dict[str, object]:
-    from polhode.study import Crew, Final, Order, members_of
+    from polhode.study import EnsembleRunner, EnsembleSpec, Final, members_of
 
     modes, sheet, numbers, starts = case(members)
-    order = Order(modes, DURATION, {name: Final(name) for name in STATES}, {"forcing": sheet})
-    crew = Crew(order)
+    order = EnsembleSpec(
+        modes, DURATION, {name: Final(name) for name in STATES}, {"forcing": sheet}
+    )
+    crew = EnsembleRunner(order)
     everybody = members_of(numbers, starts, None, 0)
     crew.follow(everybody.rows(slice(0, WARM)), lambda count: None)
     began = process_time()

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from polhode.algebra import Expr as Expr
-    from polhode.algebra import Kind as Kind
     from polhode.algebra import Matrix as Matrix
     from polhode.algebra import Symbol as Symbol
+    from polhode.algebra import SymbolKind as SymbolKind
     from polhode.algebra import Vector as Vector
     from polhode.algebra import absolute as absolute
     from polhode.algebra import compile_program as compile_program
@@ -137,15 +137,15 @@ if TYPE_CHECKING:
     from polhode.study import Fate as Fate
     from polhode.study import Final as Final
     from polhode.study import Fit as Fit
-    from polhode.study import Largest as Largest
-    from polhode.study import Least as Least
     from polhode.study import Linearised as Linearised
+    from polhode.study import Maximum as Maximum
+    from polhode.study import Minimum as Minimum
     from polhode.study import Sensitivities as Sensitivities
-    from polhode.study import Series as Series
+    from polhode.study import TimeSeries as TimeSeries
     from polhode.study import ensemble as ensemble
     from polhode.study import fit as fit
-    from polhode.study import linearised as linearised
-    from polhode.study import refined_map as refined_map
+    from polhode.study import linearise as linearise
+    from polhode.study import refine_map as refine_map
     from polhode.study import sensitivities as sensitivities
     from polhode.study import sweep as sweep
     from polhode.view import Judgement as Judgement
@@ -170,16 +170,16 @@ _ROOMS = {
         "EventTimes",
         "Fate",
         "Final",
-        "Largest",
-        "Least",
+        "Maximum",
+        "Minimum",
         "Linearised",
-        "Series",
+        "TimeSeries",
         "ensemble",
         "Fit",
         "Sensitivities",
         "fit",
-        "linearised",
-        "refined_map",
+        "linearise",
+        "refine_map",
         "sensitivities",
         "sweep",
     ),
@@ -230,7 +230,7 @@ _ROOMS = {
         "is_positive",
         "compile_program",
         "Expr",
-        "Kind",
+        "SymbolKind",
         "Matrix",
         "Symbol",
         "Vector",

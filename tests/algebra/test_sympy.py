@@ -22,7 +22,7 @@ from algebra.worlds import (
     y,
 )
 from polhode.algebra import (
-    Kind,
+    SymbolKind,
     absolute,
     as_symbol,
     cos,
@@ -105,7 +105,7 @@ def test_what_is_read(theirs, ours):
 
 def test_unknown_symbols_become_parameters_that_keep_their_sign():
     found = from_sympy(sympy.Symbol("q", positive=True))
-    assert as_symbol(found).kind is Kind.PARAMETER
+    assert as_symbol(found).kind is SymbolKind.PARAMETER
     assert is_positive(found)
     assert not is_positive(from_sympy(sympy.Symbol("q")))
 

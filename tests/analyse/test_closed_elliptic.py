@@ -16,10 +16,10 @@ from polhode.analyse.closed._elliptic import (
     third_kind,
     third_kind_complete,
 )
-from polhode.analyse.closed._phase import Phase
-from polhode.analyse.closed._reals import Digits, Doubles
+from polhode.analyse.closed._phase import EllipticPhase
+from polhode.analyse.closed._reals import Digits, DoubleReals
 
-DOUBLES = Doubles()
+DOUBLES = DoubleReals()
 CONTEXT = mpmath.MPContext()
 CONTEXT.dps = 60
 PARAMETERS = [1.0, 0.5, 1e-3, 1e-12, 1e-30]
@@ -97,7 +97,7 @@ def test_whole_turns_are_taken_off_without_rounding(time, above, offset):
 
 
 def test_a_phase_is_as_exact_after_many_turns():
-    phase = Phase(CONTEXT, CONTEXT.mpf("1.7"), CONTEXT.mpf("0.3"), CONTEXT.mpf("1e-9"))
+    phase = EllipticPhase(CONTEXT, CONTEXT.mpf("1.7"), CONTEXT.mpf("0.3"), CONTEXT.mpf("1e-9"))
     times = np.array([0.0, 1.0, 12345.678, 1e6, 123456789.1])
     doubles = phase.at(DOUBLES, times)
     digits = phase.at(Digits(CONTEXT), Digits(CONTEXT).array(times))

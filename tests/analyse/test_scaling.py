@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from analyse.systems import equations
-from polhode.algebra import FLOATS, Expr, Kind, Symbol, compile_program
+from polhode.algebra import FLOATS, Expr, Symbol, SymbolKind, compile_program
 from polhode.analyse import Truth, invariants, stability, steady
 from polhode.base import PURE, TIME, Dimension, NumericError
 from polhode.derive import Equations
@@ -104,7 +104,7 @@ def _of_one_term(derived: Equations, polynomial: Expr) -> Dimension:
 def test_a_lost_factor_would_show():
     derived = equations("rolling-disk")
     a = next(s for s in derived.parameters if s.published == "a")
-    assert a.kind is Kind.PARAMETER
+    assert a.kind is SymbolKind.PARAMETER
     wrong = Expr.generator(a) + 1
     small, large = value(wrong, {a: 1.0}), value(wrong, {a: 10.0})
     assert large != pytest.approx(size(_stated(derived, wrong), 1.0, 10.0, 1.0) * small)

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from polhode.base import Codec, DeclarationError, Shape, StoreError, digest
+from polhode.base import Codec, DeclarationError, ShapeRecord, StoreError, digest
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,9 @@ def pair(first: Any, second: Any) -> Pair:
     return Pair(first, second)
 
 
-CODEC = Codec([Shape("pair", (Pair,), lambda p: {"first": p.first, "second": p.second}, pair)])
+CODEC = Codec(
+    [ShapeRecord("pair", (Pair,), lambda p: {"first": p.first, "second": p.second}, pair)]
+)
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from browser.conftest import AXE, PHONE, SMALL
 from browser.runs import HOSTILE, run_of
 from polhode.catalogue import CATALOGUE
 from polhode.view import page_of
-from polhode.view._scene import Panel, Series
+from polhode.view._scene import Panel, PlotSeries
 
 SYSTEMS = [*CATALOGUE, "double pendulum"]
 NO_WEBGL = "HTMLCanvasElement.prototype.getContext = new Proxy(\
@@ -108,7 +108,7 @@ WATCH_TEXT = """(() => {
 def test_the_numbers_at_an_axis_can_be_told_apart(opened, tmp_path, swing):
     shown = ph.scene(run_of("gyrocompass"))
     values = 11.21 + swing * np.sin(np.linspace(0, 9, 400))
-    panel = Panel("rad/s", (Series("q", "<math><mi>q</mi></math>", values),))
+    panel = Panel("rad/s", (PlotSeries("q", "<math><mi>q</mi></math>", values),))
     path = tmp_path / "page.html"
     path.write_text(page_of(replace(shown, panels=(panel,))), "utf-8")
     with opened(path, script=WATCH_TEXT) as page:

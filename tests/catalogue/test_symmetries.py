@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from catalogue.systems import numeric
 from derive.states import draw
-from polhode.algebra import Expr, Kind, Symbol, variables
+from polhode.algebra import Expr, Symbol, SymbolKind, variables
 from polhode.base import LENGTH, MASS, TIME, Dimension
 from polhode.catalogue import CATALOGUE
 from polhode.derive import Equations
@@ -51,7 +51,7 @@ def input_dimensions(equations: Equations) -> Iterator[tuple[str, Dimension]]:
     used = variables((*equations.rows, *equations.kinematics.values(), equations.energy))
     used |= variables((*equations.least.values(), equations.power))
     states = {*equations.coordinates, *equations.speeds}
-    parameters = {s for s in used if s.kind in (Kind.PARAMETER, Kind.FUNCTION)}
+    parameters = {s for s in used if s.kind in (SymbolKind.PARAMETER, SymbolKind.FUNCTION)}
     for symbol in sorted(states | parameters - {Symbol("pi")}, key=lambda s: s.published):
         yield symbol.published, equations.dimensions[symbol.base()] / TIME**symbol.order
 
@@ -82,6 +82,6 @@ def reversal(expression: Expr) -> dict[Symbol, Expr]:
 
 
 def is_velocity(symbol: Symbol) -> bool:
-    if symbol.kind is Kind.PARAMETER:
+    if symbol.kind is SymbolKind.PARAMETER:
         return symbol.name in ("Omega", "omega_0")
-    return symbol.order + (symbol.kind is Kind.SPEED) == 1
+    return symbol.order + (symbol.kind is SymbolKind.SPEED) == 1

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from polhode.claims.latex import Statement
 from polhode.claims.latex._tree import Call, Dots, Name, Node, Number, Power, Product, Sum
-from polhode.claims.repair._places import Place, negated, places, put, raised, times
+from polhode.claims.repair._places import NodePosition, negated, places, put, raised, times
 
 _TURNED = {"sin": "cos", "cos": "sin", "tan": "cot", "sinh": "cosh", "cosh": "sinh"}
 _AXES = (("1", "2", "3"), ("x", "y", "z"), ("rho", "phi", "z"))
@@ -33,7 +33,7 @@ def mutants(statement: Statement) -> Iterator[Mutant]:
             yield Mutant(slip, put(statement, place.path, node))
 
 
-def _slips(place: Place) -> Iterator[tuple[str, Node]]:
+def _slips(place: NodePosition) -> Iterator[tuple[str, Node]]:
     node = place.node
     if place.is_term and node != Number("0"):
         yield "sign", negated(node)
@@ -59,7 +59,7 @@ def _slips(place: Place) -> Iterator[tuple[str, Node]]:
                 yield "power", Power(node, Number("2"))
 
 
-def _is_exponent(place: Place) -> bool:
+def _is_exponent(place: NodePosition) -> bool:
     return isinstance(place.parent, Power) and place.parent.exponent == place.node
 
 

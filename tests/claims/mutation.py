@@ -18,9 +18,9 @@ from polhode.claims._check import judged_claim
 from polhode.claims._typed import with_start
 from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.latex import Statement, read_latex, write_latex
-from polhode.claims.meaning._components import Relation, Side
-from polhode.claims.states._asked import Asked
-from polhode.claims.states._circumstances import AnyState
+from polhode.claims.meaning._components import Member, Side
+from polhode.claims.states._bound_claim import BoundClaim
+from polhode.claims.states._claim_domain import AnyState
 from polhode.derive import Equations, derive
 
 
@@ -41,7 +41,7 @@ class Original:
     claim: Claim
     notation: Notation
     statement: Statement
-    asked: Asked
+    asked: BoundClaim
 
     @classmethod
     def of(cls, claim: Claim) -> Original:
@@ -169,7 +169,7 @@ def _try(original: Original, oracle: Oracle, mutant: Mutant, counts: Counts) -> 
         counts.unlike.append(f"{where} -> {first and first.latex}")
 
 
-def _undetermined(asked: Asked) -> bool:
+def _undetermined(asked: BoundClaim) -> bool:
     """Whether the claim speaks of reactions that Newton's laws leave open."""
     forces = asked.equations.components.items()
     free = {Symbol(name) for name, value in forces if value.symbol == Symbol(name)}
@@ -199,7 +199,7 @@ def _is_original(original: Original, latex: str) -> bool:
     )
 
 
-def _same(one: Relation, other: Relation, states: AnyState) -> bool:
+def _same(one: Member, other: Member, states: AnyState) -> bool:
     """Whether the differences of both sides are in proportion, or else the sides themselves."""
     if one.sign != other.sign:
         return False
@@ -212,7 +212,7 @@ def _same(one: Relation, other: Relation, states: AnyState) -> bool:
     return not any(ours) and _in_proportion(*sides)
 
 
-def _difference(relation: Relation) -> Side:
+def _difference(relation: Member) -> Side:
     left, right = relation.left, relation.right
     if isinstance(left, Vector) and isinstance(right, Expr):
         return left

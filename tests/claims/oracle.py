@@ -20,8 +20,8 @@ from oracles import balls, disks, gyroscopes
 from polhode.algebra import Expr, Symbol
 from polhode.base import PolhodeError
 from polhode.claims.balance._newton_euler import constrained_motion
-from polhode.claims.meaning._components import Component
-from polhode.claims.states._asked import Asked
+from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.states._bound_claim import BoundClaim
 
 Values = dict[str, float]
 Motion = Callable[[Mapping[str, float]], Mapping[str, float]]
@@ -76,7 +76,7 @@ JUDGED = ("identity", "motion", "steady")
 class Oracle:
     """Tells of claims of one notation, restricted alike, whether they are true."""
 
-    def __init__(self, asked: Asked, context: str, letters: Iterable[Symbol] = ()) -> None:
+    def __init__(self, asked: BoundClaim, context: str, letters: Iterable[Symbol] = ()) -> None:
         self._asked, self._context = asked, context
         self._letters = frozenset(letters)
 
@@ -97,7 +97,7 @@ class Oracle:
     def _drawn(self, seed: int) -> _State:
         return _State(self._asked, self._context, seed, self._letters)
 
-    def is_true(self, asked: Asked) -> bool | None:
+    def is_true(self, asked: BoundClaim) -> bool | None:
         """Whether a claim holds at all states; None where the oracle cannot tell."""
         try:
             if self._context == "steady" and (solved := _solved(asked)):
@@ -120,7 +120,9 @@ class Oracle:
 class _State:
     """One draw of everything that is free."""
 
-    def __init__(self, asked: Asked, context: str, seed: int, letters: Collection[Symbol]) -> None:
+    def __init__(
+        self, asked: BoundClaim, context: str, seed: int, letters: Collection[Symbol]
+    ) -> None:
         self.asked, self.context, self.seed = asked, context, seed
         self.system = asked.equations.system
         every = {*_symbols(asked), *letters}
@@ -198,11 +200,11 @@ class _State:
         return {**state, f"{rest}_dot": 0.0, speed: float(newton(excess, state[speed]))}
 
 
-def _prescribed(asked: Asked) -> set[Symbol]:
+def _prescribed(asked: BoundClaim) -> set[Symbol]:
     return {s.base() for s in asked.equations.functions}
 
 
-def _symbols(asked: Asked) -> set[Symbol]:
+def _symbols(asked: BoundClaim) -> set[Symbol]:
     equations = asked.equations
     sides = [
         s
@@ -226,18 +228,18 @@ def _numbers(expressions: list[Expr] | tuple[Expr, ...], state: Values) -> list[
     return [float(x) for x in evaluator(list(expressions))(state)] if expressions else []
 
 
-def _met(asked: Asked, state: Values) -> bool:
+def _met(asked: BoundClaim, state: Values) -> bool:
     """Whether at a state one of the branches is met, in every component."""
     every = [asked.components(branch) for branch in range(len(asked.branches))]
     return all(any(_equal(c, state) for c in alike) for alike in zip(*every, strict=True))
 
 
-def _equal(component: Component, state: Values) -> bool:
+def _equal(component: ScalarRelation, state: Values) -> bool:
     left, right = _numbers([component.left, component.right], state)
     return bool(abs(left - right) <= _CLOSE * (1 + abs(left) + abs(right)))
 
 
-def _solved(asked: Asked) -> list[tuple[str, Expr]]:
+def _solved(asked: BoundClaim) -> list[tuple[str, Expr]]:
     """Speeds that a claim on steady motion gives, with their values on every branch."""
     rest, _ = _STEADY[asked.equations.system.name]
     speeds = {s for s in asked.equations.speeds if s.published != f"{rest}_dot"}

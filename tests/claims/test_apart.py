@@ -6,7 +6,7 @@ import pytest
 
 import polhode as ph
 from polhode.catalogue import CATALOGUE
-from polhode.claims import Answer, Claim, Document, Limits, Part, audit, audit_apart
+from polhode.claims import Answer, Claim, ClaimLimits, Document, Part, audit, audit_apart
 
 PART = Part("7", "Gyroscope", "gyroscope")
 FREE = Part("5", "Racquet", "tennis-racquet")
@@ -50,7 +50,7 @@ def test_the_verdicts_are_those_of_one_process():
 
 
 def test_a_claim_that_takes_too_long_is_given_up_and_the_others_go_on():
-    bounds = Limits(seconds=20.0, memory=1 << 40)
+    bounds = ClaimLimits(seconds=20.0, memory=1 << 40)
     report = audit_apart(document(ENDLESS, RIGHT), declared, workers=1, limits=bounds)
     endless, right = report.judged
     assert endless.answer is Answer.UNREAD

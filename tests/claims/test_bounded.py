@@ -14,7 +14,7 @@ import pytest
 import polhode as ph
 from polhode.base import within
 from polhode.catalogue import CATALOGUE
-from polhode.claims import Answer, Enquiry, Verdict
+from polhode.claims import Answer, CheckRequest, Verdict
 from polhode.claims.processes import _bounded
 
 WRONG = r"F_z = Mg + Ma(\ddot\theta\sin\theta + \dot\theta^2\cos\theta)"
@@ -110,7 +110,7 @@ def test_a_failure_is_told_even_where_no_correction_is_found_in_time(gyroscope, 
         compiled()
 
     told = []
-    monkeypatch.setattr(Enquiry, "judged", failing)
+    monkeypatch.setattr(CheckRequest, "judged", failing)
     verdict = ph.check(WRONG, gyroscope, seconds=0.5, tell=told.append)
     assert (verdict.answer, verdict.reason) == (Answer.FAILS, "for a reason")
     assert verdict.remarks == ("looking for a correction took more than 0.5 s of computing",)
@@ -118,7 +118,7 @@ def test_a_failure_is_told_even_where_no_correction_is_found_in_time(gyroscope, 
 
 
 def test_a_claim_that_takes_too_much_memory_is_told(gyroscope, alone, monkeypatch):
-    monkeypatch.setattr(Enquiry, "judged", lambda *_: bytearray(64 << 30))
+    monkeypatch.setattr(CheckRequest, "judged", lambda *_: bytearray(64 << 30))
     with pytest.raises(ph.NumericError, match="memory"):
         ph.check(RIGHT, gyroscope)
 
@@ -143,7 +143,7 @@ def test_a_restriction_may_stand_alone(gyroscope):
 def test_where_a_process_cannot_be_parted_it_is_interrupted(gyroscope, monkeypatch):
     monkeypatch.setenv("POLHODE_DEBUG", "1")
     assert ph.check(RIGHT, gyroscope).holds
-    monkeypatch.setattr(Enquiry, "judged", python)
+    monkeypatch.setattr(CheckRequest, "judged", python)
     with pytest.raises(ph.NumericError, match=r"more than 0\.1 s of computing"):
         ph.check(RIGHT, gyroscope, seconds=0.1)
     assert signal.getitimer(signal.ITIMER_VIRTUAL) == (0.0, 0.0)
@@ -154,7 +154,7 @@ def test_an_interruption_ends_the_process_that_judges(gyroscope, alone, monkeypa
         os.kill(os.getppid(), signal.SIGINT)
         compiled()
 
-    monkeypatch.setattr(Enquiry, "judged", interrupting)
+    monkeypatch.setattr(CheckRequest, "judged", interrupting)
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         with pytest.raises(KeyboardInterrupt):

@@ -10,7 +10,7 @@ import pytest
 import polhode as ph
 from polhode.catalogue import CATALOGUE, problem_set
 from polhode.claims import Answer, Verdict, read_document
-from polhode.claims._audit import Desk
+from polhode.claims._audit import ClaimChecker
 
 ORIGINAL = (
     r"I_1\omega_1\dot\phi\sin\theta - I_{2p}\dot\phi^2\sin\theta\cos\theta + I_{2p}\ddot\theta"
@@ -100,7 +100,7 @@ def _of_the_problem_set(name: str, formula: str | None = None) -> Verdict:
     claim = document.claim(name)
     part = document.part_of(claim)
     said = claim if formula is None else replace(claim, latex=formula, read_as="")
-    return Desk(lambda system: ph.derive(CATALOGUE[system].build())).verdict(part, said)
+    return ClaimChecker(lambda system: ph.derive(CATALOGUE[system].build())).verdict(part, said)
 
 
 def test_a_vector_is_mended_component_by_component():

@@ -10,7 +10,7 @@ from itertools import count
 
 import pytest
 
-from polhode.claims import Answer, Enquiry, Verdict, check
+from polhode.claims import Answer, CheckRequest, Verdict, check
 from polhode.cli import _check
 from polhode.cli._main import main
 from polhode.cli._systems import entry_of
@@ -64,7 +64,7 @@ def compiled(*_, **__):
 
 @pytest.mark.parametrize("endless", [python, compiled])
 def test_what_cannot_be_decided_in_time_is_given_up(endless, capsys, monkeypatch):
-    monkeypatch.setattr(Enquiry, "judged", endless)
+    monkeypatch.setattr(CheckRequest, "judged", endless)
     monkeypatch.setattr(_check, "_LONGEST", 0.1)
     assert main(["check", "gyroscope", "F_z = M g"]) == 2
     assert "more than 0.1 s of computing" in capsys.readouterr().err
@@ -75,7 +75,7 @@ def test_a_failure_is_told_even_where_no_correction_is_found_in_time(capsys, mon
         tell(Verdict(Answer.FAILS, "motion", reason="for a reason"))
         compiled()
 
-    monkeypatch.setattr(Enquiry, "judged", failing)
+    monkeypatch.setattr(CheckRequest, "judged", failing)
     monkeypatch.setattr(_check, "_LONGEST", 2.0)
     assert main(["check", "gyroscope", "F_z = M g"]) == 1
     told = capsys.readouterr().out
@@ -84,7 +84,9 @@ def test_a_failure_is_told_even_where_no_correction_is_found_in_time(capsys, mon
 
 
 def test_a_process_that_ends_unasked_is_told(capsys, monkeypatch):
-    monkeypatch.setattr(Enquiry, "judged", lambda *_, **__: os.kill(os.getpid(), signal.SIGKILL))
+    monkeypatch.setattr(
+        CheckRequest, "judged", lambda *_, **__: os.kill(os.getpid(), signal.SIGKILL)
+    )
     assert main(["check", "gyroscope", "F_z = M g"]) == 2
     assert "less memory" in capsys.readouterr().err
 
@@ -103,14 +105,14 @@ def test_an_interruption_ends_the_process_that_judges(capsys, monkeypatch):
         os.kill(os.getppid(), signal.SIGINT)
         compiled()
 
-    monkeypatch.setattr(Enquiry, "judged", interrupting)
+    monkeypatch.setattr(CheckRequest, "judged", interrupting)
     assert main(["check", "gyroscope", "F_z = M g"]) == 130
     assert "interrupted" in capsys.readouterr().err
 
 
 def test_where_a_process_cannot_be_parted_it_is_interrupted(capsys, monkeypatch):
     monkeypatch.setenv("POLHODE_DEBUG", "1")
-    monkeypatch.setattr(Enquiry, "judged", python)
+    monkeypatch.setattr(CheckRequest, "judged", python)
     monkeypatch.setattr(_check, "_LONGEST", 0.1)
     assert main(["check", "gyroscope", "F_z = M g"]) == 2
     assert "more than 0.1 s of computing" in capsys.readouterr().err

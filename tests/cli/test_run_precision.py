@@ -8,7 +8,7 @@ from decimal import Decimal, localcontext
 
 import pytest
 
-from polhode.base import Enough, SilentProgress
+from polhode.base import SilentProgress, StopRequested
 from polhode.cli._interrupt import Interruptible
 
 
@@ -62,7 +62,7 @@ def test_an_interrupt_is_told_at_the_next_step_and_only_once():
     progress.begin("integrating")
     progress.advance()
     os.kill(os.getpid(), signal.SIGINT)
-    with pytest.raises(Enough):
+    with pytest.raises(StopRequested):
         progress.advance()
     assert signal.getsignal(signal.SIGINT) is before
     progress.finish()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from polhode.algebra import ZERO, Expr, Symbol, eliminate
 from polhode.derive import Equations, derive
-from polhode.derive._reactions import Line
+from polhode.derive._reactions import ReactionColumn
 from polhode.model import Smooth, System
 
 
@@ -47,7 +47,7 @@ def rolling_lagrange(rolling: Equations) -> tuple[Expr, ...]:
     )
 
 
-def _reach(smooth: Equations, line: Line, speed: Symbol) -> Expr:
+def _reach(smooth: Equations, line: ReactionColumn, speed: Symbol) -> Expr:
     """Velocity of the contact along a reaction, in a unit of a speed."""
     return smooth.kinetics.slip(line.restraint).dot(line.direction).diff(speed)
 

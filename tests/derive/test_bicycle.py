@@ -59,7 +59,7 @@ def test_it_prints_in_a_few_lines_whatever_it_takes() -> None:
 
 def test_what_needs_a_closed_form_is_refused_by_name() -> None:
     for analysis in (ph.invariants, ph.steady, ph.linear_integrals):
-        with pytest.raises(ph.NumericError, match=r"named parts; .*linearised"):
+        with pytest.raises(ph.NumericError, match=r"named parts; .*linearise"):
             analysis(bicycle())
     with pytest.raises(ph.NumericError, match="written out"):
         ph.to_sympy(bicycle().motion[0])

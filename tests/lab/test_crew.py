@@ -8,8 +8,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from polhode.lab._crew import BrokenError, Crew, GoneError, TooLongError
 from polhode.lab._work import DONE, REFUSED
+from polhode.lab._worker_pool import BrokenError, GoneError, TooLongError, WorkerPool
 
 QUICK = b'run\n{"system": "gyroscope", "duration": "0.1 s"}'
 LONG = (
@@ -35,7 +35,7 @@ def with_worker(act):
     """Run a coroutine function on one worker of a crew, which is ended afterwards."""
 
     async def run():
-        crew = Crew(None)
+        crew = WorkerPool(None)
         crew.begin()
         try:
             await act(await crew.worker("motions"))
@@ -129,7 +129,7 @@ def test_what_cannot_be_is_refused_in_words():
 
 def test_workers_not_asked_for_longest_make_room():
     async def run():
-        crew = Crew(None)
+        crew = WorkerPool(None)
         crew.begin()
         try:
             first = await crew.worker("0")

@@ -15,9 +15,9 @@ from polhode.catalogue import CATALOGUE
 from polhode.lab import Own
 from polhode.lab._app import app_of
 from polhode.lab._describe import plots_of, read
-from polhode.lab._desk import Desk
 from polhode.lab._files import KINDS
-from polhode.lab._wish import Wish
+from polhode.lab._requests import RunRequest
+from polhode.lab._system_session import SystemSession
 from polhode.view import scene, scenery
 
 
@@ -53,10 +53,10 @@ def test_the_motion_is_that_of_the_numbers(ask):
 
 def test_what_is_read_is_of_the_picture_and_not_computed_again():
     """Picture and account together are the scene of a page."""
-    desk, wish = Desk(CATALOGUE["gyroscope"]), Wish("gyroscope", duration="0.1 s")
+    desk, wish = SystemSession(CATALOGUE["gyroscope"]), RunRequest("gyroscope", duration="0.1 s")
     played = desk.play(wish)
-    assert desk.play(Wish("gyroscope", duration="0.1 s")) is played
-    assert desk.play(Wish("gyroscope", duration="0.2 s")) is not played
+    assert desk.play(RunRequest("gyroscope", duration="0.1 s")) is played
+    assert desk.play(RunRequest("gyroscope", duration="0.2 s")) is not played
     whole = scene(played.run, plots=plots_of(played.variant, played.run))
     seen = scenery(played.run)
     assert (seen.panels, seen.motion, seen.evidence) == ((), (), ())
@@ -69,8 +69,8 @@ def test_what_is_read_is_of_the_picture_and_not_computed_again():
 @pytest.mark.parametrize("name", ["marble-on-turntable/tilted", "ball-on-paper"])
 def test_without_friction_the_support_still_moves(name):
     """The body does not feel it, but it is seen."""
-    desk = Desk(CATALOGUE[name])
-    played = desk.play(Wish(name, "smooth", duration="0.2 s"))
+    desk = SystemSession(CATALOGUE[name])
+    played = desk.play(RunRequest(name, "smooth", duration="0.2 s"))
     assert len(scenery(played.run).supports[0].pose.turn) > 1 or name == "ball-on-paper"
 
 

@@ -43,7 +43,7 @@ CAPSIZE_SPEED = 6.02426201538837
 def running(speed: float) -> ph.Linearised:
     """Small departures from upright straight running."""
     upright = {"phi": 0, "delta": 0, "omega_y_R": speed / BENCHMARK["r_R"]}
-    return ph.linearised(bicycle(), BENCHMARK, upright)
+    return ph.linearise(bicycle(), BENCHMARK, upright)
 
 
 def eigenvalues(speed: float) -> np.ndarray:

@@ -4,7 +4,7 @@ import numpy as np
 
 from oracles.shocks import lost, random_shock
 from polhode.base import PolhodeError
-from polhode.simulate.contact._shock import Roughness, coulomb_shock
+from polhode.simulate.contact._impact import Roughness, coulomb_impact
 from proof.ledger import Ledger
 from simulate.contact import test_bounce as bounce
 
@@ -20,7 +20,7 @@ def test_shocks(ledger: Ledger) -> None:
         ledger.cases += 1
         where = f"seed {seed}"
         try:
-            shock = coulomb_shock(felt, velocity, Roughness(mu, mu, restitution))
+            shock = coulomb_impact(felt, velocity, Roughness(mu, mu, restitution))
         except PolhodeError as error:
             ledger.failures.append(f"{where} is lost: {error}")
             continue

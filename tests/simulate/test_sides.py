@@ -270,8 +270,8 @@ def test_a_length_that_nearly_vanishes_is_followed(integrator):
 
 def test_departures_from_a_corner_are_refused():
     with pytest.raises(NumericError, match="small departures from a state at which x is zero"):
-        ph.linearised(along(-k * absolute(x)), {"m": 1, "k": 1}, {})
-    found = ph.linearised(FLOOR, {"m": 1, "g": 10, "k": 1000}, {"x": -0.01})
+        ph.linearise(along(-k * absolute(x)), {"m": 1, "k": 1}, {})
+    found = ph.linearise(FLOOR, {"m": 1, "g": 10, "k": 1000}, {"x": -0.01})
     assert found.eigenvalues.imag == pytest.approx([sqrt(1000), -sqrt(1000)])
 
 

@@ -12,7 +12,7 @@ from polhode.base import (
     UnitError,
 )
 from polhode.simulate import simulate
-from polhode.study import linearised
+from polhode.study import linearise
 from simulate.examples import ByHand, four_bar, oscillator, pendulum, wheel
 
 UNITS = {"m": 1, "l": 1, "g": 1}
@@ -191,7 +191,7 @@ def test_a_singular_start_and_a_singular_end_are_told(integrator):
 def test_what_has_no_equations_of_motion_is_refused_by_name():
     for attempt in (
         lambda: simulate("rolling-disk", {}, {}, 1),
-        lambda: linearised("rolling-disk", {}, at={}),
+        lambda: linearise("rolling-disk", {}, at={}),
     ):
         with pytest.raises(DeclarationError, match="'rolling-disk'"):
             attempt()

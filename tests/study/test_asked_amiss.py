@@ -10,7 +10,7 @@ import pytest
 from polhode.base import DeclarationError, NumericError, StoreError
 from polhode.derive import derive
 from polhode.simulate import sampled
-from polhode.study import ensemble, fit, refined_map, sensitivities, sweep
+from polhode.study import ensemble, fit, refine_map, sensitivities, sweep
 from study.examples import NUMBERS, disk, rough_balls
 
 START = {"theta": 1.2, "phi_dot": 1.0, "omega_3": 20.0}
@@ -48,7 +48,7 @@ def test_sensitivities(asked, words):
 def test_maps(span):
     axes = {"theta": (1.0, 1.2), "omega_3": span}
     with pytest.raises(DeclarationError, match="the axis omega_3"):
-        refined_map(disk(), axes, NUMBERS, {}, 0.1)
+        refine_map(disk(), axes, NUMBERS, {}, 0.1)
 
 
 def test_a_name_is_no_system(tmp_path):

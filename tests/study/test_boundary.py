@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from polhode.base import DeclarationError
-from polhode.study import EndMode, Fate, Final, ensemble, refined_map
+from polhode.study import EndMode, Fate, Final, ensemble, refine_map
 from polhode.view.figures import new_figure, outcome_map
 from study.examples import FLAT, NUMBERS, disk
 
@@ -14,7 +14,7 @@ OPTIONS = {"near_flat": FLAT, "until": ("lifts off",)}
 
 @pytest.fixture(scope="module")
 def fates():
-    return refined_map(disk(), AXES, NUMBERS, {"phi_dot": 1.0}, 0.3, coarse=5, levels=2, **OPTIONS)
+    return refine_map(disk(), AXES, NUMBERS, {"phi_dot": 1.0}, 0.3, coarse=5, levels=2, **OPTIONS)
 
 
 def test_the_refined_map_is_that_of_the_whole_grid(fates):
@@ -49,4 +49,4 @@ def test_it_is_drawn_with_the_exact_threshold(fates):
 )
 def test_what_is_no_map_is_refused(axes, options, words):
     with pytest.raises(DeclarationError, match=words):
-        refined_map(disk(), axes, NUMBERS, {}, 0.1, **options)
+        refine_map(disk(), axes, NUMBERS, {}, 0.1, **options)

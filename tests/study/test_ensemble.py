@@ -16,10 +16,10 @@ from polhode.study import (
     EventTimes,
     Fate,
     Final,
-    Largest,
-    Least,
+    Maximum,
+    Minimum,
     Reason,
-    Series,
+    TimeSeries,
     ensemble,
 )
 from study.examples import FLAT, NUMBERS, STARTS, disk, rough_disk
@@ -28,7 +28,7 @@ EVERYTHING = {
     "theta": Final("theta"),
     "x": Final("x"),
     "normal": Final("F_z"),
-    "when": Series("omega_3", (0.0, 0.3, 0.9, 5.0)),
+    "when": TimeSeries("omega_3", (0.0, 0.3, 0.9, 5.0)),
     "mode": EndMode(),
     "fate": Fate(),
     "duration": Duration(),
@@ -78,7 +78,7 @@ def test_members_agree_with_single_runs(rolling):
 def test_side_by_side_and_one_by_one_tell_the_same(rolling):
     """An output that needs the whole path makes every member be followed by itself."""
     quick = ensemble(rolling, NUMBERS, STARTS, 1.0, outputs=EVERYTHING, count=8, seed=5, **HERE)
-    slowly = {**EVERYTHING, "top": Largest("theta")}
+    slowly = {**EVERYTHING, "top": Maximum("theta")}
     slow = ensemble(rolling, NUMBERS, STARTS, 1.0, outputs=slowly, count=8, seed=5, **HERE)
     for name in EVERYTHING:
         assert quick[name] == pytest.approx(slow[name], rel=1e-10, abs=1e-11, nan_ok=True), name
@@ -87,7 +87,7 @@ def test_side_by_side_and_one_by_one_tell_the_same(rolling):
 def test_the_bits_of_a_member_do_not_depend_on_its_company(rolling):
     """Lanes are taken up again one by one, in whatever order threads and motions come to it."""
     angles, spins = np.linspace(0.1, 1.5, 40), np.linspace(40.0, 0.0, 40)
-    outputs = {"theta": Final("theta"), "when": Series("omega_3", (0.01, 0.02, 0.7))}
+    outputs = {"theta": Final("theta"), "when": TimeSeries("omega_3", (0.01, 0.02, 0.7))}
 
     def found(rows):
         start = {"theta": angles[rows], "omega_3": spins[rows], "phi_dot": 1.0}
@@ -135,7 +135,7 @@ def test_equations_are_kept_to():
 def test_extremes_are_found_between_steps():
     equations = derive(disk())
     start = {"theta": [1.0, 1.3], "omega_3": 30.0, "phi_dot": 1.0}
-    outputs = {"top": Largest("theta"), "bottom": Least("theta")}
+    outputs = {"top": Maximum("theta"), "bottom": Minimum("theta")}
     found = ensemble(equations, NUMBERS, start, 0.2, outputs=outputs)
     run = simulate(equations, NUMBERS, {**start, "theta": 1.3}, 0.2, samples=20_001)
     assert found["top"][1] == pytest.approx(run["theta"].max(), rel=1e-8)
@@ -183,7 +183,7 @@ def test_impossible_numbers_are_recorded(rolling):
 
 
 def test_processes_give_the_same(rolling):
-    outputs = {"theta": Final("theta"), "top": Largest("theta")}
+    outputs = {"theta": Final("theta"), "top": Maximum("theta")}
     one, two = (
         ensemble(rolling, NUMBERS, STARTS, 0.05, outputs=outputs, count=12, seed=3, workers=w)
         for w in (1, 2)

@@ -27,7 +27,7 @@ STEADY = {
 @pytest.mark.parametrize("name", STEADY)
 def test_as_many_zeros_as_the_exact_polynomial_has(name):
     system, numbers, at = STEADY[name]
-    found = ph.linearised(equations(system), numbers, at)
+    found = ph.linearise(equations(system), numbers, at)
     given = {q: ph.pi / 2 for q in map(ph.coordinate, ["theta"]) if "theta" in at}
     families = (f for f in steady(equations(system), given))
     zeros = {stability(f).neutral for f in families if _holds(f, {**numbers, **at})}
@@ -51,11 +51,11 @@ def test_on_the_threshold_the_exponents_that_meet_at_zero_stay():
     threshold = (DISK["g"] / (3 * DISK["a"])) ** 0.5
     for share, growing in ((0.99, True), (1.0, False), (1.01, False)):
         at = {"theta": np.pi / 2, "omega_3": share * threshold}
-        found = ph.linearised(equations("rolling-disk"), DISK, at)
+        found = ph.linearise(equations("rolling-disk"), DISK, at)
         assert found.neutral == 2
         assert (max(found.exponents.real) > 1e-3) == growing
     here = {"theta": np.pi / 2, "omega_3": threshold}
-    found = ph.linearised(equations("rolling-disk"), DISK, here)
+    found = ph.linearise(equations("rolling-disk"), DISK, here)
     assert len(found.exponents) == 2
     assert np.abs(found.exponents) == pytest.approx([0, 0], abs=1e-6)
 
@@ -69,7 +69,7 @@ def test_a_coordinate_matters_although_its_derivative_vanishes():
     spring = ph.Torque(bob, axes["x"] * (-k * ph.sin(theta)))
     pivot = ph.Pivot(bob, at=axes["z"] * -length)
     system = ph.System(bob, pivot, spring, ph.Gravity(g), name="balanced")
-    found = ph.linearised(system, {"m": 1, "l": 1, "g": 10, "k": 10}, {"theta": 0})
+    found = ph.linearise(system, {"m": 1, "l": 1, "g": 10, "k": 10}, {"theta": 0})
     assert found.states == ("theta", "theta_dot")
     assert found.neutral == 0
     assert found.exponents == pytest.approx([0, 0], abs=1e-7)

@@ -11,10 +11,10 @@ from polhode.study import (
     EventTime,
     EventTimes,
     Final,
-    Largest,
-    Series,
+    Maximum,
+    TimeSeries,
     ensemble,
-    refined_map,
+    refine_map,
     sweep,
 )
 from study.examples import NUMBERS, disk, rough_balls
@@ -24,7 +24,7 @@ MISTAKES = [
     ({"parameters": {**NUMBERS, "q": 1.0}}, DeclarationError, "'q' is no parameter"),
     ({"parameters": {"m": 0.2}}, DeclarationError, "no value for a, g"),
     ({"outputs": ["thta"]}, DeclarationError, "'thta' is no quantity"),
-    ({"outputs": {"top": Largest("nope")}}, DeclarationError, "'nope' is no quantity"),
+    ({"outputs": {"top": Maximum("nope")}}, DeclarationError, "'nope' is no quantity"),
     ({"outputs": {"top": 3}}, DeclarationError, "the output 3"),
     ({"outputs": {"when": EventTime("slip")}}, DeclarationError, "'slip' is no event"),
     ({"until": ("slip",)}, DeclarationError, "'slip' is no event.*did you mean slips"),
@@ -76,7 +76,7 @@ def test_by_sweeps(rolling, tmp_path, change, error, words):
 
 def test_by_refined_maps(rolling):
     with pytest.raises(DeclarationError, match="'nope' is no coordinate"):
-        refined_map(rolling, {"theta": (0.6, 1.5), "nope": (0.0, 16.0)}, NUMBERS, {}, 0.3)
+        refine_map(rolling, {"theta": (0.6, 1.5), "nope": (0.0, 16.0)}, NUMBERS, {}, 0.3)
 
 
 @pytest.mark.parametrize(
@@ -111,7 +111,7 @@ def test_outputs_that_make_no_sense():
     with pytest.raises(DeclarationError, match="-1 events"):
         EventTimes(-1)
     with pytest.raises(NumericError, match="times"):
-        Series("theta", (0.1, -1.0))
+        TimeSeries("theta", (0.1, -1.0))
 
 
 def test_names_of_any_mode_are_known(rolling):

@@ -11,8 +11,8 @@ from polhode.catalogue import CATALOGUE
 from polhode.derive import automaton, derive
 from polhode.model import with_friction
 from polhode.simulate import sampled, simulate
-from polhode.study import EventKinds, EventTimes, Final, Series, ensemble, members_of
-from polhode.study._block import Block, Order, Together
+from polhode.study import EventKinds, EventTimes, Final, TimeSeries, ensemble, members_of
+from polhode.study._ensemble_runner import BatchRunner, EnsembleSpec, ResultChunk
 
 MEMBERS = 12
 NUMBERS = {"m": 0.05, "r": 0.02, "k": 0.4, "g": 9.81}
@@ -58,12 +58,14 @@ def subjects():
 def test_members_are_single_runs(subjects, subject, forcing):
     numbers, starts = case(subject)
     outputs = {name: Final(name) for name in NAMES}
-    series = {f"{name} seen": Series(name, LOOKS) for name in NAMES}
+    series = {f"{name} seen": TimeSeries(name, LOOKS) for name in NAMES}
     happened = {"kinds": EventKinds(12), "times": EventTimes(12)}
     asked = {**outputs, **series, **happened}
-    order = Order(subjects[subject], 0.7, asked, {"forcing": forcing})
+    order = EnsembleSpec(subjects[subject], 0.7, asked, {"forcing": forcing})
     members = members_of(numbers, starts, None, 0)
-    alone = Together(order).follow(members, Block.empty(order, MEMBERS), lambda count: None)
+    alone = BatchRunner(order).follow(
+        members, ResultChunk.empty(order, MEMBERS), lambda count: None
+    )
     assert len(alone) == 0
     found = ensemble(order.subject, numbers, starts, 0.7, outputs=asked, forcing=forcing)
     told = np.reshape(found.named("kinds"), (MEMBERS, -1))
@@ -83,11 +85,11 @@ def test_members_are_single_runs(subjects, subject, forcing):
 def test_equations_are_kept_to():
     equations, sheet = derive(ball()), {**TORN, "X": 0}
     numbers, starts = case("rolling")
-    asked = {"x": Final("x"), "v": Series("v_y", (0.06, 0.3, 0.5))}
-    order = Order(equations, 0.5, asked, {"forcing": sheet})
+    asked = {"x": Final("x"), "v": TimeSeries("v_y", (0.06, 0.3, 0.5))}
+    order = EnsembleSpec(equations, 0.5, asked, {"forcing": sheet})
     members = members_of(numbers, starts, None, 0)
-    block = Block.empty(order, MEMBERS)
-    assert len(Together(order).follow(members, block, lambda count: None)) == 0
+    block = ResultChunk.empty(order, MEMBERS)
+    assert len(BatchRunner(order).follow(members, block, lambda count: None)) == 0
     run = simulate(equations, numbers, members.start_of(5), 0.5, forcing=sheet)
     assert block.values["x"][5] == pytest.approx(run.final["x"], rel=1e-10)
     seen = run.evaluate("v_y", np.array([0.06, 0.3, 0.5]))

@@ -6,7 +6,7 @@ import pytest
 from polhode.catalogue import CATALOGUE, numbers_of
 from polhode.derive import automaton
 from polhode.simulate import simulate
-from polhode.study import EndMode, Final, Series, ensemble
+from polhode.study import EndMode, Final, TimeSeries, ensemble
 
 SPREAD = 1e-3
 
@@ -22,7 +22,7 @@ def test_members_agree_with_single_runs(name):
     time = min(numbers.duration, 0.5)
     names = [s.published for s in modes.together.equations.speeds]
     outputs = {key: Final(key) for key in (*names, "energy")}
-    series = {"half": Series(names[0], (time / 2,))}
+    series = {"half": TimeSeries(names[0], (time / 2,))}
     found = ensemble(
         modes, numbers.parameters, starts, time, forcing=numbers.forcing,
         outputs={**outputs, **series, "mode": EndMode()},

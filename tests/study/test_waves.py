@@ -15,11 +15,11 @@ from polhode.study import (
     Fate,
     Final,
     Reason,
-    Series,
+    TimeSeries,
     ensemble,
     members_of,
 )
-from polhode.study._block import Block, Order, Together
+from polhode.study._ensemble_runner import BatchRunner, EnsembleSpec, ResultChunk
 from study.examples import NUMBERS, Case, disk, rough_balls, rough_disks
 
 MEMBERS, ALONE = 20, 5
@@ -39,7 +39,7 @@ def nobody(count: int) -> None: ...
 @pytest.mark.parametrize("case", [rough_disks(), rough_balls()], ids=lambda case: case.name)
 def test_members_are_single_runs(case: Case):
     looks = tuple(case.duration * share for share in (0.0, 0.3, 0.7, 1.0))
-    series = {f"{name} seen": Series(name, looks) for name in case.outputs}
+    series = {f"{name} seen": TimeSeries(name, looks) for name in case.outputs}
     found = ensemble(
         case.modes, case.parameters, case.start, case.duration, seed=2, count=MEMBERS,
         outputs={**case.outputs, **series, **HAPPENINGS}, **case.options,
@@ -68,9 +68,9 @@ def test_members_are_single_runs(case: Case):
 
 @pytest.mark.parametrize("case", [rough_disks(), rough_balls()], ids=lambda case: case.name)
 def test_nobody_is_followed_from_its_start_again(case: Case):
-    order = Order(case.modes, case.duration, {**case.outputs, **HAPPENINGS}, case.options)
+    order = EnsembleSpec(case.modes, case.duration, {**case.outputs, **HAPPENINGS}, case.options)
     members = members_of(case.parameters, case.start, MEMBERS, 2)
-    alone = Together(order).follow(members, Block.empty(order, MEMBERS), nobody)
+    alone = BatchRunner(order).follow(members, ResultChunk.empty(order, MEMBERS), nobody)
     assert len(alone) == 0
 
 

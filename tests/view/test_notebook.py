@@ -169,7 +169,7 @@ def test_parts_of_results_are_typeset():
     assert "derivatives by" in constants.linear._repr_html_()
     drift = ph.simulate(disk, numbers, start, "0.05 s").drift
     assert f"{drift.energy:.6g}" in drift._repr_html_()
-    grown = ph.linearised(disk, numbers, {"theta": "90 deg", "omega_3": 40})
+    grown = ph.linearise(disk, numbers, {"theta": "90 deg", "omega_3": 40})
     assert "phi_dot" in grown._repr_html_()
 
 

@@ -9,7 +9,7 @@ from PIL import Image
 
 import polhode as ph
 from polhode.base import DeclarationError, NumericError, StoreError, UnitError
-from polhode.view._scene import Pose, SceneBody, Shape
+from polhode.view._scene import BodyShape, Pose, SceneBody
 from polhode.view.stills._bodies import _wheel, body_mesh
 from polhode.view.stills._camera import between, camera_of, place_at, rotation, turn_at
 
@@ -172,7 +172,7 @@ VOLUMES = {
 def test_faces_look_outwards_and_close(kind):
     """The volume within, by Gauss's theorem, is that of the shape."""
     pose = Pose(np.zeros((1, 3)), np.array([[0, 0, 0, 1.0]]), np.zeros(0), (0, 0, 1))
-    mesh = body_mesh(SceneBody("it", Shape(kind, SHAPES[kind]), pose, ()))
+    mesh = body_mesh(SceneBody("it", BodyShape(kind, SHAPES[kind]), pose, ()))
     a, b, c, d = np.moveaxis(mesh.faces, 1, 0)
     volume = np.sum(a * np.cross(b, c) + a * np.cross(c, d)) / 6
     assert volume == pytest.approx(VOLUMES[kind], rel=0.03)
@@ -182,7 +182,7 @@ def test_faces_look_outwards_and_close(kind):
 def test_other_shapes_have_their_size(kind):
     size = {"hoop": (0.3, 0.02), "wheel": (0.3, 0.02), "rod": (0.5, 0.02)}
     pose = Pose(np.zeros((1, 3)), np.array([[0, 0, 0, 1.0]]), np.zeros(0), (0, 0, 1))
-    shape = Shape(kind, size.get(kind, (0.7, 0.25, 0.02)))
+    shape = BodyShape(kind, size.get(kind, (0.7, 0.25, 0.02)))
     mesh = body_mesh(SceneBody("it", shape, pose, ((0.0, 0.0, 0.1),)))
     across = np.ptp(mesh.faces.reshape(-1, 3), axis=0)
     wanted = {"hoop": 0.6, "wheel": 0.6, "rod": 0.5, "racquet": 0.7}[kind]

@@ -21,8 +21,8 @@ from polhode.algebra._functions import sinh as sinh
 from polhode.algebra._functions import tan as tan
 from polhode.algebra._functions import tanh as tanh
 from polhode.algebra._generators import Generator as Generator
-from polhode.algebra._generators import Kind as Kind
 from polhode.algebra._generators import Symbol as Symbol
+from polhode.algebra._generators import SymbolKind as SymbolKind
 from polhode.algebra._half_angles import lowest_numerator as lowest_numerator
 from polhode.algebra._homogeneity import dimension_of as dimension_of
 from polhode.algebra._linear import Elimination as Elimination
@@ -41,7 +41,7 @@ from polhode.algebra._parts import named as named
 from polhode.algebra._parts import under_letters as under_letters
 from polhode.algebra._parts import under_name as under_name
 from polhode.algebra._reading import read_expression as read_expression
-from polhode.algebra._roots import Root as Root
+from polhode.algebra._roots import SquareRoot as SquareRoot
 from polhode.algebra._roots import absolute as absolute
 from polhode.algebra._roots import factors as factors
 from polhode.algebra._roots import is_positive as is_positive
@@ -67,7 +67,7 @@ from polhode.algebra.printing._latex import latex as latex
 from polhode.algebra.printing._latex import latex_of_symbol as latex_of_symbol
 from polhode.algebra.printing._latex import mathml as mathml
 from polhode.algebra.printing._layout import layout as layout
-from polhode.algebra.printing._nodes import Node as Node
+from polhode.algebra.printing._nodes import PrintNode as PrintNode
 from polhode.algebra.printing._nodes import Style as Style
 from polhode.algebra.printing._text import pretty as pretty
 from polhode.algebra.printing._text import text as text

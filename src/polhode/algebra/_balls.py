@@ -15,9 +15,9 @@ from flint import acb, arb, ctx, fmpq
 from polhode.algebra._expression import Expr
 from polhode.algebra._functions import Elementary
 from polhode.algebra._generators import Generator, Symbol
-from polhode.algebra._parts import Part
+from polhode.algebra._parts import NamedPart
 from polhode.algebra._ring import Polynomial, Ring
-from polhode.algebra._roots import Root
+from polhode.algebra._roots import SquareRoot
 from polhode.algebra._special import PI
 
 Ball = Any  # flint.acb: python-flint ships no usable type information
@@ -53,9 +53,9 @@ def _polynomial(ring: Ring, polynomial: Polynomial, state: int) -> Ball:
 @lru_cache(_MEMORY)
 def _value(generator: Generator, state: int) -> Ball:
     match generator:
-        case Part():
+        case NamedPart():
             return value(generator.meaning, state)
-        case Root():
+        case SquareRoot():
             return value(generator.radicand, state).sqrt()
         case Elementary():
             return getattr(value(generator.argument, state), generator.name)()

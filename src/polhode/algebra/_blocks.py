@@ -40,10 +40,10 @@ def eliminate_in_parts(
     width = len(rows[0]) if rows else len(rank or ())
     table = [[*row, constant] for row, constant in zip(rows, right, strict=True)]
     order = sorted(range(width), key=lambda j: (rank or [0] * width)[j])
-    return _Elimination(table, width, tuple(visible)).outcome(order)
+    return _BlockElimination(table, width, tuple(visible)).outcome(order)
 
 
-class _Elimination:
+class _BlockElimination:
     """A table of rows, each with its right-hand side at the end."""
 
     def __init__(self, table: Table, width: int, visible: tuple[Symbol, ...]) -> None:

@@ -29,7 +29,7 @@ Pair = tuple[Expr, Expr]
 
 
 @dataclass(frozen=True)
-class Family:
+class FunctionPair:
     """An even and an odd function with an addition theorem: even² = 1 + sign · odd²."""
 
     even: str
@@ -68,15 +68,15 @@ class Family:
         return self.multiple(base, unit, times)
 
 
-CIRCULAR = Family("cos", "sin", -1)
-HYPERBOLIC = Family("cosh", "sinh", +1)
+CIRCULAR = FunctionPair("cos", "sin", -1)
+HYPERBOLIC = FunctionPair("cosh", "sinh", +1)
 
 
 @dataclass(frozen=True)
 class Elementary(Generator):
     """One function of `unit` times `base`."""
 
-    family: Family
+    family: FunctionPair
     base: Expr
     unit: Fraction
 
@@ -113,7 +113,7 @@ class Elementary(Generator):
         return Odd(*self._same), Even(*self._same)
 
     @property
-    def _same(self) -> tuple[Family, Expr, Fraction]:
+    def _same(self) -> tuple[FunctionPair, Expr, Fraction]:
         return self.family, self.base, self.unit
 
     def pair(self) -> Pair:
@@ -266,7 +266,7 @@ def _terms(argument: Expr) -> Iterator[tuple[Expr, Fraction]]:
         yield base, coefficient
 
 
-def is_unit_argument(family: Family, base: Expr) -> bool:
+def is_unit_argument(family: FunctionPair, base: Expr) -> bool:
     """Whether functions of multiples of `base` are written in units of it and of nothing else."""
     exact = family.sign < 0 and base == pi
     return not exact and list(_terms(base)) == [(base, Fraction(1))]

@@ -69,7 +69,7 @@ class Generator(ABC):
         return ()
 
 
-class Kind(Enum):
+class SymbolKind(Enum):
     """What a symbol stands for; decides what its time derivative is."""
 
     PARAMETER = "parameter"
@@ -81,7 +81,7 @@ class Kind(Enum):
     @property
     def varies(self) -> bool:
         """Whether the time derivative is a further symbol."""
-        return self in (Kind.COORDINATE, Kind.SPEED, Kind.FUNCTION)
+        return self in (SymbolKind.COORDINATE, SymbolKind.SPEED, SymbolKind.FUNCTION)
 
 
 _DOTS = ("", "_dot", "_ddot", "_dddot")
@@ -95,7 +95,7 @@ class Symbol(Generator):
     """
 
     name: str
-    kind: Kind = Kind.PARAMETER
+    kind: SymbolKind = SymbolKind.PARAMETER
     order: int = 0
     positive: bool = field(default=False, compare=False)
 
@@ -108,7 +108,7 @@ class Symbol(Generator):
 
     @cached_property
     def key(self) -> str:  # type: ignore[override]
-        return self.published if self.kind is not Kind.TIME else "t"
+        return self.published if self.kind is not SymbolKind.TIME else "t"
 
     def derivative(self) -> Symbol:
         """The symbol of the time derivative."""

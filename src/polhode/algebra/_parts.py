@@ -22,7 +22,7 @@ _MEMORY = 65536  # derivatives and substitutions that are remembered
 
 
 @dataclass(frozen=True, eq=False)
-class Part(Generator):
+class NamedPart(Generator):
     """A name for an expression."""
 
     meaning: Expr
@@ -33,13 +33,13 @@ class Part(Generator):
         return f"part {blake2b(self.meaning.key.encode(), digest_size=10).hexdigest()}"
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Part) and other.key == self.key
+        return isinstance(other, NamedPart) and other.key == self.key
 
     def __hash__(self) -> int:
         return hash(self.key)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Part, (self.meaning,)
+        return NamedPart, (self.meaning,)
 
     def symbols(self) -> frozenset[Symbol]:
         return self._symbols
@@ -66,13 +66,13 @@ class Part(Generator):
 
 
 @lru_cache(_MEMORY)
-def _chained(part: Part, rate: Rate) -> Expr:
+def _chained(part: NamedPart, rate: Rate) -> Expr:
     slopes = ((g, part.slope(g)) for g in part.meaning.generators)
     return named(total(slope * named(g.chain(rate)) for g, slope in slopes))
 
 
 @lru_cache(_MEMORY)
-def _replaced(part: Part, image: Rate) -> Expr:
+def _replaced(part: NamedPart, image: Rate) -> Expr:
     return named(part.meaning.replaced(image))
 
 
@@ -112,12 +112,12 @@ def _reciprocal(denominator: Expr) -> Expr:
 
 
 def _part(meaning: Expr) -> Expr:
-    return Expr.generator(Part(meaning.trimmed()))
+    return Expr.generator(NamedPart(meaning.trimmed()))
 
 
 def under_name(generator: Generator) -> Expr | None:
     """What a named part stands for; None for any other generator."""
-    return generator.meaning if isinstance(generator, Part) else None
+    return generator.meaning if isinstance(generator, NamedPart) else None
 
 
 def has_parts(expression: Expr) -> bool:

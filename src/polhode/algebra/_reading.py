@@ -53,7 +53,7 @@ def read_expression(text: str, names: Mapping[str, Expr]) -> Expr:
         raise ParseError(
             f"an expression of {len(text)} characters", expected=f"at most {LONGEST} of them"
         )
-    return _Reader(text.replace("−", "-").replace("π", "pi "), names).whole()
+    return _ExpressionParser(text.replace("−", "-").replace("π", "pi "), names).whole()
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class _Token:
     place: int
 
 
-class _Reader:
+class _ExpressionParser:
     """Recursive descent over the tokens of one text; each method reads one kind of phrase."""
 
     def __init__(self, text: str, names: Mapping[str, Expr]) -> None:

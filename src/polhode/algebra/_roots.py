@@ -18,7 +18,7 @@ from polhode.base import NumericError
 
 
 @dataclass(frozen=True)
-class Root(Generator):
+class SquareRoot(Generator):
     """The non-negative square root of a polynomial; |f| where that is the square of f."""
 
     radicand: Expr
@@ -145,7 +145,7 @@ def _all_positive(polynomial: Expr) -> bool:
 
 
 def _root(radicand: Expr) -> Expr:
-    return Expr.generator(Root(radicand.trimmed()))
+    return Expr.generator(SquareRoot(radicand.trimmed()))
 
 
 def factors(x: Expr) -> tuple[Fraction, dict[Expr, int]]:

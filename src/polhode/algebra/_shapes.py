@@ -19,13 +19,13 @@ from polhode.algebra._functions import (
     Odd,
     is_unit_argument,
 )
-from polhode.algebra._generators import Generator, Kind, Symbol
+from polhode.algebra._generators import Generator, Symbol, SymbolKind
 from polhode.algebra._linear import Matrix
 from polhode.algebra._plain import plain
 from polhode.algebra._ring import Polynomial, Ring, ring_of
-from polhode.algebra._roots import Root, sqrt
+from polhode.algebra._roots import SquareRoot, sqrt
 from polhode.algebra._symbols import is_name
-from polhode.base import Shape
+from polhode.base import ShapeRecord
 
 _LARGEST_POWER = 1000
 _MOST_TERMS = 5000
@@ -60,7 +60,7 @@ def _symbol(name: str, kind: str, order: int, positive: bool) -> Symbol:
         raise ValueError(f"the derivative {order!r}")
     if type(positive) is not bool:
         raise ValueError(f"the sign {positive!r}")
-    return Symbol(name, Kind(kind), order, positive)
+    return Symbol(name, SymbolKind(kind), order, positive)
 
 
 # -- functions -------------------------------------------------------------------------------------
@@ -83,8 +83,8 @@ def _function(name: str, of: Expr, times: tuple[int, int]) -> Elementary:
     return kind(family, of, unit)
 
 
-def _root(of: Expr) -> Root:
-    root = Root(of.trimmed())
+def _root(of: Expr) -> SquareRoot:
+    root = SquareRoot(of.trimmed())
     if sqrt(of) != Expr.generator(root):
         raise ValueError("a root that is not taken apart")
     return root
@@ -155,9 +155,9 @@ def _matrix(rows: tuple[tuple[Expr, ...], ...]) -> Matrix:
 
 #: How expressions and what they are made of are written in documents.
 SHAPES = (
-    Shape("symbol", (Symbol,), _symbol_apart, _symbol),
-    Shape("function", (Odd, Even, Exponential), _function_apart, _function),
-    Shape("root", (Root,), lambda root: {"of": root.radicand}, _root),
-    Shape("expression", (Expr,), _expression_apart, _expression),
-    Shape("matrix", (Matrix,), lambda matrix: {"rows": matrix.rows}, _matrix),
+    ShapeRecord("symbol", (Symbol,), _symbol_apart, _symbol),
+    ShapeRecord("function", (Odd, Even, Exponential), _function_apart, _function),
+    ShapeRecord("root", (SquareRoot,), lambda root: {"of": root.radicand}, _root),
+    ShapeRecord("expression", (Expr,), _expression_apart, _expression),
+    ShapeRecord("matrix", (Matrix,), lambda matrix: {"rows": matrix.rows}, _matrix),
 )

@@ -11,35 +11,35 @@ from collections.abc import Iterable, Iterator, Mapping
 from polhode.algebra._expression import Expr
 from polhode.algebra._functions import Even, Exponential, Odd, exp
 from polhode.algebra._generators import Generator
-from polhode.algebra._parts import Part, named
-from polhode.algebra._roots import Root, sqrt
+from polhode.algebra._parts import NamedPart, named
+from polhode.algebra._roots import SquareRoot, sqrt
 
 
-def roots_in(expressions: Iterable[Expr]) -> tuple[Root, ...]:
+def roots_in(expressions: Iterable[Expr]) -> tuple[SquareRoot, ...]:
     """Every square root that occurs, also within functions and named parts; inner ones first."""
-    found: dict[Root, None] = {}
+    found: dict[SquareRoot, None] = {}
     seen: set[Generator] = set()
     for expression in expressions:
         found |= dict.fromkeys(_roots(expression, seen))
     return tuple(found)
 
 
-def _roots(expression: Expr, seen: set[Generator]) -> Iterator[Root]:
+def _roots(expression: Expr, seen: set[Generator]) -> Iterator[SquareRoot]:
     for generator in expression.generators:
         if generator in seen:
             continue
         seen.add(generator)
         for argument in _inside(generator):
             yield from _roots(argument, seen)
-        if isinstance(generator, Root):
+        if isinstance(generator, SquareRoot):
             yield generator
 
 
 def _inside(generator: Generator) -> tuple[Expr, ...]:
-    return (generator.meaning,) if isinstance(generator, Part) else generator.arguments
+    return (generator.meaning,) if isinstance(generator, NamedPart) else generator.arguments
 
 
-def with_roots(expression: Expr, images: Mapping[Root, Expr]) -> Expr:
+def with_roots(expression: Expr, images: Mapping[SquareRoot, Expr]) -> Expr:
     """An expression with some of its square roots replaced, also within functions and parts.
 
     Roots that appear only once others are replaced, as |x − 1| in ||x| − 1|, are replaced too.
@@ -52,7 +52,7 @@ def with_roots(expression: Expr, images: Mapping[Root, Expr]) -> Expr:
 class _Replacement:
     """Replaces roots; remembers what became of each function and part."""
 
-    def __init__(self, images: Mapping[Root, Expr]) -> None:
+    def __init__(self, images: Mapping[SquareRoot, Expr]) -> None:
         self._known: dict[Generator, Expr | None] = {r: e for r, e in images.items()}  # noqa: C416
 
     def of(self, expression: Expr) -> Expr:
@@ -73,7 +73,7 @@ class _Replacement:
 def _remade(generator: Generator, argument: Expr) -> Expr:
     """The same function of another argument."""
     match generator:
-        case Root():
+        case SquareRoot():
             return sqrt(argument)
         case Exponential():
             return exp(argument)

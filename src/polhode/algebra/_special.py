@@ -5,12 +5,12 @@ from __future__ import annotations
 from fractions import Fraction
 
 from polhode.algebra._expression import ONE, ZERO, Expr
-from polhode.algebra._generators import Kind, Symbol
+from polhode.algebra._generators import Symbol, SymbolKind
 from polhode.algebra._roots import sqrt
 from polhode.base import NumericError
 
 #: The ratio of a circle's circumference to its diameter.
-PI = Expr.generator(Symbol("pi", Kind.PARAMETER, 0, positive=True))
+PI = Expr.generator(Symbol("pi", SymbolKind.PARAMETER, 0, positive=True))
 
 
 def cosine_of_turn(multiple: Fraction) -> Expr:

@@ -6,7 +6,7 @@ import re
 from keyword import iskeyword
 
 from polhode.algebra._expression import Expr
-from polhode.algebra._generators import Kind, Symbol
+from polhode.algebra._generators import Symbol, SymbolKind
 from polhode.base import DeclarationError
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*_?")
@@ -17,37 +17,37 @@ def symbols(names: str, *, positive: bool = False) -> tuple[Expr, ...]:
 
     `positive` tells the sign, which decides √(a²) = a.
     """
-    return tuple(_named(name, Kind.PARAMETER, positive) for name in names.split())
+    return tuple(_named(name, SymbolKind.PARAMETER, positive) for name in names.split())
 
 
 def symbol(name: str, *, positive: bool = False) -> Expr:
     """One constant parameter."""
-    return _named(name, Kind.PARAMETER, positive)
+    return _named(name, SymbolKind.PARAMETER, positive)
 
 
 def coordinates(names: str) -> tuple[Expr, ...]:
     """Generalised coordinates; the rate of `theta` is `theta_dot`."""
-    return tuple(_named(name, Kind.COORDINATE) for name in names.split())
+    return tuple(_named(name, SymbolKind.COORDINATE) for name in names.split())
 
 
 def coordinate(name: str) -> Expr:
     """One generalised coordinate."""
-    return _named(name, Kind.COORDINATE)
+    return _named(name, SymbolKind.COORDINATE)
 
 
 def speeds(names: str) -> tuple[Expr, ...]:
     """Generalised speeds that are not the rate of a coordinate, such as `omega_3`."""
-    return tuple(_named(name, Kind.SPEED) for name in names.split())
+    return tuple(_named(name, SymbolKind.SPEED) for name in names.split())
 
 
 def speed(name: str) -> Expr:
     """One generalised speed."""
-    return _named(name, Kind.SPEED)
+    return _named(name, SymbolKind.SPEED)
 
 
 def functions(names: str) -> tuple[Expr, ...]:
     """Prescribed functions of time, such as the place X of a sheet that is pulled."""
-    return tuple(_named(name, Kind.FUNCTION) for name in names.split())
+    return tuple(_named(name, SymbolKind.FUNCTION) for name in names.split())
 
 
 def is_name(name: str) -> bool:
@@ -55,7 +55,7 @@ def is_name(name: str) -> bool:
     return _NAME.fullmatch(name) is not None
 
 
-def _named(name: str, kind: Kind, positive: bool = False) -> Expr:
+def _named(name: str, kind: SymbolKind, positive: bool = False) -> Expr:
     if not is_name(name) or name == "t" or iskeyword(name):
         raise DeclarationError(
             f"the name {name!r}",
@@ -71,5 +71,5 @@ def _named(name: str, kind: Kind, positive: bool = False) -> Expr:
     return Expr.generator(Symbol(name, kind, 0, positive))
 
 
-time = Expr.generator(Symbol("t", Kind.TIME))
+time = Expr.generator(Symbol("t", SymbolKind.TIME))
 """Time t, s."""

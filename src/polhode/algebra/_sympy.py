@@ -13,7 +13,7 @@ from polhode.algebra._generators import Symbol
 from polhode.algebra._roots import absolute, sqrt
 from polhode.algebra._symbols import coordinate, symbol, time
 from polhode.algebra.printing._layout import layout
-from polhode.algebra.printing._nodes import Node
+from polhode.algebra.printing._nodes import PrintNode
 from polhode.base import DeclarationError, NumericError
 
 Names = Mapping[str, Expr]
@@ -50,7 +50,7 @@ def from_sympy(value: Any, names: Names | None = None) -> Expr:
     Raises:
         NumericError: for anything else, naming it.
     """
-    return _Reader(names or {}).read(value)
+    return _SympyReader(names or {}).read(value)
 
 
 class _SymPy:
@@ -69,22 +69,22 @@ class _SymPy:
         name = symbol.published
         return self._names[name] if name in self._names else self._sympy.Symbol(name)
 
-    def call(self, function: str, argument: Node) -> Any:
+    def call(self, function: str, argument: PrintNode) -> Any:
         return getattr(self._sympy, _SYMPY_NAMES.get(function, function))(argument.drawn(self))
 
-    def power(self, base: Node, exponent: int) -> Any:
+    def power(self, base: PrintNode, exponent: int) -> Any:
         return base.drawn(self) ** exponent
 
-    def product(self, factors: tuple[Node, ...]) -> Any:
+    def product(self, factors: tuple[PrintNode, ...]) -> Any:
         return self._sympy.Mul(*(f.drawn(self) for f in factors))
 
-    def sum(self, terms: tuple[Node, ...]) -> Any:
+    def sum(self, terms: tuple[PrintNode, ...]) -> Any:
         return self._sympy.Add(*(t.drawn(self) for t in terms))
 
-    def fraction(self, above: Node, below: Node) -> Any:
+    def fraction(self, above: PrintNode, below: PrintNode) -> Any:
         return above.drawn(self) / below.drawn(self)
 
-    def radical(self, radicand: Node) -> Any:
+    def radical(self, radicand: PrintNode) -> Any:
         return self._sympy.sqrt(radicand.drawn(self))
 
 
@@ -93,7 +93,7 @@ _SYMPY_NAMES = {"abs": "Abs"}
 _DERIVATIVES = {"_dot": 1, "_ddot": 2, "_dddot": 3}
 
 
-class _Reader:
+class _SympyReader:
     """Reads one SymPy expression; what to do is looked up by the name of its class."""
 
     def __init__(self, names: Names) -> None:

@@ -22,9 +22,9 @@ from polhode.algebra import (
     ZERO,
     Expr,
     Generator,
-    Kind,
     Row,
     Symbol,
+    SymbolKind,
     cos,
     eliminate,
     sin,
@@ -74,7 +74,7 @@ Monomial = tuple[int, ...]
 
 
 @dataclass(frozen=True)
-class Terms:
+class AnsatzTerms:
     """Monomials that an integral may be a sum of.
 
     Attributes:
@@ -111,7 +111,7 @@ def is_searched(equations: Equations) -> bool:
     return True
 
 
-def _terms(equations: Equations, essential: tuple[Symbol, ...], ansatz: Ansatz) -> Terms:
+def _terms(equations: Equations, essential: tuple[Symbol, ...], ansatz: Ansatz) -> AnsatzTerms:
     factors: dict[Expr, int] = {}
 
     def place(factor: Expr) -> Monomial:
@@ -138,7 +138,7 @@ def _terms(equations: Equations, essential: tuple[Symbol, ...], ansatz: Ansatz) 
         shares = [place(1 / root) for root in roots]
         found |= dict.fromkeys(_joined(s, x) for s in shares for x in _products(places, 1))
     found.pop((), None)
-    return Terms(tuple(factors), tuple(found))
+    return AnsatzTerms(tuple(factors), tuple(found))
 
 
 def _generators(equations: Equations) -> list[Generator]:
@@ -183,13 +183,13 @@ def _is_angle(equations: Equations, coordinate: Symbol) -> bool:
     return str(equations.dimensions.get(coordinate, "")) == "1"
 
 
-def _supports(equations: Equations, terms: Terms) -> Iterator[list[int]]:
+def _supports(equations: Equations, terms: AnsatzTerms) -> Iterator[list[int]]:
     """Positions of the monomials in each independent solution, at random parameters."""
     import numpy as np
 
     rates = [equations.rate(factor) for factor in terms.factors]
     needed = (*terms.factors, *rates)
-    varying = [s for s in variables(needed) if s.kind is not Kind.PARAMETER]
+    varying = [s for s in variables(needed) if s.kind is not SymbolKind.PARAMETER]
     width = len(terms.monomials)
     sample = points(needed, varying, width + _SPARE, _SEED)
     prime = sample[0].field.prime
@@ -221,7 +221,7 @@ def _sum_rule(values: Any, changes: Any, prime: int) -> Any:
 
 
 def _is_constant(generator: Generator) -> bool:
-    return all(s.kind is Kind.PARAMETER for s in generator.symbols())
+    return all(s.kind is SymbolKind.PARAMETER for s in generator.symbols())
 
 
 def _coefficients(rates: Sequence[Expr]) -> Row | None:

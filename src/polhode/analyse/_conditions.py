@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 from math import prod
 
-from polhode.algebra import ONE, ZERO, Expr, Kind, Symbol, factors, is_positive
+from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, factors, is_positive
 from polhode.base import Shown
 
 
@@ -73,7 +73,7 @@ def _is_definite(factor: Expr, assumed: Collection[Expr]) -> bool:
 
     Where its discriminant vanishes it may still touch zero: stability is then marginal.
     """
-    for symbol in (s for s in factor.symbols() if s.kind is not Kind.PARAMETER):
+    for symbol in (s for s in factor.symbols() if s.kind is not SymbolKind.PARAMETER):
         quadratic = _quadratic_in(factor, symbol)
         if quadratic is None:
             continue

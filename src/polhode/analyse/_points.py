@@ -59,7 +59,7 @@ class Field:
         return found
 
 
-class Point:
+class SamplePoint:
     """A random value for every symbol, and what generators are there."""
 
     def __init__(self, among: Field) -> None:
@@ -121,7 +121,7 @@ class Point:
 
 def points(
     expressions: Sequence[Expr], varying: Iterable[Symbol], count: int, seed: int
-) -> list[Point]:
+) -> list[SamplePoint]:
     """Random points of one field at which all expressions have a value.
 
     Args:
@@ -143,10 +143,10 @@ def points(
     )
 
 
-def _regular(among: Field, expressions: Sequence[Expr]) -> Iterator[Point]:
+def _regular(among: Field, expressions: Sequence[Expr]) -> Iterator[SamplePoint]:
     misses = 0
     while misses < _MISSES:
-        point = Point(among)
+        point = SamplePoint(among)
         if point.has(expressions):
             misses = 0
             yield point

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from polhode.algebra import Expr, Kind, Row, Symbol, variables
+from polhode.algebra import Expr, Row, Symbol, SymbolKind, variables
 from polhode.base import NumericError
 from polhode.derive import Equations
 
@@ -38,7 +38,7 @@ def reduced(equations: Equations) -> Reduced:
     """
     refuse_parts(equations)
     entries = [e for row in equations.mass.rows for e in row] + list(equations.forcing)
-    driven = [s for s in variables(entries) if s.kind in (Kind.FUNCTION, Kind.TIME)]
+    driven = [s for s in variables(entries) if s.kind in (SymbolKind.FUNCTION, SymbolKind.TIME)]
     if driven:
         names = ", ".join(sorted(s.published for s in driven))
         raise NumericError(
@@ -61,7 +61,7 @@ def refuse_parts(equations: Equations) -> None:
         raise NumericError(
             f"equations of {equations.system.name!r} in named parts",
             expected="equations in closed form, short enough to be written out",
-            advice="see how a motion at numbers behaves with linearised, or simulate",
+            advice="see how a motion at numbers behaves with linearise, or simulate",
         )
 
 

@@ -11,8 +11,8 @@ from polhode.algebra import (
     ONE,
     ZERO,
     Expr,
-    Kind,
     Symbol,
+    SymbolKind,
     cos,
     eliminate,
     factors,
@@ -260,7 +260,7 @@ def _branches(relation: Expr, system: Reduced) -> Iterator[Branch]:
 def _candidates(relation: Expr, system: Reduced) -> list[Symbol]:
     """Rates of ignorable coordinates first: a text solves for the rate of precession."""
     inside = [s for s in system.speeds if s in relation.symbols()]
-    return sorted(inside, key=lambda s: (s.kind is Kind.SPEED, s.published))
+    return sorted(inside, key=lambda s: (s.kind is SymbolKind.SPEED, s.published))
 
 
 def _quadratic(relation: Expr, symbol: Symbol) -> tuple[Expr, Expr, Expr] | None:

@@ -18,10 +18,10 @@ from polhode.base._errors import (
 )
 from polhode.base._extras import extra
 from polhode.base._files import read_whole, write_whole
+from polhode.base._forked_worker import ForkedWorker, Tell, can_part, within
 from polhode.base._lookup import look_up
-from polhode.base._patience import Sitting, Tell, can_part, within
-from polhode.base._plain import Codec, Shape, digest
-from polhode.base._progress import Enough, Progress, SilentProgress, terminal_progress
+from polhode.base._plain import Codec, ShapeRecord, digest
+from polhode.base._progress import Progress, SilentProgress, StopRequested, terminal_progress
 from polhode.base._quantity import Quantity, Value, read_quantity, to_si
 from polhode.base._schema import SCHEMA, Provenance, installed_version, provenance
 from polhode.base._unit_text import read_unit
@@ -38,18 +38,18 @@ __all__ = [
     "DeclarationError",
     "Dimension",
     "DriftWarning",
-    "Enough",
     "Exit",
+    "ForkedWorker",
     "NumericError",
     "ParseError",
     "PolhodeError",
     "Progress",
     "Provenance",
     "Quantity",
-    "Shape",
+    "ShapeRecord",
     "Shown",
     "SilentProgress",
-    "Sitting",
+    "StopRequested",
     "StoreError",
     "Tell",
     "Unit",

@@ -38,7 +38,7 @@ _UNFIT = (
 
 
 @dataclass(frozen=True)
-class Shape:
+class ShapeRecord:
     """How objects are taken apart and put together.
 
     Attributes:
@@ -57,7 +57,7 @@ class Shape:
 class Codec:
     """Writes and reads objects of known shapes, and of no others."""
 
-    def __init__(self, shapes: Iterable[Shape]) -> None:
+    def __init__(self, shapes: Iterable[ShapeRecord]) -> None:
         self._by_name = {shape.name: shape for shape in shapes}
         self._by_kind = {kind: s for s in self._by_name.values() for kind in s.kinds}
 
@@ -67,7 +67,7 @@ class Codec:
         Raises:
             StoreError: for an object of a class that is not known.
         """
-        writer = _Writer(self._by_kind)
+        writer = _PlainWriter(self._by_kind)
         writer.reference(value)
         parts = ",\n".join(writer.parts)
         return f'{{"format": "{_FORMAT}", "schema": {SCHEMA}, "parts": [\n{parts}\n]}}\n'
@@ -82,7 +82,7 @@ class Codec:
         made: list[Any] = []
         depths: list[int] = []
         for number, part in enumerate(_parts(text)):
-            reader = _Reader(made, depths)
+            reader = _PlainReader(made, depths)
             try:
                 made.append(self._made(part, reader))
             except _UNFIT as error:
@@ -92,7 +92,7 @@ class Codec:
             raise _damaged(f"no {kind.__name__} at its end")
         return made[-1]
 
-    def _made(self, part: Any, reader: _Reader) -> Any:
+    def _made(self, part: Any, reader: _PlainReader) -> Any:
         if not isinstance(part, dict) or part.get("is") not in self._by_name:
             raise ValueError("of a shape that is not known")
         fields = {name: reader.value(field) for name, field in part.items() if name != "is"}
@@ -106,8 +106,8 @@ def digest(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-class _Writer:
-    def __init__(self, shapes: Mapping[type, Shape]) -> None:
+class _PlainWriter:
+    def __init__(self, shapes: Mapping[type, ShapeRecord]) -> None:
         self.parts: list[str] = []
         self._shapes = shapes
         self._known: dict[str, int] = {}
@@ -141,7 +141,7 @@ class _Writer:
         return self.reference(value)
 
 
-class _Reader:
+class _PlainReader:
     """Reads the fields of one part, and how deep the parts below it go."""
 
     def __init__(self, made: list[Any], depths: list[int]) -> None:

@@ -5,7 +5,7 @@ import time
 from typing import Protocol, TextIO
 
 
-class Enough(Exception):  # noqa: N818  (no error: what was asked for is done)
+class StopRequested(Exception):  # noqa: N818  (no error: what was asked for is done)
     """Raised by a listener to end a task there and keep what is done."""
 
 
@@ -16,7 +16,7 @@ class Progress(Protocol):
         """Start a task of `total` steps, or of a number that is not known."""
 
     def advance(self, steps: int = 1) -> None:
-        """Tell that so many more steps are done; may raise `Enough`."""
+        """Tell that so many more steps are done; may raise `StopRequested`."""
 
     def finish(self) -> None:
         """End the task."""

@@ -19,7 +19,7 @@ def read_unit(text: str) -> Unit:
     """
     if len(text) > _LONGEST:
         raise _malformed(f"{text[:20]}...")
-    return _Reader(text).unit()
+    return _UnitParser(text).unit()
 
 
 _SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
@@ -35,7 +35,7 @@ _TOKEN = re.compile(
 _LONGEST = 100
 
 
-class _Reader:
+class _UnitParser:
     """Recursive descent over the tokens of one unit."""
 
     def __init__(self, text: str) -> None:

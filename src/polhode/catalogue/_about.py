@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from polhode.algebra import Expr, compile_program
-from polhode.catalogue._entry import Entry
+from polhode.catalogue._entry import CatalogueEntry
 from polhode.model import Contact, Coulomb, Rolling, Sheet, System
 
 
-def about_with(entry: Entry, system: System) -> str:
+def about_with(entry: CatalogueEntry, system: System) -> str:
     """The words of an entry, or where its contacts are of another kind those that still hold."""
     declared = [type(contact) for contact in _contacts(entry.build())]
     contacts = _contacts(system)

@@ -12,7 +12,7 @@ from polhode.catalogue._systems import CATALOGUE
 from polhode.model import System
 
 if TYPE_CHECKING:
-    from polhode.claims import Document, Limits, Report
+    from polhode.claims import ClaimLimits, Document, Report
 
 
 def audit(
@@ -21,7 +21,7 @@ def audit(
     systems: Mapping[str, System] | None = None,
     only: Iterable[str] = (),
     workers: int = 2,
-    limits: Limits | None = None,
+    limits: ClaimLimits | None = None,
     progress: Progress | None = None,
 ) -> Report:
     """Judge every claim of a document, each against the system that its part treats.

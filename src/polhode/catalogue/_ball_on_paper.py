@@ -1,7 +1,7 @@
 """Problem 6: a ball that rolls on a sheet of paper while the sheet is moved."""
 
 import polhode as ph
-from polhode.catalogue._entry import GRAVITY, Entry, Parameter
+from polhode.catalogue._entry import GRAVITY, CatalogueEntry, Parameter
 
 
 def _ball() -> ph.System:
@@ -13,7 +13,7 @@ def _ball() -> ph.System:
     return ph.System(ph.Rolling(ball, on=sheet, name="sheet"), ph.Gravity(g), name="ball-on-paper")
 
 
-BALL_ON_PAPER = Entry(
+BALL_ON_PAPER = CatalogueEntry(
     name="ball-on-paper",
     title="Ball and paper",
     about=(

@@ -26,7 +26,7 @@ class Parameter:
 
 
 @dataclass(frozen=True)
-class Entry:
+class CatalogueEntry:
     """A system of the catalogue.
 
     Attributes:
@@ -54,7 +54,7 @@ class Entry:
     whatever_touches: str = ""
 
     @classmethod
-    def bare(cls, name: str, title: str, system: System) -> Entry:
+    def bare(cls, name: str, title: str, system: System) -> CatalogueEntry:
         """A system of somebody's own, with no defaults."""
         return cls(
             name=name,

@@ -1,7 +1,7 @@
 """Problem 4: a gyrocompass on the turning Earth."""
 
 import polhode as ph
-from polhode.catalogue._entry import Entry, Parameter
+from polhode.catalogue._entry import CatalogueEntry, Parameter
 
 
 def _rotor_and_supports() -> tuple[ph.Body, ph.Pivot, ph.Guide]:
@@ -39,7 +39,7 @@ _CONVENTION = (
     "turn at -θ̇ about 1."
 )
 
-GYROCOMPASS = Entry(
+GYROCOMPASS = CatalogueEntry(
     name="gyrocompass",
     title="Gyrocompass",
     about=(
@@ -53,7 +53,7 @@ GYROCOMPASS = Entry(
     plots=(("theta",), ("omega",), ("tau_2",)),
 )
 
-MOTOR_DRIVEN = Entry(
+MOTOR_DRIVEN = CatalogueEntry(
     name="gyrocompass/motor",
     title="Gyrocompass with a motor",
     about=(

@@ -1,7 +1,7 @@
 """Problem 7: a gyroscope with one point fixed, and the force on its pivot."""
 
 import polhode as ph
-from polhode.catalogue._entry import GRAVITY, Entry, Parameter
+from polhode.catalogue._entry import GRAVITY, CatalogueEntry, Parameter
 from polhode.catalogue._text_axes import axle_axes, cylindrical_axes
 
 
@@ -53,7 +53,7 @@ _PARAMETERS = (
 )
 _FORCES = ("F_rho", "F_phi", "F_z")
 
-GYROSCOPE = Entry(
+GYROSCOPE = CatalogueEntry(
     name="gyroscope",
     title="Gyroscope",
     about=(
@@ -68,7 +68,7 @@ GYROSCOPE = Entry(
     plots=(("theta",), ("phi_dot", "psi_dot"), _FORCES),
 )
 
-UPRIGHT = Entry(
+UPRIGHT = CatalogueEntry(
     name="gyroscope/upright",
     title="Sleeping top",
     about=(
@@ -82,7 +82,7 @@ UPRIGHT = Entry(
     plots=(("alpha", "beta"), ("F_x", "F_y", "F_z")),
 )
 
-HELD = Entry(
+HELD = CatalogueEntry(
     name="gyroscope/held",
     title="Gyroscope held fixed",
     about=(
@@ -96,7 +96,7 @@ HELD = Entry(
     plots=(("theta", "omega_1"),),
 )
 
-IN_VERTICAL_PLANE = Entry(
+IN_VERTICAL_PLANE = CatalogueEntry(
     name="gyroscope/vertical-plane",
     title="Gyroscope kept in a vertical plane",
     about=(

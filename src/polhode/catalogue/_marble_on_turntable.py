@@ -1,7 +1,7 @@
 """Problem 3: a marble that rolls on a turntable, level or tilted."""
 
 import polhode as ph
-from polhode.catalogue._entry import GRAVITY, Entry, Parameter
+from polhode.catalogue._entry import GRAVITY, CatalogueEntry, Parameter
 
 
 def _level() -> ph.System:
@@ -30,7 +30,7 @@ _PARAMETERS = (
     Parameter("Omega", "rad/s", "33 rpm", "angular velocity of the turntable"),
 )
 
-MARBLE_ON_TURNTABLE = Entry(
+MARBLE_ON_TURNTABLE = CatalogueEntry(
     name="marble-on-turntable",
     title="Marble on a turntable",
     about=(
@@ -46,7 +46,7 @@ MARBLE_ON_TURNTABLE = Entry(
     plots=(("x", "y"), ("v_x", "v_y"), ("F_x", "F_y", "F_z")),
 )
 
-TILTED = Entry(
+TILTED = CatalogueEntry(
     name="marble-on-turntable/tilted",
     title="Marble on a tilted turntable",
     about=(

@@ -8,7 +8,7 @@ from graphlib import CycleError, TopologicalSorter
 from types import MappingProxyType
 from typing import Any
 
-from polhode.algebra import Expr, Kind, Symbol, dimension_of, pi
+from polhode.algebra import Expr, Symbol, SymbolKind, dimension_of, pi
 from polhode.base import (
     PURE,
     TIME,
@@ -19,7 +19,7 @@ from polhode.base import (
     read_quantity,
     read_unit,
 )
-from polhode.catalogue._entry import Entry
+from polhode.catalogue._entry import CatalogueEntry
 from polhode.catalogue._values import in_si, read_value
 from polhode.derive import Equations
 
@@ -27,7 +27,7 @@ _NOTHING: Mapping[str, str] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
-class Numbers:
+class RunNumbers:
     """What `simulate` is given, by published name and in SI units.
 
     Attributes:
@@ -44,13 +44,13 @@ class Numbers:
 
 
 def numbers_of(
-    entry: Entry,
+    entry: CatalogueEntry,
     equations: Equations,
     settings: Mapping[str, str] = _NOTHING,
     start: Mapping[str, str] = _NOTHING,
     duration: str = "",
     flight: Equations | None = None,
-) -> Numbers:
+) -> RunNumbers:
     """The numbers of a run.
 
     Values are numbers with a unit or exact expressions of parameters: a default such as
@@ -84,7 +84,7 @@ def numbers_of(
         raise _missing(missing)
     forcing = {name: _forced(name, chosen[name], constants) for name in functions}
     wanted = _wanted(equations, forcing.values())
-    return Numbers(
+    return RunNumbers(
         parameters={s.published: value for s, value in values.items() if s in wanted},
         forcing=forcing,
         start=_start(
@@ -99,13 +99,13 @@ def numbers_of(
 
 
 def exactly(
-    entry: Entry,
+    entry: CatalogueEntry,
     equations: Equations,
-    numbers: Numbers,
+    numbers: RunNumbers,
     settings: Mapping[str, str] = _NOTHING,
     start: Mapping[str, str] = _NOTHING,
     duration: str = "",
-) -> Numbers:
+) -> RunNumbers:
     """The same numbers as constant expressions, each the decimal that was written.
 
     Args:
@@ -136,18 +136,18 @@ def _constant(value: Expr | str, known: Mapping[Any, Expr]) -> Expr:
     return Expr.of(quantity.coefficient) * pi**quantity.pi_power
 
 
-def _constants(entry: Entry, equations: Equations) -> dict[str, Symbol]:
+def _constants(entry: CatalogueEntry, equations: Equations) -> dict[str, Symbol]:
     """All that has a value, also what only other values are made of."""
     named = {p.name: Symbol(p.name) for p in entry.parameters}
     return named | {symbol.published: symbol for symbol in equations.parameters}
 
 
-def _defaults(entry: Entry) -> dict[str, str]:
+def _defaults(entry: CatalogueEntry) -> dict[str, str]:
     return {p.name: p.default for p in entry.parameters} | dict(entry.forcing)
 
 
 def _dimensions(
-    entry: Entry, equations: Equations, constants: Mapping[str, Symbol]
+    entry: CatalogueEntry, equations: Equations, constants: Mapping[str, Symbol]
 ) -> dict[Symbol, Dimension]:
     stated = {
         constants[p.name]: read_unit(p.unit).dimension if p.unit else PURE for p in entry.parameters
@@ -188,7 +188,7 @@ def _used(value: Expr | str) -> frozenset[Symbol]:
 
 def _refuse_unvalued(name: str, value: Expr | str, values: Mapping[Symbol, float]) -> None:
     for symbol in _used(value):
-        if symbol.kind is Kind.TIME:
+        if symbol.kind is SymbolKind.TIME:
             raise DeclarationError(f"{name} = {value} varies", expected="a constant value")
         if symbol not in values:
             raise _missing([symbol.published])
@@ -206,7 +206,7 @@ def _wanted(equations: Equations, forcing: Iterable[Expr]) -> set[Symbol]:
     return set(equations.parameters).union(*(e.symbols() for e in (*parts, *forcing)))
 
 
-def _asked(entry: Entry, equations: Equations, start: Mapping[str, str]) -> dict[str, str]:
+def _asked(entry: CatalogueEntry, equations: Equations, start: Mapping[str, str]) -> dict[str, str]:
     if not start:
         return dict(entry.start)
     places = {symbol.published for symbol in equations.coordinates}

@@ -1,7 +1,7 @@
 """Problem 2: a disk that rolls without slipping."""
 
 import polhode as ph
-from polhode.catalogue._entry import GRAVITY, Entry, Parameter
+from polhode.catalogue._entry import GRAVITY, CatalogueEntry, Parameter
 from polhode.catalogue._text_axes import following_axes
 
 
@@ -13,7 +13,7 @@ def _disk() -> ph.System:
     return ph.System(ground, ph.Gravity(g), name="rolling-disk")
 
 
-ROLLING_DISK = Entry(
+ROLLING_DISK = CatalogueEntry(
     name="rolling-disk",
     title="Rolling disk",
     about=(

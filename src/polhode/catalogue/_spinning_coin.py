@@ -1,7 +1,7 @@
 """Problem 1: a coin spinning on a frictionless table."""
 
 import polhode as ph
-from polhode.catalogue._entry import GRAVITY, Entry, Parameter
+from polhode.catalogue._entry import GRAVITY, CatalogueEntry, Parameter
 from polhode.catalogue._text_axes import following_axes
 
 
@@ -13,7 +13,7 @@ def _coin() -> ph.System:
     return ph.System(table, ph.Gravity(g), name="spinning-coin")
 
 
-SPINNING_COIN = Entry(
+SPINNING_COIN = CatalogueEntry(
     name="spinning-coin",
     title="Spinning coin",
     about=(

@@ -1,7 +1,7 @@
 """Problem 5: a free rigid body near its middle axis."""
 
 import polhode as ph
-from polhode.catalogue._entry import Entry, Parameter
+from polhode.catalogue._entry import CatalogueEntry, Parameter
 
 
 def _racquet() -> ph.System:
@@ -13,7 +13,7 @@ def _racquet() -> ph.System:
     return ph.System(ph.Pivot(racquet, name="centre"), name="tennis-racquet")
 
 
-TENNIS_RACQUET = Entry(
+TENNIS_RACQUET = CatalogueEntry(
     name="tennis-racquet",
     title="Tennis racquet",
     about=(

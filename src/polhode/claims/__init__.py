@@ -7,7 +7,7 @@ it needs.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from polhode.claims._check import Enquiry as Enquiry
+from polhode.claims._check import CheckRequest as CheckRequest
 from polhode.claims._notation import Notation as Notation
 from polhode.claims._verdict import Answer as Answer
 from polhode.claims._verdict import Confirmation as Confirmation
@@ -36,12 +36,12 @@ if TYPE_CHECKING:
     from polhode.claims.document._report import Judged as Judged
     from polhode.claims.document._report import Report as Report
     from polhode.claims.document._report import told as told
-    from polhode.claims.processes._apart import Limits as Limits
+    from polhode.claims.processes._apart import ClaimLimits as ClaimLimits
     from polhode.claims.processes._apart import audit_apart as audit_apart
     from polhode.claims.repair import tidied as tidied
 
 _LATE = {
-    "Limits": "processes._apart",
+    "ClaimLimits": "processes._apart",
     "audit_apart": "processes._apart",
     "audit": "_audit",
     "read_document": "document._read_document",

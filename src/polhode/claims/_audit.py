@@ -23,7 +23,7 @@ Resolver = Callable[[str], Equations]
 
 
 @dataclass(frozen=True)
-class Desk:
+class ClaimChecker:
     """Where claims are judged; what a part says of its letters is worked out once.
 
     Attributes:
@@ -92,7 +92,7 @@ def audit(document: Document, resolver: Resolver, *, only: Iterable[str] = ()) -
         ParseError: for an id that the document does not have.
     """
     began = perf_counter()
-    desk = Desk(cache(resolver))
+    desk = ClaimChecker(cache(resolver))
     asked = asked_for(document, only)
     verdicts = {c.id: desk.verdict(document.part_of(c), c) for c in asked}
     return reported(document, asked, verdicts, perf_counter() - began)

@@ -32,12 +32,12 @@ from polhode.claims.latex._tree import Node, Piece, Statement
 from polhode.claims.meaning._bindings import Bound
 from polhode.claims.meaning._evaluate import UnclearDerivativeError
 from polhode.claims.meaning._spelling import spelled
-from polhode.claims.states._asked import Asked
+from polhode.claims.states._bound_claim import BoundClaim
 from polhode.derive import Equations
 
 
 @dataclass(frozen=True)
-class Enquiry:
+class CheckRequest:
     """A published equation as somebody asks about it; the attributes are the arguments of `check`.
 
     Attributes:
@@ -160,7 +160,7 @@ def _judged_reading(
 
 
 def _read_twice(
-    verdict: Verdict, asked: Asked, statement: Statement, notation: Notation
+    verdict: Verdict, asked: BoundClaim, statement: Statement, notation: Notation
 ) -> Verdict:
     """The verdict, unless a reader that shares nothing with the first one reads otherwise."""
     from polhode.claims.contexts._read_anew import disputed  # NumPy, for what was bound alone
@@ -231,7 +231,7 @@ def _hint(latex: str) -> str:
     return f"; LaTeX reads {', '.join(bare)} letter by letter, write \\{bare[0]}"
 
 
-def _judged(asked: Asked, context: str) -> Verdict:
+def _judged(asked: BoundClaim, context: str) -> Verdict:
     """The verdict, with terms of different dimensions named where it does not hold."""
     try:
         verdict = judge(asked, context).proved()
@@ -266,7 +266,7 @@ def _corrected(verdict: Verdict, statement: Statement, notation: Notation) -> Ve
 
     context = verdict.context
 
-    def right(asked: Asked) -> bool:
+    def right(asked: BoundClaim) -> bool:
         return holds(asked, context)
 
     def correction(repair: Repaired) -> Correction:

@@ -7,11 +7,11 @@ from fractions import Fraction
 
 from polhode.algebra import Expr, Generator, Symbol, under_name
 from polhode.base import PURE, TIME, Dimension, PolhodeError
-from polhode.claims.meaning._components import Component
-from polhode.claims.states._asked import Asked
+from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.states._bound_claim import BoundClaim
 
 
-def dimensions_at_odds(asked: Asked) -> str:
+def dimensions_at_odds(asked: BoundClaim) -> str:
     """The members whose terms have different dimensions, in words; empty where there are none."""
     try:
         gauge = _Gauge(asked.equations.dimensions)
@@ -26,7 +26,7 @@ def _listed(found: tuple[Dimension, ...]) -> str:
     return " and ".join(sorted(map(str, found)))
 
 
-def _dimensions(component: Component, gauge: _Gauge) -> tuple[Dimension, ...]:
+def _dimensions(component: ScalarRelation, gauge: _Gauge) -> tuple[Dimension, ...]:
     """The dimensions of a component's terms, where they are not all the same."""
     every = [d for side in (component.left, component.right) for d in gauge.terms(side)]
     found = tuple(dict.fromkeys(every))

@@ -18,7 +18,7 @@ from polhode.claims.meaning._meaning import BindingError, Meaning, as_scalar, si
 from polhode.claims.meaning._phrases import quantity
 from polhode.claims.meaning._spelling import name_of, spelled
 from polhode.claims.meaning._vocabulary import Vocabulary, constant
-from polhode.claims.states._asked import SENSE, Asked, Small
+from polhode.claims.states._bound_claim import SENSE, BoundClaim, Small
 from polhode.derive import Equations
 
 #: A binding of this name tells the frame that components in a bracket are along.
@@ -157,7 +157,7 @@ class Notation:
         """A statement with its symbols given a meaning."""
         return bind(statement, self.vocabulary)
 
-    def asked(self, statement: Statement, extra: Mapping[str, Expr]) -> Asked:
+    def asked(self, statement: Statement, extra: Mapping[str, Expr]) -> BoundClaim:
         """The claim a statement makes; `extra` are further letters by published name.
 
         What it merely defines is not among the members.
@@ -175,14 +175,14 @@ class Notation:
         """The same with further letters, so that what they were found to mean is kept."""
         return {(): self}
 
-    def claimed(self, bound: Bound) -> Asked:
+    def claimed(self, bound: Bound) -> BoundClaim:
         """The claim that a bound statement makes under this notation's restrictions."""
         equalities = [r for r in bound.conditions if r.sign in EQUAL]
         values, vanishing = restrictions((*self.given, *equalities))
         _refuse_unclear(bound, values)
         given: dict[Symbol, Expr] = {as_symbol(s): value for s, value in values.items()}
         equations = self.vocabulary.mechanics.equations
-        return Asked(
+        return BoundClaim(
             bound.branches,
             equations,
             given,

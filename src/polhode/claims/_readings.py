@@ -19,7 +19,7 @@ from polhode.claims.latex._name_latex import name_latex
 from polhode.claims.latex._tree import Name, Piece
 from polhode.claims.meaning._spelling import spelled
 from polhode.claims.meaning._vocabulary import Reading, Vocabulary
-from polhode.claims.states._asked import Asked
+from polhode.claims.states._bound_claim import BoundClaim
 
 #: Letters of several meanings, each with the one that is taken.
 Chosen = Mapping[Name, str]
@@ -40,7 +40,7 @@ class JudgedReading:
 
     chosen: Chosen
     notation: Notation
-    asked: Asked | None
+    asked: BoundClaim | None
     verdict: Verdict
 
     @property

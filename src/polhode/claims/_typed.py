@@ -17,7 +17,7 @@ from polhode.claims.latex._tree import Dots, Name, Node, Piece
 from polhode.claims.meaning._bindings import BoundRelation
 from polhode.claims.meaning._meaning import BindingError, Meaning, signed
 from polhode.claims.meaning._spelling import name_of, spelled
-from polhode.claims.states._asked import Small
+from polhode.claims.states._bound_claim import Small
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from polhode.base import NumericError, Tell, within
-from polhode.claims import Answer, Enquiry, Verdict, uncorrected
+from polhode.claims import Answer, CheckRequest, Verdict, uncorrected
 from polhode.cli._document import document, printed
 from polhode.cli._failure import flag
 from polhode.cli._parser import Parser
@@ -53,7 +53,7 @@ def run(options: Namespace) -> int:
     system = entry_of(options.name).build()
     said_besides = (options.let, options.given, options.small, options.read, options.positive)
     extra = map(tuple, said_besides)
-    enquiry = Enquiry(options.latex, options.context, *extra)
+    enquiry = CheckRequest(options.latex, options.context, *extra)
 
     said = _in_json if options.json else _in_words
     told: list[Said] = []

@@ -7,13 +7,13 @@ from collections.abc import Sequence
 
 from polhode.algebra import Expr, read_expression
 from polhode.base import LENGTH, PURE, DeclarationError, Dimension, to_si
-from polhode.catalogue import Entry
+from polhode.catalogue import CatalogueEntry
 from polhode.derive import Equations
 from polhode.model import Contact, System, with_edge, with_friction
 from polhode.simulate import Pieces, read_sheet
 
 
-def declared(entry: Entry, options: Namespace, settings: dict[str, str]) -> System:
+def declared(entry: CatalogueEntry, options: Namespace, settings: dict[str, str]) -> System:
     """The catalogue's declaration with the friction and the edge that were asked for."""
     system = entry.build()
     if "edge" in settings and any(isinstance(e, Contact) for e in system.elements):

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from polhode.algebra import Expr, Symbol
-from polhode.catalogue import Entry
+from polhode.catalogue import CatalogueEntry
 from polhode.cli._document import print_document, printed
 from polhode.cli._parser import Parser
 from polhode.cli._systems import NAME_HELP, entry_of
@@ -38,7 +38,9 @@ def run(options: Namespace) -> int:
     return 0
 
 
-def _document(entry: Entry, equations: Equations, reactions: Mapping[str, Expr]) -> dict[str, Any]:
+def _document(
+    entry: CatalogueEntry, equations: Equations, reactions: Mapping[str, Expr]
+) -> dict[str, Any]:
     return {
         "system": entry.name,
         "coordinates": _names(equations.coordinates),
@@ -56,7 +58,7 @@ def _document(entry: Entry, equations: Equations, reactions: Mapping[str, Expr])
     }
 
 
-def _told(entry: Entry, equations: Equations) -> Iterator[str]:
+def _told(entry: CatalogueEntry, equations: Equations) -> Iterator[str]:
     yield f"{entry.title} ({entry.name})"
     yield from wrapped("coordinates", _names(equations.coordinates))
     yield from wrapped("speeds", _names(equations.speeds))

@@ -11,7 +11,7 @@ import numpy as np
 
 from polhode.analyse import ClosedForm, closed_form
 from polhode.base import NumericError, terminal_progress
-from polhode.catalogue import Entry, exact_values, numbers_of
+from polhode.catalogue import CatalogueEntry, exact_values, numbers_of
 from polhode.cli._document import print_document
 from polhode.cli._parser import Parser, assignments
 from polhode.cli._systems import NAME_HELP, entry_of
@@ -72,7 +72,7 @@ def run(options: Namespace) -> int:
     return 0
 
 
-def _document(entry: Entry, exact: ClosedForm, motion: Trajectory) -> dict[str, Any]:
+def _document(entry: CatalogueEntry, exact: ClosedForm, motion: Trajectory) -> dict[str, Any]:
     solved = exact.at(motion.t)
     differences = {name: _difference(values, motion[name]) for name, values in solved.items()}
     return {
@@ -107,7 +107,7 @@ def _period(exact: ClosedForm) -> float | None:
     return None
 
 
-def _told(entry: Entry, document: Mapping[str, Any]) -> Iterator[str]:
+def _told(entry: CatalogueEntry, document: Mapping[str, Any]) -> Iterator[str]:
     yield f"{entry.title} ({entry.name}), {document['duration']:g} s, in SI units"
     yield from wrapped("closed form", [f"{document['closed_form']},", document["kind"]])
     yield from wrapped("parameters", values(document["parameters"]))

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
-from polhode.base import Enough, Progress
+from polhode.base import Progress, StopRequested
 
 
 class Terminated(KeyboardInterrupt):
@@ -49,10 +49,10 @@ class Interruptible:
             self._before = signal.signal(signal.SIGINT, self._ask)
 
     def advance(self, steps: int = 1) -> None:
-        """Tell of steps; raises `Enough` once interrupted."""
+        """Tell of steps; raises `StopRequested` once interrupted."""
         self._shown.advance(steps)
         if self._asked:
-            raise Enough
+            raise StopRequested
 
     def finish(self) -> None:
         """End the task; an interrupt is again what it was."""

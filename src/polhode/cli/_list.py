@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from typing import Any
 
-from polhode.catalogue import CATALOGUE, Entry
+from polhode.catalogue import CATALOGUE, CatalogueEntry
 from polhode.cli._document import print_document
 from polhode.cli._parser import Parser
 from polhode.cli._text import wrapped
@@ -29,7 +29,7 @@ def run(options: Namespace) -> int:
     return 0
 
 
-def _described(entry: Entry) -> dict[str, Any]:
+def _described(entry: CatalogueEntry) -> dict[str, Any]:
     equations = derive(entry.build())
     return {
         "name": entry.name,

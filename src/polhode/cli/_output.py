@@ -6,13 +6,13 @@ from collections.abc import Collection, Sequence
 from pathlib import Path
 
 from polhode.base import StoreError
-from polhode.catalogue import Entry
+from polhode.catalogue import CatalogueEntry
 from polhode.cli._verdicts import judgements_on
 from polhode.simulate import Trajectory
 from polhode.view import figure_of_run, origin_of, page, save_figure
 
 
-def write_run(folder: Path, entry: Entry, trajectory: Trajectory) -> list[Path]:
+def write_run(folder: Path, entry: CatalogueEntry, trajectory: Trajectory) -> list[Path]:
     """Write the samples and a figure of a run into a folder, made if it is not there.
 
     Raises:
@@ -32,7 +32,7 @@ def write_run(folder: Path, entry: Entry, trajectory: Trajectory) -> list[Path]:
 
 
 def write_page(
-    path: Path, entry: Entry, about: str, trajectory: Trajectory, claims: Collection[str]
+    path: Path, entry: CatalogueEntry, about: str, trajectory: Trajectory, claims: Collection[str]
 ) -> Path:
     """Write a page that plays a run, with claims of the problem set judged, told by their ids.
 

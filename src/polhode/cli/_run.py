@@ -15,7 +15,7 @@ from typing import Any
 from polhode.algebra import Expr
 from polhode.analyse import Ansatz, invariants
 from polhode.base import DeclarationError, Exit, NumericError, StoreError, terminal_progress
-from polhode.catalogue import Entry, about_with, contact_numbers, exactly, numbers_of
+from polhode.catalogue import CatalogueEntry, about_with, contact_numbers, exactly, numbers_of
 from polhode.cli._contact_options import declared, sheet_of, watched_for
 from polhode.cli._document import print_document
 from polhode.cli._endings import MOTIONS, PAGES, refuse_other_endings
@@ -150,7 +150,7 @@ def _check_precision(options: Namespace) -> None:
         )
 
 
-def _claims(options: Namespace, entry: Entry) -> tuple[str, ...]:
+def _claims(options: Namespace, entry: CatalogueEntry) -> tuple[str, ...]:
     """What is to be judged; refused before the run where there is no page, or nothing to judge."""
     if not options.verdicts:
         return ()
@@ -190,7 +190,7 @@ def _is_constant(expression: Expr, equations: EquationsOfMotion) -> bool:
 
 def _written(
     options: Namespace,
-    entry: Entry,
+    entry: CatalogueEntry,
     about: str,
     trajectory: Trajectory,
     claims: tuple[str, ...],
@@ -211,7 +211,7 @@ def _written(
 
 
 def _document(
-    entry: Entry, trajectory: Trajectory, start: Mapping[str, float], derived: float
+    entry: CatalogueEntry, trajectory: Trajectory, start: Mapping[str, float], derived: float
 ) -> dict[str, Any]:
     return {
         "system": entry.name,
@@ -244,7 +244,7 @@ def _refuse_overflow(results: Mapping[str, Any]) -> None:
 
 
 def _told(
-    entry: Entry,
+    entry: CatalogueEntry,
     document: Mapping[str, Any],
     files: Sequence[Path],
     doubt: str,

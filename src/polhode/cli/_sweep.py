@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from polhode.base import DeclarationError, ParseError, terminal_progress
-from polhode.catalogue import Entry, Numbers, numbers_of
+from polhode.catalogue import CatalogueEntry, RunNumbers, numbers_of
 from polhode.cli._contact_options import declared
 from polhode.cli._document import print_document
 from polhode.cli._interrupt import ended_in_order
@@ -152,12 +152,12 @@ def _axis(name: str, text: str) -> _Axis:
 
 
 def _numbers(
-    entry: Entry,
+    entry: CatalogueEntry,
     equations: Equations,
     options: Namespace,
     settings: Mapping[str, str],
     axes: list[_Axis],
-) -> tuple[Numbers, Numbers]:
+) -> tuple[RunNumbers, RunNumbers]:
     """The numbers at the first values of all axes, and at the last."""
     constants = {p.name for p in entry.parameters} | {s.published for s in equations.parameters}
     start = assignments(options.start)
@@ -177,7 +177,7 @@ def _numbers(
     return first, last
 
 
-def _refuse_followers(first: Numbers, last: Numbers, axes: set[str]) -> None:
+def _refuse_followers(first: RunNumbers, last: RunNumbers, axes: set[str]) -> None:
     """Refuse parameters whose default is made of one that differs."""
     before, after = ({**n.parameters, **n.start} for n in (first, last))
     for name, value in before.items():
@@ -189,7 +189,7 @@ def _refuse_followers(first: Numbers, last: Numbers, axes: set[str]) -> None:
             )
 
 
-def _of(numbers: Numbers, name: str) -> float:
+def _of(numbers: RunNumbers, name: str) -> float:
     return float({**numbers.parameters, **numbers.start}[name])
 
 

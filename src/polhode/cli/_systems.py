@@ -5,14 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 from polhode.base import DeclarationError, look_up
-from polhode.catalogue import CATALOGUE, Entry
+from polhode.catalogue import CATALOGUE, CatalogueEntry
 from polhode.cli._user_file import load
 from polhode.model import System
 
 NAME_HELP = "a system of 'polhode list', or path/to/file.py:name of a System"
 
 
-def entry_of(name: str) -> Entry:
+def entry_of(name: str) -> CatalogueEntry:
     """The catalogue's entry, or one without defaults for a system in a file.
 
     Raises:
@@ -32,7 +32,7 @@ def entry_of(name: str) -> Entry:
         raise DeclarationError(error.given, expected=expected, advice=error.advice) from error
 
 
-def _declared(name: str, path: Path, variable: str) -> Entry:
+def _declared(name: str, path: Path, variable: str) -> CatalogueEntry:
     found = vars(load(path))
     systems = [key for key, value in found.items() if isinstance(value, System)]
     if variable not in systems:
@@ -42,4 +42,4 @@ def _declared(name: str, path: Path, variable: str) -> Entry:
             expected=" or ".join(f"{path}:{key}" for key in systems) or "a System in that file",
         )
     system: System = found[variable]
-    return Entry.bare(name, system.name, system)
+    return CatalogueEntry.bare(name, system.name, system)

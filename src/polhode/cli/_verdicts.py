@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from polhode.base import DeclarationError
-from polhode.catalogue import Entry, audit, document_of
+from polhode.catalogue import CatalogueEntry, audit, document_of
 from polhode.view import Judgement
 
 
-def claims_about(entry: Entry) -> tuple[str, ...]:
+def claims_about(entry: CatalogueEntry) -> tuple[str, ...]:
     """Ids of the problem set's claims about a system.
 
     Raises:

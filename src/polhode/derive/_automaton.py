@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import product
 
-from polhode.algebra import Expr, Kind, Symbol, variables
+from polhode.algebra import Expr, Symbol, SymbolKind, variables
 from polhode.base import DeclarationError, Shown, look_up
 from polhode.derive._derive import derive
 from polhode.derive._equations import Equations
@@ -102,7 +102,7 @@ class Automaton(Shown):
         own = [s for mode in modes for s in mode.equations.parameters]
         shapes = [e for mode in modes for touch in mode.touches for e in touch.expressions]
         used = variables([*shapes, *self._coefficients()])
-        found = [s for s in used if s.kind is Kind.PARAMETER and s.name != "pi"]
+        found = [s for s in used if s.kind is SymbolKind.PARAMETER and s.name != "pi"]
         return tuple(sorted({*own, *found}, key=lambda s: s.published))
 
     @cached_property
@@ -111,7 +111,7 @@ class Automaton(Shown):
         modes = (self.together, self.apart)
         own = [s for mode in modes for s in mode.equations.functions]
         moving = [e for mode in modes for touch in mode.touches for e in touch.expressions]
-        used = (s.base() for s in variables(moving) if s.kind is Kind.FUNCTION)
+        used = (s.base() for s in variables(moving) if s.kind is SymbolKind.FUNCTION)
         return tuple(sorted({*own, *used}, key=lambda s: s.published))
 
     def _coefficients(self) -> Iterator[Expr]:

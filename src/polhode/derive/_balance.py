@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from polhode.algebra import Vector
-from polhode.derive._motion import Motion
+from polhode.derive._motion import Kinematics
 from polhode.model import Action, Body
 
 
@@ -17,7 +17,7 @@ class Wrench:
     couple: Vector
 
 
-def demands(motion: Motion) -> dict[Body, Wrench]:
+def demands(motion: Kinematics) -> dict[Body, Wrench]:
     """Rate of change of momentum less the loads, and of angular momentum less their moments.
 
     m dv/dt - F and dL/dt - τ about the centre of mass; the reactions must equal them.
@@ -26,7 +26,7 @@ def demands(motion: Motion) -> dict[Body, Wrench]:
     return {body: _demand(motion, body, actions) for body in motion.system.bodies}
 
 
-def applied(motion: Motion) -> tuple[Action, ...]:
+def applied(motion: Kinematics) -> tuple[Action, ...]:
     """Everything the loads do."""
     system = motion.system
     return tuple(
@@ -36,7 +36,7 @@ def applied(motion: Motion) -> tuple[Action, ...]:
     )
 
 
-def _demand(motion: Motion, body: Body, actions: tuple[Action, ...]) -> Wrench:
+def _demand(motion: Kinematics, body: Body, actions: tuple[Action, ...]) -> Wrench:
     velocity, _ = motion.velocities[body]
     force = motion.derivative(velocity) * body.mass
     couple = motion.derivative(motion.spin(body))

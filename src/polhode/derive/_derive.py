@@ -19,9 +19,9 @@ from polhode.base import DeclarationError
 from polhode.derive._balance import Wrench, demands
 from polhode.derive._equations import Equations
 from polhode.derive._form import CLOSED, IN_PARTS, Form
-from polhode.derive._motion import Motion, motion_of
+from polhode.derive._motion import Kinematics, motion_of
 from polhode.derive._names import refuse_shared_names, refuse_unknown_coordinates
-from polhode.derive._reactions import Line, lines, solve_reactions
+from polhode.derive._reactions import ReactionColumn, lines, solve_reactions
 from polhode.derive._unbalanced import refuse_unbalanced
 from polhode.model import Body, System
 
@@ -96,7 +96,7 @@ def _mirrored(rows: Sequence[Row]) -> Matrix:
     return Matrix(tuple(tuple(entry(i, j) for j in size) for i in size))
 
 
-def _projected(motion: Motion, needs: Mapping[Body, Wrench]) -> tuple[Expr, ...]:
+def _projected(motion: Kinematics, needs: Mapping[Body, Wrench]) -> tuple[Expr, ...]:
     """One row per independent speed: power of all demands in a unit of that speed alone."""
     rows = []
     for speed in motion.speeds:
@@ -106,7 +106,7 @@ def _projected(motion: Motion, needs: Mapping[Body, Wrench]) -> tuple[Expr, ...]
     return tuple(rows)
 
 
-def _share(motion: Motion, body: Body, need: Wrench, speed: Symbol) -> Expr:
+def _share(motion: Kinematics, body: Body, need: Wrench, speed: Symbol) -> Expr:
     velocity, angular = (_partial(v, speed) for v in motion.velocities[body])
     return velocity.dot(need.force) + angular.dot(need.couple)
 
@@ -115,7 +115,7 @@ def _partial(vector: Vector, speed: Symbol) -> Vector:
     return Vector(tuple(c.diff(speed) for c in vector.components), vector.triad)
 
 
-def _virtual_power(motion: Motion, line: Line, speed: Symbol) -> Expr:
+def _virtual_power(motion: Kinematics, line: ReactionColumn, speed: Symbol) -> Expr:
     total = ZERO
     for body in (line.restraint.body, line.restraint.other):
         wrench = line.on(body) if body is not None else None

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from polhode.algebra import Expr, Generator, Symbol, time
 from polhode.base import LENGTH, MASS, PURE, TIME, Dimension, UnitError
-from polhode.derive._motion import Motion
+from polhode.derive._motion import Kinematics
 
 RATE = PURE / TIME
 FORCE = MASS * LENGTH / TIME**2
@@ -165,7 +165,7 @@ def _scaled(term: _Term, factor: Fraction) -> _Term:
 
 
 def uses_of(
-    motion: Motion,
+    motion: Kinematics,
     energies: Mapping[str, Expr],
     reactions: Mapping[str, tuple[Expr, Dimension]],
 ) -> Iterator[Use]:

@@ -2,38 +2,38 @@
 
 from __future__ import annotations
 
-from polhode.algebra import ZERO, Expr, Kind, Vector
-from polhode.derive._motion import Motion
-from polhode.derive._reactions import Line
+from polhode.algebra import ZERO, Expr, SymbolKind, Vector
+from polhode.derive._motion import Kinematics
+from polhode.derive._reactions import ReactionColumn
 from polhode.model import Body, Frame, Load
 
 
-def kinetic_energy(motion: Motion) -> Expr:
+def kinetic_energy(motion: Kinematics) -> Expr:
     """Kinetic energy in inertial space, J."""
     return sum((_kinetic(motion, body) for body in motion.system.bodies), ZERO)
 
 
-def _kinetic(motion: Motion, body: Body) -> Expr:
+def _kinetic(motion: Kinematics, body: Body) -> Expr:
     velocity, angular = motion.velocities[body]
     spin = angular.dot(motion.spin(body))
     energy = (body.mass * velocity.dot(velocity) + spin) / 2
     return motion.form.keep(energy, motion.speeds)
 
 
-def potential_energy(motion: Motion) -> Expr:
+def potential_energy(motion: Kinematics) -> Expr:
     """Potential energy of all loads that have one, J."""
     system = motion.system
     potentials = (load.potential(system.bodies, motion.places) for load in system.loads)
     return sum((v for v in potentials if v is not None), ZERO)
 
 
-def load_power(motion: Motion, load: Load) -> Expr:
+def load_power(motion: Kinematics, load: Load) -> Expr:
     """Rate of work of a load, W."""
     actions = load.actions(motion.system.bodies, motion.places, motion.velocities)
     return sum((action.power(motion.velocities) for action in actions), ZERO)
 
 
-def reaction_power(motion: Motion, line: Line, value: Expr) -> Expr:
+def reaction_power(motion: Kinematics, line: ReactionColumn, value: Expr) -> Expr:
     """Rate of work of one reaction component on the whole system, W.
 
     Zero for a support at rest; a support that moves, a motor and sliding friction do work.
@@ -48,14 +48,16 @@ def reaction_power(motion: Motion, line: Line, value: Expr) -> Expr:
     return total * value if total else ZERO
 
 
-def supplied_power(motion: Motion, columns: tuple[Line, ...], values: dict[str, Expr]) -> Expr:
+def supplied_power(
+    motion: Kinematics, columns: tuple[ReactionColumn, ...], values: dict[str, Expr]
+) -> Expr:
     """Rate of change of kinetic plus potential energy, W."""
     loads = (_supplied_by(motion, load) for load in motion.system.loads)
     reactions = (reaction_power(motion, line, values[line.name]) for line in columns)
     return sum((*loads, *reactions), ZERO)
 
 
-def _supplied_by(motion: Motion, load: Load) -> Expr:
+def _supplied_by(motion: Kinematics, load: Load) -> Expr:
     """What a load adds to the energy: all its work, less what its own potential loses.
 
     With a potential that is only the work of moving its sources, such as the far end of a spring.
@@ -68,19 +70,19 @@ def _supplied_by(motion: Motion, load: Load) -> Expr:
     return motion.on_speeds(potential).chain(motion.rate) + load_power(motion, load)
 
 
-def _is_at_rest(motion: Motion, potential: Expr) -> bool:
-    driven = any(s.kind in (Kind.FUNCTION, Kind.TIME) for s in potential.symbols())
+def _is_at_rest(motion: Kinematics, potential: Expr) -> bool:
+    driven = any(s.kind in (SymbolKind.FUNCTION, SymbolKind.TIME) for s in potential.symbols())
     return not driven and not any(motion.system.root.turned)
 
 
-def linear_momentum(motion: Motion) -> Vector:
+def linear_momentum(motion: Kinematics) -> Vector:
     """Linear momentum in inertial space, kg m/s, along the root frame."""
     root = motion.system.root
     parts = (motion.velocities[b][0] * b.mass for b in motion.system.bodies)
     return sum((_along(motion, p, root) for p in parts), root.zero)
 
 
-def angular_momentum(motion: Motion, about: Vector) -> Vector:
+def angular_momentum(motion: Kinematics, about: Vector) -> Vector:
     """Angular momentum in inertial space about a place (from the origin, m), kg m²/s."""
     root = motion.system.root
     total = root.zero
@@ -91,5 +93,5 @@ def angular_momentum(motion: Motion, about: Vector) -> Vector:
     return total
 
 
-def _along(motion: Motion, vector: Vector, frame: Frame) -> Vector:
+def _along(motion: Kinematics, vector: Vector, frame: Frame) -> Vector:
     return motion.form.kept(motion.form.express(vector, frame), motion.speeds)

@@ -9,10 +9,10 @@ from functools import cached_property
 from polhode.algebra import (
     ZERO,
     Expr,
-    Kind,
     Matrix,
     Row,
     Symbol,
+    SymbolKind,
     Vector,
     has_parts,
     variables,
@@ -25,8 +25,8 @@ from polhode.derive._accelerations import accelerations_in_parts, solve_accelera
 from polhode.derive._balance import Wrench
 from polhode.derive._display import equations_latex, equations_text
 from polhode.derive._form import IN_PARTS
-from polhode.derive._motion import Motion
-from polhode.derive._reactions import Line, Reactions, solve_reactions
+from polhode.derive._motion import Kinematics
+from polhode.derive._reactions import ReactionColumn, Reactions, solve_reactions
 from polhode.derive._textbook import without_idle_factors
 from polhode.model import Body, Contact, System
 
@@ -77,9 +77,9 @@ class Equations(Shown):
     """
 
     system: System
-    kinetics: Motion
+    kinetics: Kinematics
     demands: dict[Body, Wrench]
-    lines: tuple[Line, ...]
+    lines: tuple[ReactionColumn, ...]
     rows: tuple[Expr, ...]
     mass: Matrix
     forcing: Row
@@ -268,7 +268,7 @@ class Equations(Shown):
             powers[name] = sum((self._reaction_power(line) for line in own), ZERO)
         return powers
 
-    def _reaction_power(self, line: Line) -> Expr:
+    def _reaction_power(self, line: ReactionColumn) -> Expr:
         return energies.reaction_power(self.kinetics, line, self._solved.least[line.name])
 
     def load_power(self, name: str) -> Expr:
@@ -311,12 +311,12 @@ class Equations(Shown):
     @cached_property
     def parameters(self) -> tuple[Symbol, ...]:
         """Constants that occur, also in how supports move, in alphabetical order."""
-        return self._of_kind(Kind.PARAMETER)
+        return self._of_kind(SymbolKind.PARAMETER)
 
     @cached_property
     def functions(self) -> tuple[Symbol, ...]:
         """Prescribed functions of time that occur likewise, without their derivatives."""
-        found = (s.base() for s in self._of_kind(Kind.FUNCTION))
+        found = (s.base() for s in self._of_kind(SymbolKind.FUNCTION))
         return tuple(dict.fromkeys(found))
 
     @cached_property
@@ -341,7 +341,7 @@ class Equations(Shown):
             if isinstance(element, Contact):
                 yield from (element.on.turning, *element.on.drift.components)
 
-    def _of_kind(self, kind: Kind) -> tuple[Symbol, ...]:
+    def _of_kind(self, kind: SymbolKind) -> tuple[Symbol, ...]:
         needs = (v for need in self.demands.values() for v in (need.force, need.couple))
         balances = [component for vector in needs for component in vector.components]
         rates = self.kinematics.values()

@@ -8,9 +8,9 @@ from functools import cached_property
 
 from polhode.algebra import (
     Expr,
-    Kind,
     Matrix,
     Symbol,
+    SymbolKind,
     Vector,
     variables,
 )
@@ -24,7 +24,7 @@ from polhode.model import Body, Element, Restraint, System
 
 
 @dataclass(frozen=True)
-class Motion:
+class Kinematics:
     """How everything moves, once the independent speeds are known.
 
     Attributes:
@@ -62,7 +62,7 @@ class Motion:
             return self.kinematics[symbol.derivative()]
         if symbol.kind.varies:
             return Expr.generator(symbol.derivative())
-        return Expr.constant(1 if symbol.kind is Kind.TIME else 0)
+        return Expr.constant(1 if symbol.kind is SymbolKind.TIME else 0)
 
     def on_speeds(self, expression: Expr) -> Expr:
         """With rates and dependent speeds put in terms of the independent speeds."""
@@ -96,7 +96,7 @@ class Motion:
         return own - self.resolve(restraint.velocity)
 
 
-def motion_of(system: System, form: Form) -> Motion:
+def motion_of(system: System, form: Form) -> Kinematics:
     """Place every body, gather coordinates and speeds, and solve the velocity constraints.
 
     Where places of contact are in named parts already, so is all that follows.
@@ -128,7 +128,7 @@ def motion_of(system: System, form: Form) -> Motion:
     dependent = dependent_speeds(prescribed, raw, rates, ranks, form)
     independent = tuple(s for s in speeds if s not in dependent)
     kinematics = {q.derivative(): Expr.generator(q.derivative()) for q in coordinates} | rates
-    return Motion(
+    return Kinematics(
         system,
         elements,
         places,
@@ -185,7 +185,7 @@ def _refuse_gaps(elements: Iterable[Element], places: Mapping[Body, Vector]) -> 
     """A loop that no configuration closes."""
     for element in elements:
         for gap in element.closures(places):
-            if not any(s.kind is Kind.COORDINATE for s in gap.symbols()):
+            if not any(s.kind is SymbolKind.COORDINATE for s in gap.symbols()):
                 raise ConstraintError(
                     f"{element.name!r}, which never closes: {gap} would have to vanish",
                     expected="bodies that can be where all contacts and joints want them",
@@ -213,7 +213,7 @@ def _coordinates(
         ordered = [*(sorted(variables([a]), key=_published) for a in angles), own]
         ordered.append(sorted(variables(places[body].components), key=_published))
         for symbol in (s for group in ordered for s in group):
-            if symbol.kind is Kind.COORDINATE:
+            if symbol.kind is SymbolKind.COORDINATE:
                 found.setdefault(symbol.base())
     for symbol in given:
         found.setdefault(symbol)

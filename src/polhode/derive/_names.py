@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
 
-from polhode.algebra import Kind, variables
+from polhode.algebra import SymbolKind, variables
 from polhode.base import DeclarationError
 from polhode.derive._balance import Wrench
-from polhode.derive._motion import Motion
+from polhode.derive._motion import Kinematics
 from polhode.model import Body
 
 
-def refuse_shared_names(motion: Motion, demands: Mapping[Body, Wrench]) -> None:
+def refuse_shared_names(motion: Kinematics, demands: Mapping[Body, Wrench]) -> None:
     """Refuse two symbols of one name, and reactions called as another one or as a symbol."""
     owners: dict[str, str] = {}
     for name, element in _components(motion):
@@ -31,11 +31,11 @@ def refuse_shared_names(motion: Motion, demands: Mapping[Body, Wrench]) -> None:
             raise _shared(name, f"{owners[name]!r}, and a symbol of the declaration")
 
 
-def refuse_unknown_coordinates(motion: Motion, demands: Mapping[Body, Wrench]) -> None:
+def refuse_unknown_coordinates(motion: Kinematics, demands: Mapping[Body, Wrench]) -> None:
     """Refuse coordinates that no body is placed or turned by: nothing tells how they move."""
     wrenches = (c for w in demands.values() for v in (w.force, w.couple) for c in v.components)
     used = variables((*wrenches, *motion.kinematics.values(), *motion.dependent.values()))
-    coordinates = {s.base() for s in used if s.kind is Kind.COORDINATE}
+    coordinates = {s.base() for s in used if s.kind is SymbolKind.COORDINATE}
     unknown = sorted(s.published for s in coordinates - set(motion.coordinates))
     if unknown:
         raise DeclarationError(
@@ -45,7 +45,7 @@ def refuse_unknown_coordinates(motion: Motion, demands: Mapping[Body, Wrench]) -
         )
 
 
-def _components(motion: Motion) -> Iterator[tuple[str, str]]:
+def _components(motion: Kinematics) -> Iterator[tuple[str, str]]:
     """Every scalar component with the contact or joint that it is of."""
     for element in motion.elements:
         for restraint in motion.restraints[element.name]:

@@ -20,14 +20,14 @@ from polhode.algebra import (
 from polhode.base import ConstraintError
 from polhode.derive._balance import Wrench
 from polhode.derive._form import IN_PARTS, Form
-from polhode.derive._motion import Motion
+from polhode.derive._motion import Kinematics
 from polhode.model import Body, Friction, Restraint
 
 Solve = Callable[[Sequence[Row], Sequence[Expr]], Elimination]
 
 
 @dataclass(frozen=True)
-class Line:
+class ReactionColumn:
     """The force or couple that one unit of a reaction puts on a body (and its opposite)."""
 
     restraint: Restraint
@@ -77,7 +77,7 @@ class Reactions:
     unexplained: tuple[Expr, ...]
 
 
-def lines(motion: Motion) -> tuple[Line, ...]:
+def lines(motion: Kinematics) -> tuple[ReactionColumn, ...]:
     """Lines of action of all reactions; a normal force with friction leans against the slip."""
     found = []
     for element in motion.elements:
@@ -86,11 +86,11 @@ def lines(motion: Motion) -> tuple[Line, ...]:
             direction = restraint.direction
             if restraint.name in leaning:
                 direction = direction + friction_lean(motion, leaning[restraint.name])
-            found.append(Line(restraint, direction))
+            found.append(ReactionColumn(restraint, direction))
     return tuple(found)
 
 
-def friction_lean(motion: Motion, friction: Friction) -> Vector:
+def friction_lean(motion: Kinematics, friction: Friction) -> Vector:
     """Friction per unit of normal force: -μ along the slip velocity."""
     (_, first), (_, second) = friction.directions
     if friction.slip is not None:
@@ -109,7 +109,7 @@ def friction_lean(motion: Motion, friction: Friction) -> Vector:
 
 
 def solve_reactions(
-    motion: Motion, demands: Mapping[Body, Wrench], columns: tuple[Line, ...]
+    motion: Kinematics, demands: Mapping[Body, Wrench], columns: tuple[ReactionColumn, ...]
 ) -> Reactions:
     """Every reaction component, from the balance of all bodies, the last declared first.
 
@@ -121,7 +121,7 @@ def solve_reactions(
     return _from(balances, motion, columns, len(motion.speeds))
 
 
-def _held(balances: list[_Balance], motion: Motion) -> list[_Balance]:
+def _held(balances: list[_Balance], motion: Kinematics) -> list[_Balance]:
     """Without as many as there are independent speeds, for which the projections on these stand.
 
     With friction a projection would tell a reaction too, over the slip; and what is told by it,
@@ -156,7 +156,7 @@ class _Balance:
 
 
 def _balances(
-    motion: Motion, demands: Mapping[Body, Wrench], columns: tuple[Line, ...]
+    motion: Kinematics, demands: Mapping[Body, Wrench], columns: tuple[ReactionColumn, ...]
 ) -> Iterator[_Balance]:
     for body in tuple(demands)[::-1]:
         demand = demands[body]
@@ -173,7 +173,7 @@ def _balances(
 
 
 def _from(
-    balances: list[_Balance], motion: Motion, columns: tuple[Line, ...], spare: int
+    balances: list[_Balance], motion: Kinematics, columns: tuple[ReactionColumn, ...], spare: int
 ) -> Reactions:
     """From balances of which some, but no more, may be left over as equations of motion."""
     try:
@@ -183,7 +183,11 @@ def _from(
 
 
 def _solved(
-    motion: Motion, form: Form, balances: list[_Balance], columns: tuple[Line, ...], spare: int
+    motion: Kinematics,
+    form: Form,
+    balances: list[_Balance],
+    columns: tuple[ReactionColumn, ...],
+    spare: int,
 ) -> Reactions:
     def eliminated(table: Sequence[Row], values: Sequence[Expr]) -> Elimination:
         ranks = [0] * (len(table[0]) if table else len(columns))
@@ -199,7 +203,7 @@ def _part(vector: Vector, triad: Triad, index: int) -> Expr:
     return vector.express(triad).components[index] if any(vector.components) else ZERO
 
 
-def _unheld(motion: Motion, demanding: list[Body]) -> ConstraintError:
+def _unheld(motion: Kinematics, demanding: list[Body]) -> ConstraintError:
     """Balances are left over that are no equations of motion: a support is missing."""
     held = {r.body for group in motion.restraints.values() for r in group if r.is_couple}
     suspects = [body.name for body in demanding if body not in held]
@@ -211,7 +215,9 @@ def _unheld(motion: Motion, demanding: list[Body]) -> ConstraintError:
     )
 
 
-def _named(outcome: Elimination, columns: tuple[Line, ...], eliminated: Solve) -> Reactions:
+def _named(
+    outcome: Elimination, columns: tuple[ReactionColumn, ...], eliminated: Solve
+) -> Reactions:
     names = [line.name for line in columns]
     left = tuple(outcome.leftover[i] for i in outcome.contradictory)
     if not outcome.free:
@@ -247,7 +253,9 @@ def _unit(place: int, among: Sequence[int]) -> Row:
     return tuple(ONE if i == place else ZERO for i in range(len(among)))
 
 
-def _least(told: Mapping[int, Linear], columns: tuple[Line, ...], eliminated: Solve) -> Row:
+def _least(
+    told: Mapping[int, Linear], columns: tuple[ReactionColumn, ...], eliminated: Solve
+) -> Row:
     """Open components that make the sum of squares of all forces smallest, then of all couples.
 
     A force and a couple are not of one dimension: a sum of squares of both would depend on the

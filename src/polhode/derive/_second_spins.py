@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from polhode.algebra import Kind, Symbol, variables
+from polhode.algebra import Symbol, SymbolKind, variables
 from polhode.base import DeclarationError
 from polhode.derive._unconstrained import Unconstrained
 from polhode.model import Body
@@ -17,7 +17,7 @@ def refuse_second_spins(motion: Unconstrained) -> None:
     for body in motion.system.bodies:
         loose = body.spin.loose(body.axes)
         angles = variables(frame.angle for frame in body.axes.lineage) if loose else ()
-        idle = [s for s in angles if s.kind is Kind.COORDINATE and _is_idle(motion, body, s)]
+        idle = [s for s in angles if s.kind is SymbolKind.COORDINATE and _is_idle(motion, body, s)]
         if idle:
             raise DeclarationError(
                 f"body {body.name!r}, which spins about {', '.join(loose)} while its axes turn "

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import gcd, lcm
 
-from polhode.algebra import Expr, Kind, Symbol, lowest_numerator
+from polhode.algebra import Expr, Symbol, SymbolKind, lowest_numerator
 
 
 def without_idle_factors(row: Expr) -> Expr:
@@ -19,7 +19,7 @@ def without_idle_factors(row: Expr) -> Expr:
     shared = {
         g: min(powers.get(g, 0) for powers, _ in terms)
         for g in terms[0][0]
-        if not isinstance(g, Symbol) or g.kind is Kind.PARAMETER
+        if not isinstance(g, Symbol) or g.kind is SymbolKind.PARAMETER
     }
     above = gcd(*(abs(c.numerator) for _, c in terms))
     below = lcm(*(c.denominator for _, c in terms))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from polhode.algebra import Expr
 from polhode.derive._equations import Equations
-from polhode.derive._motion import Motion
+from polhode.derive._motion import Kinematics
 from polhode.model import Contact, Phase
 
 
@@ -50,7 +50,7 @@ def touch_of(equations: Equations, declared: Contact, phase: Phase) -> Touch:
     return Touch(contact, reserve, room, gap, slips[2], (slips[0], slips[1]))
 
 
-def slips_along(motion: Motion, contact: Contact, labels: Iterable[str]) -> list[Expr]:
+def slips_along(motion: Kinematics, contact: Contact, labels: Iterable[str]) -> list[Expr]:
     """Velocity of a body against its support where they touch, along axes of the support, m/s."""
     return [
         motion.slip(contact.restraint(label, motion.places)).dot(contact.on.axes[label])

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from polhode.algebra import ZERO, Expr, Symbol, Vector
 from polhode.base import DeclarationError, NumericError
 from polhode.derive._equations import Equations
-from polhode.derive._motion import Motion
+from polhode.derive._motion import Kinematics
 from polhode.derive._unconstrained import is_moved
 from polhode.model import Restraint
 
@@ -39,7 +39,7 @@ def refuse_unbalanced(equations: Equations) -> None:
         )
 
 
-def _work(motion: Motion, restraint: Restraint) -> list[Symbol]:
+def _work(motion: Kinematics, restraint: Restraint) -> list[Symbol]:
     """The independent speeds with which its place moves along its reaction."""
     if not is_moved(restraint.velocity):
         return []

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from polhode.algebra import Expr, Kind, Symbol, Vector, linear_parts, variables
+from polhode.algebra import Expr, Symbol, SymbolKind, Vector, linear_parts, variables
 from polhode.model import Body, Element, Places, Restraint, System, Velocities
 
 
@@ -79,5 +79,5 @@ def is_moved(velocity: Vector) -> bool:
 
 
 def _is_free(symbol: Symbol) -> bool:
-    rate = symbol.kind is Kind.COORDINATE and symbol.order > 0
-    return rate or symbol.kind is Kind.SPEED
+    rate = symbol.kind is SymbolKind.COORDINATE and symbol.order > 0
+    return rate or symbol.kind is SymbolKind.SPEED

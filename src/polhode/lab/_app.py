@@ -18,12 +18,12 @@ from starlette.responses import JSONResponse, Response
 from starlette.routing import Route
 
 from polhode.base import PolhodeError
-from polhode.lab._crew import BrokenError, Crew, GoneError, TooLongError
 from polhode.lab._files import KINDS, PAGE, built
-from polhode.lab._guard import Guard, Limits
+from polhode.lab._guard import Limits, RequestGuard
 from polhode.lab._offer import Own, offered
-from polhode.lab._wish import Fields
+from polhode.lab._requests import Fields
 from polhode.lab._work import DONE
+from polhode.lab._worker_pool import BrokenError, GoneError, TooLongError, WorkerPool
 
 _PURPOSES = {  # of the worker that a task is for
     "describe": "motion",
@@ -65,7 +65,7 @@ def app_of(port: int, own: Own | None = None, limits: Limits | None = None) -> S
         limits: of one request.
     """
     bounds = limits or Limits()
-    crew = Crew(own)
+    crew = WorkerPool(own)
 
     @asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:
@@ -93,13 +93,13 @@ def app_of(port: int, own: Own | None = None, limits: Limits | None = None) -> S
             *(Route(f"/{name}", file) for name in PAGE),
             Route("/api/{task}", task, methods=["POST"]),
         ],
-        middleware=[Middleware(Guard, port=port, limits=bounds)],
+        middleware=[Middleware(RequestGuard, port=port, limits=bounds)],
         exception_handlers={HTTPException: _refused, Exception: _failed},
         lifespan=lifespan,
     )
 
 
-async def _answer(request: Request, task: str, crew: Crew, limits: Limits) -> Response:
+async def _answer(request: Request, task: str, crew: WorkerPool, limits: Limits) -> Response:
     body = await request.body()
     try:
         system = Fields.read(body).text("system")

@@ -8,7 +8,7 @@ from typing import Any
 from polhode.catalogue import CATALOGUE, document_of
 from polhode.claims import Claim, Document, Note, Part, Verdict, audit, check
 from polhode.derive import Equations, derive
-from polhode.lab._wish import Question
+from polhode.lab._requests import Question
 from polhode.view import typeset
 
 _LONGEST = 1500  # letters of a residual that is shown

@@ -6,9 +6,9 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from polhode.algebra import Expr, Kind, Symbol
+from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.base import LENGTH, MASS, PURE, TIME, Dimension, read_quantity
-from polhode.catalogue import Entry, Parameter, numbers_of
+from polhode.catalogue import CatalogueEntry, Parameter, numbers_of
 from polhode.derive import Equations
 
 _PLAIN = re.compile(r"\s*([+\-−]?[0-9]*\.?[0-9]+(?:[eE][+-]?[0-9]+)?)\s*([^\d\s*/(+\-][^*(+]*)?")
@@ -75,7 +75,7 @@ def unit_of(symbol: Symbol, equations: Equations) -> str:
     return "rad" if dimension == PURE else _UNITS.get(dimension, str(dimension))
 
 
-def with_usual_numbers(entry: Entry, equations: Equations) -> Entry:
+def with_usual_numbers(entry: CatalogueEntry, equations: Equations) -> CatalogueEntry:
     """An entry without numbers, as of a user's own system, with some of the right dimension."""
     known = {parameter.name for parameter in entry.parameters}
     added = tuple(
@@ -96,7 +96,7 @@ def with_usual_numbers(entry: Entry, equations: Equations) -> Entry:
     )
 
 
-def parameters_of(entry: Entry, equations: Equations) -> list[Control]:
+def parameters_of(entry: CatalogueEntry, equations: Equations) -> list[Control]:
     """Sliders of the parameters, in the order of the entry."""
     values = numbers_of(entry, equations).parameters
     signed = {s for s, d in _with_dimensions(equations, equations.parameters) if d in _SIGNED}
@@ -108,7 +108,7 @@ def parameters_of(entry: Entry, equations: Equations) -> list[Control]:
     ]
 
 
-def start_of(entry: Entry, equations: Equations) -> list[Control]:
+def start_of(entry: CatalogueEntry, equations: Equations) -> list[Control]:
     """Sliders of coordinates and speeds at the start, those of the usual start first."""
     values = numbers_of(entry, equations).start
     found: list[Control] = []
@@ -123,9 +123,11 @@ def start_of(entry: Entry, equations: Equations) -> list[Control]:
     return sorted(found, key=lambda control: control.name not in entry.start)
 
 
-def _is_extra(symbol: Symbol, entry: Entry) -> bool:
+def _is_extra(symbol: Symbol, entry: CatalogueEntry) -> bool:
     return (
-        symbol.published not in entry.start and symbol.kind is Kind.COORDINATE and not symbol.order
+        symbol.published not in entry.start
+        and symbol.kind is SymbolKind.COORDINATE
+        and not symbol.order
     )
 
 

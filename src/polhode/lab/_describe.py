@@ -11,7 +11,7 @@ from polhode.catalogue import about_with
 from polhode.lab._controls import parameters_of, start_of, unit_of
 from polhode.lab._variants import Variant, declared_contact
 from polhode.simulate import Trajectory
-from polhode.view import Account, Scene, account, poses, scene, scenery
+from polhode.view import MotionSummary, Scene, account, poses, scene, scenery
 
 _RATE = 30  # poses in a second of what follows a hand
 _CONTACTS = ("rolling", "smooth", "friction")
@@ -54,7 +54,7 @@ def seen(chosen: Variant, run: Trajectory) -> Scene:
     return scenery(run, title=chosen.entry.title, about=about_with(chosen.entry, chosen.system))
 
 
-def read(chosen: Variant, run: Trajectory) -> Account:
+def read(chosen: Variant, run: Trajectory) -> MotionSummary:
     """What there is to read, with the plots of the catalogue that it has."""
     return account(run, plots=plots_of(chosen, run), meanings=meanings_of(chosen))
 

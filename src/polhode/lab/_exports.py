@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from polhode.lab._describe import plots_of, shown
-from polhode.lab._desk import Played
+from polhode.lab._system_session import Played
 from polhode.view import figure_of_run, movie, origin_of, page_of, save_figure
 
 _LONGEST = 6.0  # s of a movie

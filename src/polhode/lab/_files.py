@@ -17,20 +17,20 @@ PAGE: Mapping[str, str] = {
 
 
 @dataclass(frozen=True)
-class Kind:
+class FileKind:
     """A kind of file: its ending, and what browsers call it."""
 
     ending: str
     media: str
 
 
-KINDS: Mapping[str, Kind] = {
-    "page": Kind("html", "text/html; charset=utf-8"),
-    "csv": Kind("csv", "text/csv; charset=utf-8"),
-    "svg": Kind("svg", "image/svg+xml"),
-    "png": Kind("png", "image/png"),
-    "gif": Kind("gif", "image/gif"),
-    "mp4": Kind("mp4", "video/mp4"),
+KINDS: Mapping[str, FileKind] = {
+    "page": FileKind("html", "text/html; charset=utf-8"),
+    "csv": FileKind("csv", "text/csv; charset=utf-8"),
+    "svg": FileKind("svg", "image/svg+xml"),
+    "png": FileKind("png", "image/png"),
+    "gif": FileKind("gif", "image/gif"),
+    "mp4": FileKind("mp4", "video/mp4"),
 }
 
 

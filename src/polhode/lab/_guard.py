@@ -46,7 +46,7 @@ class Limits:
     waiting: int = 24
 
 
-class Guard:
+class RequestGuard:
     """Refuses foreign hosts and origins, large and slow bodies, and crowds.
 
     Args:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from polhode.base import look_up
-from polhode.catalogue import CATALOGUE, Entry
+from polhode.catalogue import CATALOGUE, CatalogueEntry
 from polhode.model import read_declaration, write_declaration
 
 
@@ -24,17 +24,17 @@ class Own:
     declaration: str
 
     @classmethod
-    def of(cls, entry: Entry) -> Own:
+    def of(cls, entry: CatalogueEntry) -> Own:
         """What is sent of an entry without usual numbers."""
         return cls(entry.name, entry.title, write_declaration(entry.build()))
 
     @property
-    def entry(self) -> Entry:
+    def entry(self) -> CatalogueEntry:
         """The entry again."""
-        return Entry.bare(self.name, self.title, read_declaration(self.declaration))
+        return CatalogueEntry.bare(self.name, self.title, read_declaration(self.declaration))
 
 
-def entry_of(name: str, own: Own | None) -> Entry:
+def entry_of(name: str, own: Own | None) -> CatalogueEntry:
     """The entry of that name.
 
     Raises:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from polhode.lab._wish import Row
+from polhode.lab._requests import Row
 from polhode.simulate import Pieces, sampled
 
 _STEP = 0.12  # s between the samples that are kept: a hand does not move faster

@@ -27,7 +27,7 @@ NEAR = 1e-5
 
 
 @dataclass(frozen=True)
-class Family:
+class SteadyFamily:
     """A family of steady motions with what is known of its stability.
 
     Attributes:
@@ -138,7 +138,7 @@ def _symbols(powers: Mapping[Generator, int]) -> Iterator[tuple[Symbol, int]]:
     return ((g, power) for g, power in powers.items() if isinstance(g, Symbol))
 
 
-def families_of(equations: Equations, system: System) -> list[Family]:
+def families_of(equations: Equations, system: System) -> list[SteadyFamily]:
     """All families; none where there is no steady motion or none can be found.
 
     Args:
@@ -146,7 +146,7 @@ def families_of(equations: Equations, system: System) -> list[Family]:
         system: as it is declared, with the friction of its contacts.
     """
     try:
-        return [Family(motion, system) for motion in steady(equations)]
+        return [SteadyFamily(motion, system) for motion in steady(equations)]
     except PolhodeError:
         return []
 

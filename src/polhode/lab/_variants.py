@@ -8,7 +8,7 @@ from functools import cached_property
 import polhode as ph
 from polhode.analyse import Ansatz, invariants
 from polhode.base import DeclarationError, NumericError
-from polhode.catalogue import Entry, Parameter
+from polhode.catalogue import CatalogueEntry, Parameter
 from polhode.derive import Automaton, Equations, automaton
 from polhode.model import Contact, Coulomb, Rolling, Smooth, System, with_elements, with_friction
 
@@ -24,7 +24,7 @@ class Variant:
         system: the declaration.
     """
 
-    entry: Entry
+    entry: CatalogueEntry
     system: System
 
     @property
@@ -54,7 +54,7 @@ class Variant:
         return {invariant.name: invariant.expression for invariant in found}
 
 
-def variant(entry: Entry, contact: str) -> Variant:
+def variant(entry: CatalogueEntry, contact: str) -> Variant:
     """A system with all its contacts of a kind; as declared where none is named.
 
     Raises:

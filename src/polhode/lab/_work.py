@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 from polhode.base import PolhodeError, ended_with
 
 if TYPE_CHECKING:
-    from polhode.lab._bench import Bench
+    from polhode.lab._task_handler import TaskHandler
 
 DONE, REFUSED, CALLED_OFF = b"D", b"R", b"C"  # first byte of a reply
 
@@ -57,10 +57,10 @@ def work(connection: Connection, unwanted: Flag, own: tuple[str, str, str] | Non
         own: name, title and declaration of a system of the user's own.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the server's: it ends its workers
-    from polhode.lab._bench import Bench  # heavy, and of no use to the server
     from polhode.lab._offer import Own
+    from polhode.lab._task_handler import TaskHandler  # heavy, and of no use to the server
 
-    bench = Bench(Own(*own) if own else None, Listener(unwanted))
+    bench = TaskHandler(Own(*own) if own else None, Listener(unwanted))
     while True:
         try:
             task, _, body = connection.recv_bytes().partition(b"\n")
@@ -71,7 +71,7 @@ def work(connection: Connection, unwanted: Flag, own: tuple[str, str, str] | Non
         connection.send_bytes(reply)
 
 
-def _reply(bench: Bench, task: str, body: bytes) -> bytes:
+def _reply(bench: TaskHandler, task: str, body: bytes) -> bytes:
     try:
         return DONE + bench.do(task, body)
     except CalledOffError:

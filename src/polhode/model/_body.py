@@ -10,7 +10,7 @@ from typing import Any
 from polhode.algebra import Expr, ExprLike, Matrix, Vector, variables
 from polhode.base import DeclarationError
 from polhode.model._checks import is_varying, of_type, quantity
-from polhode.model._declared import Declared
+from polhode.model._declared import FieldwiseRepr
 from polhode.model._frame import Frame
 from polhode.model._inertia import InertiaLike, check_inertia, check_mass, is_symmetric
 from polhode.model._spin import About, Spin, WithAxes
@@ -18,7 +18,7 @@ from polhode.model._surface import Rim, Surface
 
 
 @dataclass(frozen=True)
-class Body(Declared):
+class Body(FieldwiseRepr):
     """A rigid body.
 
     Args:
@@ -177,7 +177,7 @@ class Body(Declared):
 
 
 @dataclass(frozen=True)
-class BodyPoint(Declared):
+class BodyPoint(FieldwiseRepr):
     """A point of a body, by its vector from the centre of mass (m)."""
 
     body: Body

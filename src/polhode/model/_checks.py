@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from polhode.algebra import Expr, ExprLike, Kind, Symbol, Vector, is_positive, variables
+from polhode.algebra import Expr, ExprLike, Symbol, SymbolKind, Vector, is_positive, variables
 from polhode.base import DeclarationError, NumericError
 
 
@@ -50,7 +50,7 @@ def constant(expression: Expr, what: str) -> Expr:
 
 def is_varying(symbol: Symbol) -> bool:
     """Whether it changes as time goes on."""
-    return symbol.kind.varies or symbol.kind is Kind.TIME
+    return symbol.kind.varies or symbol.kind is SymbolKind.TIME
 
 
 def without_rates(expressions: Iterable[Expr], what: str) -> None:
@@ -66,7 +66,9 @@ def without_rates(expressions: Iterable[Expr], what: str) -> None:
 
 def without_coordinates(expressions: Iterable[Expr], what: str, advice: str) -> None:
     """Refuse what the motion decides on, in what is given beforehand."""
-    found = (s for s in variables(expressions) if s.kind in (Kind.COORDINATE, Kind.SPEED))
+    found = (
+        s for s in variables(expressions) if s.kind in (SymbolKind.COORDINATE, SymbolKind.SPEED)
+    )
     if names := sorted(s.published for s in found):
         raise DeclarationError(
             f"{what}, which depends on {', '.join(names)}",
@@ -76,7 +78,9 @@ def without_coordinates(expressions: Iterable[Expr], what: str, advice: str) -> 
 
 
 def _is_rate(symbol: Symbol) -> bool:
-    return symbol.kind is Kind.SPEED or (symbol.kind is Kind.COORDINATE and symbol.order > 0)
+    return symbol.kind is SymbolKind.SPEED or (
+        symbol.kind is SymbolKind.COORDINATE and symbol.order > 0
+    )
 
 
 def unit_vector(vector: Vector, what: str) -> Vector:

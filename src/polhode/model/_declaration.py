@@ -10,7 +10,7 @@ from types import UnionType
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
 from polhode.algebra import SHAPES, Expr, Vector
-from polhode.base import Codec, Shape
+from polhode.base import Codec, ShapeRecord
 from polhode.model import _contacts, _joints, _loads, _phases, _pivots, _spin, _supports, _surface
 from polhode.model._body import Body, BodyPoint
 from polhode.model._frame import Frame
@@ -72,16 +72,16 @@ def read_declaration(text: str) -> System:
 @cache
 def _codec() -> Codec:
     own = (
-        Shape("Frame", (Frame,), _fields, _frame),
-        Shape("vector", (Vector,), _vector_apart, _vector),
-        Shape("Body", (Body,), _fields, _body),
-        Shape("System", (System,), _fields, _system),
+        ShapeRecord("Frame", (Frame,), _fields, _frame),
+        ShapeRecord("vector", (Vector,), _vector_apart, _vector),
+        ShapeRecord("Body", (Body,), _fields, _body),
+        ShapeRecord("System", (System,), _fields, _system),
     )
     return Codec((*SHAPES, *own, *(_shape(kind) for kind in _DECLARED)))
 
 
-def _shape(kind: type) -> Shape:
-    return Shape(kind.__name__, (kind,), _fields, lambda **given: _declared(kind, given))
+def _shape(kind: type) -> ShapeRecord:
+    return ShapeRecord(kind.__name__, (kind,), _fields, lambda **given: _declared(kind, given))
 
 
 def _fields(value: Any) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from typing import Any
 from polhode.base import Shown
 
 
-class Declared(Shown):
+class FieldwiseRepr(Shown):
     """A dataclass that prints its fields on lines of their own."""
 
     @property

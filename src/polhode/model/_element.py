@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from polhode.algebra import Expr, Vector
 from polhode.base import DeclarationError
 from polhode.model._body import Body
-from polhode.model._declared import Declared
+from polhode.model._declared import FieldwiseRepr
 
 #: Position of the centre of mass of every body placed so far, from the origin of the root frame.
 Places = Mapping[Body, Vector]
@@ -69,7 +69,7 @@ class Friction:
     slip: tuple[Expr, Expr] | None = None
 
 
-class Element(Declared, ABC):
+class Element(FieldwiseRepr, ABC):
     """A contact or a joint."""
 
     name: str

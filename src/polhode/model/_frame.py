@@ -11,9 +11,9 @@ from polhode.algebra import (
     ZERO,
     Expr,
     ExprLike,
-    Kind,
     Matrix,
     Row,
+    SymbolKind,
     Vector,
     cos,
     pi,
@@ -26,7 +26,7 @@ from polhode.base import DeclarationError, Shown
 from polhode.model._checks import without_rates
 
 IDENTITY = Matrix.diagonal([1, 1, 1])
-_FREE = (Kind.COORDINATE, Kind.SPEED)  # what the motion decides on
+_FREE = (SymbolKind.COORDINATE, SymbolKind.SPEED)  # what the motion decides on
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from polhode.model._checks import (
     without_coordinates,
     without_rates,
 )
-from polhode.model._declared import Declared
+from polhode.model._declared import FieldwiseRepr
 from polhode.model._element import Places
 from polhode.model._frame import Frame
 
@@ -58,7 +58,7 @@ class Push:
     velocity: Vector
 
 
-class Load(Declared, ABC):
+class Load(FieldwiseRepr, ABC):
     """A load; conservative where it has a potential."""
 
     name: str

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from polhode.algebra import ZERO, Expr, Kind, Symbol, Vector, as_symbol, coordinate, speed
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, Vector, as_symbol, coordinate, speed
 from polhode.model._body import Body
 from polhode.model._contacts import Contact, Coulomb, Rolling, Smooth
 from polhode.model._element import Element, Friction, Places, Restraint
@@ -114,19 +114,19 @@ class Sliding(Contact):
     def direction(self) -> tuple[Symbol, Symbol]:
         """Components of the unit vector along the slip velocity."""
         first, second = (
-            Symbol(f"e_{label}_{self.spelled}", Kind.SPEED) for label in self.on.tangents
+            Symbol(f"e_{label}_{self.spelled}", SymbolKind.SPEED) for label in self.on.tangents
         )
         return first, second
 
     @property
     def slip_speed(self) -> Symbol:
         """Magnitude of the slip velocity, m/s."""
-        return Symbol(f"v_slip_{self.spelled}", Kind.SPEED)
+        return Symbol(f"v_slip_{self.spelled}", SymbolKind.SPEED)
 
     @property
     def slowness(self) -> Symbol:
         """What the law of Stribeck leaves of the static friction."""
-        return Symbol(f"slowness_{self.spelled}", Kind.SPEED)
+        return Symbol(f"slowness_{self.spelled}", SymbolKind.SPEED)
 
     def friction(self, places: Places) -> tuple[Friction, ...]:
         first, second = (Expr.generator(symbol) for symbol in self.direction)

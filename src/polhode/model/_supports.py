@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from polhode.algebra import ZERO, Expr, ExprLike, Vector
 from polhode.base import DeclarationError
 from polhode.model._checks import quantity
-from polhode.model._declared import Declared
+from polhode.model._declared import FieldwiseRepr
 from polhode.model._frame import Frame
 
 
 @dataclass(frozen=True, init=False)
-class Plane(Declared):
+class Plane(FieldwiseRepr):
     """A plane at rest in a frame, through the frame's origin.
 
     Args:

@@ -1,7 +1,8 @@
 """Numbers: start values, integration to rounding, and trajectories to read everything from."""
 
-from polhode.simulate._doubt import refuse_doubt as refuse_doubt
+from polhode.simulate._absolute_values import smooth_at as smooth_at
 from polhode.simulate._drift import Drift as Drift
+from polhode.simulate._drift_warning import refuse_doubt as refuse_doubt
 from polhode.simulate._dynamics import Dynamics as Dynamics
 from polhode.simulate._dynamics import EquationsOfMotion as EquationsOfMotion
 from polhode.simulate._dynamics import constants as constants
@@ -9,7 +10,6 @@ from polhode.simulate._event import Event as Event
 from polhode.simulate._experiment import NEAR_FLAT as NEAR_FLAT
 from polhode.simulate._experiment import Experiment as Experiment
 from polhode.simulate._readable import quantity_names as quantity_names
-from polhode.simulate._sides import smooth_at as smooth_at
 from polhode.simulate._simulate import simulate as simulate
 from polhode.simulate._start import read_start as read_start
 from polhode.simulate._trajectory import Trajectory as Trajectory
@@ -25,4 +25,4 @@ from polhode.simulate.forcing._pieces import Pieces as Pieces
 from polhode.simulate.forcing._sheet_file import SheetPath as SheetPath
 from polhode.simulate.forcing._sheet_file import read_sheet as read_sheet
 from polhode.simulate.forcing._spline import sampled as sampled
-from polhode.simulate.integrate._numbers import numbers_for as numbers_for
+from polhode.simulate.integrate._number_types import numbers_for as numbers_for

@@ -10,15 +10,11 @@ import numpy as np
 
 from polhode.algebra import Symbol
 from polhode.base import DeclarationError, Progress
-from polhode.simulate._dynamics import WORK, Dynamics, EquationsOfMotion
-from polhode.simulate._event import Change
-from polhode.simulate._lengths import refuse_vanishing
-from polhode.simulate._segment import Part, Segment, state_at
-from polhode.simulate._sides import (
+from polhode.simulate._absolute_values import (
     Here,
-    Passage,
+    SideChange,
+    SideChangeCount,
     Sides,
-    Turns,
     beyond,
     first_passage,
     nearer,
@@ -27,15 +23,19 @@ from polhode.simulate._sides import (
     sides_at,
     told_change,
 )
+from polhode.simulate._dynamics import WORK, Dynamics, EquationsOfMotion
+from polhode.simulate._event import ModeSwitch
+from polhode.simulate._lengths import refuse_vanishing
+from polhode.simulate._segment import Segment, TrajectoryPiece, state_at
 from polhode.simulate._start import read_start
-from polhode.simulate._task import AS_DECLARED, Begun, Motion, Task, timed
+from polhode.simulate._task import AS_DECLARED, InitialState, MotionResult, Task, timed
 from polhode.simulate._values import idle_parameters, read_parameters
-from polhode.simulate.forcing._drive import Drive, drive_of
+from polhode.simulate.forcing._prescribed_motion import PrescribedMotion, prescribed_motion
 from polhode.simulate.integrate._driver import integrate, stuck
 from polhode.simulate.integrate._flow import Flow, flow_of
+from polhode.simulate.integrate._step_count import StepCount
 from polhode.simulate.integrate._stepping import Array, Integrator, Stepper
-from polhode.simulate.integrate._tally import Tally
-from polhode.simulate.integrate._watched import Stop, Watched
+from polhode.simulate.integrate._stop_criteria import Stop, StopCriteria
 
 _LOOK = 400  # steps after which absolute values are looked at
 
@@ -45,7 +45,7 @@ class AsDeclared:
 
     def __init__(self, equations: EquationsOfMotion, task: Task) -> None:
         with timed(task, "derive"):
-            self._drive = drive_of(equations.functions, task.forcing, task.end)
+            self._drive = prescribed_motion(equations.functions, task.forcing, task.end)
             _refuse_jerks(self._drive, task.end)
             idle = idle_parameters(equations, task.given)
             self._dynamics = Dynamics(equations, self._drive.expressions, idle)
@@ -53,7 +53,7 @@ class AsDeclared:
         self._tolerance = task.tolerance
         self._faces: dict[int, _Face] = {}
 
-    def follow(self, task: Task, progress: Progress) -> Motion:
+    def follow(self, task: Task, progress: Progress) -> MotionResult:
         dynamics, drive = self._dynamics, self._drive
         numbers = read_parameters(dynamics, task.given, drive.constants(0.0))
         first = {**numbers, **drive.constants(0.0)}
@@ -65,19 +65,19 @@ class AsDeclared:
             face = self._face(sides_at(dynamics, here))
             face.stepper  # noqa: B018
         with timed(task, "integrate"):
-            course = _Course(drive, numbers, task.end, progress)
+            course = _DeclaredSolution(drive, numbers, task.end, progress)
             while course.is_under_way:
                 here, passage = course.along(face, here)
                 if passage is not None:
                     face = self._face(course.turned(face, here, passage, dynamics))
-        return Motion(
+        return MotionResult(
             tuple(course.segments),
             tuple(course.changes),
             AS_DECLARED,
             {symbol.published: value for symbol, value in numbers.items()},
             begin.assumed,
             unguarded=True,
-            begun=Begun(dynamics, begin),
+            begun=InitialState(dynamics, begin),
             drive=drive,
         )
 
@@ -106,36 +106,40 @@ class _Face:
     def stepper(self) -> Stepper:
         return self._integrator.prepare(self.flow, self._tolerance)
 
-    def watched(self, constants: Array, tally: Tally) -> Watched:
+    def watched(self, constants: Array, tally: StepCount) -> StopCriteria:
         """What stops an integration for a look."""
         if not self.passages:
-            return Watched()
+            return StopCriteria()
         over = overshoots(self.dynamics, self.passages, self.flow, constants)
-        return Watched(pause=_LOOK, over=over, tally=tally)
+        return StopCriteria(pause=_LOOK, over=over, tally=tally)
 
 
-class _Course:
+class _DeclaredSolution:
     """A motion as it grows, from one set of sides to the next."""
 
     def __init__(
-        self, drive: Drive, numbers: Mapping[Symbol, float], end: float, progress: Progress
+        self,
+        drive: PrescribedMotion,
+        numbers: Mapping[Symbol, float],
+        end: float,
+        progress: Progress,
     ) -> None:
         self.segments = list[Segment]()
-        self.changes = list[Change]()
+        self.changes = list[ModeSwitch]()
         self.is_under_way = True
         self._drive = drive
         self._numbers = numbers
         self._end = end
         self._progress = progress
-        self._tally = Tally()
-        self._turns = Turns()
+        self._tally = StepCount()
+        self._turns = SideChangeCount()
 
-    def along(self, face: _Face, here: Here) -> tuple[Here, Passage | None]:
+    def along(self, face: _Face, here: Here) -> tuple[Here, SideChange | None]:
         """As long as the same equations hold: where that ends, and what ends it."""
         begin = now = here.time
         rest = face.flow.rest(here.state, here.constants, now)
-        parts, constants = list[Part](), here.constants
-        passage: Passage | None = None
+        parts, constants = list[TrajectoryPiece](), here.constants
+        passage: SideChange | None = None
         while passage is None and now < self._end and self.is_under_way:
             constants = self._constants(face.dynamics, now)
             span = (now, self._drive.until(now, self._end))
@@ -151,14 +155,14 @@ class _Course:
 
     def _part(
         self, face: _Face, constants: Array, rest: Array, span: tuple[float, float]
-    ) -> tuple[Part, Passage | None]:
+    ) -> tuple[TrajectoryPiece, SideChange | None]:
         """Up to the end of a span, or of a side."""
         watched = face.watched(constants, self._tally)
         solution = integrate(
             face.flow, face.stepper, constants, rest, span, self._progress, watched
         )
         reached = span[1] if solution.stop is Stop.TIME else float(solution.steps[-1])
-        whole = Part(span[0], reached, solution, constants)
+        whole = TrajectoryPiece(span[0], reached, solution, constants)
         part, passage = first_passage(face.dynamics, face.passages, whole)
         again = nearer(whole.solution.steps, part.end) if passage is not None else None
         if again is not None:
@@ -169,14 +173,14 @@ class _Course:
         return part, passage
 
     def turned(
-        self, face: _Face, here: Here, passage: Passage, dynamics: Dynamics
+        self, face: _Face, here: Here, passage: SideChange, dynamics: Dynamics
     ) -> dict[Any, int]:
         """The sides that follow where one ends."""
         self._turns.count(here.time, passage)
         sides = beyond(dynamics, here, face.dynamics.sides, passage)
         if sides != face.dynamics.sides:
             kind = told_change(passage, sides)
-            self.changes.append(Change(here.time, kind, AS_DECLARED, AS_DECLARED))
+            self.changes.append(ModeSwitch(here.time, kind, AS_DECLARED, AS_DECLARED))
         return sides
 
     def _constants(self, dynamics: Dynamics, now: float) -> Array:
@@ -184,7 +188,7 @@ class _Course:
         return np.array([known[s] for s in dynamics.parameters])
 
 
-def _refuse_jerks(drive: Drive, end: float) -> None:
+def _refuse_jerks(drive: PrescribedMotion, end: float) -> None:
     felt = [time for time in drive.jerks if 0 < time < end]
     if felt:
         raise DeclarationError(

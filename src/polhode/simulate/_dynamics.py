@@ -13,13 +13,13 @@ from polhode.algebra import (
     ZERO,
     Compiled,
     Expr,
-    Kind,
     LinearSolve,
     Matrix,
     Program,
-    Root,
     Row,
+    SquareRoot,
     Symbol,
+    SymbolKind,
     compile_program,
     linear_parts,
     roots_in,
@@ -28,7 +28,7 @@ from polhode.algebra import (
 )
 from polhode.base import DeclarationError, NumericError
 from polhode.simulate._memory import Memory
-from polhode.simulate.integrate._numbers import DOUBLES, Numbers
+from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 
 
 class EquationsOfMotion(Protocol):
@@ -66,27 +66,27 @@ class EquationsOfMotion(Protocol):
     def functions(self) -> tuple[Symbol, ...]: ...
 
 
-CLOCK = time.symbol or Symbol("t", Kind.TIME)
+CLOCK = time.symbol or Symbol("t", SymbolKind.TIME)
 #: Stands for the work done by everything that is not in the potential, J.
-WORK = Symbol("work done", Kind.COORDINATE)
+WORK = Symbol("work done", SymbolKind.COORDINATE)
 
 _programs: Memory[Program] = Memory()
 
 
-def sign_symbol(root: Root) -> Symbol:
+def sign_symbol(root: SquareRoot) -> Symbol:
     """Stands for the sign that keeps the argument of an absolute value at zero, from -1 to 1."""
-    return Symbol(f"sign of {root.plain}", Kind.SPEED)
+    return Symbol(f"sign of {root.plain}", SymbolKind.SPEED)
 
 
-def _varies(root: Root) -> bool:
-    return any(s.kind is not Kind.PARAMETER for s in root.symbols())
+def _varies(root: SquareRoot) -> bool:
+    return any(s.kind is not SymbolKind.PARAMETER for s in root.symbols())
 
 
 def constants(expressions: Iterable[Expr]) -> Iterator[Symbol]:
     """The parameters in expressions."""
     for expression in expressions:
         for symbol in sorted(expression.symbols(), key=lambda symbol: symbol.published):
-            if symbol.kind is Kind.PARAMETER and symbol.name != "pi":
+            if symbol.kind is SymbolKind.PARAMETER and symbol.name != "pi":
                 yield symbol
 
 
@@ -112,7 +112,7 @@ class Dynamics:
     carried: Mapping[Symbol, Expr] = field(default_factory=dict)
     meanings: Mapping[Symbol, Expr] = field(default_factory=dict)
     lifted: Mapping[Symbol, Expr] = field(default_factory=dict)
-    sides: Mapping[Root, int] = field(default_factory=dict)
+    sides: Mapping[SquareRoot, int] = field(default_factory=dict)
 
     @cached_property
     def states(self) -> tuple[Symbol, ...]:
@@ -166,7 +166,7 @@ class Dynamics:
         right = (*(rest for _, rest in parts), *(-rest for _, rest in kept))
         return LinearSolve((*unknowns, *signs), Matrix((*above, *below)), right)
 
-    def _held_still(self, root: Root) -> tuple[Row, Expr]:
+    def _held_still(self, root: SquareRoot) -> tuple[Row, Expr]:
         """What keeps the argument of an absolute value at zero: of the accelerations, and rest."""
         argument = self.on_side(root.plain or ZERO)
         for _ in range(2):
@@ -190,7 +190,7 @@ class Dynamics:
 
     # -- absolute values ------------------------------------------------------------------------
 
-    def on(self, sides: Mapping[Root, int]) -> Dynamics:
+    def on(self, sides: Mapping[SquareRoot, int]) -> Dynamics:
         """The same equations on given sides of where arguments of absolute values vanish."""
         key = tuple(sides.items())
         if key not in self._faces:
@@ -218,25 +218,25 @@ class Dynamics:
         return {s: e for s, e in table.items() if s not in self.equations.speeds}
 
     @cached_property
-    def _images(self) -> dict[Root, Expr]:
-        def image(root: Root, side: int) -> Expr:
+    def _images(self) -> dict[SquareRoot, Expr]:
+        def image(root: SquareRoot, side: int) -> Expr:
             sign = Expr.constant(side) if side else Expr.generator(sign_symbol(root))
             return sign * (root.plain or ZERO)
 
         return {root: image(root, side) for root, side in self.sides.items()}
 
     @cached_property
-    def undecided(self) -> tuple[Root, ...]:
+    def undecided(self) -> tuple[SquareRoot, ...]:
         """The absolute values of what moves that stand in the equations, inner ones first."""
         return tuple(root for root in self._roots if root.plain is not None)
 
     @cached_property
-    def lengths(self) -> tuple[Root, ...]:
+    def lengths(self) -> tuple[SquareRoot, ...]:
         """The other square roots of what moves, such as lengths of vectors."""
         return tuple(root for root in self._roots if root.plain is None)
 
     @cached_property
-    def _roots(self) -> tuple[Root, ...]:
+    def _roots(self) -> tuple[SquareRoot, ...]:
         equations = self.equations
         entries = (entry for row in equations.mass.rows for entry in row)
         relations = (*equations.kinematics.values(), *equations.dependent.values())
@@ -273,7 +273,7 @@ class Dynamics:
         expressions: Iterable[Expr],
         arguments: tuple[Symbol, ...] | None = None,
         turned: Mapping[Symbol, Symbol] = MappingProxyType({}),
-        numbers: Numbers = DOUBLES,
+        numbers: NumberType = DOUBLES,
     ) -> Compiled:
         """Expressions as a function of NumPy arrays: of the `arguments`, or of others.
 
@@ -301,7 +301,7 @@ class Dynamics:
                 return table[symbol]
         if symbol == WORK:
             return ZERO
-        if symbol.kind is Kind.FUNCTION and not symbol.order:
+        if symbol.kind is SymbolKind.FUNCTION and not symbol.order:
             raise DeclarationError(
                 f"the motion {symbol.published}(t) is not given",
                 expected="an expression of time for every prescribed function",
@@ -310,7 +310,7 @@ class Dynamics:
         return self._derivative(symbol)
 
     def _derivative(self, symbol: Symbol) -> Expr | None:
-        if not symbol.order or symbol.kind is Kind.PARAMETER:
+        if not symbol.order or symbol.kind is SymbolKind.PARAMETER:
             return None
         lower = Symbol(symbol.name, symbol.kind, symbol.order - 1)
         if lower in self.accelerations.unknowns:

@@ -9,11 +9,11 @@ from functools import cached_property
 from typing import Any, Protocol
 
 from polhode.simulate._segment import Segment
-from polhode.simulate.integrate._watched import Stop
+from polhode.simulate.integrate._stop_criteria import Stop
 
 
 @dataclass(frozen=True)
-class Change:
+class ModeSwitch:
     """A change of contact mode, or of the side of an absolute value.
 
     Attributes:
@@ -70,18 +70,18 @@ class Event:
         return {"time": self.time, "kind": self.kind, "from": self.before, "to": self.after}
 
 
-class Happening(Protocol):
+class SegmentedMotion(Protocol):
     """Segments of a motion, and the changes of contact mode between them."""
 
     @property
     def segments(self) -> tuple[Segment, ...]: ...
     @property
-    def changes(self) -> tuple[Change, ...]: ...
+    def changes(self) -> tuple[ModeSwitch, ...]: ...
     @property
     def ending(self) -> str: ...
 
 
-def events_of(motion: Happening) -> tuple[Event, ...]:
+def events_of(motion: SegmentedMotion) -> tuple[Event, ...]:
     """Start, changes of contact mode, and end."""
     first, last = motion.segments[0], motion.segments[-1]
     interrupted = last.parts[-1].solution.stop is Stop.INTERRUPTED

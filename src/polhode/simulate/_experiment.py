@@ -14,18 +14,18 @@ from polhode.algebra import Expr
 from polhode.base import TIME, NumericError, Progress, SilentProgress, UnitError, to_si
 from polhode.derive import Automaton
 from polhode.model import System
-from polhode.simulate._doubt import doubt_about
+from polhode.simulate._drift_warning import doubt_about
 from polhode.simulate._dynamics import EquationsOfMotion
 from polhode.simulate._event import Event, events_of, placed
 from polhode.simulate._follow import prepared
 from polhode.simulate._names import Name
-from polhode.simulate._task import Motion, Prepared, Task, timed
+from polhode.simulate._task import MotionResult, Prepared, Task, timed
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate._validity import pulling_contacts, refuse_lost_side
 from polhode.simulate._values import evaluate
 from polhode.simulate._watching import with_events
 from polhode.simulate.integrate._integrators import chosen
-from polhode.simulate.integrate._numbers import DOUBLES, Precision, numbers_for
+from polhode.simulate.integrate._number_types import DOUBLES, Precision, numbers_for
 from polhode.simulate.integrate._stepping import Array
 from polhode.simulate.precise._wanted import Wanted
 
@@ -127,7 +127,7 @@ class Experiment:
             self._prepared = prepared(self.subject, task)
         return self._prepared
 
-    def _trajectory(self, motion: Motion, task: Task) -> Trajectory:
+    def _trajectory(self, motion: MotionResult, task: Task) -> Trajectory:
         end = motion.segments[-1].end
         for segment in motion.segments:
             motion.drive.confirm(segment.steps)

@@ -13,10 +13,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from polhode.algebra import Root
+from polhode.algebra import SquareRoot
 from polhode.base import NumericError
 from polhode.simulate._dynamics import Dynamics
-from polhode.simulate._segment import Part, values_of
+from polhode.simulate._segment import TrajectoryPiece, values_of
 from polhode.simulate.integrate._stepping import Array
 
 _PLACES = np.linspace(0.0, 1.0, 9)  # of a step, at which a radicand is looked at
@@ -25,7 +25,7 @@ _NOTHING = 1e-6  # of the same: what no step that saw the root coming can fall t
 _NARROWED = 60  # times by a third
 
 
-def refuse_vanishing(dynamics: Dynamics, part: Part) -> None:
+def refuse_vanishing(dynamics: Dynamics, part: TrajectoryPiece) -> None:
     """Refuse a part of a motion on which a length vanishes.
 
     Raises:
@@ -62,7 +62,7 @@ def _lowest(functions: Callable[[Array], Array], k: int, times: Array, values: A
     return float((left + right) / 2)
 
 
-def _vanishes(root: Root, time: float) -> NumericError:
+def _vanishes(root: SquareRoot, time: float) -> NumericError:
     return NumericError(
         f"sqrt({root.radicand}) vanishes at t = {time:.9g} s, and has no direction there",
         expected="a length that stays positive: what follows is not determined",

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from polhode.algebra import Expr, Kind, Symbol
+from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics, EquationsOfMotion
 
-_MOVING = (Kind.COORDINATE, Kind.SPEED)
+_MOVING = (SymbolKind.COORDINATE, SymbolKind.SPEED)
 
 
 def moving(dynamics: Dynamics) -> dict[str, Expr]:

@@ -13,8 +13,8 @@ from polhode.base import NumericError
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate._readable import moving
 from polhode.simulate.integrate._ascending import ascending, occurring
-from polhode.simulate.integrate._driver import Solution
-from polhode.simulate.integrate._numbers import DOUBLES, Numbers
+from polhode.simulate.integrate._driver import SegmentSolution
+from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._rows import rows
 from polhode.simulate.integrate._stepping import Array
 
@@ -23,12 +23,12 @@ _FEW = 10_000  # times in one of them, at most
 
 
 @dataclass(frozen=True)
-class Part:
+class TrajectoryPiece:
     """A stretch that was integrated in one go, with the constants of that stretch."""
 
     begin: float
     end: float
-    solution: Solution = field(repr=False)
+    solution: SegmentSolution = field(repr=False)
     constants: Array = field(repr=False)
 
     def states(self, times: Array) -> Array:
@@ -42,10 +42,12 @@ class Part:
             self._recent[key] = self.solution.at(times)
         return self._recent[key]
 
-    def rounded(self) -> Part:
+    def rounded(self) -> TrajectoryPiece:
         """The same in doubles."""
         constants = DOUBLES.array(self.constants)
-        return Part(float(self.begin), float(self.end), self.solution.rounded(), constants)
+        return TrajectoryPiece(
+            float(self.begin), float(self.end), self.solution.rounded(), constants
+        )
 
     @cached_property
     def _recent(self) -> dict[Hashable, Array]:
@@ -68,7 +70,7 @@ class Segment:
     begin: float
     end: float
     dynamics: Dynamics
-    parts: tuple[Part, ...] = field(repr=False)
+    parts: tuple[TrajectoryPiece, ...] = field(repr=False)
 
     @property
     def steps(self) -> Array:
@@ -77,7 +79,7 @@ class Segment:
         return ascending([*inside, np.array([self.begin, self.end])])
 
     @property
-    def numbers(self) -> Numbers:
+    def numbers(self) -> NumberType:
         """What it is computed in."""
         return self.parts[0].solution.numbers
 
@@ -104,7 +106,9 @@ class Segment:
         return found
 
 
-def values_of(dynamics: Dynamics, part: Part, expressions: Sequence[Expr], times: Array) -> Array:
+def values_of(
+    dynamics: Dynamics, part: TrajectoryPiece, expressions: Sequence[Expr], times: Array
+) -> Array:
     """Values of expressions within a part, shape (expressions, times)."""
     solution = part.solution
     arguments = (*solution.symbols, *dynamics.parameters, CLOCK)
@@ -128,7 +132,7 @@ def _undefined(times: Array) -> NumericError:
     )
 
 
-def state_at(part: Part, time: float) -> dict[Symbol, float]:
+def state_at(part: TrajectoryPiece, time: float) -> dict[Symbol, float]:
     """All states at an instant, by symbol."""
     values = part.solution.at(np.array([time]))[:, 0]
     return dict(zip(part.solution.symbols, (float(v) for v in values), strict=True))

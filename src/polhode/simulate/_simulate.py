@@ -11,12 +11,12 @@ from polhode.algebra import Expr
 from polhode.base import Progress
 from polhode.derive import Automaton
 from polhode.model import System
-from polhode.simulate._doubt import warn_of
+from polhode.simulate._drift_warning import warn_of
 from polhode.simulate._dynamics import EquationsOfMotion
 from polhode.simulate._experiment import NEAR_FLAT, SAMPLES, Experiment
 from polhode.simulate._names import Name
 from polhode.simulate._trajectory import Trajectory
-from polhode.simulate.integrate._numbers import Precision
+from polhode.simulate.integrate._number_types import Precision
 
 
 def simulate(

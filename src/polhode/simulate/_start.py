@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.algebra import Expr, Kind, Symbol
+from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.base import ConstraintError, NumericError
+from polhode.simulate._absolute_values import Here, sides_at
 from polhode.simulate._closures import close
 from polhode.simulate._dynamics import Dynamics
 from polhode.simulate._names import Name, by_name
-from polhode.simulate._sides import Here, sides_at
 from polhode.simulate._values import Numbers, read_values
 
 Array = NDArray[np.float64]
@@ -158,7 +158,7 @@ def _check(dynamics: Dynamics, start: Start, parameters: Numbers) -> None:
     named = ", ".join(
         f"{symbol.published} = {value:g}"
         for symbol, value in zip(dynamics.states, start.state, strict=True)
-        if symbol.kind is Kind.COORDINATE and not symbol.order
+        if symbol.kind is SymbolKind.COORDINATE and not symbol.order
     )
     for sign in equations.assumed_positive:
         (value,) = _evaluated(dynamics, [sign], point)

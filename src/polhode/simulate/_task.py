@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from polhode.base import Progress
 from polhode.simulate._dynamics import Dynamics
-from polhode.simulate._event import Change
+from polhode.simulate._event import ModeSwitch
 from polhode.simulate._names import Name
 from polhode.simulate._segment import Segment
 from polhode.simulate._start import Start
-from polhode.simulate.forcing._drive import Drive
+from polhode.simulate.forcing._prescribed_motion import PrescribedMotion
 from polhode.simulate.integrate._stepping import Integrator
 
 if TYPE_CHECKING:
-    from polhode.simulate.contact._machine import Machine
+    from polhode.simulate.contact._hybrid_system import HybridSystem
 
 AS_DECLARED = "as declared"
 
@@ -39,7 +39,7 @@ class Task:
 
 
 @dataclass(frozen=True)
-class Begun:
+class InitialState:
     """The start as it was read, and the equations in which it was."""
 
     dynamics: Dynamics
@@ -55,12 +55,12 @@ class Guarded:
         apart: contacts that start at a given height.
     """
 
-    machine: Machine
+    machine: HybridSystem
     apart: frozenset[int]
 
 
 @dataclass(frozen=True)
-class Motion:
+class MotionResult:
     """What came of it.
 
     Attributes:
@@ -71,20 +71,20 @@ class Motion:
     """
 
     segments: tuple[Segment, ...]
-    changes: tuple[Change, ...]
+    changes: tuple[ModeSwitch, ...]
     ending: str
     parameters: Mapping[str, float]
     assumed: Mapping[str, float]
     unguarded: bool
-    begun: Begun
-    drive: Drive
+    begun: InitialState
+    drive: PrescribedMotion
     guarded: Guarded | None = None
 
 
 class Prepared(Protocol):
     """A system with its equations compiled, ready for any numbers and any start."""
 
-    def follow(self, task: Task, progress: Progress) -> Motion:
+    def follow(self, task: Task, progress: Progress) -> MotionResult:
         """The motion from its start to its end.
 
         Args:

@@ -19,7 +19,7 @@ from polhode.simulate._readable import readable
 from polhode.simulate._segment import Segment
 from polhode.simulate.files._csv import write_csv
 from polhode.simulate.integrate._ascending import occurring
-from polhode.simulate.integrate._numbers import DOUBLES, Numbers
+from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._stepping import Array
 
 if TYPE_CHECKING:
@@ -127,7 +127,7 @@ class Trajectory(Shown):
         )
 
     @property
-    def _numbers(self) -> Numbers:
+    def _numbers(self) -> NumberType:
         return self.segments[0].numbers
 
     def at(self, t: float | Array) -> dict[str, Array]:

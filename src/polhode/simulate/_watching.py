@@ -21,7 +21,7 @@ _INSTANT = 64  # steps of rounding of the time: a segment that is over sooner sh
 _BESIDE = 1e-6  # of a step: where the sign is looked at beside an end
 
 
-class Passage(NamedTuple):
+class EventCrossing(NamedTuple):
     """Where an expression passes through zero.
 
     Attributes:
@@ -48,7 +48,7 @@ def with_events(trajectory: Trajectory, wanted: Mapping[str, Expr]) -> Trajector
     return replace(trajectory, events=(first, *between, last))
 
 
-def passages(segments: Sequence[Segment], expression: Expr) -> Iterator[Passage]:
+def passages(segments: Sequence[Segment], expression: Expr) -> Iterator[EventCrossing]:
     """When an expression passes through zero along a motion.
 
     Where an absolute value changes its side, one motion goes on: an expression that passes through
@@ -60,14 +60,14 @@ def passages(segments: Sequence[Segment], expression: Expr) -> Iterator[Passage]
     begun, ended = {k for _, k in seams}, {i for i, _ in seams}
     for i, k in seams:
         if _changes(segments[i], segments[k], expression):
-            yield Passage(segments[k].begin, k, begins=True)
+            yield EventCrossing(segments[k].begin, k, begins=True)
     for k in lasting:
         begin, end = segments[k].begin, segments[k].end
         near = _THERE * (end - begin)
         for time in _inside(segments[k], expression):
             early, late = time <= begin + near, time >= end - near
             if not ((early and k in begun) or (late and k in ended)):
-                yield Passage(time, k, begins=False)
+                yield EventCrossing(time, k, begins=False)
 
 
 def _goes_on(before: Segment, after: Segment) -> bool:

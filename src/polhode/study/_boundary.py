@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 from polhode.algebra import Expr
 from polhode.base import DeclarationError, Progress, SilentProgress
 from polhode.derive import Automaton, Equations
-from polhode.study._block import Crew, Order, Subject, options_of
 from polhode.study._columns import Array, Column, Members, Name, published_names
+from polhode.study._ensemble_runner import EnsembleRunner, EnsembleSpec, Subject, options_of
+from polhode.study._event_outputs import Fate
 from polhode.study._found import Found, measured, plain_numbers
 from polhode.study._grid import split_axes
-from polhode.study._happenings import Fate
 from polhode.study._output import Output
 from polhode.study._refused import parameter_names, refuse_mistakes
 from polhode.study._thresholds import thresholds
@@ -43,7 +43,7 @@ class Refined:
         return int(np.sum(self.computed))
 
 
-def refined_map(
+def refine_map(
     subject: Subject,
     axes: Mapping[Name, tuple[float, float]],
     parameters: Mapping[Name, Any],
@@ -80,7 +80,7 @@ def refined_map(
     """
     options = options_of(forcing=forcing, near_flat=near_flat, until=until)
     chosen = outcome or Fate()
-    order = Order(subject, duration, {"outcome": chosen}, options)
+    order = EnsembleSpec(subject, duration, {"outcome": chosen}, options)
     _check(axes, chosen, order, coarse, levels)
     side = (coarse - 1) * 2**levels + 1
     ends = published_names(axes)
@@ -115,7 +115,7 @@ def _ends(name: str, span: Any) -> tuple[float, float]:
 def _check(
     axes: Mapping[Name, Any],
     outcome: Output,
-    order: Order,
+    order: EnsembleSpec,
     coarse: int,
     levels: int,
 ) -> None:
@@ -135,14 +135,14 @@ class _Points:
 
     def __init__(
         self,
-        order: Order,
+        order: EnsembleSpec,
         spans: Mapping[str, Array],
         fixed: tuple[Mapping[str, Any], Mapping[str, Any]],
         progress: Progress,
     ) -> None:
         side = len(next(iter(spans.values())))
         self.codes = np.full((side, side), -1.0)
-        self._crew = Crew(order)
+        self._crew = EnsembleRunner(order)
         self._spans = spans
         self._fixed = fixed
         self._constants = parameter_names(order)
@@ -209,7 +209,7 @@ def _inherit(codes: Array, computed: NDArray[np.bool_], stride: int) -> None:
 
 
 def _found(
-    order: Order, spans: Mapping[str, Array], codes: Array, numbers: Mapping[str, float]
+    order: EnsembleSpec, spans: Mapping[str, Array], codes: Array, numbers: Mapping[str, float]
 ) -> Found:
     derived = order.derived
     equations: Equations = derived.together.equations if isinstance(derived, Automaton) else derived

@@ -15,8 +15,8 @@ from typing import Any, Protocol, TypeAlias
 from uuid import uuid4
 
 from polhode.base import StoreError
-from polhode.study._block import Block, Crew, Order
 from polhode.study._columns import Members
+from polhode.study._ensemble_runner import EnsembleRunner, EnsembleSpec, ResultChunk
 from polhode.study._interrupts import uninterrupted
 from polhode.study._libraries import distributed
 
@@ -34,7 +34,7 @@ _kept = local()
 class Compute(Protocol):
     """A way of computing chunks."""
 
-    def __call__(self, order: Order, chunks: Chunks) -> Iterator[tuple[Place, Block]]:
+    def __call__(self, order: EnsembleSpec, chunks: Chunks) -> Iterator[tuple[Place, ResultChunk]]:
         """Every chunk once, in whatever order they become ready."""
         ...
 
@@ -46,8 +46,8 @@ def one_after_the_other(tick: Callable[[int], None]) -> Compute:
         tick: told the number of members that are done.
     """
 
-    def compute(order: Order, chunks: Chunks) -> Iterator[tuple[Place, Block]]:
-        crew = Crew(order)
+    def compute(order: EnsembleSpec, chunks: Chunks) -> Iterator[tuple[Place, ResultChunk]]:
+        crew = EnsembleRunner(order)
         for place, members in chunks:
             yield place, crew.follow(members, tick)
 
@@ -60,7 +60,7 @@ def on_cluster(client: Any, tick: Callable[[int], None]) -> Compute:
     Results come here and are kept here, so that a chunk computed twice counts once.
     """
 
-    def compute(order: Order, chunks: Chunks) -> Iterator[tuple[Place, Block]]:
+    def compute(order: EnsembleSpec, chunks: Chunks) -> Iterator[tuple[Place, ResultChunk]]:
         library = distributed()
         task = _Task(uuid4().hex, order)
         waiting, places = library.as_completed(), dict[str, Place]()
@@ -89,9 +89,9 @@ def _hand_out(
         waiting.add(future)
 
 
-def _received(done: Any, place: Place) -> Block:
+def _received(done: Any, place: Place) -> ResultChunk:
     try:
-        block: Block = done.result()
+        block: ResultChunk = done.result()
     except Exception as error:
         raise StoreError(
             f"the cluster lost the chunk {place} ({type(error).__name__}: {error})"[:300],
@@ -110,14 +110,14 @@ class _Task:
     """
 
     name: str
-    order: Order
+    order: EnsembleSpec
 
 
-def _chunk(task: _Task, members: Members) -> Block:
+def _chunk(task: _Task, members: Members) -> ResultChunk:
     """On a worker; one crew per thread, compiled for its first chunk."""
     if getattr(_kept, "name", None) != task.name:
-        _kept.name, _kept.crew = task.name, Crew(task.order)
-    crew: Crew = _kept.crew
+        _kept.name, _kept.crew = task.name, EnsembleRunner(task.order)
+    crew: EnsembleRunner = _kept.crew
     return crew.follow(members, _nobody)
 
 

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from polhode.algebra import Expr
 from polhode.base import DeclarationError, Progress, Shown, SilentProgress, look_up
-from polhode.study._block import Block, Order, Subject, options_of
 from polhode.study._columns import Array, Column, Members, Name, members_of
 from polhode.study._counts import whole
+from polhode.study._ensemble_runner import EnsembleSpec, ResultChunk, Subject, options_of
 from polhode.study._extremes import Quantity
 from polhode.study._grid import start_name
 from polhode.study._output import Output
@@ -147,7 +147,7 @@ def ensemble(
     options = options_of(
         forcing=forcing, tolerance=tolerance, near_flat=near_flat, until=until, events=events
     )
-    order = Order(subject, duration, outputs_of(outputs), options)
+    order = EnsembleSpec(subject, duration, outputs_of(outputs), options)
     refuse_mistakes(order, members.parameters, members.start)
     whole(workers, "workers")
     shown = progress or SilentProgress()
@@ -165,7 +165,7 @@ def _seed(seed: Any) -> int:
     return int(seed)
 
 
-def _told(order: Order, members: Members, block: Block, seed: int) -> Ensemble:
+def _told(order: EnsembleSpec, members: Members, block: ResultChunk, seed: int) -> Ensemble:
     labels = {name: output.labels(order.legend) for name, output in order.outputs.items()}
     return Ensemble(
         values=block.values,

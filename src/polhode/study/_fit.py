@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from polhode.base import DeclarationError, NumericError, Shown
 from polhode.simulate import Experiment
-from polhode.study._block import Subject
 from polhode.study._columns import Array, Name, published_names, several
+from polhode.study._ensemble_runner import Subject
 from polhode.study._sensitivity import Varied
 
 _TOLERANCE = 1e-12  # relative, of the last step

@@ -16,7 +16,7 @@ from polhode.base import NumericError, Shown
 from polhode.derive import Equations, derive
 from polhode.model import System
 from polhode.simulate import Dynamics, idle_parameters, read_parameters, read_start, smooth_at
-from polhode.simulate.many import Dual, duals
+from polhode.simulate.batch import Dual, duals
 from polhode.study._columns import Array, Name
 from polhode.study._neutral import Neutral, elsewhere, steady_near
 
@@ -84,7 +84,7 @@ def _exponents(matrix: Array) -> NDArray[np.complex128]:
     return found[np.lexsort((-found.imag, -found.real))]
 
 
-def linearised(
+def linearise(
     subject: System | Equations, parameters: Mapping[Name, Any], at: Mapping[Name, Any]
 ) -> Linearised:
     """The linear equations of small departures from a steady motion.

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.simulate.many import LAST, Sightings
+from polhode.simulate.batch import LAST, BatchResults
 from polhode.study._columns import Array
 from polhode.study._extremes import Quantity
 
@@ -21,7 +21,7 @@ class Motions:
         seen: where they were, and what happened to them.
     """
 
-    seen: Sightings
+    seen: BatchResults
 
     @property
     def end(self) -> Array:

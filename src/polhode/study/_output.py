@@ -29,7 +29,7 @@ AS_DECLARED, NEAR_FLAT = "as declared", "near-flat"
 
 
 @dataclass(frozen=True)
-class Legend:
+class CodeTable:
     """What the codes in the results stand for: each is a place in one of these lists.
 
     Attributes:
@@ -41,14 +41,16 @@ class Legend:
     kinds: tuple[str, ...]
 
 
-def legend_of(subject: Any, events: Sequence[str]) -> Legend:
+def legend_of(subject: Any, events: Sequence[str]) -> CodeTable:
     """The modes and events that motions of a system may show."""
     modes: list[str] = [AS_DECLARED]
     kinds: list[str] = [*KINDS]
     if isinstance(subject, Automaton):
         modes += subject.names
         kinds += [f"{contact.name} pulls" for contact in subject.contacts]
-    return Legend((*dict.fromkeys(modes), NEAR_FLAT), (*dict.fromkeys([*kinds, *events, *SIGNS]),))
+    return CodeTable(
+        (*dict.fromkeys(modes), NEAR_FLAT), (*dict.fromkeys([*kinds, *events, *SIGNS]),)
+    )
 
 
 @runtime_checkable
@@ -60,11 +62,11 @@ class Output(Protocol):
         """Of the numbers of one motion."""
         ...
 
-    def labels(self, legend: Legend) -> tuple[str, ...]:
+    def labels(self, legend: CodeTable) -> tuple[str, ...]:
         """What the numbers stand for where they are codes: places in this list."""
         ...
 
-    def of(self, run: Trajectory, legend: Legend) -> Array | float:
+    def of(self, run: Trajectory, legend: CodeTable) -> Array | float:
         """The numbers of one motion; not-a-number, or -1 for codes, for what did not happen."""
         ...
 
@@ -83,7 +85,7 @@ class Quick(Output, Protocol):
     @property
     def looks(self) -> tuple[float, ...]: ...
 
-    def of_many(self, motions: Motions, legend: Legend) -> Array:
+    def of_many(self, motions: Motions, legend: CodeTable) -> Array:
         """The numbers of all motions, shape (motions, *shape)."""
         ...
 
@@ -104,7 +106,7 @@ class FromEnds:
 class Plain:
     """Numbers that are no codes."""
 
-    def labels(self, legend: Legend) -> tuple[str, ...]:
+    def labels(self, legend: CodeTable) -> tuple[str, ...]:
         return ()
 
 

@@ -15,10 +15,10 @@ from polhode.algebra import Expr, Symbol, as_symbol
 from polhode.base import DeclarationError, NumericError
 from polhode.simulate import Trajectory
 from polhode.study._columns import Array
+from polhode.study._event_outputs import EndMode
 from polhode.study._extremes import Quantity, largest
-from polhode.study._happenings import EndMode
 from polhode.study._motions import Motions
-from polhode.study._output import Legend, Output, Plain, Single
+from polhode.study._output import CodeTable, Output, Plain, Single
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Final(Single):
 
     quantity: Quantity
 
-    def of(self, run: Trajectory, legend: Legend) -> float:
+    def of(self, run: Trajectory, legend: CodeTable) -> float:
         """Its value."""
         return float(run.evaluate(self.quantity, run.duration))
 
@@ -43,35 +43,35 @@ class Final(Single):
     def looks(self) -> tuple[float, ...]:
         return ()
 
-    def of_many(self, motions: Motions, legend: Legend) -> Array:
+    def of_many(self, motions: Motions, legend: CodeTable) -> Array:
         """Its values, shape (motions,)."""
         return motions.at_end(self.quantity)
 
 
 @dataclass(frozen=True)
-class Largest(Single):
+class Maximum(Single):
     """The largest value of a quantity along the motion, SI, found to rounding between steps."""
 
     quantity: Quantity
 
-    def of(self, run: Trajectory, legend: Legend) -> float:
+    def of(self, run: Trajectory, legend: CodeTable) -> float:
         """Its value."""
         return largest(run, self.quantity, 1.0)
 
 
 @dataclass(frozen=True)
-class Least(Single):
+class Minimum(Single):
     """The least value of a quantity along the motion, SI, found to rounding between steps."""
 
     quantity: Quantity
 
-    def of(self, run: Trajectory, legend: Legend) -> float:
+    def of(self, run: Trajectory, legend: CodeTable) -> float:
         """Its value."""
         return -largest(run, self.quantity, -1.0)
 
 
 @dataclass(frozen=True)
-class Series(Plain):
+class TimeSeries(Plain):
     """A quantity at some times, SI; not-a-number after the end of the motion.
 
     Args:
@@ -90,7 +90,7 @@ class Series(Plain):
     def shape(self) -> tuple[int, ...]:
         return (len(self.times),)
 
-    def of(self, run: Trajectory, legend: Legend) -> Array:
+    def of(self, run: Trajectory, legend: CodeTable) -> Array:
         """Its values, shape (times,)."""
         times = np.array(self.times, dtype=float)
         inside = times <= run.duration
@@ -106,7 +106,7 @@ class Series(Plain):
     def looks(self) -> tuple[float, ...]:
         return self.times
 
-    def of_many(self, motions: Motions, legend: Legend) -> Array:
+    def of_many(self, motions: Motions, legend: CodeTable) -> Array:
         """Its values, shape (motions, times)."""
         return np.stack([motions.at(self.quantity, time) for time in self.times], axis=1)
 

@@ -6,18 +6,20 @@ from collections.abc import Collection, Iterator, Mapping
 from itertools import chain, product
 from typing import Any
 
-from polhode.algebra import Expr, Kind, Symbol
+from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.base import NumericError, look_up
 from polhode.derive import Automaton, Equations
 from polhode.model import Contact
 from polhode.simulate import constants, quantity_names, refuse_missing, slip_symbols
-from polhode.study._block import Order
 from polhode.study._columns import published_names
-from polhode.study._happenings import EventCount, EventTime
+from polhode.study._ensemble_runner import EnsembleSpec
+from polhode.study._event_outputs import EventCount, EventTime
 from polhode.study._refused_values import refuse_values
 
 
-def refuse_mistakes(order: Order, parameters: Mapping[str, Any], start: Mapping[str, Any]) -> None:
+def refuse_mistakes(
+    order: EnsembleSpec, parameters: Mapping[str, Any], start: Mapping[str, Any]
+) -> None:
     """Refuse what cannot be asked of any member.
 
     Args:
@@ -38,7 +40,7 @@ def refuse_mistakes(order: Order, parameters: Mapping[str, Any], start: Mapping[
     order.experiment().prepare(dict[Any, Any](parameters))
 
 
-def _refuse_names(order: Order, parameters: Collection[str], start: Collection[str]) -> None:
+def _refuse_names(order: EnsembleSpec, parameters: Collection[str], start: Collection[str]) -> None:
     """Names that no member can have a value for, and parameters that none has one for."""
     known = parameter_names(order)
     moving = dict.fromkeys(start_names(order))
@@ -50,7 +52,7 @@ def _refuse_names(order: Order, parameters: Collection[str], start: Collection[s
     refuse_missing(missing)
 
 
-def _refuse_quantities(order: Order) -> None:
+def _refuse_quantities(order: EnsembleSpec) -> None:
     """Outputs of quantities that no contact mode has."""
     asked = [getattr(output, "quantity", None) for output in order.outputs.values()]
     wanted = {quantity for quantity in asked if isinstance(quantity, str)}
@@ -81,7 +83,7 @@ def _quantities(derived: Automaton | Equations) -> Iterator[set[str]]:
         yield quantity_names(mode.equations, mode.lifted)
 
 
-def _refuse_events(order: Order) -> None:
+def _refuse_events(order: EnsembleSpec) -> None:
     """Events that cannot happen to any member."""
     kinds = dict.fromkeys(order.legend.kinds)
     until = order.options.get("until") or ()
@@ -93,7 +95,7 @@ def _refuse_events(order: Order) -> None:
             look_up(output.kind, kinds | pulls, "event of this system")
 
 
-def _refuse_options(order: Order) -> None:
+def _refuse_options(order: EnsembleSpec) -> None:
     """Motions of supports that the system does not have; a limit of flatness that is none."""
     known = dict.fromkeys(s.published for s in order.derived.functions)
     for name in published_names(order.options.get("forcing") or {}):
@@ -103,17 +105,19 @@ def _refuse_options(order: Order) -> None:
         raise NumericError(f"near_flat = {flat}", expected="the sine of a small angle")
 
 
-def parameter_names(order: Order) -> set[str]:
+def parameter_names(order: EnsembleSpec) -> set[str]:
     """Names that are parameters and not start values."""
     derived = order.derived
     bodies = derived.system.bodies
     parts = [e for body in bodies for e in (body.mass, *sum(body.inertia.rows, ()))]
     motions = [m for m in (order.options.get("forcing") or {}).values() if isinstance(m, Expr)]
-    used = (s for part in (*parts, *motions) for s in part.symbols() if s.kind is Kind.PARAMETER)
+    used = (
+        s for part in (*parts, *motions) for s in part.symbols() if s.kind is SymbolKind.PARAMETER
+    )
     return {s.published for s in (*derived.parameters, *used) if s.name != "pi"}
 
 
-def start_names(order: Order) -> Iterator[str]:
+def start_names(order: EnsembleSpec) -> Iterator[str]:
     """Coordinates, speeds and rates of any contact mode."""
     derived = order.derived
     for equations in _modes(derived):
@@ -129,5 +133,5 @@ def _modes(derived: Automaton | Equations) -> Iterator[Equations]:
         yield derived
 
 
-def _contacts(order: Order) -> list[str]:
+def _contacts(order: EnsembleSpec) -> list[str]:
     return [e.name for e in order.derived.system.elements if isinstance(e, Contact)]

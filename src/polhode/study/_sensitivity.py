@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike
 from polhode.algebra import Expr, Symbol, as_symbol
 from polhode.base import NumericError, Shown, look_up
 from polhode.simulate import Dynamics, Event, Experiment, Trajectory, refuse_doubt
-from polhode.simulate.many import Stretch, Tangents
-from polhode.study._block import Subject
+from polhode.simulate.batch import ConstantInterval, VariationalEquations
 from polhode.study._columns import Array, Name, published_names, several
 from polhode.study._differences import Slope, slope
+from polhode.study._ensemble_runner import Subject
 from polhode.study._extremes import Quantity
 
 
@@ -105,7 +105,7 @@ class Varied:
         self._experiment = experiment
         self._by = by
         self._of = of
-        self._tangents: Tangents | None = None
+        self._tangents: VariationalEquations | None = None
 
     def along(self, parameters: Mapping[Any, Any], start: Mapping[Any, Any], times: Array) -> Along:
         """One motion: by the variational equations, or by differences where modes change."""
@@ -119,7 +119,7 @@ class Varied:
             return self._differenced(run, times)
         if self._tangents is None:
             of = [_expression(run, quantity) for quantity in self._of]
-            self._tangents = Tangents(dynamics, by, of)
+            self._tangents = VariationalEquations(dynamics, by, of)
         begin = np.array(list(_begin(run, dynamics).values()))
         values, slopes = self._tangents.follow(begin, list(_stretches(run)), times)
         return Along(values, slopes, np.zeros_like(slopes))
@@ -162,11 +162,11 @@ class Varied:
         return np.array([run.evaluate(quantity, times) for quantity in self._of])
 
 
-def _stretches(run: Trajectory) -> Iterator[Stretch]:
+def _stretches(run: Trajectory) -> Iterator[ConstantInterval]:
     """As the motion was followed: sampled supports have other coefficients from knot to knot."""
     for segment in run.segments:
         for part in segment.parts:
-            yield Stretch(part.begin, part.end, part.constants)
+            yield ConstantInterval(part.begin, part.end, part.constants)
 
 
 def _begin(run: Trajectory, dynamics: Dynamics) -> dict[Symbol, float]:

@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 
 from polhode.base import SCHEMA, PolhodeError, StoreError, write_whole
 from polhode.study import _libraries
-from polhode.study._block import Block
+from polhode.study._ensemble_runner import ResultChunk
 from polhode.study._grid import Grid
 from polhode.study._libraries import zarr
-from polhode.study._output import Legend
+from polhode.study._output import CodeTable
 from polhode.study._outputs import Outputs
 from polhode.study._reasons import Reason
 
@@ -66,7 +66,7 @@ class Store:
                 for place in np.argwhere(self.done)
             )
 
-    def write(self, grid: Grid, place: tuple[int, ...], block: Block) -> None:
+    def write(self, grid: Grid, place: tuple[int, ...], block: ResultChunk) -> None:
         """Keep a chunk, and then that it is done.
 
         Raises:
@@ -95,12 +95,12 @@ class Store:
         return self.path / REASON / f"words.{'.'.join(map(str, place))}.json"
 
 
-def _words(block: Block) -> dict[str, str]:
+def _words(block: ResultChunk) -> dict[str, str]:
     return {str(i): text for i, text in block.told.items()}
 
 
 def created(
-    path: Path, origin: Mapping[str, Any], grid: Grid, outputs: Outputs, legend: Legend
+    path: Path, origin: Mapping[str, Any], grid: Grid, outputs: Outputs, legend: CodeTable
 ) -> Store:
     """A store with nothing in it yet.
 

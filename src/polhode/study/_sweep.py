@@ -23,11 +23,11 @@ from polhode.base import (
 from polhode.derive import Equations
 from polhode.model import System, write_declaration
 from polhode.simulate import Pieces
-from polhode.study._block import Order, Subject, options_of
 from polhode.study._cluster import Compute, on_cluster, one_after_the_other, processes, scheduler
 from polhode.study._columns import Name, published_names
 from polhode.study._counts import whole
 from polhode.study._ensemble import USUAL
+from polhode.study._ensemble_runner import EnsembleSpec, Subject, options_of
 from polhode.study._extremes import Quantity
 from polhode.study._grid import SAMPLE, Grid, grid_of, split_axes
 from polhode.study._output import Output
@@ -101,7 +101,7 @@ def sweep(
     begun = _begun(path) if resume else None
     drawn = _seed(seed, begun)
     options = options_of(forcing=forcing, tolerance=tolerance, near_flat=near_flat, until=until)
-    order = Order(subject, duration, outputs_of(outputs), options)
+    order = EnsembleSpec(subject, duration, outputs_of(outputs), options)
     grid = grid_of(axes, samples, drawn, chunk, order.outputs)
     order.experiment()  # refuses what cannot be asked of any member
     fixed = (published_names(parameters), published_names(start))
@@ -188,7 +188,7 @@ def _shown(progress: Progress | None, store: Store, grid: Grid) -> Iterator[Call
 
 
 def _origin(
-    order: Order, grid: Grid, fixed: tuple[Mapping[str, Any], Mapping[str, Any]], seed: int
+    order: EnsembleSpec, grid: Grid, fixed: tuple[Mapping[str, Any], Mapping[str, Any]], seed: int
 ) -> dict[str, Any]:
     """Everything that the results depend on, as JSON."""
     system = order.subject if isinstance(order.subject, System) else order.subject.system

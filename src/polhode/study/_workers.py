@@ -10,20 +10,20 @@ from multiprocessing import get_context
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.study._block import Block, Crew, Order, Tick
 from polhode.study._columns import Members
+from polhode.study._ensemble_runner import EnsembleRunner, EnsembleSpec, ResultChunk, Tick
 
 _SHARES = 4  # per process: members differ in what they take
 _SMALLEST = 8
 
-_here: list[Crew] = []
+_here: list[EnsembleRunner] = []
 
 
-def shared_out(order: Order, members: Members, workers: int, tick: Tick) -> Block:
+def shared_out(order: EnsembleSpec, members: Members, workers: int, tick: Tick) -> ResultChunk:
     """The same block as of one process, made by several."""
     if workers == 1 or members.count == 1:
-        return Crew(order).follow(members, tick)
-    block = Block.empty(order, members.count)
+        return EnsembleRunner(order).follow(members, tick)
+    block = ResultChunk.empty(order, members.count)
     with _pool(order, workers) as pool:
         waiting = {
             pool.submit(_share, members.rows(rows)): rows
@@ -41,7 +41,7 @@ def _shares(count: int, workers: int) -> list[NDArray[np.intp]]:
 
 
 @contextmanager
-def _pool(order: Order, workers: int) -> Iterator[ProcessPoolExecutor]:
+def _pool(order: EnsembleSpec, workers: int) -> Iterator[ProcessPoolExecutor]:
     # Fresh processes: a copy of one with threads in it may hang.
     pool = ProcessPoolExecutor(workers, get_context("spawn"), _begin, (order,))
     try:
@@ -50,11 +50,11 @@ def _pool(order: Order, workers: int) -> Iterator[ProcessPoolExecutor]:
         pool.shutdown(cancel_futures=True)
 
 
-def _begin(order: Order) -> None:
-    _here[:] = [Crew(order)]
+def _begin(order: EnsembleSpec) -> None:
+    _here[:] = [EnsembleRunner(order)]
 
 
-def _share(members: Members) -> Block:
+def _share(members: Members) -> ResultChunk:
     return _here[0].follow(members, _nobody)
 
 

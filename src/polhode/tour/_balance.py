@@ -25,7 +25,7 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 
 
 @dataclass(frozen=True)
-class Account:
+class MomentumBalance:
     """Largest difference between a gain and the integral of its rate, and the size of both."""
 
     defect: float
@@ -37,7 +37,7 @@ class Account:
         return self.defect / self.size if self.size else self.defect
 
 
-def momentum(run: Trajectory, equations: Equations) -> Account:
+def momentum(run: Trajectory, equations: Equations) -> MomentumBalance:
     """Momentum of every body against the impulse of loads and reactions, kg m/s."""
     return _worst(
         _account(run, body.axes.root, velocity * body.mass, _force(equations, body))
@@ -45,7 +45,7 @@ def momentum(run: Trajectory, equations: Equations) -> Account:
     )
 
 
-def spin(run: Trajectory, equations: Equations) -> Account:
+def spin(run: Trajectory, equations: Equations) -> MomentumBalance:
     """Angular momentum about every centre of mass against that of the torques, kg m²/s."""
     return _worst(
         _account(run, body.axes.root, _angular_momentum(body, angular), _torque(equations, body))
@@ -53,7 +53,7 @@ def spin(run: Trajectory, equations: Equations) -> Account:
     )
 
 
-def travel(run: Trajectory, equations: Equations) -> Account:
+def travel(run: Trajectory, equations: Equations) -> MomentumBalance:
     """Place of every centre of mass against the integral of the velocity that the constraints
     leave it, m.
     """
@@ -64,11 +64,11 @@ def travel(run: Trajectory, equations: Equations) -> Account:
     )
 
 
-def _worst(accounts: Iterable[Account]) -> Account:
+def _worst(accounts: Iterable[MomentumBalance]) -> MomentumBalance:
     return max(accounts, key=lambda account: account.relative)
 
 
-def _account(run: Trajectory, root: Frame, gained: Vector, rate: Vector) -> Account:
+def _account(run: Trajectory, root: Frame, gained: Vector, rate: Vector) -> MomentumBalance:
     """Both along the root frame, which turns if it is the Earth."""
     carried = root.angular_velocity
     held = gained.express(root)
@@ -81,7 +81,7 @@ def _account(run: Trajectory, root: Frame, gained: Vector, rate: Vector) -> Acco
     supply = np.concatenate([np.zeros((3, 1)), np.cumsum(flux @ _WEIGHTS, axis=1)], axis=1)
     defect = np.max(np.abs(gain - gain[:, :1] - supply))
     size = np.max(np.abs(gain)) + np.sum(np.abs(flux) @ _WEIGHTS)
-    return Account(float(defect), float(size))
+    return MomentumBalance(float(defect), float(size))
 
 
 def _angular_momentum(body: Body, angular: Vector) -> Vector:

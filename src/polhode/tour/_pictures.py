@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from polhode.catalogue import Entry
+from polhode.catalogue import CatalogueEntry
 from polhode.simulate import Trajectory
 from polhode.view.figures import (
     energies,
@@ -47,7 +47,7 @@ class Picture:
     draw: Callable[[Trajectory], Figure]
 
 
-def pictures_of(entry: Entry) -> tuple[Picture, ...]:
+def pictures_of(entry: CatalogueEntry) -> tuple[Picture, ...]:
     """All pictures of a system of the catalogue."""
     seconds = _SHOWN.get(entry.name)
     opening = "The run." if seconds is None else f"The first {seconds:g} s of the run."

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import polhode as ph
 from polhode.analyse import Invariant, Invariants, invariants
-from polhode.catalogue import Entry, numbers_of
+from polhode.catalogue import CatalogueEntry, numbers_of
 from polhode.derive import Equations
 from polhode.simulate import Trajectory, simulate
 from polhode.tour import _balance as balance
@@ -51,7 +51,7 @@ class Worked:
         seconds: all this took.
     """
 
-    entry: Entry
+    entry: CatalogueEntry
     equations: Equations
     conserved: Invariants
     run: Trajectory
@@ -67,7 +67,7 @@ class Worked:
         return sum(check.passed for check in self.checks)
 
 
-def work_through(entry: Entry) -> Worked:
+def work_through(entry: CatalogueEntry) -> Worked:
     """Derive, check, simulate and draw a system of the catalogue."""
     began = time.perf_counter()
     equations = ph.derive(entry.build())
@@ -88,7 +88,7 @@ def work_through(entry: Entry) -> Worked:
 
 
 def default_run(
-    entry: Entry, equations: Equations, conserved: Iterable[Invariant] = ()
+    entry: CatalogueEntry, equations: Equations, conserved: Iterable[Invariant] = ()
 ) -> Trajectory:
     """The run of the catalogue's default numbers, with an eye on what it should conserve."""
     numbers = numbers_of(entry, equations)
@@ -129,7 +129,7 @@ def exact_checks(equations: Equations) -> Iterator[Check]:
 
 
 def numeric_checks(
-    run: Trajectory, equations: Equations, travel: balance.Account
+    run: Trajectory, equations: Equations, travel: balance.MomentumBalance
 ) -> Iterator[Check]:
     """Checks of the computed motion, each a defect relative to the size of what is compared."""
     yield measured(
@@ -160,7 +160,7 @@ def numeric_checks(
         )
 
 
-def _drawings(entry: Entry, run: Trajectory) -> Iterator[Drawing]:
+def _drawings(entry: CatalogueEntry, run: Trajectory) -> Iterator[Drawing]:
     stem, origin = entry.name.replace("/", "-"), origin_of(run)
     for picture in pictures_of(entry):
         svg = svg_of(picture.draw(run), origin=origin)

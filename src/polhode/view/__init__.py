@@ -9,7 +9,7 @@ from polhode.view._mathml import equation as equation
 from polhode.view._notebook_declared import html_of as html_of
 from polhode.view._page import page as page
 from polhode.view._page import page_of as page_of
-from polhode.view._scene import Account as Account
+from polhode.view._scene import MotionSummary as MotionSummary
 from polhode.view._scene import Scene as Scene
 from polhode.view._scene import plain as plain
 from polhode.view._scene_build import account as account

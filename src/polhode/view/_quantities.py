@@ -72,7 +72,7 @@ class Scale:
 
 
 @dataclass(frozen=True)
-class Quantity:
+class PlottedQuantity:
     """A quantity of a motion.
 
     Attributes:
@@ -111,7 +111,7 @@ def published(name: Named) -> str:
     return symbol.published if isinstance(symbol, Symbol) else str(symbol or name)
 
 
-def quantity(run: Trajectory, named: Named) -> Quantity:
+def quantity(run: Trajectory, named: Named) -> PlottedQuantity:
     """The quantity of that published name, or symbol.
 
     Raises:
@@ -120,7 +120,7 @@ def quantity(run: Trajectory, named: Named) -> Quantity:
     name = published(named)
     if name in _WORDS:
         letter, unit = _WORDS[name]
-        return Quantity(name, f"${letter}$", unit)
+        return PlottedQuantity(name, f"${letter}$", unit)
     if name not in run.quantities:
         raise DeclarationError(
             f"{name!r} is no quantity of {run.equations.system.name}",
@@ -130,7 +130,7 @@ def quantity(run: Trajectory, named: Named) -> Quantity:
     symbol = expression.symbol or Symbol(name)
     dimension = _dimension(run, name, expression)
     angle = dimension == PURE and is_angle(equations_of(run), symbol)
-    return Quantity(name, math(Expr.generator(symbol)), si_unit(dimension, angle=angle))
+    return PlottedQuantity(name, math(Expr.generator(symbol)), si_unit(dimension, angle=angle))
 
 
 def si_unit(dimension: Dimension, *, angle: bool) -> str:
@@ -153,7 +153,7 @@ def modes_of(run: Trajectory) -> tuple[Equations, ...]:
     return tuple(cast(Equations, segment.dynamics.equations) for segment in run.segments)
 
 
-def common_unit(quantities: Sequence[Quantity]) -> str:
+def common_unit(quantities: Sequence[PlottedQuantity]) -> str:
     """The unit that all of them have.
 
     Raises:

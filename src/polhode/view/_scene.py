@@ -45,7 +45,7 @@ class Pose:
 
 
 @dataclass(frozen=True)
-class Shape:
+class BodyShape:
     """What a body looks like.
 
     Attributes:
@@ -76,7 +76,7 @@ class SceneBody:
     """
 
     name: str
-    shape: Shape
+    shape: BodyShape
     pose: Pose
     arms: tuple[Triple, ...]
 
@@ -181,7 +181,7 @@ class Trace:
 
 
 @dataclass(frozen=True)
-class Series:
+class PlotSeries:
     """A quantity against time.
 
     Attributes:
@@ -200,7 +200,7 @@ class Panel:
     """Quantities that share an axis."""
 
     unit: str
-    series: tuple[Series, ...]
+    series: tuple[PlotSeries, ...]
 
 
 @dataclass(frozen=True)
@@ -219,7 +219,7 @@ class Formula:
 
 
 @dataclass(frozen=True)
-class Number:
+class SceneNumber:
     """A named number.
 
     Attributes:
@@ -238,7 +238,7 @@ class Number:
 
 
 @dataclass(frozen=True)
-class Happening:
+class SceneEvent:
     """An event of the motion."""
 
     time: float
@@ -246,16 +246,16 @@ class Happening:
 
 
 @dataclass(frozen=True)
-class Account:
+class MotionSummary:
     """What there is to read of a motion; see `Scene` for what each part is."""
 
     panels: tuple[Panel, ...]
     motion: tuple[Formula, ...]
     reactions: tuple[Formula, ...]
-    parameters: tuple[Number, ...]
-    start: tuple[Number, ...]
-    evidence: tuple[Number, ...]
-    happenings: tuple[Happening, ...]
+    parameters: tuple[SceneNumber, ...]
+    start: tuple[SceneNumber, ...]
+    evidence: tuple[SceneNumber, ...]
+    happenings: tuple[SceneEvent, ...]
     doubt: str = ""
 
 
@@ -297,10 +297,10 @@ class Scene(Shown):
     panels: tuple[Panel, ...] = ()
     motion: tuple[Formula, ...] = ()
     reactions: tuple[Formula, ...] = ()
-    parameters: tuple[Number, ...] = ()
-    start: tuple[Number, ...] = ()
-    evidence: tuple[Number, ...] = ()
-    happenings: tuple[Happening, ...] = ()
+    parameters: tuple[SceneNumber, ...] = ()
+    start: tuple[SceneNumber, ...] = ()
+    evidence: tuple[SceneNumber, ...] = ()
+    happenings: tuple[SceneEvent, ...] = ()
     doubt: str = ""
     judgements: tuple[Judgement, ...] = ()
     origin: Mapping[str, Any] = field(default_factory=dict)

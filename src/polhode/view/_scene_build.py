@@ -16,8 +16,8 @@ from polhode.simulate import Trajectory
 from polhode.view._judgement import Judgement
 from polhode.view._quantities import Array, Groups, equations_of, grouped, refuse_an_instant
 from polhode.view._scene import (
-    Account,
     Link,
+    MotionSummary,
     Pose,
     Scene,
     SceneBody,
@@ -82,10 +82,10 @@ def account(
     *,
     plots: Groups = (),
     meanings: Mapping[str, str] | None = None,
-) -> Account:
+) -> MotionSummary:
     """What there is to read of a motion: the arguments and errors are those of `scene`."""
     refuse_an_instant(run)
-    return Account(
+    return MotionSummary(
         panels=panels_of(run, grouped(plots) or everything(run)),
         motion=motion_of(run),
         reactions=reactions_of(run),

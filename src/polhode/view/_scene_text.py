@@ -9,7 +9,7 @@ from typing import cast
 
 import numpy as np
 
-from polhode.algebra import ZERO, Expr, Kind, Symbol, sqrt
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, sqrt
 from polhode.base import PURE, provenance
 from polhode.derive import Equations, is_angle, slips_along
 from polhode.model import Sliding
@@ -22,7 +22,7 @@ from polhode.view._quantities import (
     quantity,
     scale_for,
 )
-from polhode.view._scene import Formula, Happening, Number, Panel, Series
+from polhode.view._scene import Formula, Panel, PlotSeries, SceneEvent, SceneNumber
 from polhode.view.figures._history import panels
 
 _EVENTS = 40  # that are listed
@@ -53,7 +53,7 @@ def _panel(run: Trajectory, names: Sequence[str], t: Array) -> Panel:
     values = [run.evaluate(name, t) for name in names]
     scale = scale_for(quantity(run, names[0]).unit, largest(*values))
     series = (
-        Series(name, _letter(run, name), value * scale.factor)
+        PlotSeries(name, _letter(run, name), value * scale.factor)
         for name, value in zip(names, values, strict=True)
     )
     return Panel(scale.unit, tuple(series))
@@ -129,16 +129,16 @@ def _reactions(equations: Equations) -> list[Formula]:
     ]
 
 
-def parameters_of(run: Trajectory, meanings: Mapping[str, str]) -> tuple[Number, ...]:
+def parameters_of(run: Trajectory, meanings: Mapping[str, str]) -> tuple[SceneNumber, ...]:
     """Parameters with the units inferred from their uses."""
     equations = equations_of(run)
     dimensions = {s.published: d for s, d in equations.dimensions.items()}
     angles = {s.published for s in equations.parameters if is_angle(equations, s)}
     return tuple(
         _in_degrees(
-            Number(
+            SceneNumber(
                 name,
-                symbol(Expr.generator(Symbol(name.rstrip("_"), Kind.PARAMETER))),
+                symbol(Expr.generator(Symbol(name.rstrip("_"), SymbolKind.PARAMETER))),
                 float(value),
                 "rad" if name in angles else str(dimensions.get(name, PURE)),
                 meanings.get(name, ""),
@@ -148,18 +148,18 @@ def parameters_of(run: Trajectory, meanings: Mapping[str, str]) -> tuple[Number,
     )
 
 
-def _in_degrees(number: Number) -> Number:
+def _in_degrees(number: SceneNumber) -> SceneNumber:
     """An angle as people read it, in degrees; anything else as it is."""
     if number.unit != "rad":
         return number
     return replace(number, value=math.degrees(number.value), unit="deg")
 
 
-def start_of(run: Trajectory) -> tuple[Number, ...]:
+def start_of(run: Trajectory) -> tuple[SceneNumber, ...]:
     """Coordinates and speeds at the start."""
     names = [s.published for s in (*run.equations.coordinates, *run.equations.speeds)]
     return tuple(
-        _in_degrees(Number(name, _letter(run, name), _first(values), quantity(run, name).unit))
+        _in_degrees(SceneNumber(name, _letter(run, name), _first(values), quantity(run, name).unit))
         for name, values in run.table(names).items()
     )
 
@@ -170,35 +170,35 @@ def _first(values: Array) -> float:
     return first if abs(first) > _NOTHING * max(largest(values), 1.0) else 0.0
 
 
-def evidence_of(run: Trajectory) -> tuple[Number, ...]:
+def evidence_of(run: Trajectory) -> tuple[SceneNumber, ...]:
     """Largest drift of everything that must stay as it is."""
     drift = run.drift
     return (
-        Number("energy − work done", "", drift.energy, "", "against the energy scale"),
+        SceneNumber("energy − work done", "", drift.energy, "", "against the energy scale"),
         *_loops(run),
         *(
-            Number(name, "", value, "", "against its largest term")
+            SceneNumber(name, "", value, "", "against its largest term")
             for name, value in drift.invariants.items()
         ),
     )
 
 
-def _loops(run: Trajectory) -> Iterator[Number]:
+def _loops(run: Trajectory) -> Iterator[SceneNumber]:
     """The largest gap of closed loops, where there are any."""
     if any(segment.dynamics.equations.closures for segment in run.segments):
-        yield Number("closed loops", "", run.drift.constraint, "m", "largest gap")
+        yield SceneNumber("closed loops", "", run.drift.constraint, "m", "largest gap")
 
 
-def happenings_of(run: Trajectory) -> tuple[Happening, ...]:
+def happenings_of(run: Trajectory) -> tuple[SceneEvent, ...]:
     """Events between start and end; of very many, the first ones and how many more."""
     found = [
-        Happening(event.time, f"{event.kind}: {event.after}")
+        SceneEvent(event.time, f"{event.kind}: {event.after}")
         for event in run.events
         if event.before is not None and event.after is not None
     ]
     shown, more = found[:_EVENTS], len(found) - _EVENTS
     if more > 0:
-        shown.append(Happening(found[-1].time, f"the last of {more} more"))
+        shown.append(SceneEvent(found[-1].time, f"the last of {more} more"))
     return tuple(shown)
 
 

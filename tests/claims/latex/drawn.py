@@ -12,7 +12,7 @@ from polhode.claims.latex._tree import (
     Case,
     Cases,
     Component,
-    Components,
+    ComponentList,
     Cross,
     Derivative,
     Differential,
@@ -103,7 +103,7 @@ BRANCHES: tuple[Callable[[Nodes], Nodes], ...] = (
     lambda nodes: st.builds(Magnitude, nodes),
     lambda nodes: st.builds(Component, nodes, labels),
     lambda nodes: st.builds(Evaluated, nodes, labels),
-    lambda nodes: st.builds(Components, _several(nodes)),
+    lambda nodes: st.builds(ComponentList, _several(nodes)),
     lambda nodes: st.builds(Cases, st.lists(_case(nodes), min_size=1, max_size=2).map(tuple)),
 )
 

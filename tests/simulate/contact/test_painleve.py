@@ -13,7 +13,7 @@ import pytest
 
 import polhode as ph
 from polhode.derive import Automaton, automaton
-from polhode.simulate.contact._shock import Roughness, coulomb_shock
+from polhode.simulate.contact._impact import Roughness, coulomb_impact
 
 LENGTH = 0.5
 
@@ -99,5 +99,5 @@ def test_shocks_of_any_strength_are_alike(size: float) -> None:
     felt = np.eye(3) + arm
     velocity = np.array([0.4, 0.0, -1.0])
     rough = Roughness(0.3, 0.3, 0.5)
-    unit, scaled = (coulomb_shock(felt, s * velocity, rough) for s in (1.0, size))
+    unit, scaled = (coulomb_impact(felt, s * velocity, rough) for s in (1.0, size))
     assert np.abs(scaled.velocity / size - unit.velocity).max() < 1e-12

@@ -12,7 +12,7 @@ import xarray
 
 from polhode.base import StoreError
 from polhode.simulate.files import _store
-from polhode.simulate.files._archive import Archive, Sampled, Stretch, series_of
+from polhode.simulate.files._archive import Archive, ChebyshevPiece, Sampled, series_of
 from polhode.simulate.files._payload import counted, packed, unpacked
 from polhode.simulate.files._store import read_archive, write_archive
 
@@ -21,11 +21,11 @@ def waves(times):
     return np.array([np.sin(7 * times), 1e6 + times**3, np.exp(-times), 0 * times])
 
 
-def stretch(number: int, begin: float, end: float) -> Stretch:
+def stretch(number: int, begin: float, end: float) -> ChebyshevPiece:
     steps = np.linspace(begin, end, 7)
     knots, series = series_of(waves, steps)
     states = ("theta", "x", "a name with blanks", "φ/ψ")
-    return Stretch(number, "rolling", states, {"g": 9.81, "Ω": 0.1}, steps, knots, series)
+    return ChebyshevPiece(number, "rolling", states, {"g": 9.81, "Ω": 0.1}, steps, knots, series)
 
 
 TIMES = np.linspace(0, 3, 50)
@@ -83,7 +83,7 @@ def test_series_are_the_states_to_rounding():
 
 def test_series_of_a_kink_at_a_step():
     knots, series = series_of(lambda t: np.array([np.abs(t - 1)]), np.array([0.0, 1.0, 2.0]))
-    one = Stretch(0, "", ("x",), {}, knots, knots, series)
+    one = ChebyshevPiece(0, "", ("x",), {}, knots, knots, series)
     assert one.at(np.array([0.0, 0.5, 1.0, 1.5, 2.0]))[0] == pytest.approx([1, 0.5, 0, 0.5, 1])
 
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import polhode as ph
-from polhode.base import ConstraintError, DeclarationError, Enough, NumericError
+from polhode.base import ConstraintError, DeclarationError, NumericError, StopRequested
 from polhode.simulate import Trajectory
-from polhode.simulate.integrate._numbers import DOUBLES, fraction_of, numbers_for
+from polhode.simulate.integrate._number_types import DOUBLES, fraction_of, numbers_for
 from simulate.examples import four_bar
 
 TIMES = (0, 0.3, 1, 1.75, 2)
@@ -255,7 +255,7 @@ class Impatient:
     def advance(self, steps: int = 1) -> None:
         self._left -= steps
         if self._left <= 0:
-            raise Enough
+            raise StopRequested
 
     def finish(self) -> None:
         pass

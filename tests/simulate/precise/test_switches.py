@@ -7,7 +7,7 @@ import pytest
 
 import polhode as ph
 from polhode.simulate import Trajectory
-from polhode.simulate.integrate._numbers import fraction_of
+from polhode.simulate.integrate._number_types import fraction_of
 from simulate.contact import balls, blocks, disks
 from simulate.precise.test_precision import Impatient
 

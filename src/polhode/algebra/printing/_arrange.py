@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 
 from polhode.algebra._functions import Elementary, Even
-from polhode.algebra._generators import Generator, Kind, Symbol
+from polhode.algebra._generators import Generator, Symbol, SymbolKind
 from polhode.algebra.printing._names import Spelling
 
 Rank = tuple[object, ...]
@@ -22,7 +22,7 @@ EXPONENTIAL: Rank = (3,)
 @lru_cache(maxsize=4096)
 def is_constant(generator: Generator) -> bool:
     """Whether it depends on parameters alone."""
-    return all(s.kind is Kind.PARAMETER for s in generator.symbols())
+    return all(s.kind is SymbolKind.PARAMETER for s in generator.symbols())
 
 
 @lru_cache(maxsize=4096)
@@ -49,8 +49,8 @@ def absolute_value_rank(inside: Iterable[Generator]) -> Rank:
 
 
 def _symbol_rank(symbol: Symbol) -> Rank:
-    if symbol.kind is not Kind.PARAMETER:
-        return (2, _level(symbol), symbol.kind is not Kind.SPEED, _place(symbol))
+    if symbol.kind is not SymbolKind.PARAMETER:
+        return (2, _level(symbol), symbol.kind is not SymbolKind.SPEED, _place(symbol))
     stem = Spelling.of(symbol).stem
     families = ("pi",), _MASSES, _INERTIAS, _GRAVITY
     family = next((i for i, stems in enumerate(families) if stem in stems), len(families))
@@ -82,6 +82,6 @@ def _spread(powers: Mapping[Generator, int]) -> Iterator[Rank]:
 
 def _level(symbol: Symbol) -> int:
     """0 for a place, 1 for a velocity, 2 for an acceleration."""
-    if symbol.kind in (Kind.PARAMETER, Kind.TIME):
+    if symbol.kind in (SymbolKind.PARAMETER, SymbolKind.TIME):
         return 0
-    return symbol.order + (symbol.kind is Kind.SPEED)
+    return symbol.order + (symbol.kind is SymbolKind.SPEED)

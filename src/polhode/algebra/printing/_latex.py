@@ -6,7 +6,16 @@ from polhode.algebra._expression import Expr
 from polhode.algebra._generators import Symbol
 from polhode.algebra.printing._layout import layout
 from polhode.algebra.printing._names import GREEK, Spelling
-from polhode.algebra.printing._nodes import Call, Fraction, Name, Node, Number, Power, Product, Sum
+from polhode.algebra.printing._nodes import (
+    Fraction,
+    PrintCall,
+    PrintName,
+    PrintNode,
+    PrintNumber,
+    PrintPower,
+    PrintProduct,
+    PrintSum,
+)
 
 
 def latex(expression: Expr) -> str:
@@ -59,48 +68,48 @@ class _Latex:
     def name(self, symbol: Symbol) -> str:
         return latex_of_symbol(symbol)
 
-    def call(self, function: str, argument: Node) -> str:
+    def call(self, function: str, argument: PrintNode) -> str:
         return self._called(function, "", argument)
 
-    def power(self, base: Node, exponent: int) -> str:
+    def power(self, base: PrintNode, exponent: int) -> str:
         raised = f"^{exponent}" if exponent < 10 else f"^{{{exponent}}}"
         match base:
-            case Call(function="abs", argument=argument):
+            case PrintCall(function="abs", argument=argument):
                 return self._called("abs", "", argument) + raised
-            case Call(function=function, argument=argument):
+            case PrintCall(function=function, argument=argument):
                 return self._called(function, raised, argument)
-            case Sum() | Product() | Fraction() | Power():
+            case PrintSum() | PrintProduct() | Fraction() | PrintPower():
                 return self._bracketed(base) + raised
         written = base.drawn(self)
         return f"{{{written}}}{raised}" if "'" in written or "^" in written else written + raised
 
-    def product(self, factors: tuple[Node, ...]) -> str:
-        sign = "-" if factors[0] == Number(-1) else ""
+    def product(self, factors: tuple[PrintNode, ...]) -> str:
+        sign = "-" if factors[0] == PrintNumber(-1) else ""
         rest = factors[1:] if sign else factors
-        parts = (self._bracketed(f) if isinstance(f, Sum) else f.drawn(self) for f in rest)
+        parts = (self._bracketed(f) if isinstance(f, PrintSum) else f.drawn(self) for f in rest)
         return sign + " ".join(parts)
 
-    def sum(self, terms: tuple[Node, ...]) -> str:
+    def sum(self, terms: tuple[PrintNode, ...]) -> str:
         written = terms[0].drawn(self)
         for term in terms[1:]:
             size = term.negated() if term.is_negative else term
             written += f" {'-' if term.is_negative else '+'} {size.drawn(self)}"
         return written
 
-    def fraction(self, above: Node, below: Node) -> str:
+    def fraction(self, above: PrintNode, below: PrintNode) -> str:
         return rf"\frac{{{above.drawn(self)}}}{{{below.drawn(self)}}}"
 
-    def radical(self, radicand: Node) -> str:
+    def radical(self, radicand: PrintNode) -> str:
         return rf"\sqrt{{{radicand.drawn(self)}}}"
 
-    def _called(self, function: str, raised: str, argument: Node) -> str:
+    def _called(self, function: str, raised: str, argument: PrintNode) -> str:
         inside = argument.drawn(self)
         if function == "abs":
             return rf"\left|{inside}\right|"
-        if isinstance(argument, Name):
+        if isinstance(argument, PrintName):
             gap = "" if inside.startswith("\\") else " "
             return rf"\{function}{raised}{gap}{inside}"
         return rf"\{function}{raised}\left({inside}\right)"
 
-    def _bracketed(self, node: Node) -> str:
+    def _bracketed(self, node: PrintNode) -> str:
         return rf"\left({node.drawn(self)}\right)"

@@ -28,12 +28,12 @@ from polhode.algebra.printing._arrange import (
     term_rank,
 )
 from polhode.algebra.printing._nodes import (
-    Call,
-    Name,
-    Node,
-    Number,
+    PrintCall,
+    PrintName,
+    PrintNode,
+    PrintNumber,
+    PrintSum,
     Radical,
-    Sum,
     fraction,
     power,
     product,
@@ -47,14 +47,14 @@ from polhode.algebra.printing._sums_of_angles import in_sums_of_angles
 _MUCH = 0.85
 
 #: A factor, where it stands among the others, and its power.
-Placed = tuple[Rank, Node, int]
+Placed = tuple[Rank, PrintNode, int]
 
 
 @lru_cache(maxsize=1024)
-def layout(expression: Expr) -> Node:
+def layout(expression: Expr) -> PrintNode:
     """The display tree of an expression: the shortest of its textbook forms."""
     if expression.is_zero:
-        return Number(0)
+        return PrintNumber(0)
     if expression.ring.has_parts:
         ((expression,), _) = under_letters((expression,))
     expression = expression.trimmed()
@@ -68,14 +68,14 @@ def layout(expression: Expr) -> Node:
     return _shortest([*_quotients(wider, wider.lift(middle, above), below), *plain])
 
 
-def _quotients(ring: Ring, num: Polynomial, den: Polynomial) -> list[Node]:
+def _quotients(ring: Ring, num: Polynomial, den: Polynomial) -> list[PrintNode]:
     """As one fraction, and term by term."""
     below = factorised(ring, den).inverse()
     whole = [_term(ring, form * below) for form in products(ring, num)]
     return [*_split(ring, num, below), *whole]
 
 
-def _split(ring: Ring, num: Polynomial, below: Factored) -> Iterator[Node]:
+def _split(ring: Ring, num: Polynomial, below: Factored) -> Iterator[PrintNode]:
     """Every term over its own denominator; what no term cancels stays common to all."""
     if below.sums:
         return
@@ -85,11 +85,11 @@ def _split(ring: Ring, num: Polynomial, below: Factored) -> Iterator[Node]:
     inside = _sum(ring, num, below * outside.inverse())
     if not outside.powers:
         yield inside
-    elif isinstance(inside, Sum):
+    elif isinstance(inside, PrintSum):
         yield _product(outside, [(VARYING_SUM, inside, 1)])
 
 
-def _shortest(candidates: Iterable[Node]) -> Node:
+def _shortest(candidates: Iterable[PrintNode]) -> PrintNode:
     return min(candidates, key=lambda node: node.size)
 
 
@@ -98,7 +98,7 @@ def _shortest(candidates: Iterable[Node]) -> Node:
 Powers = dict[Generator, int]
 
 
-def _sum(ring: Ring, polynomial: Polynomial, scale: Factored) -> Node:
+def _sum(ring: Ring, polynomial: Polynomial, scale: Factored) -> PrintNode:
     """A polynomial times a single term, collected by what varies or by the constants."""
     polynomial = in_shortest_squares(ring, polynomial)
     varies = [not is_constant(g) for g in ring.generators]
@@ -129,12 +129,14 @@ def _groups(
     ]
 
 
-def _collected(ring: Ring, groups: Iterable[tuple[Powers, Polynomial]], scale: Factored) -> Node:
+def _collected(
+    ring: Ring, groups: Iterable[tuple[Powers, Polynomial]], scale: Factored
+) -> PrintNode:
     nodes = (_group(ring, outer, coefficient, scale) for outer, coefficient in groups)
     return total([term for node in nodes for term in _addends(node)])
 
 
-def _group(ring: Ring, outer: Powers, coefficient: Polynomial, scale: Factored) -> Node:
+def _group(ring: Ring, outer: Powers, coefficient: Polynomial, scale: Factored) -> PrintNode:
     if outer:
         common = scale * Factored(powers=outer)
         return _shortest(_term(ring, common * form) for form in products(ring, coefficient))
@@ -143,19 +145,19 @@ def _group(ring: Ring, outer: Powers, coefficient: Polynomial, scale: Factored) 
     return total([_term(ring, term) for term in ordered])
 
 
-def _addends(node: Node) -> tuple[Node, ...]:
-    return node.terms if isinstance(node, Sum) else (node,)
+def _addends(node: PrintNode) -> tuple[PrintNode, ...]:
+    return node.terms if isinstance(node, PrintSum) else (node,)
 
 
 # --- products ---
 
 
-def _term(ring: Ring, factored: Factored) -> Node:
+def _term(ring: Ring, factored: Factored) -> PrintNode:
     sums = [(_sum_rank(ring, s), _sum(ring, s, Factored()), p) for s, p in factored.sums]
     return _product(factored, sums)
 
 
-def _product(factored: Factored, sums: list[Placed]) -> Node:
+def _product(factored: Factored, sums: list[Placed]) -> PrintNode:
     """A product with one fraction bar; the sums of `factored` are given as nodes."""
     radicals = gathered(factored.number, factored.powers)
     number = radicals.number
@@ -169,7 +171,7 @@ def _product(factored: Factored, sums: list[Placed]) -> Node:
 
 
 def _turned(
-    number: Rational, sums: list[Placed], wrong: Callable[[Rational, Node], bool]
+    number: Rational, sums: list[Placed], wrong: Callable[[Rational, PrintNode], bool]
 ) -> tuple[Rational, list[Placed]]:
     """With the signs of sums turned where they are wrong, and the number's to match."""
     turned = []
@@ -180,11 +182,11 @@ def _turned(
     return number, turned
 
 
-def _is_all_negative(_: Rational, node: Node) -> bool:
+def _is_all_negative(_: Rational, node: PrintNode) -> bool:
     return all(term.is_negative for term in _addends(node))
 
 
-def _takes_a_sign(outside: Rational, node: Node) -> bool:
+def _takes_a_sign(outside: Rational, node: PrintNode) -> bool:
     return outside < 0 and any(term.is_negative for term in _addends(node))
 
 
@@ -199,7 +201,7 @@ def _roots(radicals: Radicals) -> Iterator[Placed]:
         radicand = Radical(layout(radicals.radicand))
         yield radical_rank(radicals.radicand.generators), radicand, radicals.power
     for size, exponent in radicals.sizes.items():
-        yield absolute_value_rank(size.generators), Call("abs", layout(size)), exponent
+        yield absolute_value_rank(size.generators), PrintCall("abs", layout(size)), exponent
     for root, exponent in radicals.loose.items():
         yield factor_rank(root), Radical(layout(root.radicand)), exponent
 
@@ -212,14 +214,14 @@ def _powers(powers: Powers) -> Iterator[Placed]:
         else:
             yield factor_rank(generator), _generator(generator), exponent
     if exponents:
-        yield EXPONENTIAL, Call("exp", layout(exponents)), 1
+        yield EXPONENTIAL, PrintCall("exp", layout(exponents)), 1
 
 
 @lru_cache(maxsize=4096)
-def _generator(generator: Generator) -> Node:
+def _generator(generator: Generator) -> PrintNode:
     match generator:
         case Elementary():
-            return Call(generator.name, layout(generator.argument))
+            return PrintCall(generator.name, layout(generator.argument))
         case Symbol():
-            return Name(generator)
+            return PrintName(generator)
     raise TypeError(f"{generator.key} is no symbol or function")

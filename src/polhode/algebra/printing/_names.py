@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from polhode.algebra._generators import Kind, Symbol
+from polhode.algebra._generators import Symbol, SymbolKind
 
 _GREEK_LETTERS = dict(
     zip(
@@ -45,7 +45,7 @@ class Spelling:
     @classmethod
     def of(cls, symbol: Symbol) -> Spelling:
         """The spelling of a symbol; a trailing underscore (`lambda_`) is dropped."""
-        if symbol.kind is Kind.TIME:
+        if symbol.kind is SymbolKind.TIME:
             return cls("t", 0, (), 0)
         stem, *subscripts = symbol.name.rstrip("_").split("_")
         letter = stem

@@ -25,32 +25,32 @@ class Style(Protocol[T_co]):
         """A symbol."""
         ...
 
-    def call(self, function: str, argument: Node) -> T_co:
+    def call(self, function: str, argument: PrintNode) -> T_co:
         """A function of one argument."""
         ...
 
-    def power(self, base: Node, exponent: int) -> T_co:
+    def power(self, base: PrintNode, exponent: int) -> T_co:
         """A whole power above one."""
         ...
 
-    def product(self, factors: tuple[Node, ...]) -> T_co:
+    def product(self, factors: tuple[PrintNode, ...]) -> T_co:
         """Two or more factors; only the first can be a number."""
         ...
 
-    def sum(self, terms: tuple[Node, ...]) -> T_co:
+    def sum(self, terms: tuple[PrintNode, ...]) -> T_co:
         """Two or more terms."""
         ...
 
-    def fraction(self, above: Node, below: Node) -> T_co:
+    def fraction(self, above: PrintNode, below: PrintNode) -> T_co:
         """One positive quantity over another."""
         ...
 
-    def radical(self, radicand: Node) -> T_co:
+    def radical(self, radicand: PrintNode) -> T_co:
         """A square root."""
         ...
 
 
-class Node(ABC):
+class PrintNode(ABC):
     """A piece of a printed expression."""
 
     @property
@@ -67,13 +67,13 @@ class Node(ABC):
         """Whether it begins with a minus sign that a sum can take over."""
         return False
 
-    def negated(self) -> Node:
+    def negated(self) -> PrintNode:
         """The same with the opposite sign."""
-        return Product((Number(-1), self))
+        return PrintProduct((PrintNumber(-1), self))
 
 
 @dataclass(frozen=True)
-class Number(Node):
+class PrintNumber(PrintNode):
     """A whole number; a rational one is a `Fraction` of two."""
 
     value: int
@@ -89,12 +89,12 @@ class Number(Node):
     def is_negative(self) -> bool:
         return self.value < 0
 
-    def negated(self) -> Node:
-        return Number(-self.value)
+    def negated(self) -> PrintNode:
+        return PrintNumber(-self.value)
 
 
 @dataclass(frozen=True)
-class Name(Node):
+class PrintName(PrintNode):
     """A symbol."""
 
     symbol: Symbol
@@ -108,11 +108,11 @@ class Name(Node):
 
 
 @dataclass(frozen=True)
-class Call(Node):
+class PrintCall(PrintNode):
     """A function of one argument: sin, cos, sinh, cosh, exp, abs."""
 
     function: str
-    argument: Node
+    argument: PrintNode
 
     @cached_property
     def size(self) -> int:
@@ -123,10 +123,10 @@ class Call(Node):
 
 
 @dataclass(frozen=True)
-class Power(Node):
+class PrintPower(PrintNode):
     """A whole power, above one."""
 
-    base: Node
+    base: PrintNode
     exponent: int
 
     @cached_property
@@ -138,14 +138,14 @@ class Power(Node):
 
 
 @dataclass(frozen=True)
-class Product(Node):
+class PrintProduct(PrintNode):
     """Two or more factors; only the first can be a number, and then carries the sign."""
 
-    factors: tuple[Node, ...]
+    factors: tuple[PrintNode, ...]
 
     @cached_property
     def size(self) -> int:
-        bare = self.factors[1:] if self.factors[0] == Number(-1) else self.factors
+        bare = self.factors[1:] if self.factors[0] == PrintNumber(-1) else self.factors
         return sum(f.size for f in bare) + (len(bare) > 1)
 
     def drawn(self, style: Style[T]) -> T:
@@ -155,18 +155,18 @@ class Product(Node):
     def is_negative(self) -> bool:
         return self.factors[0].is_negative
 
-    def negated(self) -> Node:
+    def negated(self) -> PrintNode:
         first, *rest = self.factors
-        if isinstance(first, Number):
+        if isinstance(first, PrintNumber):
             return product(-first.value, rest)
-        return Product((Number(-1), *self.factors))
+        return PrintProduct((PrintNumber(-1), *self.factors))
 
 
 @dataclass(frozen=True)
-class Sum(Node):
+class PrintSum(PrintNode):
     """Two or more terms, none of them a sum."""
 
-    terms: tuple[Node, ...]
+    terms: tuple[PrintNode, ...]
 
     @cached_property
     def size(self) -> int:
@@ -175,16 +175,16 @@ class Sum(Node):
     def drawn(self, style: Style[T]) -> T:
         return style.sum(self.terms)
 
-    def negated(self) -> Node:
-        return Sum(tuple(t.negated() for t in self.terms))
+    def negated(self) -> PrintNode:
+        return PrintSum(tuple(t.negated() for t in self.terms))
 
 
 @dataclass(frozen=True)
-class Fraction(Node):
+class Fraction(PrintNode):
     """A quotient; its sign stands before it."""
 
-    above: Node
-    below: Node
+    above: PrintNode
+    below: PrintNode
 
     @cached_property
     def size(self) -> int:
@@ -195,10 +195,10 @@ class Fraction(Node):
 
 
 @dataclass(frozen=True)
-class Radical(Node):
+class Radical(PrintNode):
     """A square root."""
 
-    radicand: Node
+    radicand: PrintNode
 
     @cached_property
     def size(self) -> int:
@@ -208,35 +208,35 @@ class Radical(Node):
         return style.radical(self.radicand)
 
 
-def product(number: int, factors: list[Node]) -> Node:
+def product(number: int, factors: list[PrintNode]) -> PrintNode:
     """A number times factors that are not numbers, without idle ones."""
-    whole = [f for f in factors if isinstance(f, Number)]
+    whole = [f for f in factors if isinstance(f, PrintNumber)]
     number = number * prod(f.value for f in whole)
-    rest = [f for f in factors if not isinstance(f, Number)]
+    rest = [f for f in factors if not isinstance(f, PrintNumber)]
     if number == 1 and rest:
-        return rest[0] if len(rest) == 1 else Product(tuple(rest))
-    return Product((Number(number), *rest)) if rest else Number(number)
+        return rest[0] if len(rest) == 1 else PrintProduct(tuple(rest))
+    return PrintProduct((PrintNumber(number), *rest)) if rest else PrintNumber(number)
 
 
-def fraction(above: Node, below: Node) -> Node:
+def fraction(above: PrintNode, below: PrintNode) -> PrintNode:
     """A quotient with its sign before it; `below` positive."""
-    if below == Number(1):
+    if below == PrintNumber(1):
         return above
     if above.is_negative:
-        return Product((Number(-1), Fraction(above.negated(), below)))
+        return PrintProduct((PrintNumber(-1), Fraction(above.negated(), below)))
     return Fraction(above, below)
 
 
-def power(base: Node, exponent: int) -> Node:
+def power(base: PrintNode, exponent: int) -> PrintNode:
     """A positive whole power."""
-    return base if exponent == 1 else Power(base, exponent)
+    return base if exponent == 1 else PrintPower(base, exponent)
 
 
-def total(terms: list[Node]) -> Node:
+def total(terms: list[PrintNode]) -> PrintNode:
     """A sum that begins without a minus sign if any of its terms does."""
     if not terms:
-        return Number(0)
+        return PrintNumber(0)
     if len(terms) == 1:
         return terms[0]
     first = next((t for t in terms if not t.is_negative), terms[0])
-    return Sum((first, *(t for t in terms if t is not first)))
+    return PrintSum((first, *(t for t in terms if t is not first)))

@@ -15,7 +15,7 @@ from polhode.algebra._expression import ONE, Expr
 from polhode.algebra._factored import content, over_cosines, rational
 from polhode.algebra._generators import Generator
 from polhode.algebra._ring import Polynomial
-from polhode.algebra._roots import Root, is_plainly_positive
+from polhode.algebra._roots import SquareRoot, is_plainly_positive
 from polhode.algebra._squares import in_shortest_squares
 
 K = TypeVar("K")
@@ -29,7 +29,7 @@ class Radicals:
     radicand: Expr
     power: int
     sizes: dict[Expr, int]
-    loose: dict[Root, int]
+    loose: dict[SquareRoot, int]
     powers: dict[Generator, int]
 
 
@@ -38,7 +38,7 @@ def gathered(number: Rational, powers: Mapping[Generator, int]) -> Radicals:
 
     That is so for all whose radicands are positive, and for one more of unknown sign.
     """
-    roots = {g: p for g, p in powers.items() if isinstance(g, Root)}
+    roots = {g: p for g, p in powers.items() if isinstance(g, SquareRoot)}
     others = {g: p for g, p in powers.items() if g not in roots}
     absolute = {root: absolute_of(root) for root in roots}
     sizes = {f: roots[root] for root, f in absolute.items() if f is not None}
@@ -92,7 +92,7 @@ def _with_divisors_inside(
 
 
 @lru_cache(maxsize=1024)
-def absolute_of(root: Root) -> Expr | None:
+def absolute_of(root: SquareRoot) -> Expr | None:
     """The expression whose absolute value the root is, if it is one."""
     ring, num = root.radicand.ring, root.radicand.num
     for form in (num, over_cosines(ring, num), in_shortest_squares(ring, num)):

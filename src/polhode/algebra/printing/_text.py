@@ -6,7 +6,16 @@ from polhode.algebra._expression import Expr
 from polhode.algebra._generators import Symbol
 from polhode.algebra.printing._layout import layout
 from polhode.algebra.printing._names import GREEK, Spelling
-from polhode.algebra.printing._nodes import Call, Fraction, Name, Node, Number, Power, Product, Sum
+from polhode.algebra.printing._nodes import (
+    Fraction,
+    PrintCall,
+    PrintName,
+    PrintNode,
+    PrintNumber,
+    PrintPower,
+    PrintProduct,
+    PrintSum,
+)
 
 
 def text(expression: Expr) -> str:
@@ -31,35 +40,35 @@ class _Text:
     def name(self, symbol: Symbol) -> str:
         return symbol.published
 
-    def call(self, function: str, argument: Node) -> str:
+    def call(self, function: str, argument: PrintNode) -> str:
         return f"{function}({argument.drawn(self)})"
 
-    def power(self, base: Node, exponent: int) -> str:
+    def power(self, base: PrintNode, exponent: int) -> str:
         return f"{self._in_power(base)}**{exponent}"
 
-    def product(self, factors: tuple[Node, ...]) -> str:
-        sign = self.minus if factors[0] == Number(-1) else ""
+    def product(self, factors: tuple[PrintNode, ...]) -> str:
+        sign = self.minus if factors[0] == PrintNumber(-1) else ""
         rest = factors[1:] if sign else factors
-        return sign + self.times.join(self._bracketed(f, Sum) for f in rest)
+        return sign + self.times.join(self._bracketed(f, PrintSum) for f in rest)
 
-    def sum(self, terms: tuple[Node, ...]) -> str:
+    def sum(self, terms: tuple[PrintNode, ...]) -> str:
         written = terms[0].drawn(self)
         for term in terms[1:]:
             size = term.negated() if term.is_negative else term
             written += f" {self.minus if term.is_negative else '+'} {size.drawn(self)}"
         return written
 
-    def fraction(self, above: Node, below: Node) -> str:
-        over = self._bracketed(above, Sum)
-        return f"{over}/{self._bracketed(below, Sum, Product, Fraction)}"
+    def fraction(self, above: PrintNode, below: PrintNode) -> str:
+        over = self._bracketed(above, PrintSum)
+        return f"{over}/{self._bracketed(below, PrintSum, PrintProduct, Fraction)}"
 
-    def radical(self, radicand: Node) -> str:
+    def radical(self, radicand: PrintNode) -> str:
         return f"sqrt({radicand.drawn(self)})"
 
-    def _in_power(self, base: Node) -> str:
-        return self._bracketed(base, Sum, Product, Fraction, Power)
+    def _in_power(self, base: PrintNode) -> str:
+        return self._bracketed(base, PrintSum, PrintProduct, Fraction, PrintPower)
 
-    def _bracketed(self, node: Node, *looser: type[Node]) -> str:
+    def _bracketed(self, node: PrintNode, *looser: type[PrintNode]) -> str:
         written = node.drawn(self)
         return f"({written})" if isinstance(node, looser) else written
 
@@ -85,27 +94,27 @@ class _Pretty(_Text):
         subscripts = "".join(map(_lowered, spelling.subscripts))
         return stem[0] + dots[0] + stem[1:] + "′" * spelling.primes + subscripts
 
-    def call(self, function: str, argument: Node) -> str:
+    def call(self, function: str, argument: PrintNode) -> str:
         inside = argument.drawn(self)
         if function == "abs":
             return f"|{inside}|"
         return function + self._argument(argument, inside)
 
-    def power(self, base: Node, exponent: int) -> str:
+    def power(self, base: PrintNode, exponent: int) -> str:
         match base:
-            case Call(function="abs"):
+            case PrintCall(function="abs"):
                 return self.call("abs", base.argument) + _raised(exponent)
-            case Call(function=function, argument=argument):
+            case PrintCall(function=function, argument=argument):
                 inside = argument.drawn(self)
                 return function + _raised(exponent) + self._argument(argument, inside)
         return self._in_power(base) + _raised(exponent)
 
-    def radical(self, radicand: Node) -> str:
+    def radical(self, radicand: PrintNode) -> str:
         inside = radicand.drawn(self)
-        return f"√{inside}" if isinstance(radicand, Name | Number) else f"√({inside})"
+        return f"√{inside}" if isinstance(radicand, PrintName | PrintNumber) else f"√({inside})"
 
-    def _argument(self, argument: Node, inside: str) -> str:
-        if not isinstance(argument, Name):
+    def _argument(self, argument: PrintNode, inside: str) -> str:
+        if not isinstance(argument, PrintName):
             return f"({inside})"
         return f" {inside}" if inside[0].isascii() else inside
 

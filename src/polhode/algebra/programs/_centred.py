@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from polhode.algebra._expression import Expr
-from polhode.algebra._generators import Kind, Symbol
+from polhode.algebra._generators import Symbol, SymbolKind
 from polhode.algebra._linear import length
 from polhode.algebra._roots import factors
 
@@ -49,6 +49,6 @@ def _places(exponent: Expr) -> Iterator[tuple[Symbol, Expr]]:
 
 
 def _about(factor: Expr, symbol: Symbol, meaning: Expr) -> Centred:
-    distance = Symbol(f"({meaning.key})", Kind.PARAMETER)
+    distance = Symbol(f"({meaning.key})", SymbolKind.PARAMETER)
     away = (Expr.generator(distance) - meaning) / meaning.diff(symbol)
     return Centred(factor.subs({symbol: Expr.generator(symbol) + away}), distance, meaning)

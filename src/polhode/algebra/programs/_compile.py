@@ -18,9 +18,9 @@ from polhode.algebra._functions import CIRCULAR, Elementary, exponentials
 from polhode.algebra._generators import Generator, Symbol
 from polhode.algebra._half_angles import Factors, lowest
 from polhode.algebra._linear import Matrix, Row, length
-from polhode.algebra._parts import Part
+from polhode.algebra._parts import NamedPart
 from polhode.algebra._ring import Polynomial, Ring
-from polhode.algebra._roots import Root
+from polhode.algebra._roots import SquareRoot
 from polhode.algebra._special import PI
 from polhode.algebra.programs._centred import centred
 from polhode.algebra.programs._elimination import solve_on
@@ -74,7 +74,7 @@ def compile_program(
         DeclarationError: for a symbol that is neither given nor defined.
         NumericError: for linear equations that are singular whatever the values.
     """
-    writer = _Writer(tuple(arguments), where, tuple(solves), turned)
+    writer = _TapeWriter(tuple(arguments), where, tuple(solves), turned)
     outputs = [writer.expression(expression) for expression in expressions]
     return writer.tape.program(writer.arguments, outputs)
 
@@ -92,7 +92,7 @@ class _Fraction(NamedTuple):
         return max(int(part.degrees()[position]) for part in parts)
 
 
-class _Writer:
+class _TapeWriter:
     """Writes expressions on a tape, and remembers the value of every symbol and function."""
 
     def __init__(
@@ -168,11 +168,11 @@ class _Writer:
         match generator:
             case Symbol():
                 return self._symbol(generator)
-            case Root():
+            case SquareRoot():
                 return self.tape.call(Op.SQRT, self.expression(generator.radicand))
             case Elementary():
                 return self.tape.call(Op(generator.name), self._argument(generator))
-            case Part():
+            case NamedPart():
                 return self._replayed(generator.meaning)
             case _:
                 raise NumericError(
@@ -266,7 +266,7 @@ class _Writer:
 @lru_cache(maxsize=16384)
 def _steps_of(expression: Expr) -> Program:
     """The steps to an expression from the generators of its ring."""
-    writer = _Writer((), lambda symbol: None, (), {})
+    writer = _TapeWriter((), lambda symbol: None, (), {})
     generators = expression.ring.generators
     writer.know({g: writer.tape.argument(i) for i, g in enumerate(generators)})
     return writer.tape.program((), [writer.written(expression)])

@@ -15,10 +15,10 @@ from polhode.algebra import (
     ONE,
     Arithmetic,
     Expr,
-    Kind,
     Matrix,
     Row,
     Symbol,
+    SymbolKind,
     arrays,
     compile_program,
     cos,
@@ -30,7 +30,7 @@ from polhode.algebra import (
     variables,
 )
 from polhode.analyse.closed._exact_data import Data
-from polhode.analyse.closed._reals import Array, Doubles, Reals
+from polhode.analyse.closed._reals import Array, DoubleReals, Reals
 from polhode.base import NumericError
 from polhode.derive import Equations
 from polhode.model import Body
@@ -97,7 +97,7 @@ def _turns(body: Body) -> tuple[tuple[Symbol, ...], tuple[Row, ...], Matrix] | N
         if turning:
             (angle, *more) = turning
             slope = frame.angle.diff(angle)
-            if more or angle.kind is not Kind.COORDINATE or slope not in (ONE, -ONE):
+            if more or angle.kind is not SymbolKind.COORDINATE or slope not in (ONE, -ONE):
                 return None
             rest = frame.angle - slope * Expr.generator(angle)
             angles.append(angle)
@@ -206,7 +206,7 @@ def _evaluated(
 ) -> list[Array]:
     import numpy as np
 
-    if isinstance(reals, Doubles):
+    if isinstance(reals, DoubleReals):
         given = (*np.broadcast_arrays(*varying), *map(float, constants))
         return [np.asarray(v, dtype=float) for v in program.function(arrays())(*given)]
     context = data.context

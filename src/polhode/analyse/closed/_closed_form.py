@@ -20,8 +20,8 @@ from polhode.analyse.closed import (
     _symmetric,
 )
 from polhode.analyse.closed._exact_data import Data, exact_data
-from polhode.analyse.closed._reals import Array, Digits, Doubles, Reals
-from polhode.analyse.closed._solution import Solution, Solvable
+from polhode.analyse.closed._reals import Array, Digits, DoubleReals, Reals
+from polhode.analyse.closed._solution import ExactSolution, Solvable
 from polhode.analyse.closed._uniform import SteadySolution, Uniform, is_steady, uniform
 from polhode.base import ConstraintError, NumericError, Shown
 from polhode.derive import Equations, equations_only
@@ -60,7 +60,7 @@ class ClosedForm(Shown):
 
     family: Solvable
     data: Data
-    solution: Solution
+    solution: ExactSolution
     uniform: Uniform
     digits: int | None
 
@@ -169,7 +169,7 @@ class ClosedForm(Shown):
 
     @cached_property
     def _reals(self) -> Reals:
-        return Doubles() if self.digits is None else Digits(self.data.context)
+        return DoubleReals() if self.digits is None else Digits(self.data.context)
 
 
 def recognise(equations: Equations) -> Solvable:

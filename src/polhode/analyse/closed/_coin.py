@@ -10,7 +10,7 @@ from polhode.analyse.closed._axle import Axle, Names, axles
 from polhode.analyse.closed._exact_data import Data
 from polhode.analyse.closed._libration import Libration
 from polhode.analyse.closed._reals import Array, Reals
-from polhode.analyse.closed._solution import Solution, Solvable, is_constant
+from polhode.analyse.closed._solution import ExactSolution, Solvable, is_constant
 from polhode.base import NumericError
 from polhode.derive import Equations
 
@@ -44,7 +44,7 @@ class SpinningCoin(Solvable):
     def state(self) -> tuple[Symbol, ...]:
         return self.axle.state
 
-    def solve(self, data: Data) -> Solution:
+    def solve(self, data: Data) -> ExactSolution:
         axle = self.axle
         theta, phi, theta_dot, phi_dot = map(
             Expr.generator, (axle.theta, axle.phi, axle.theta_rate, axle.phi_rate)
@@ -144,7 +144,7 @@ class Balance:
 
 
 @dataclass(frozen=True)
-class Wobble(Solution):
+class Wobble(ExactSolution):
     """The coin nodding between two angles while it turns.
 
     Attributes:

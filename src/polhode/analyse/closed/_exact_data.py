@@ -173,7 +173,7 @@ def exact_data(
     """
     constants = {*equations.parameters, *_of_bodies(equations)}
     state = (*equations.coordinates, *equations.speeds)
-    read = _Reader(equations.dimensions)
+    read = _ExactReader(equations.dimensions)
     given = read.all(parameters, constants, "parameter")
     begun = read.all(start, state, "coordinate or independent speed")
     at_rest = dict.fromkeys(state, ZERO)
@@ -211,7 +211,7 @@ def _check_positive(data: Data, quantity: Expr) -> None:
 
 
 @dataclass(frozen=True)
-class _Reader:
+class _ExactReader:
     dimensions: Mapping[Symbol, Dimension]
 
     def all(

@@ -12,7 +12,7 @@ from polhode.analyse.closed._chart import Chart, Placed, scalar
 from polhode.analyse.closed._exact_data import Data
 from polhode.analyse.closed._free_body import FreeBody, FreeRotation
 from polhode.analyse.closed._reals import Array, Digits, Reals
-from polhode.analyse.closed._solution import Solution, Solvable, is_constant
+from polhode.analyse.closed._solution import ExactSolution, Solvable, is_constant
 from polhode.analyse.closed._turned import Attitude, Attitudes, Turned
 from polhode.derive import Equations
 from polhode.model import Body
@@ -45,7 +45,7 @@ class TurnedFreeBody(Solvable):
     def state(self) -> tuple[Symbol, ...]:
         return (*self.chart.angles, *self.chart.speeds)
 
-    def solve(self, data: Data) -> Solution:
+    def solve(self, data: Data) -> ExactSolution:
         rotation = FreeRotation.start(data, self.moments, self.omega, _NAMES)
         placed = Placed(self.chart, data)
         return Turned(Tumbling(rotation, placed), placed)
@@ -64,7 +64,7 @@ class Tumbling(Attitudes):
     placed: Placed
 
     @property
-    def solution(self) -> Solution:
+    def solution(self) -> ExactSolution:
         return self.rotation
 
     @property

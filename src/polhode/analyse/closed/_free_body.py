@@ -14,9 +14,9 @@ from typing import Any
 
 from polhode.algebra import ZERO, Expr, Symbol
 from polhode.analyse.closed._exact_data import Data
-from polhode.analyse.closed._phase import Phase
+from polhode.analyse.closed._phase import EllipticPhase
 from polhode.analyse.closed._reals import Array, Reals
-from polhode.analyse.closed._solution import Solution, Solvable, is_constant
+from polhode.analyse.closed._solution import ExactSolution, Solvable, is_constant
 from polhode.derive import Equations
 
 Three = tuple[Any, ...]
@@ -51,7 +51,7 @@ class FreeBody(Solvable):
     def state(self) -> tuple[Symbol, ...]:
         return self.speeds
 
-    def solve(self, data: Data) -> Solution:
+    def solve(self, data: Data) -> ExactSolution:
         names = tuple(s.published for s in self.speeds)
         return FreeRotation.start(
             data, self.moments, tuple(map(Expr.generator, self.speeds)), names
@@ -67,7 +67,7 @@ def _excess(moments: Three, omega: Three, axis: int) -> Expr:
 
 
 @dataclass(frozen=True)
-class FreeRotation(Solution):
+class FreeRotation(ExactSolution):
     """One free rotation.
 
     The momentum L is at rest in space. Directions across it are counted from the one in which the
@@ -87,7 +87,7 @@ class FreeRotation(Solution):
     order: tuple[int, ...]
     moments: Three
     amplitudes: Three
-    phase: Phase
+    phase: EllipticPhase
     momentum: Any
 
     @classmethod
@@ -116,7 +116,7 @@ class FreeRotation(Solution):
             order,
             moments,
             amplitudes,
-            Phase.through(data.context, rate, sn, cn, m1),
+            EllipticPhase.through(data.context, rate, sn, cn, m1),
             sqrt(sum((moment * w) ** 2 for moment, w in zip(moments, omega, strict=True))),
         )
 

@@ -9,7 +9,7 @@ from typing import Any
 from polhode.algebra import ZERO, Expr, Symbol, cos, sin
 from polhode.analyse.closed._exact_data import Data
 from polhode.analyse.closed._reals import Array, Reals
-from polhode.analyse.closed._solution import Solution, Solvable, is_constant, rates
+from polhode.analyse.closed._solution import ExactSolution, Solvable, is_constant, rates
 from polhode.analyse.closed._swing_solution import SwingSolution
 from polhode.analyse.closed._swing_start import SHIFTS, Swinging, swinging
 from polhode.derive import Equations
@@ -76,7 +76,7 @@ class Gyrocompass(Solvable):
         """A to the first order in Ω, in which the spin ω is constant."""
         return -(self.push + (self.drag * Expr.generator(self.spin) if self.spin else ZERO))
 
-    def solve(self, data: Data) -> Solution:
+    def solve(self, data: Data) -> ExactSolution:
         theta, rate = self._theta, Expr.generator(self.rate)
         shift = data.number(self.shift)
         A, B = self.parts.values()

@@ -20,7 +20,7 @@ from polhode.base import NumericError
 _FEWEST, _MOST = 64, 2048
 
 
-class Series(NamedTuple):
+class FourierSeries(NamedTuple):
     """s = M + Σ b_k sin kM, and φ = drift · t + Σ c_k sin kM for angles carried along.
 
     Attributes:
@@ -65,7 +65,7 @@ class Libration:
     carried: Callable[[Any], tuple[Any, ...]]
     start: Any
     digits: int
-    _series: dict[Reals, Series] = field(default_factory=dict, repr=False)
+    _series: dict[Reals, FourierSeries] = field(default_factory=dict, repr=False)
 
     @property
     def period(self) -> Any:
@@ -127,7 +127,7 @@ class Libration:
         ]
         return _Nodes(s, delay, [self.carried(place) for place in q])
 
-    def _expanded(self, reals: Reals) -> Series:
+    def _expanded(self, reals: Reals) -> FourierSeries:
         nodes = self._nodes
         while len(nodes.s) <= _MOST:
             found = self._from_nodes(reals, nodes)
@@ -136,7 +136,7 @@ class Libration:
             nodes = self._at_nodes(2 * len(nodes.s))
         raise _too_sharp()
 
-    def _from_nodes(self, reals: Reals, nodes: _Nodes) -> Series | None:
+    def _from_nodes(self, reals: Reals, nodes: _Nodes) -> FourierSeries | None:
         """The series, or None if they have not converged on that many nodes."""
         count, mean = len(nodes.s), nodes.mean_delay
         s, delay = reals.array(nodes.s), reals.array([d / mean for d in nodes.delay])
@@ -158,7 +158,7 @@ class Libration:
         kept = max((k for k in orders if abs(lags[k - 1]) > smallest / 256), default=1)
         start = reals.array(reals.number(self.start))
         kept_swings = tuple(swing[:kept] for swing in swings)
-        return Series(lags[:kept], kept_swings, start + _sines(reals, advances, start))
+        return FourierSeries(lags[:kept], kept_swings, start + _sines(reals, advances, start))
 
 
 def _doublings() -> list[int]:

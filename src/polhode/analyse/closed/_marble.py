@@ -9,7 +9,7 @@ from typing import Any
 from polhode.algebra import Expr, Symbol
 from polhode.analyse.closed._exact_data import Data
 from polhode.analyse.closed._reals import Array, Reals
-from polhode.analyse.closed._solution import Solution, Solvable, is_constant, rates
+from polhode.analyse.closed._solution import ExactSolution, Solvable, is_constant, rates
 from polhode.base import NumericError
 from polhode.derive import Equations
 
@@ -55,7 +55,7 @@ class Circling(Solvable):
                 advice="simulate it, or take the uniformly accelerated motion",
             )
 
-    def solve(self, data: Data) -> Solution:
+    def solve(self, data: Data) -> ExactSolution:
         rate = data.number(self.rate)
         x, y, vx, vy = (data.number(Expr.generator(s)) for s in self.place + self.velocity)
         drift = (data.number(-self.push[1] / self.rate), data.number(self.push[0] / self.rate))
@@ -66,7 +66,7 @@ class Circling(Solvable):
 
 
 @dataclass(frozen=True)
-class CircularMotion(Solution):
+class CircularMotion(ExactSolution):
     """A circle whose centre drifts.
 
     Attributes:

@@ -18,9 +18,9 @@ from typing import Any
 from polhode.algebra import Expr
 from polhode.analyse.closed._axle import Names
 from polhode.analyse.closed._exact_data import Data
-from polhode.analyse.closed._phase import Phase
+from polhode.analyse.closed._phase import EllipticPhase
 from polhode.analyse.closed._reals import Array, Reals
-from polhode.analyse.closed._solution import Solution
+from polhode.analyse.closed._solution import ExactSolution
 from polhode.base import NumericError
 
 Pair = tuple[Any, Any]
@@ -56,7 +56,7 @@ class Release:
 
 
 @dataclass(frozen=True)
-class Nutation(Solution):
+class Nutation(ExactSolution):
     """One nutation, in v = y, or v = z where gravity pulls towards θ = 0.
 
     Attributes:
@@ -71,7 +71,7 @@ class Nutation(Solution):
     """
 
     context: Any
-    phase: Phase
+    phase: EllipticPhase
     above: Pair
     below: Pair
     leans: Pair
@@ -231,7 +231,9 @@ def _roots(context: Any, level: Any, slope: Any, lean: Any, gain: Any) -> list[A
     return sorted([context.zero] * zeros + [context.re(root) for root in found])
 
 
-def _phase(context: Any, release: Release, inverted: bool, rate: Any, ends: Pair, m1: Any) -> Phase:
+def _phase(
+    context: Any, release: Release, inverted: bool, rate: Any, ends: Pair, m1: Any
+) -> EllipticPhase:
     sine, cosine = context.sin(release.theta / 2), context.cos(release.theta / 2)
     v = cosine**2 if inverted else sine**2
     v_rate = sine * cosine * release.theta_dot * (-1 if inverted else 1)
@@ -240,7 +242,7 @@ def _phase(context: Any, release: Release, inverted: bool, rate: Any, ends: Pair
     # cn² near its extremes says little of u: twice the amplitude is taken instead.
     twice_sine = -2 * v_rate / (rate * dn)
     amplitude = context.atan2(twice_sine, 2 * (2 * v - high - low)) / 2
-    return Phase.through(context, rate, context.sin(amplitude), context.cos(amplitude), m1)
+    return EllipticPhase.through(context, rate, context.sin(amplitude), context.cos(amplitude), m1)
 
 
 def _pattern(data: Data, integrals: Integrals, product: Any) -> str:

@@ -7,7 +7,7 @@ from typing import Any
 
 from polhode.algebra import ZERO, Expr, Symbol, sin
 from polhode.analyse.closed._exact_data import Data
-from polhode.analyse.closed._solution import Solution, Solvable, is_constant, rates
+from polhode.analyse.closed._solution import ExactSolution, Solvable, is_constant, rates
 from polhode.analyse.closed._swing_solution import SwingSolution
 from polhode.analyse.closed._swing_start import SHIFTS, swinging
 from polhode.derive import Equations
@@ -45,7 +45,7 @@ class Pendulum(Solvable):
     def state(self) -> tuple[Symbol, ...]:
         return self.angle, self.rate
 
-    def solve(self, data: Data) -> Solution:
+    def solve(self, data: Data) -> ExactSolution:
         theta, rate = Expr.generator(self.angle) + self.shift, Expr.generator(self.rate)
         lowest = data.context.pi if data.number(self.strength) > 0 else data.context.zero
         shift = data.number(self.shift)

@@ -15,7 +15,7 @@ from polhode.analyse.closed._elliptic import (
 from polhode.analyse.closed._reals import Array, Reals
 
 
-class Point(NamedTuple):
+class PhasePoint(NamedTuple):
     """A point of a phase: the argument less whole half-periods, their number, and sn, cn, dn."""
 
     argument: Array
@@ -26,7 +26,7 @@ class Point(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Phase:
+class EllipticPhase:
     """u = rate · t + start.
 
     Attributes:
@@ -42,7 +42,7 @@ class Phase:
     m1: Any
 
     @classmethod
-    def through(cls, context: Any, rate: Any, sn: Any, cn: Any, m1: Any) -> Phase:
+    def through(cls, context: Any, rate: Any, sn: Any, cn: Any, m1: Any) -> EllipticPhase:
         """The phase with sn u : cn u = `sn` : `cn` at t = 0."""
         size = context.hypot(sn, cn)
         return cls(context, rate, first_kind(context, sn / size, cn / size, m1), m1)
@@ -54,18 +54,18 @@ class Phase:
             return None
         return 2 * quarter_period(self.context, self.m1) / self.rate
 
-    def at(self, reals: Reals, times: Array) -> Point:
+    def at(self, reals: Reals, times: Array) -> PhasePoint:
         """sn, cn and dn at times, s."""
         m1 = reals.number(self.m1)
         if self.half_period is None:
             u = reals.number(self.rate) * times + reals.number(self.start)
-            return Point(u, 0, *jacobi(reals, u, m1))
+            return PhasePoint(u, 0, *jacobi(reals, u, m1))
         half = self.half_period
         turns = reals.turns(times, 1 / half, self.start / (half * self.rate))
         u = turns.fraction * reals.number(half * self.rate)
         sign = 1 - 2 * (turns.whole % 2)
         sn, cn, dn = jacobi(reals, u, m1)
-        return Point(u, turns.whole, sign * sn, sign * cn, dn)
+        return PhasePoint(u, turns.whole, sign * sn, sign * cn, dn)
 
     def third_kind(self, reals: Reals, times: Array, n1: Any) -> Array:
         """∫₀ᵗ dt/(cn² + n₁ sn²), s."""
@@ -77,7 +77,7 @@ class Phase:
         """What `third_kind` grows by in a half-period, s."""
         return 2 * third_kind_complete(self.context, n1, self.m1) / self.rate
 
-    def _since_zero(self, reals: Reals, point: Point, n1: Any) -> Array:
+    def _since_zero(self, reals: Reals, point: PhasePoint, n1: Any) -> Array:
         """The integral over u from the zero of u."""
         n, m1 = reals.number(n1), reals.number(self.m1)
         # Within a half-period the sign of cn, which third_kind takes squared, does not matter.

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple, TypeAlias
 Array: TypeAlias = Any
 
 
-class Turns(NamedTuple):
+class WholeTurns(NamedTuple):
     """A number of turns: a fraction between -1/2 and 1/2, and whole ones."""
 
     fraction: Array
@@ -50,7 +50,7 @@ class Reals(ABC):
         """Numbers of any sort as an array."""
 
     @abstractmethod
-    def turns(self, times: Array, frequency: Any, offset: Any) -> Turns:
+    def turns(self, times: Array, frequency: Any, offset: Any) -> WholeTurns:
         """frequency · times + offset, the fraction to rounding however many whole turns."""
 
     @abstractmethod
@@ -62,7 +62,7 @@ class Reals(ABC):
         """sin kx and cos kx for k = 1, 2, … without end."""
 
 
-class Doubles(Reals):
+class DoubleReals(Reals):
     """NumPy's doubles."""
 
     def __init__(self) -> None:
@@ -82,7 +82,7 @@ class Doubles(Reals):
 
         return numpy.asarray(values, dtype=float)
 
-    def turns(self, times: Array, frequency: Any, offset: Any) -> Turns:
+    def turns(self, times: Array, frequency: Any, offset: Any) -> WholeTurns:
         import numpy
 
         high = float(frequency)
@@ -92,7 +92,7 @@ class Doubles(Reals):
         rest = (product - whole) + (error + times * float(frequency - high))
         rest = rest + float(offset - float(start))
         carried = numpy.rint(rest)
-        return Turns(rest - carried, whole + start + carried)
+        return WholeTurns(rest - carried, whole + start + carried)
 
     def exact(self, number: Any) -> Fraction:
         return Fraction(float(number))
@@ -123,12 +123,12 @@ class Digits(Reals):
         convert = numpy.frompyfunc(self._context.convert, 1, 1)
         return numpy.asarray(convert(numpy.asarray(values)), dtype=object)
 
-    def turns(self, times: Array, frequency: Any, offset: Any) -> Turns:
+    def turns(self, times: Array, frequency: Any, offset: Any) -> WholeTurns:
         from numpy import frompyfunc
 
         total = times * frequency + offset
         whole = frompyfunc(self._context.nint, 1, 1)(total)
-        return Turns(total - whole, whole)
+        return WholeTurns(total - whole, whole)
 
     def exact(self, number: Any) -> Fraction:
         mantissa = Fraction(int(number.man)) * Fraction(2) ** int(number.exp)

@@ -5,13 +5,13 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import Any, ClassVar
 
-from polhode.algebra import Expr, Kind, Symbol
+from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.analyse.closed._exact_data import Data
 from polhode.analyse.closed._reals import Array, Reals
 from polhode.derive import Equations
 
 
-class Solution(ABC):
+class ExactSolution(ABC):
     """One motion, its constants known to more digits than are wanted."""
 
     @property
@@ -64,13 +64,13 @@ class Solvable(ABC):
         return None
 
     @abstractmethod
-    def solve(self, data: Data) -> Solution:
+    def solve(self, data: Data) -> ExactSolution:
         """The motion from a start that is not steady."""
 
 
 def is_constant(expression: Expr) -> bool:
     """Whether only parameters occur."""
-    return all(symbol.kind is Kind.PARAMETER for symbol in expression.symbols())
+    return all(symbol.kind is SymbolKind.PARAMETER for symbol in expression.symbols())
 
 
 def rates(equations: Equations) -> dict[Symbol, Symbol]:

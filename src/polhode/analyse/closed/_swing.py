@@ -16,11 +16,11 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from polhode.analyse.closed._elliptic import first_kind
-from polhode.analyse.closed._phase import Phase, Point
+from polhode.analyse.closed._phase import EllipticPhase, PhasePoint
 from polhode.analyse.closed._reals import Array, Reals
 
 
-class Quotient(NamedTuple):
+class SwingQuotient(NamedTuple):
     """x = p/q, the derivatives of p and q by u, and what atan2(p, q) has forgotten of ϑ/2."""
 
     p: Array
@@ -48,7 +48,7 @@ class Swing(ABC):
         sign: of the velocity, or of the side the motion keeps to.
     """
 
-    phase: Phase
+    phase: EllipticPhase
     p: Any
     q: Any
     sign: int = 1
@@ -89,7 +89,7 @@ class Swing(ABC):
         return 2 * self.phase.context.atan2(self.p, self.q)
 
     @abstractmethod
-    def _fraction(self, reals: Reals, point: Point, p: Any, q: Any) -> Quotient:
+    def _fraction(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
         """x at a point of the phase."""
 
     @abstractmethod
@@ -109,8 +109,8 @@ class Swing(ABC):
 class Across(Swing):
     """x = (p/q) cn u: to and fro across ϑ = 0."""
 
-    def _fraction(self, reals: Reals, point: Point, p: Any, q: Any) -> Quotient:
-        return Quotient(p * point.cn, q, -p * point.sn * point.dn, 0)
+    def _fraction(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
+        return SwingQuotient(p * point.cn, q, -p * point.sn * point.dn, 0)
 
     def _arguments(self, half: Half) -> Iterator[Any]:
         if half.cos:
@@ -121,8 +121,8 @@ class Across(Swing):
 class AcrossWell(Swing):
     """x = (p/q) sn u: the same where ϑ = π is a well too."""
 
-    def _fraction(self, reals: Reals, point: Point, p: Any, q: Any) -> Quotient:
-        return Quotient(p * point.sn, q, p * point.cn * point.dn, 0)
+    def _fraction(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
+        return SwingQuotient(p * point.sn, q, p * point.cn * point.dn, 0)
 
     def _arguments(self, half: Half) -> Iterator[Any]:
         if half.cos:
@@ -139,9 +139,11 @@ class Beside(Swing):
     def period(self) -> Any:
         return self.phase.half_period
 
-    def _fraction(self, reals: Reals, point: Point, p: Any, q: Any) -> Quotient:
+    def _fraction(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
         m = reals.number(1 - self.phase.m1)
-        return Quotient(self.sign * p * point.dn, q, -self.sign * p * m * point.sn * point.cn, 0)
+        return SwingQuotient(
+            self.sign * p * point.dn, q, -self.sign * p * m * point.sn * point.cn, 0
+        )
 
     def _arguments(self, half: Half) -> Iterator[Any]:
         m1, m = self.phase.m1, 1 - self.phase.m1
@@ -161,11 +163,11 @@ class Over(Swing):
     def period(self) -> Any:
         return self.phase.half_period
 
-    def _fraction(self, reals: Reals, point: Point, p: Any, q: Any) -> Quotient:
+    def _fraction(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
         flip = 1 - 2 * (point.halves % 2)
         sn, cn = flip * point.sn, flip * point.cn
         turned = self.sign * reals.number(self.phase.context.pi) * point.halves
-        return Quotient(
+        return SwingQuotient(
             self.sign * p * sn, q * cn, self.sign * p * cn * point.dn, -q * sn * point.dn, turned
         )
 
@@ -179,14 +181,14 @@ class OverWell(Swing):
     style = "turning over"
     turning = None
 
-    def _fraction(self, reals: Reals, point: Point, p: Any, q: Any) -> Quotient:
+    def _fraction(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
         pi, odd = reals.number(self.phase.context.pi), point.halves % 2
         flip = 1 - 2 * odd
         half = (reals.atan2(flip * point.sn, flip * point.cn) + odd * pi) / 2
         sin, cos = reals.sin(half), reals.cos(half)
         slope = point.dn / 2
         turned = self.sign * pi * (point.halves - odd) / 2
-        return Quotient(
+        return SwingQuotient(
             self.sign * p * sin, q * cos, self.sign * p * cos * slope, -q * sin * slope, turned
         )
 

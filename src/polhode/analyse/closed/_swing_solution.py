@@ -7,12 +7,12 @@ from typing import Any
 
 from polhode.algebra import Symbol
 from polhode.analyse.closed._reals import Array, Reals
-from polhode.analyse.closed._solution import Solution
+from polhode.analyse.closed._solution import ExactSolution
 from polhode.analyse.closed._swing_start import Swinging
 
 
 @dataclass(frozen=True)
-class SwingSolution(Solution):
+class SwingSolution(ExactSolution):
     """An angle that swings or turns over.
 
     Attributes:

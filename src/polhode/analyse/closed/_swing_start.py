@@ -7,7 +7,7 @@ from typing import Any
 
 from polhode.algebra import ZERO, Expr, cos, pi, sin
 from polhode.analyse.closed._exact_data import Data
-from polhode.analyse.closed._phase import Phase
+from polhode.analyse.closed._phase import EllipticPhase
 from polhode.analyse.closed._reals import Array, Digits, Reals
 from polhode.analyse.closed._swing import Across, AcrossWell, Beside, Half, Over, OverWell, Swing
 from polhode.base import NumericError
@@ -181,8 +181,8 @@ class _Levels:
         phase = self._phase(sqrt(2 * mean), 2 * s * c, c * c - s * s, m1)
         return OverWell(phase, p, q, sign)
 
-    def _phase(self, rate: Any, sn: Any, cn: Any, m1: Any) -> Phase:
-        return Phase.through(self.context, rate, sn, cn, m1)
+    def _phase(self, rate: Any, sn: Any, cn: Any, m1: Any) -> EllipticPhase:
+        return EllipticPhase.through(self.context, rate, sn, cn, m1)
 
     @staticmethod
     def _speed(half: Half, rate: Any) -> Any:

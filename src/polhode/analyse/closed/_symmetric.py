@@ -24,8 +24,8 @@ from polhode.analyse.closed._coin import Balance, SpinningCoin, Wobble
 from polhode.analyse.closed._exact_data import Data
 from polhode.analyse.closed._heavy_top import HeavyTop
 from polhode.analyse.closed._nutation import Integrals, Release, nutation
-from polhode.analyse.closed._reals import Array, Doubles, Reals
-from polhode.analyse.closed._solution import Solution, Solvable, is_constant
+from polhode.analyse.closed._reals import Array, DoubleReals, Reals
+from polhode.analyse.closed._solution import ExactSolution, Solvable, is_constant
 from polhode.analyse.closed._turned import Attitude, Attitudes, Turned
 from polhode.base import NumericError
 from polhode.derive import Equations
@@ -171,7 +171,7 @@ class TurnedTop(Solvable):
     def state(self) -> tuple[Symbol, ...]:
         return self.axis.state
 
-    def solve(self, data: Data) -> Solution:
+    def solve(self, data: Data) -> ExactSolution:
         axis = self.axis
         energy = axis.swiftness + 2 * self.weight * axis.cosine
         integrals = Integrals(axis.alpha, axis.beta, energy, 2 * self.weight)
@@ -204,7 +204,7 @@ class TurnedCoin(Solvable):
     def state(self) -> tuple[Symbol, ...]:
         return self.axis.state
 
-    def solve(self, data: Data) -> Solution:
+    def solve(self, data: Data) -> ExactSolution:
         axis, release = self.axis, self.axis.release(data)
         lean, slant = (data.number(axis.alpha + sign * axis.beta) for sign in (-1, 1))
         weight, lift, spin = map(data.number, (self.weight, self.lift, axis.n))
@@ -232,10 +232,10 @@ class Leaning(Attitudes):
 
     axis: Axis
     data: Data
-    euler: Solution
+    euler: ExactSolution
 
     @property
-    def solution(self) -> Solution:
+    def solution(self) -> ExactSolution:
         return self.euler
 
     @cached_property
@@ -244,7 +244,7 @@ class Leaning(Attitudes):
 
         period = float(self.euler.period or 1.0)
         moments = np.linspace(0.0, period, 33)
-        found = self.euler.at(Doubles(), moments)
+        found = self.euler.at(DoubleReals(), moments)
         rates = np.abs(found["theta_dot"]) + np.abs(found["phi_dot"])
         fastest = float(np.max(rates)) + abs(float(self.data.number(self.axis.n)))
         return min(period / 64, 0.25 / max(fastest, 1e-300))

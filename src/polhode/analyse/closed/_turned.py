@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from polhode.analyse.closed._chart import Placed, Vec
-from polhode.analyse.closed._reals import Array, Doubles, Reals
-from polhode.analyse.closed._solution import Solution
+from polhode.analyse.closed._reals import Array, DoubleReals, Reals
+from polhode.analyse.closed._solution import ExactSolution
 from polhode.base import NumericError
 
 _STEPS = 64  # of a period, at first
@@ -37,7 +37,7 @@ class Attitudes(ABC):
 
     @property
     @abstractmethod
-    def solution(self) -> Solution:
+    def solution(self) -> ExactSolution:
         """The motion in quantities of its own."""
 
     @abstractmethod
@@ -51,7 +51,7 @@ class Attitudes(ABC):
 
 
 @dataclass(frozen=True)
-class Turned(Solution):
+class Turned(ExactSolution):
     """A motion of a body, in the coordinates and speeds of its chart.
 
     Attributes:
@@ -128,7 +128,7 @@ class Turned(Solution):
         """The angles along a grid, each step by the shorter way, as they are at the start."""
         import numpy as np
 
-        doubles = Doubles()
+        doubles = DoubleReals()
         found = self.attitudes.at(doubles, grid)
         begun = int(np.searchsorted(grid, 0.0))
         passed = []

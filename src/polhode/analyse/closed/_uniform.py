@@ -6,11 +6,11 @@ from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Any
 
-from polhode.algebra import Expr, Kind, Symbol
+from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.analyse._reduced import reduced
 from polhode.analyse.closed._exact_data import Data
 from polhode.analyse.closed._reals import Array, Reals
-from polhode.analyse.closed._solution import Solution
+from polhode.analyse.closed._solution import ExactSolution
 from polhode.derive import Equations
 
 
@@ -33,7 +33,7 @@ class Uniform:
 
 
 @dataclass(frozen=True)
-class SteadySolution(Solution):
+class SteadySolution(ExactSolution):
     """A motion on which nothing happens but uniform turning."""
 
     kind = "steady motion"
@@ -71,4 +71,4 @@ def uniform(equations: Equations, data: Data, steady: bool) -> Uniform:
 
 
 def _is_constant(rate: Expr, still: Collection[Symbol]) -> bool:
-    return all(s.kind is Kind.PARAMETER or s in still for s in rate.symbols())
+    return all(s.kind is SymbolKind.PARAMETER or s in still for s in rate.symbols())

@@ -6,12 +6,12 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
-from polhode.algebra import Expr, Kind, Symbol, Vector, variables
+from polhode.algebra import Expr, Symbol, SymbolKind, Vector, variables
 from polhode.model import Action, Body, Element, Friction, Restraint, System
 
 
 @dataclass(frozen=True, eq=False)
-class Declared:
+class Placement:
     """A declaration with every body placed.
 
     Attributes:
@@ -35,14 +35,14 @@ class Declared:
     @cached_property
     def functions(self) -> tuple[Symbol, ...]:
         """Prescribed functions of time that occur, without their rates."""
-        return self._of_kind(Kind.FUNCTION)
+        return self._of_kind(SymbolKind.FUNCTION)
 
     @cached_property
     def parameters(self) -> tuple[Symbol, ...]:
         """Constants that occur, whether the motion depends on them or not."""
-        return self._of_kind(Kind.PARAMETER)
+        return self._of_kind(SymbolKind.PARAMETER)
 
-    def _of_kind(self, kind: Kind) -> tuple[Symbol, ...]:
+    def _of_kind(self, kind: SymbolKind) -> tuple[Symbol, ...]:
         found = {s.base() for s in variables(self._said()) if s.kind is kind and s.name != "pi"}
         return tuple(sorted(found, key=_name))
 
@@ -80,17 +80,19 @@ class Declared:
 
 
 @lru_cache(maxsize=64)
-def declared(system: System) -> Declared:
+def declared(system: System) -> Placement:
     """Read a declaration."""
     places, elements = _placed(system)
     rates = {_only(q): rate for b in system.bodies for q, rate in b.rates.items()}
     rates |= {_only(q): rate for e in elements for q, rate in e.rates().items()}
     mentioned = variables(_mentioned(system, places))
-    coordinates = {s.base() for s in mentioned if s.kind is Kind.COORDINATE} | rates.keys()
+    coordinates = {s.base() for s in mentioned if s.kind is SymbolKind.COORDINATE} | rates.keys()
     bare = {q.derivative() for q in coordinates if q not in rates}
-    free = {s.base() for rate in rates.values() for s in rate.symbols() if s.kind is Kind.SPEED}
+    free = {
+        s.base() for rate in rates.values() for s in rate.symbols() if s.kind is SymbolKind.SPEED
+    }
     own = {_only(s) for body in system.bodies for s in body.speeds}
-    return Declared(
+    return Placement(
         system,
         places,
         rates,
@@ -134,4 +136,4 @@ def _name(symbol: Symbol) -> str:
 
 def reaction_symbol(name: str) -> Symbol:
     """What stands for a reaction component in claims; unlike a parameter it varies."""
-    return Symbol(name, Kind.FUNCTION)
+    return Symbol(name, SymbolKind.FUNCTION)

@@ -11,9 +11,9 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from polhode.algebra import Kind, Symbol, Vector
+from polhode.algebra import Symbol, SymbolKind, Vector
 from polhode.base import NumericError
-from polhode.claims.balance._declared import Declared, declared, reaction_symbol
+from polhode.claims.balance._declared import Placement, declared, reaction_symbol
 from polhode.claims.balance._jets import Array
 from polhode.claims.balance._trial import Trial
 from polhode.model import Body, Restraint, System
@@ -55,7 +55,7 @@ def trial_of(system: System, numbers: Mapping[Symbol, float]) -> Trial:
     Reactions are no part of it, for their rates are not known.
     """
     known = declared(system)
-    given = (Kind.PARAMETER, Kind.COORDINATE, Kind.TIME)
+    given = (SymbolKind.PARAMETER, SymbolKind.COORDINATE, SymbolKind.TIME)
     state = {
         s: number
         for s, number in numbers.items()
@@ -80,7 +80,7 @@ def constrained_motion(
     return _numbers(trial, state, speeds, found)
 
 
-def _speeds(known: Declared, state: Mapping[Symbol, float]) -> Numbers:
+def _speeds(known: Placement, state: Mapping[Symbol, float]) -> Numbers:
     """Every declared speed, from those given and the velocity constraints."""
     steps = _steps(len(known.speeds))
     trial = Trial(known, state, dict(zip(known.speeds, steps, strict=True)), {})
@@ -92,7 +92,7 @@ def _speeds(known: Declared, state: Mapping[Symbol, float]) -> Numbers:
     return dict(zip(known.speeds, map(float, found), strict=True))
 
 
-def _trials(known: Declared, state: Mapping[Symbol, float], speeds: Numbers) -> Trial:
+def _trials(known: Placement, state: Mapping[Symbol, float], speeds: Numbers) -> Trial:
     """The state with all rates of speeds zero, and with each of them one in turn."""
     steps = _steps(len(speeds))
     still = {s: np.full(len(speeds) + 1, v) for s, v in speeds.items()}
@@ -119,7 +119,7 @@ def _kinematic(trial: Trial) -> tuple[Array, Array]:
     return rates[:, 1:] - rates[:, :1], -rates[:, 0]
 
 
-def _balances(known: Declared, trial: Trial) -> tuple[Array, Array]:
+def _balances(known: Placement, trial: Trial) -> tuple[Array, Array]:
     """Newton and Euler for every body: rows over the rates of speeds and then the reactions."""
     lines = [_line(known, trial, r) for r in known.restraints]
     rows, right = [], []
@@ -133,7 +133,7 @@ def _balances(known: Declared, trial: Trial) -> tuple[Array, Array]:
     return np.vstack(rows), np.concatenate(right)
 
 
-def _line(known: Declared, trial: Trial, restraint: Restraint) -> dict[Body, Array]:
+def _line(known: Placement, trial: Trial, restraint: Restraint) -> dict[Body, Array]:
     """Force and torque about the centre that one unit of a reaction puts on the bodies."""
     direction = trial.now(restraint.direction) + _rubbing(known, trial, restraint)
     acting = {restraint.body: _wrench(trial, direction, restraint.arm)}
@@ -148,7 +148,7 @@ def _wrench(trial: Trial, direction: Array, arm: Vector | None) -> Array:
     return np.concatenate([direction, np.cross(trial.now(arm), direction)])
 
 
-def _rubbing(known: Declared, trial: Trial, restraint: Restraint) -> Array:
+def _rubbing(known: Placement, trial: Trial, restraint: Restraint) -> Array:
     """Sliding friction that goes with one unit of a normal force."""
     friction = known.frictions.get(restraint.name)
     if friction is None:
@@ -161,7 +161,7 @@ def _rubbing(known: Declared, trial: Trial, restraint: Restraint) -> Array:
     return np.asarray(-coefficient * slip / np.linalg.norm(slip))
 
 
-def _applied(known: Declared, trial: Trial, body: Body) -> Array:
+def _applied(known: Placement, trial: Trial, body: Body) -> Array:
     total = np.zeros(6)
     for action in known.actions:
         if action.body == body:

@@ -81,14 +81,14 @@ def read_members(
         told: letters that the text defines, as expressions and vectors.
         points: of moments that may be about several points, which is meant.
     """
-    reader = _Reader(system, numbers, trial, told, points)
+    reader = _SecondReader(system, numbers, trial, told, points)
     for relation in statement.relations:
         pairs = zip(relation.sides, relation.signs, relation.sides[1:], strict=False)
         for left, sign, right in pairs:
             yield reader.sides(left, right) if sign in _EQUAL else None
 
 
-class _Reader:
+class _SecondReader:
     def __init__(
         self,
         system: System,

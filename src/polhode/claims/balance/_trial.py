@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from polhode.algebra import Compiled, Expr, Symbol, Vector, compile_program, variables
-from polhode.claims.balance._declared import Declared
+from polhode.claims.balance._declared import Placement
 from polhode.claims.balance._jets import JETS, Array, Jet
 from polhode.model import Body, Frame, Restraint
 
@@ -19,7 +19,7 @@ Jets = Any
 
 
 @dataclass(frozen=True, eq=False)
-class Moving:
+class BodyMotion:
     """How one body moves, along the root frame, in inertial space.
 
     Attributes:
@@ -43,7 +43,7 @@ class Trial:
 
     def __init__(
         self,
-        known: Declared,
+        known: Placement,
         state: Mapping[Symbol, float],
         speeds: Mapping[Symbol, Array],
         rates: Mapping[Symbol, Array],
@@ -129,13 +129,13 @@ class Trial:
         return self.vector(self._root.angular_velocity)
 
     @cached_property
-    def bodies(self) -> dict[Body, Moving]:
+    def bodies(self) -> dict[Body, BodyMotion]:
         """How every body moves."""
         return {body: self._moving(body) for body in self._known.system.bodies}
 
-    def _moving(self, body: Body) -> Moving:
+    def _moving(self, body: Body) -> BodyMotion:
         velocity = self.inertial_rate(self.vector(self._known.places[body]))
-        return Moving(velocity, self.vector(body.angular_velocity))
+        return BodyMotion(velocity, self.vector(body.angular_velocity))
 
     def acceleration(self, body: Body) -> Jets:
         """Of its centre of mass, in inertial space, m/s²."""

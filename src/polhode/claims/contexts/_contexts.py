@@ -9,16 +9,16 @@ from importlib import import_module
 from polhode.base import ParseError
 from polhode.claims._verdict import Answer, Verdict
 from polhode.claims.contexts._judge import judged_identity, judged_motion
-from polhode.claims.states._asked import EQUALITY, MAGNITUDES, SENSE, Asked
-from polhode.claims.states._circumstances import AnyState, Circumstances, TrueMotion
+from polhode.claims.states._bound_claim import EQUALITY, MAGNITUDES, SENSE, BoundClaim
+from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
 
-Judge = Callable[[Asked], Verdict]
+Judge = Callable[[BoundClaim], Verdict]
 
 
 def _of(module: str, name: str) -> Judge:
     """A judge whose file, and all that it needs, is loaded for its context alone."""
 
-    def judged(asked: Asked) -> Verdict:
+    def judged(asked: BoundClaim) -> Verdict:
         judge: Judge = getattr(import_module(f"polhode.claims.contexts.{module}"), name)
         return judge(asked)
 
@@ -34,16 +34,16 @@ _EQUATIONS: dict[str, Judge] = {
 _WHOLE: dict[str, Judge] = {
     "threshold": _of("_threshold", "judged_threshold"),
     "limit": _judged_limit,
-    "launch": _of("_launch", "judged_launch"),
+    "launch": _of("_initial_value", "judged_launch"),
     "number": _of("_number", "judged_number"),
 }
 #: How a corrected claim is judged where that can be quicker.
-_TRIED: dict[str, Judge] = {"launch": _of("_launch", "judged_along")}
+_TRIED: dict[str, Judge] = {"launch": _of("_initial_value", "judged_along")}
 #: Where a claim may be asked to hold.
 CONTEXTS = (*_EQUATIONS, *_WHOLE)
 
 
-def judge(asked: Asked, context: str) -> Verdict:
+def judge(asked: BoundClaim, context: str) -> Verdict:
     """The verdict on a claim; every member is judged by its sign.
 
     Raises `ParseError` for an unknown context, and for signs that the context has no use for.
@@ -69,7 +69,7 @@ def judge(asked: Asked, context: str) -> Verdict:
     return replace(approximate or found[0], context=context, remarks=remarks)
 
 
-def _refuse_magnitudes(asked: Asked) -> None:
+def _refuse_magnitudes(asked: BoundClaim) -> None:
     """≫ and ≪ speak of a limit, and no state is large or small by itself."""
     for relation in asked.members:
         if relation.sign in MAGNITUDES:
@@ -81,12 +81,12 @@ def _refuse_magnitudes(asked: Asked) -> None:
             )
 
 
-def holds(asked: Asked, context: str) -> bool:
+def holds(asked: BoundClaim, context: str) -> bool:
     """Whether a claim holds, and no more."""
     return _TRIED[context](asked).holds if context in _TRIED else judge(asked, context).holds
 
 
-def _by_signs(asked: Asked, context: str) -> Iterator[Verdict]:
+def _by_signs(asked: BoundClaim, context: str) -> Iterator[Verdict]:
     signs = {i: relation.sign for i, relation in enumerate(asked.members)}
     equal = [i for i, sign in signs.items() if sign in EQUALITY]
     close = [i for i, sign in signs.items() if sign == "≈"]
@@ -106,7 +106,7 @@ def _by_signs(asked: Asked, context: str) -> Iterator[Verdict]:
 
 
 def _refuse_scattered_choice(
-    asked: Asked, together: Iterable[Collection[int]], compared: Collection[int]
+    asked: BoundClaim, together: Iterable[Collection[int]], compared: Collection[int]
 ) -> None:
     """± is one choice for the whole statement, so that what is judged apart must not share it."""
     with_choice = {i for i in range(len(asked.members)) if asked.says_choice(i)}
@@ -120,7 +120,7 @@ def _refuse_scattered_choice(
 
 
 def _compared(
-    asked: Asked, context: str, bounds: Collection[int], unequal: Collection[int]
+    asked: BoundClaim, context: str, bounds: Collection[int], unequal: Collection[int]
 ) -> Iterator[Verdict]:
     from polhode.claims.contexts._inequality import judged_inequality, judged_unequal
 
@@ -132,13 +132,13 @@ def _compared(
                 yield judged_unequal(asked, component, states)
 
 
-def _close(asked: Asked, context: str) -> Verdict:
+def _close(asked: BoundClaim, context: str) -> Verdict:
     """≈ may be exact; otherwise it takes a small quantity to say how close it is."""
     exact = _EQUATIONS[context](asked)
     return exact if exact.holds or not asked.small else _judged_limit(asked)
 
 
-def _states(asked: Asked, context: str) -> tuple[Circumstances, ...]:
+def _states(asked: BoundClaim, context: str) -> tuple[ClaimDomain, ...]:
     if context == "steady":
         from polhode.claims.states._steady_states import steady_states
 

@@ -11,20 +11,20 @@ from polhode.base import PolhodeError
 from polhode.claims._verdict import Confirmation, Counterexample, Evidence, Residual
 from polhode.claims.balance._declared import declared, reaction_symbol
 from polhode.claims.balance._newton_euler import constrained_motion, true_motion
-from polhode.claims.meaning._components import Component
-from polhode.claims.states._circumstances import AnyState, Circumstances
+from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.states._claim_domain import AnyState, ClaimDomain
 from polhode.claims.states._numeric import number
 from polhode.claims.states._physical import is_physical
-from polhode.claims.states._points import Point, points
+from polhode.claims.states._points import ExactPoint, points
 
 _TRIES = 300
 _ROUNDING = 1e-7
 
 
 def refutation(
-    component: Component,
+    component: ScalarRelation,
     residual: Residual,
-    states: Circumstances,
+    states: ClaimDomain,
     refutes: Callable[[Expr, Expr], bool] = ne,
     nonzero: Expr = ONE,
 ) -> Evidence:
@@ -39,7 +39,7 @@ def refutation(
     """
     sides = (states.on(component.left), states.on(component.right))
 
-    def does(point: Point) -> bool:
+    def does(point: ExactPoint) -> bool:
         left, right = (_at(point, side) for side in sides)
         return refutes(left, right) and bool(_at(point, nonzero))
 
@@ -47,10 +47,10 @@ def refutation(
 
 
 def example_where(
-    refutes: Callable[[Point], bool],
-    component: Component,
+    refutes: Callable[[ExactPoint], bool],
+    component: ScalarRelation,
     residual: Residual,
-    states: Circumstances,
+    states: ClaimDomain,
     used: Expr = ONE,
 ) -> Evidence:
     """The first of some states of bodies that can be that refutes a component.
@@ -74,14 +74,14 @@ def example_where(
     return None, None
 
 
-def _at(point: Point, expression: Expr) -> Expr:
+def _at(point: ExactPoint, expression: Expr) -> Expr:
     """The exact value of an expression; to rounding where it holds parts under names."""
     if not any(under_name(generator) is not None for generator in expression.generators):
         return point(expression)
     return Expr.of(float(number(expression, point.floats())))
 
 
-def drawn_numbers(sides: Sequence[Expr], states: Circumstances) -> Iterator[dict[Symbol, float]]:
+def drawn_numbers(sides: Sequence[Expr], states: ClaimDomain) -> Iterator[dict[Symbol, float]]:
     """Numbers of every quantity at states that the circumstances allow, forces included."""
     for point in _drawn(tuple(map(states.on, sides)), states):
         try:
@@ -91,14 +91,14 @@ def drawn_numbers(sides: Sequence[Expr], states: Circumstances) -> Iterator[dict
             continue
 
 
-def _drawn(sides: tuple[Expr, ...], states: Circumstances) -> Iterator[Point]:
+def _drawn(sides: tuple[Expr, ...], states: ClaimDomain) -> Iterator[ExactPoint]:
     used = [*sides, *states.settled_relations, *map(states.on, states.signs)]
     used += states.equations.accelerations.values()
     symbols = {s for e in used for s in e.symbols()} | _state(states)
     return (points(used, symbols, seed) for seed in range(_TRIES))
 
 
-def _state(states: Circumstances) -> set[Symbol]:
+def _state(states: ClaimDomain) -> set[Symbol]:
     equations = states.equations
     orders = [s for f in equations.functions for s in _with_rates(f)]
     known = declared(equations.system).parameters
@@ -111,12 +111,12 @@ def _with_rates(function: Symbol) -> Iterator[Symbol]:
         function = function.derivative()
 
 
-def _is_allowed(point: Point, states: Circumstances) -> bool:
+def _is_allowed(point: ExactPoint, states: ClaimDomain) -> bool:
     """Whether it is a state of bodies that can be."""
     return bool(is_physical(states, point.floats()))
 
 
-def _described(point: Point, states: Circumstances) -> dict[str, str]:
+def _described(point: ExactPoint, states: ClaimDomain) -> dict[str, str]:
     """The state in full, with what the circumstances determine."""
     values = point.described()
     for symbol in _state(states):
@@ -127,7 +127,7 @@ def _described(point: Point, states: Circumstances) -> dict[str, str]:
 
 
 def _confirmed(
-    point: Point, component: Component, states: Circumstances, found: Counterexample
+    point: ExactPoint, component: ScalarRelation, states: ClaimDomain, found: Counterexample
 ) -> Confirmation | None:
     """Both sides with accelerations and reactions from the numeric balance of every body."""
     try:
@@ -149,7 +149,7 @@ def _confirmed(
 
 
 def _with_rates_of_forces(
-    numbers: dict[Symbol, float], component: Component, states: Circumstances
+    numbers: dict[Symbol, float], component: ScalarRelation, states: ClaimDomain
 ) -> dict[Symbol, float]:
     """With the first rates of reactions that the sides speak of."""
     used = component.left.symbols() | component.right.symbols()
@@ -163,7 +163,7 @@ def _with_rates_of_forces(
     return numbers | {s: rate_along_motion(system, numbers, speeds, s.base()) for s in rates}
 
 
-def _numbers(point: Point, states: Circumstances) -> dict[Symbol, float]:
+def _numbers(point: ExactPoint, states: ClaimDomain) -> dict[Symbol, float]:
     drawn = point.floats()
     state = dict(drawn)
     for symbol in _state(states):

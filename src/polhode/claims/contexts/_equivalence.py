@@ -10,9 +10,9 @@ from math import pi, prod
 
 import numpy as np
 
-from polhode.algebra import Expr, Kind, Symbol, variables
+from polhode.algebra import Expr, Symbol, SymbolKind, variables
 from polhode.base import PolhodeError
-from polhode.claims.states._circumstances import Circumstances
+from polhode.claims.states._claim_domain import ClaimDomain
 from polhode.claims.states._numeric import Array, number
 from polhode.claims.states._physical import demanded, is_physical
 from polhode.claims.states._signs import definite_sign, strict_sign
@@ -26,7 +26,7 @@ _PI = Symbol("pi")
 
 
 @dataclass(frozen=True)
-class Bound:
+class PrintedBound:
     """One side greater than the other."""
 
     greater: Expr
@@ -44,9 +44,9 @@ class Comparison:
         sizes: speeds in which the conditions are even: their magnitudes are meant.
     """
 
-    claimed: tuple[Bound, ...]
+    claimed: tuple[PrintedBound, ...]
     conditions: tuple[Expr, ...]
-    states: Circumstances
+    states: ClaimDomain
     sizes: frozenset[Symbol]
 
     # -- proof ----------------------------------------------------------------------------------
@@ -91,9 +91,9 @@ class Comparison:
         return {s: Expr.generator(size) for s, size in named}
 
     @cached_property
-    def _claimed(self) -> tuple[Bound, ...]:
+    def _claimed(self) -> tuple[PrintedBound, ...]:
         sized = self._positive
-        return tuple(Bound(b.greater.subs(sized), b.less.subs(sized)) for b in self.claimed)
+        return tuple(PrintedBound(b.greater.subs(sized), b.less.subs(sized)) for b in self.claimed)
 
     @cached_property
     def _conditions(self) -> tuple[Expr, ...]:
@@ -159,7 +159,7 @@ class Comparison:
         size = np.asarray(10 ** random.uniform(-1, 1, _DRAWN))
         if symbol.positive or symbol in self.sizes:
             return size
-        if symbol.kind is Kind.COORDINATE and not symbol.order:
+        if symbol.kind is SymbolKind.COORDINATE and not symbol.order:
             return np.asarray(random.uniform(-pi, pi, _DRAWN))
         return np.asarray(size * random.choice([-1, 1], _DRAWN))
 
@@ -182,7 +182,7 @@ def _spread(start: Mapping[Symbol, float], way: Array) -> dict[Symbol, Array]:
     return {s: np.full(way.shape, value) for s, value in start.items()}
 
 
-def _forms(bound: Bound, signs: Sequence[Expr]) -> Iterator[Expr]:
+def _forms(bound: PrintedBound, signs: Sequence[Expr]) -> Iterator[Expr]:
     """What is positive where an inequality holds and only there.
 
     The difference of the sides, or of their squares where neither is negative, or neither

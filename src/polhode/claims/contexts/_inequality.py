@@ -10,15 +10,15 @@ from polhode.algebra import ONE, Expr
 from polhode.base import PolhodeError
 from polhode.claims._verdict import Answer, Evidence, Residual, Verdict
 from polhode.claims.contexts._counterexample import refutation
-from polhode.claims.meaning._components import Component
-from polhode.claims.states._asked import SENSE, STRICT, Asked
-from polhode.claims.states._circumstances import Circumstances
+from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.states._bound_claim import SENSE, STRICT, BoundClaim
+from polhode.claims.states._claim_domain import ClaimDomain
 from polhode.claims.states._elimination import solved
 from polhode.claims.states._numeric import number
 from polhode.claims.states._signs import definite_sign, may_vanish, strict_sign
 
 
-def judged_inequality(asked: Asked, component: Component, states: Circumstances) -> Verdict:
+def judged_inequality(asked: BoundClaim, component: ScalarRelation, states: ClaimDomain) -> Verdict:
     """Proved from the signs of factors, or refuted at a state; otherwise undecided.
 
     A strict inequality is refuted by a state in which both sides are equal.
@@ -49,7 +49,7 @@ def judged_inequality(asked: Asked, component: Component, states: Circumstances)
     )
 
 
-def _is_proved(difference: Expr, sign: str, states: Circumstances) -> bool:
+def _is_proved(difference: Expr, sign: str, states: ClaimDomain) -> bool:
     if not difference:
         return sign not in STRICT
     found = strict_sign if sign in STRICT else definite_sign
@@ -57,7 +57,7 @@ def _is_proved(difference: Expr, sign: str, states: Circumstances) -> bool:
 
 
 def _refuted(
-    component: Component, residual: Residual, states: Circumstances, sign: str
+    component: ScalarRelation, residual: Residual, states: ClaimDomain, sign: str
 ) -> Evidence:
     """A state on the wrong side; for a strict inequality also one of equality."""
 
@@ -76,7 +76,7 @@ def _refuted(
     return found
 
 
-def _where_equal(difference: Expr, states: Circumstances) -> Iterator[Circumstances]:
+def _where_equal(difference: Expr, states: ClaimDomain) -> Iterator[ClaimDomain]:
     """The states on which some factor of the difference vanishes."""
     if not difference:
         yield states
@@ -89,7 +89,7 @@ def _where_equal(difference: Expr, states: Circumstances) -> Iterator[Circumstan
         yield replace(states, given={**states.given, symbol: value})
 
 
-def judged_unequal(asked: Asked, component: Component, states: Circumstances) -> Verdict:
+def judged_unequal(asked: BoundClaim, component: ScalarRelation, states: ClaimDomain) -> Verdict:
     """≠ holds where the difference has a sign; sometimes, where it does not vanish throughout."""
     difference = states.on(component.difference)
     residual = Residual(component.member, component.label, difference)

@@ -8,14 +8,14 @@ from dataclasses import replace
 from polhode.claims._verdict import Verdict
 from polhode.claims.contexts._inequality import judged_inequality
 from polhode.claims.contexts._judge import judged
-from polhode.claims.meaning._components import Component
-from polhode.claims.states._asked import EQUALITY, Asked
-from polhode.claims.states._circumstances import TrueMotion
+from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
+from polhode.claims.states._claim_domain import TrueMotion
 
 _HIGHEST_RATE = 4
 
 
-def judged_initially(asked: Asked) -> Verdict:
+def judged_initially(asked: BoundClaim) -> Verdict:
     """At the start; an inequality whose sides are equal there, just after it."""
     states = asked.states(TrueMotion)
     equal = {i for i, r in enumerate(asked.members) if r.sign in EQUALITY}
@@ -26,13 +26,13 @@ def judged_initially(asked: Asked) -> Verdict:
     return replace(verdict, context="launch")
 
 
-def _parting(component: Component, states: TrueMotion) -> Component:
+def _parting(component: ScalarRelation, states: TrueMotion) -> ScalarRelation:
     """The lowest rates of both sides by which they part from the start on."""
     rates = _rates(component, replace(states, given={}))
     return next((c for c in rates if states.on(c.difference)), component)
 
 
-def _rates(component: Component, running: TrueMotion) -> Iterator[Component]:
+def _rates(component: ScalarRelation, running: TrueMotion) -> Iterator[ScalarRelation]:
     for _ in range(_HIGHEST_RATE):
         yield component
         left, right = (running.on(side).dt() for side in (component.left, component.right))

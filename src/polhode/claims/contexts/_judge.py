@@ -12,33 +12,33 @@ from polhode.algebra import ONE
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.contexts._lagrangian import remark, says_the_same
-from polhode.claims.meaning._components import Component
-from polhode.claims.states._asked import Asked
-from polhode.claims.states._circumstances import AnyState, Circumstances, TrueMotion
+from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.states._bound_claim import BoundClaim
+from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
 
 
 @dataclass(frozen=True)
 class Failure:
     """One component of a claim that does not hold on some states."""
 
-    component: Component
-    states: Circumstances
+    component: ScalarRelation
+    states: ClaimDomain
     residual: Residual
 
 
-def judged_identity(asked: Asked) -> Verdict:
+def judged_identity(asked: BoundClaim) -> Verdict:
     """For all states obeying the constraints, accelerations free."""
     states = asked.states(AnyState)
     return judged(asked, [states], "identity")
 
 
-def judged_motion(asked: Asked) -> Verdict:
+def judged_motion(asked: BoundClaim) -> Verdict:
     """On every true motion."""
     states = asked.states(TrueMotion)
     return judged(asked, [states], "motion")
 
 
-def judged(asked: Asked, all_states: Sequence[Circumstances], context: str) -> Verdict:
+def judged(asked: BoundClaim, all_states: Sequence[ClaimDomain], context: str) -> Verdict:
     """The verdict on equations: holds, or fails with evidence."""
     found = list(failures(asked, all_states))
     alike = [f for f in found if len(asked.branches) == 1 and says_the_same(asked, f.component)]
@@ -49,7 +49,7 @@ def judged(asked: Asked, all_states: Sequence[Circumstances], context: str) -> V
     return Verdict(Answer.HOLDS, context, remarks=tuple(said))
 
 
-def failures(asked: Asked, all_states: Iterable[Circumstances]) -> Iterator[Failure]:
+def failures(asked: BoundClaim, all_states: Iterable[ClaimDomain]) -> Iterator[Failure]:
     """Every component that does not vanish on every set of states.
 
     ± is one choice for the whole statement: at every state all components vanish on one branch,
@@ -57,7 +57,7 @@ def failures(asked: Asked, all_states: Iterable[Circumstances]) -> Iterator[Fail
     sign is right everywhere and the other is not says too much.
     """
     every = [asked.components(branch) for branch in range(len(asked.branches))]
-    found: dict[Component, Failure] = {}
+    found: dict[ScalarRelation, Failure] = {}
     idle: dict[int, list[Failure]] = {branch: [] for branch in range(len(every))}
     for states in all_states:
         wrong = [[c for c in branch if states.on(c.difference)] for branch in every]
@@ -73,7 +73,7 @@ def failures(asked: Asked, all_states: Iterable[Circumstances]) -> Iterator[Fail
     yield from sorted(found.values(), key=lambda f: every[0].index(f.component))
 
 
-def _failure(alike: Sequence[Component], states: Circumstances) -> Failure | None:
+def _failure(alike: Sequence[ScalarRelation], states: ClaimDomain) -> Failure | None:
     """Of components, one of each branch: the states on which none of them vanishes."""
     left = prod((states.on(component.difference) for component in alike), start=ONE)
     first = alike[0]
@@ -115,6 +115,6 @@ def _reason(found: Sequence[Failure]) -> str:
     return f"the sides differ in {where}"
 
 
-def _place(component: Component) -> str:
+def _place(component: ScalarRelation) -> str:
     member = f"member {component.member + 1}"
     return f"component {component.label} of {member}" if component.label else member

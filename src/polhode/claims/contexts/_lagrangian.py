@@ -5,14 +5,14 @@ from __future__ import annotations
 from polhode.algebra import Expr
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims.latex._tree import Name
-from polhode.claims.meaning._components import Component
+from polhode.claims.meaning._components import ScalarRelation
 from polhode.claims.meaning._mechanics import Mechanics
-from polhode.claims.states._asked import Asked
+from polhode.claims.states._bound_claim import BoundClaim
 
 _LETTERS = ("cal L", "L")
 
 
-def says_the_same(asked: Asked, component: Component) -> bool:
+def says_the_same(asked: BoundClaim, component: ScalarRelation) -> bool:
     """Whether a text's Lagrangian has the equations of motion of the model's.
 
     It has where the variation of the difference vanishes for every coordinate: Landau and

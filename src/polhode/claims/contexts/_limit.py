@@ -15,17 +15,17 @@ from polhode.claims.contexts._counterexample import refutation
 from polhode.claims.contexts._remainder import Remainder
 from polhode.claims.contexts._roots_of_steady import steady_roots
 from polhode.claims.contexts._scaling import SMALLNESS, restored, scaled
-from polhode.claims.meaning._components import Component
-from polhode.claims.states._asked import EQUALITY, Asked
-from polhode.claims.states._bench import real_states
-from polhode.claims.states._circumstances import AnyState, Circumstances, TrueMotion
+from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
+from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
 from polhode.claims.states._numeric import number
+from polhode.claims.states._sample_points import real_states
 
 _DIGITS = 30  # binary ones that a remainder may lose to rounding
 _STEEPEST = 15
 
 
-def judged_limit(asked: Asked) -> Verdict:
+def judged_limit(asked: BoundClaim) -> Verdict:
     """To the stated order in the small quantities, and to that of every term that is printed.
 
     What is left over must be smaller than all that is kept: smaller than the stated order, and
@@ -53,7 +53,7 @@ def _standing(verdict: Verdict) -> tuple[int, float]:
     return places.index(verdict.answer), inf if verdict.order is None else verdict.order
 
 
-def _of_branch(asked: Asked) -> Verdict:
+def _of_branch(asked: BoundClaim) -> Verdict:
     """With one choice of the signs of ±."""
     verdicts = []
     for candidate in _readings(asked):
@@ -64,11 +64,11 @@ def _of_branch(asked: Asked) -> Verdict:
     return next((v for v in verdicts if v.answer is Answer.UNREAD), verdicts[-1])
 
 
-def _readings(asked: Asked) -> Iterator[Iterator[Remainder]]:
+def _readings(asked: BoundClaim) -> Iterator[Iterator[Remainder]]:
     anywhere, moving = asked.states(AnyState), asked.states(TrueMotion)
     sides = [anywhere.on(side) for c in asked.components() for side in (c.left, c.right)]
     kinematic = not any(_is_dynamic(side, anywhere) for side in sides)
-    states: Circumstances = anywhere if kinematic else moving
+    states: ClaimDomain = anywhere if kinematic else moving
     yield (_remainder(c, states, asked) for c in asked.components())
     roots = list(steady_roots(asked))
     spoken = [c for c in asked.components() if c.difference]
@@ -83,7 +83,7 @@ def _readings(asked: Asked) -> Iterator[Iterator[Remainder]]:
         )
 
 
-def _is_dynamic(side: Expr, states: Circumstances) -> bool:
+def _is_dynamic(side: Expr, states: ClaimDomain) -> bool:
     """Whether it speaks of accelerations or reactions, which only the motion determines."""
     equations = states.equations
     known = {*equations.coordinates, *equations.speeds}
@@ -96,14 +96,14 @@ def _is_dynamic(side: Expr, states: Circumstances) -> bool:
 
 
 def _remainder(
-    component: Component, states: Circumstances, asked: Asked, root: Expr | None = None
+    component: ScalarRelation, states: ClaimDomain, asked: BoundClaim, root: Expr | None = None
 ) -> Remainder:
     first = component.left if root is None else root
     left, right = (scaled(states.on(side), asked.small) for side in (first, component.right))
     return Remainder(component, states, left, right, _positive(asked), asked, root is not None)
 
 
-def _positive(asked: Asked) -> tuple[Expr, ...]:
+def _positive(asked: BoundClaim) -> tuple[Expr, ...]:
     """What is taken as positive: what the text says is, and what is large."""
     large = (Expr.generator(s) for small in asked.small for s in _below(small.quantity))
     return (*asked.positive, *large)
@@ -113,7 +113,7 @@ def _below(quantity: Expr) -> frozenset[Symbol]:
     return quantity.denominator.symbols()
 
 
-def _judged(asked: Asked, remainders: Iterable[Remainder]) -> Verdict:
+def _judged(asked: BoundClaim, remainders: Iterable[Remainder]) -> Verdict:
     reached: list[tuple[int, Expr]] = []
     seen: list[Remainder] = []
     for left in remainders:
@@ -167,7 +167,7 @@ def _failed(left: Remainder, order: int, term: Expr, why: str) -> Verdict:
 
 def _evidence(left: Remainder, order: int, residual: Residual) -> Evidence:
     """A state at which the coefficients of that order differ."""
-    wrong = Component(residual.member, residual.component, *_coefficients(left, order))
+    wrong = ScalarRelation(residual.member, residual.component, *_coefficients(left, order))
     return refutation(wrong, residual, left.states)
 
 
@@ -190,7 +190,7 @@ def _measured(remainders: Sequence[Remainder]) -> Iterator[str]:
             return
 
 
-def _slope(difference: Expr, states: Circumstances, expected: int) -> float:
+def _slope(difference: Expr, states: ClaimDomain, expected: int) -> float:
     point = next(real_states(states, [difference.subs({SMALLNESS: ONE})]), None)
     if point is None:
         raise NumericError("no state among those tried", expected="one that is real")

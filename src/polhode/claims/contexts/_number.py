@@ -5,13 +5,13 @@ from __future__ import annotations
 from polhode.algebra import ZERO, Expr
 from polhode.base import ParseError
 from polhode.claims._verdict import Answer, Residual, Verdict
-from polhode.claims.meaning._components import Component
-from polhode.claims.states._asked import Asked
-from polhode.claims.states._circumstances import TrueMotion
+from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.states._bound_claim import BoundClaim
+from polhode.claims.states._claim_domain import TrueMotion
 from polhode.claims.states._numeric import number
 
 
-def judged_number(asked: Asked) -> Verdict:
+def judged_number(asked: BoundClaim) -> Verdict:
     """Whether both sides agree within half a unit of the last printed digit.
 
     Raises `ParseError` where parameters are left without a value.
@@ -42,7 +42,7 @@ def _is_close(left: Expr, right: Expr, half: Expr) -> bool:
     return abs(float(number(ratio, {}))) <= 1 + 1e-12
 
 
-def _wrong(component: Component, left: Expr, right: Expr) -> Verdict:
+def _wrong(component: ScalarRelation, left: Expr, right: Expr) -> Verdict:
     residual = Residual(component.member, component.label, left - right)
     return Verdict(
         Answer.FAILS,

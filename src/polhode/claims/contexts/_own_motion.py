@@ -15,7 +15,7 @@ from polhode.base import PolhodeError
 from polhode.claims._verdict import Confirmation
 from polhode.claims.balance._declared import declared
 from polhode.claims.balance._newton_euler import true_motion
-from polhode.claims.contexts._course import TIME, Followed
+from polhode.claims.contexts._sampled_motion import TIME, Followed
 from polhode.claims.states._numeric import Array, number
 from polhode.model import System
 

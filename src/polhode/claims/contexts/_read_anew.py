@@ -13,8 +13,8 @@ from polhode.claims.balance._newton_euler import trial_of
 from polhode.claims.balance._second_reader import Sides, read_members
 from polhode.claims.contexts._counterexample import drawn_numbers
 from polhode.claims.latex._tree import Name, Node, PlusMinus, Statement, walk
-from polhode.claims.states._asked import Asked
-from polhode.claims.states._circumstances import AnyState, TrueMotion
+from polhode.claims.states._bound_claim import BoundClaim
+from polhode.claims.states._claim_domain import AnyState, TrueMotion
 
 _KINDS: dict[str, type[AnyState] | type[TrueMotion]] = {"identity": AnyState, "motion": TrueMotion}
 _APART = 1e-4  # relative; what is meant by another quantity differs by far more
@@ -24,7 +24,7 @@ _STATES = 3  # at which a claim that fails may not agree: a mass may happen to b
 
 def disputed(
     answer: Answer,
-    asked: Asked,
+    asked: BoundClaim,
     context: str,
     statement: Statement,
     told: Mapping[Node, object],

@@ -10,10 +10,10 @@ from polhode.algebra import Expr, Vector
 from polhode.base import NumericError
 from polhode.claims.contexts._scaling import leading_orders, scaled, stated_order, weights
 from polhode.claims.latex._tree import Node
-from polhode.claims.meaning._components import Component, Side, triad_of
-from polhode.claims.meaning._printed_terms import Printed, Term
-from polhode.claims.states._asked import EQUALITY, Asked
-from polhode.claims.states._circumstances import Circumstances
+from polhode.claims.meaning._components import ScalarRelation, Side, triad_of
+from polhode.claims.meaning._printed_terms import PrintedRelation, Term
+from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
+from polhode.claims.states._claim_domain import ClaimDomain
 
 _HIGHEST = 6
 _LIMIT = 12  # order beyond which nothing is expanded
@@ -60,12 +60,12 @@ class Remainder:
         is_root: whether the left side is a root of the relation between steady speeds.
     """
 
-    component: Component
-    states: Circumstances
+    component: ScalarRelation
+    states: ClaimDomain
     left: Expr
     right: Expr
     positive: tuple[Expr, ...]
-    asked: Asked
+    asked: BoundClaim
     is_root: bool = False
 
     @cached_property
@@ -169,7 +169,7 @@ class Remainder:
         own, whole = (scaled(self.states.on(e), self.asked.small) for e in (term.own, term.among))
         return not own or not whole or self._order(own) <= self._order(whole)
 
-    def _to_vanish(self, printed: Printed, node: Node) -> tuple[int, ...]:
+    def _to_vanish(self, printed: PrintedRelation, node: Node) -> tuple[int, ...]:
         """Of the terms of a side that is to vanish; a factor that does not is no part of it.
 
         A single term that is said to vanish is a statement about its size alone.

@@ -6,12 +6,12 @@ from collections.abc import Iterator
 
 from polhode.algebra import ZERO, Expr, Symbol, sqrt
 from polhode.base import PolhodeError
-from polhode.claims.meaning._components import Component
-from polhode.claims.states._asked import Asked
+from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._steady_states import steady_states
 
 
-def steady_roots(asked: Asked) -> Iterator[tuple[Component, tuple[Expr, ...]]]:
+def steady_roots(asked: BoundClaim) -> Iterator[tuple[ScalarRelation, tuple[Expr, ...]]]:
     """Members whose left side is a state variable, with the values it has in steady motion."""
     try:
         families = steady_states(asked)

@@ -9,7 +9,7 @@ from math import lcm
 from polhode.algebra import ONE, ZERO, Expr, Symbol
 from polhode.base import NumericError
 from polhode.claims.meaning._meaning import with_signs
-from polhode.claims.states._asked import Small
+from polhode.claims.states._bound_claim import Small
 
 #: Scales everything small.
 SMALLNESS = Symbol("smallness", positive=True)

@@ -10,13 +10,13 @@ from polhode.algebra import ZERO, Expr, Symbol
 from polhode.analyse import reduced
 from polhode.claims._verdict import Answer, Residual, Verdict
 from polhode.claims.contexts._judge import Failure, failed, failures, judged
-from polhode.claims.meaning._components import Component
-from polhode.claims.states._asked import Asked
-from polhode.claims.states._circumstances import TrueMotion
+from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.states._bound_claim import BoundClaim
+from polhode.claims.states._claim_domain import TrueMotion
 from polhode.claims.states._steady_states import SteadyStates, steady_states
 
 
-def judged_steady(asked: Asked) -> Verdict:
+def judged_steady(asked: BoundClaim) -> Verdict:
     """With non-ignorable speeds and all accelerations zero, on every family.
 
     A member that gives a speed by a root, with or without ±, claims that every branch of it is a
@@ -42,7 +42,7 @@ def judged_steady(asked: Asked) -> Verdict:
     return Verdict(Answer.HOLDS, "steady", remarks=(*others.remarks, *remarks))
 
 
-def _on_families(asked: Asked, families: Sequence[SteadyStates]) -> Verdict:
+def _on_families(asked: BoundClaim, families: Sequence[SteadyStates]) -> Verdict:
     """On every family, but those in which an angle stands still by itself where others are."""
     wrong = [f for f in families if next(failures(asked, [f]), None) is not None]
     right = [f for f in families if f not in wrong]
@@ -64,7 +64,7 @@ def _at_odds(solved: Sequence[Solved], states: TrueMotion) -> Iterator[Failure]:
     """Members that give one quantity different values, where the text does not say "or"."""
     for one, other in combinations(solved, 2):
         if one.quantity == other.quantity and not other.is_alternative:
-            component = Component(other.member, "", one.value, other.value)
+            component = ScalarRelation(other.member, "", one.value, other.value)
             left = states.on(component.difference)
             if left:
                 yield Failure(component, states, Residual(other.member, "", left))
@@ -87,7 +87,7 @@ class Solved:
     is_alternative: bool = False
 
 
-def solved_members(asked: Asked, branch: int) -> list[Solved]:
+def solved_members(asked: BoundClaim, branch: int) -> list[Solved]:
     state = {*asked.equations.coordinates, *asked.equations.speeds}
     found = []
     for component in asked.components(branch):
@@ -100,7 +100,7 @@ def solved_members(asked: Asked, branch: int) -> list[Solved]:
     return found
 
 
-def _not_steady(asked: Asked, solved: Solved) -> Iterator[Failure]:
+def _not_steady(asked: BoundClaim, solved: Solved) -> Iterator[Failure]:
     """Accelerations that do not vanish where the quantity has the claimed value."""
     equations = asked.equations
     still = {q.derivative(): ZERO for q in reduced(equations).essential}
@@ -110,7 +110,7 @@ def _not_steady(asked: Asked, solved: Solved) -> Iterator[Failure]:
     for symbol in equations.acceleration_symbols:
         left = states.on(Expr.generator(symbol))
         if left:
-            component = Component(solved.member, "", Expr.generator(symbol), ZERO)
+            component = ScalarRelation(solved.member, "", Expr.generator(symbol), ZERO)
             yield Failure(component, states, Residual(solved.member, "", left))
             return
 

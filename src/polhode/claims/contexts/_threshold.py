@@ -6,18 +6,18 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache, partial
 
-from polhode.algebra import Expr, Kind, Symbol
+from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.analyse import Truth, stability
 from polhode.base import ParseError, PolhodeError
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.contexts._counterexample import example_where
-from polhode.claims.contexts._equivalence import Bound, Comparison
+from polhode.claims.contexts._equivalence import Comparison, PrintedBound
 from polhode.claims.contexts._judge import failed, failures
-from polhode.claims.meaning._components import Component
+from polhode.claims.meaning._components import ScalarRelation
 from polhode.claims.meaning._the import The
-from polhode.claims.states._asked import EQUALITY, SENSE, STRICT, Asked
-from polhode.claims.states._circumstances import AnyState, Circumstances
-from polhode.claims.states._points import Point
+from polhode.claims.states._bound_claim import EQUALITY, SENSE, STRICT, BoundClaim
+from polhode.claims.states._claim_domain import AnyState, ClaimDomain
+from polhode.claims.states._points import ExactPoint
 from polhode.claims.states._steady_states import SteadyStates, steady_states
 
 _STABILITY, _EXISTENCE = "stability", "existence"
@@ -35,14 +35,14 @@ class Exact:
 
     expressions: tuple[Expr, ...]
     decides: str
-    states: Circumstances
+    states: ClaimDomain
 
     def __str__(self) -> str:
         said = " and ".join(f"{e} > 0" for e in self.expressions)
         return f"the condition{'s' * (len(self.expressions) > 1)} of {self.decides}, {said}"
 
 
-def judged_threshold(asked: Asked) -> Verdict:
+def judged_threshold(asked: BoundClaim) -> Verdict:
     """Whether inequalities are together equivalent to the exact condition.
 
     The condition is that of linear stability of a family of steady motions, all parts of it
@@ -76,34 +76,34 @@ def judged_threshold(asked: Asked) -> Verdict:
     return _undecided(next(exact for exact, c in compared if c.parting is None))
 
 
-def _any(asked: Asked) -> AnyState:
+def _any(asked: BoundClaim) -> AnyState:
     return asked.states(AnyState)
 
 
-def _inequality(component: Component, asked: Asked) -> Component:
+def _inequality(component: ScalarRelation, asked: BoundClaim) -> ScalarRelation:
     sign = asked.members[component.member].sign
     if sign not in SENSE:
         raise ParseError(f"the sign {sign} in a threshold", expected="one of " + " ".join(SENSE))
     return component
 
 
-def _compared(claimed: Sequence[Component], exact: Exact, asked: Asked) -> Comparison:
+def _compared(claimed: Sequence[ScalarRelation], exact: Exact, asked: BoundClaim) -> Comparison:
     bounds = []
     for component in claimed:
         sides = [exact.states.on(side) for side in (component.left, component.right)]
         upward = SENSE[asked.members[component.member].sign] > 0
-        bounds.append(Bound(*sides) if upward else Bound(*reversed(sides)))
+        bounds.append(PrintedBound(*sides) if upward else PrintedBound(*reversed(sides)))
     return Comparison(tuple(bounds), exact.expressions, exact.states, _sizes(bounds, exact))
 
 
-def _sizes(bounds: Sequence[Bound], exact: Exact) -> frozenset[Symbol]:
+def _sizes(bounds: Sequence[PrintedBound], exact: Exact) -> frozenset[Symbol]:
     """Speeds in which the condition is even, though the text bounds them with their sign."""
     differences = [bound.greater - bound.less for bound in bounds]
     speeds = {
         s
         for e in differences
         for s in e.symbols()
-        if s.kind.varies and not s.positive and (s.order or s.kind is Kind.SPEED)
+        if s.kind.varies and not s.positive and (s.order or s.kind is SymbolKind.SPEED)
     }
     return frozenset(
         s
@@ -117,7 +117,7 @@ def _is_even(symbol: Symbol, expression: Expr) -> bool:
     return expression.subs({symbol: -Expr.generator(symbol)}) == expression
 
 
-def exact_conditions(asked: Asked) -> tuple[Exact, ...]:
+def exact_conditions(asked: BoundClaim) -> tuple[Exact, ...]:
     """Conditions of stability and of existence, for every family that obeys the restrictions."""
     given = tuple(asked.given.items())
     return _conditions(The(asked.equations), given, asked.relations, asked.positive)
@@ -130,7 +130,7 @@ def _conditions(
     relations: tuple[Expr, ...],
     positive: tuple[Expr, ...],
 ) -> tuple[Exact, ...]:
-    asked = Asked(((),), the.equations, dict(given), relations, positive=positive)
+    asked = BoundClaim(((),), the.equations, dict(given), relations, positive=positive)
     anywhere = _any(asked)
     return tuple(
         e
@@ -159,7 +159,7 @@ def _existence(family: SteadyStates, anywhere: AnyState) -> Iterator[Exact]:
         yield Exact(found, _EXISTENCE, anywhere)
 
 
-def _met(claimed: Sequence[Component], exact: Exact, asked: Asked) -> Verdict:
+def _met(claimed: Sequence[ScalarRelation], exact: Exact, asked: BoundClaim) -> Verdict:
     """Equivalent, but perhaps for equality: linear stability leaves open what happens there."""
     loose = [c for c in claimed if asked.members[c.member].sign not in STRICT]
     if loose and exact.decides == _STABILITY:
@@ -181,7 +181,7 @@ def _undecided(exact: Exact) -> Verdict:
     )
 
 
-def _refuted(component: Component, exact: Exact, comparison: Comparison) -> Verdict:
+def _refuted(component: ScalarRelation, exact: Exact, comparison: Comparison) -> Verdict:
     residual = Residual(component.member, component.label, component.difference)
     return Refuted(
         Answer.FAILS,
@@ -193,11 +193,11 @@ def _refuted(component: Component, exact: Exact, comparison: Comparison) -> Verd
 
 
 def _parted(
-    component: Component, residual: Residual, exact: Exact, comparison: Comparison
+    component: ScalarRelation, residual: Residual, exact: Exact, comparison: Comparison
 ) -> Evidence:
     """A motion that the inequality allows and the condition does not, or the reverse."""
 
-    def parts(point: Point) -> bool:
+    def parts(point: ExactPoint) -> bool:
         return bool(comparison.agree(point.floats()) == 0)
 
     try:

@@ -11,7 +11,7 @@ from polhode.claims.latex._differentials import SIGNS, Operator, derivative, mea
 from polhode.claims.latex._tokens import Token
 from polhode.claims.latex._tree import (
     At,
-    Components,
+    ComponentList,
     Differential,
     Dots,
     Evaluated,
@@ -190,7 +190,7 @@ class FactorReader(CallReader):
     def _bracketed(self, entries: list[Node], opener: Token, closer: Token, start: int) -> Node:
         span = self._since(start)
         if len(entries) > 1:
-            return Components(tuple(entries), span=span)
+            return ComponentList(tuple(entries), span=span)
         if opener.is_mark("bar("):
             return Magnitude(entries[0], span=span)
         if closer.is_mark("bar)") and self._took("_"):

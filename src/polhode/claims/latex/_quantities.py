@@ -10,7 +10,7 @@ from polhode.claims.latex._factors import FactorReader
 from polhode.claims.latex._tree import (
     Case,
     Cases,
-    Components,
+    ComponentList,
     Cross,
     Dot,
     Negative,
@@ -190,7 +190,7 @@ class QuantityReader(FactorReader):
         span = self._since(start)
         if len(breaks) > 1:
             raise self._refused(span, "a matrix", "one row or one column")
-        return Components(tuple(entries), span=span)
+        return ComponentList(tuple(entries), span=span)
 
     def _cases(self) -> Node:
         start = self._start

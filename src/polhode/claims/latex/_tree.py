@@ -249,7 +249,7 @@ class Evaluated(Node):
 
 
 @dataclass(frozen=True, eq=False)
-class Components(Node):
+class ComponentList(Node):
     """Quantities in a bracket with commas between, or stacked in a column."""
 
     entries: tuple[Node, ...]

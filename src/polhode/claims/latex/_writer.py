@@ -16,7 +16,7 @@ from polhode.claims.latex._tree import (
     Case,
     Cases,
     Component,
-    Components,
+    ComponentList,
     Cross,
     Derivative,
     Differential,
@@ -57,7 +57,7 @@ _DOTS = {count: name for name, count in lexicon.DOTS.items()}
 _SIGNED = (Sum, Negative, PlusMinus)
 _OPEN = (*_SIGNED, Cross, Dot, Integral)  # bracketed beside a sign of multiplication
 _WIDE = (*_OPEN, Product)  # and beside another factor
-_RAISED_BARE = (Number, Dots, At, Magnitude, Component, Components, Evaluated, Differential)
+_RAISED_BARE = (Number, Dots, At, Magnitude, Component, ComponentList, Evaluated, Differential)
 _TAKEN_FOR_DIFFERENTIALS = frozenset(Name(letter) for letter in SIGNS)
 _BRACKETED_ANGLES = frozenset(SIGNS) | {"n", "k", "pi", "constant"}
 _KNOWN_TO_LATEX = lexicon.FUNCTIONS.keys() - {"sech", "csch", "arsinh", "arcosh", "artanh"}
@@ -228,7 +228,7 @@ def _(evaluated: Evaluated) -> str:
 
 
 @write_latex.register
-def _(components: Components) -> str:
+def _(components: ComponentList) -> str:
     return rf"\left({', '.join(write_latex(entry) for entry in components.entries)}\right)"
 
 

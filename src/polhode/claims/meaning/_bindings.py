@@ -20,7 +20,7 @@ from polhode.claims.meaning._meaning import (
     rate,
     zero_like,
 )
-from polhode.claims.meaning._printed_terms import Printed, changing
+from polhode.claims.meaning._printed_terms import PrintedRelation, changing
 from polhode.claims.meaning._vocabulary import Vocabulary
 
 EQUAL = ("=", "≡")
@@ -45,7 +45,7 @@ class BoundRelation:
     right: Side
     span: Span = (0, 0)
     is_alternative: bool = False
-    printed: Printed | None = field(default=None, compare=False, repr=False)
+    printed: PrintedRelation | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
@@ -142,7 +142,7 @@ class _Binder:
         chain = zip(relation.sides, relation.signs, relation.sides[1:], strict=False)
         for place, (left, sign, right) in enumerate(chain):
             if sign != "↔":
-                yield self._member(Printed(self._evaluator, left, right, place == 0), sign)
+                yield self._member(PrintedRelation(self._evaluator, left, right, place == 0), sign)
 
     def _is_new(self, node: Node) -> bool:
         letter = isinstance(node, tree.Name | tree.Differential | tree.At)
@@ -177,7 +177,7 @@ class _Binder:
         vocabulary = self._evaluator.vocabulary.saying({node: value})
         self._evaluator = replace(self._evaluator, vocabulary=vocabulary)
 
-    def _member(self, printed: Printed, sign: str) -> BoundRelation:
+    def _member(self, printed: PrintedRelation, sign: str) -> BoundRelation:
         left, right = printed.left, printed.right
         if sign not in COMPARED:
             raise BindingError(f"the sign {sign}", expected=f"one of {' '.join(COMPARED)}")

@@ -11,12 +11,12 @@ from polhode.base import ParseError
 from polhode.model import Frame
 
 if TYPE_CHECKING:
-    from polhode.claims.meaning._printed_terms import Printed
+    from polhode.claims.meaning._printed_terms import PrintedRelation
 
 Side = Expr | Vector
 
 
-class Relation(Protocol):
+class Member(Protocol):
     """One member of a claim: a left side, a sign such as "=", and a right side."""
 
     @property
@@ -40,13 +40,13 @@ class Relation(Protocol):
         ...
 
     @property
-    def printed(self) -> Printed | None:
+    def printed(self) -> PrintedRelation | None:
         """Its two sides as they stand in print."""
         ...
 
 
 @dataclass(frozen=True)
-class Component:
+class ScalarRelation:
     """One scalar relation of a claim.
 
     Attributes:
@@ -65,14 +65,14 @@ class Component:
         return self.left - self.right
 
 
-def components(member: int, left: Side, right: Side) -> tuple[Component, ...]:
+def components(member: int, left: Side, right: Side) -> tuple[ScalarRelation, ...]:
     """The scalar relations that a relation stands for.
 
     Raises `ParseError` for a scalar set against a vector; the number 0 may stand for a vector.
     """
     match left, right:
         case Expr(), Expr():
-            return (Component(member, "", left, right),)
+            return (ScalarRelation(member, "", left, right),)
         case Vector(), Vector():
             return tuple(_along(member, left, right))
         case Vector(), Expr() if not right:
@@ -92,12 +92,12 @@ def triad_of(left: Side, right: Side) -> Triad | None:
     return next((v.triad for v in vectors if not v.is_zero), vectors[-1].triad if vectors else None)
 
 
-def _along(member: int, left: Vector, right: Vector) -> Iterator[Component]:
+def _along(member: int, left: Vector, right: Vector) -> Iterator[ScalarRelation]:
     triad = (right if left.is_zero else left).triad
     labels = triad.labels if isinstance(triad, Frame) else ("1", "2", "3")
     sides = left.express(triad).components, right.express(triad).components
     for label, one, other in zip(labels, *sides, strict=True):
-        yield Component(member, label, one, other)
+        yield ScalarRelation(member, label, one, other)
 
 
 def _sort(side: Side) -> str:

@@ -276,7 +276,7 @@ class Evaluator:
         return as_vector(self.value(node.of), spelled(node)).dot(as_vector(axis, node.subscript))
 
     @_value.register
-    def _(self, node: tree.Components) -> Meaning:
+    def _(self, node: tree.ComponentList) -> Meaning:
         if len(node.entries) != 3:
             raise BindingError(
                 f"{len(node.entries)} entries in a bracket", expected="three components of a vector"

@@ -9,9 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from polhode.algebra import ZERO, Expr, Kind, Vector, linear_parts, solve, symbols
+from polhode.algebra import ZERO, Expr, SymbolKind, Vector, linear_parts, solve, symbols
 from polhode.base import DeclarationError
-from polhode.claims.balance._declared import Declared, declared, reaction_symbol
+from polhode.claims.balance._declared import Placement, declared, reaction_symbol
 from polhode.claims.meaning._meaning import Meaning, Tensor
 from polhode.derive import Equations
 from polhode.model import Body, Frame, Gravity, Restraint
@@ -42,7 +42,7 @@ class Mechanics:
         return found | {line.name: _reaction(line.name) for line in self.equations.lines}
 
     @cached_property
-    def declared(self) -> Declared:
+    def declared(self) -> Placement:
         """The declaration with every body placed."""
         return declared(self.equations.system)
 
@@ -274,7 +274,7 @@ class Mechanics:
     def in_rates(self, expression: Expr) -> Expr:
         """With speeds such as ω₃ put in terms of the rates of the coordinates."""
         rates = self.declared.rates
-        found = {s for rate in rates.values() for s in rate.symbols() if s.kind is Kind.SPEED}
+        found = {s for rate in rates.values() for s in rate.symbols() if s.kind is SymbolKind.SPEED}
         speeds = sorted(found, key=lambda symbol: symbol.published)
         if not speeds or len(speeds) != len(rates):
             return expression

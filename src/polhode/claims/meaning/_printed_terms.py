@@ -37,7 +37,7 @@ class Term:
 
 
 @dataclass(frozen=True, eq=False)
-class Printed:
+class PrintedRelation:
     """A relation as it is printed.
 
     Attributes:
@@ -67,7 +67,7 @@ class Printed:
         return tuple((f, self.evaluator.value(f)) for f in _factors(node))
 
 
-def changing(printed: Printed) -> Printed:
+def changing(printed: PrintedRelation) -> PrintedRelation:
     """The relation that "x = constant" stands for: the rate of x and zero."""
     rate = tree.Derivative(printed.left, TIME)
     return replace(printed, left=rate, right=tree.Number("0"))

@@ -8,7 +8,7 @@ from difflib import get_close_matches
 from functools import cached_property, lru_cache
 from itertools import chain
 
-from polhode.algebra import Expr, Kind, Symbol, Vector, pi, time
+from polhode.algebra import Expr, Symbol, SymbolKind, Vector, pi, time
 from polhode.claims.latex._tree import At, Call, Component, Derivative, Name, Node, Piece, walk
 from polhode.claims.meaning._letters import letters
 from polhode.claims.meaning._meaning import BindingError, Meaning, alike, dot, positive_root
@@ -249,7 +249,7 @@ class Vocabulary:
         frames = self.mechanics.frames.values()
         turned = (sorted(frame.angle.symbols(), key=str) for frame in frames)
         for angle in dict.fromkeys(chain.from_iterable(turned)):
-            if angle.kind is Kind.COORDINATE:
+            if angle.kind is SymbolKind.COORDINATE:
                 yield from (Call(name, name_of(angle.published)) for name in ("sin", "cos"))
 
     def vectors(self) -> Iterator[Node]:
@@ -321,4 +321,4 @@ _FORMS: dict[str, tuple[str, ...]] = {
 def constant(node: Node) -> Expr:
     """A new constant of the text, such as a time t₀."""
     name = "".join(c if c.isalnum() else "_" for c in spelled(node)).strip("_")
-    return Expr.generator(Symbol(name, Kind.PARAMETER))
+    return Expr.generator(Symbol(name, SymbolKind.PARAMETER))

@@ -12,12 +12,12 @@ from multiprocessing.connection import Connection, wait
 from subprocess import DEVNULL, PIPE, Popen
 from time import monotonic, perf_counter
 
-from polhode.base import DeclarationError, Enough, PolhodeError, Progress, SilentProgress
+from polhode.base import DeclarationError, PolhodeError, Progress, SilentProgress, StopRequested
 from polhode.claims._audit import asked_for, reported
 from polhode.claims._verdict import Answer, Verdict
 from polhode.claims.document._document import Claim, Document
 from polhode.claims.document._report import Report
-from polhode.claims.processes._worker import Reply, Request, Subject
+from polhode.claims.processes._worker import ClaimSubject, Reply, Request
 from polhode.model import System
 
 Declared = Callable[[str], System]
@@ -28,7 +28,7 @@ _ALONE = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # workers share 
 
 
 @dataclass(frozen=True)
-class Limits:
+class ClaimLimits:
     """What one claim may cost.
 
     Attributes:
@@ -46,7 +46,7 @@ def audit_apart(
     *,
     only: Iterable[str] = (),
     workers: int = 2,
-    limits: Limits | None = None,
+    limits: ClaimLimits | None = None,
     progress: Progress | None = None,
 ) -> Report:
     """Judge every claim of a document, or those with some ids, in processes of their own.
@@ -69,7 +69,7 @@ def audit_apart(
     if workers < 1:
         raise DeclarationError(f"{workers} workers", expected="one or more")
     began, told = perf_counter(), progress or SilentProgress()
-    asked, bounds = asked_for(document, only), limits or Limits()
+    asked, bounds = asked_for(document, only), limits or ClaimLimits()
     cases, verdicts = _cases(document, asked, cache(declared))
     told.begin("audit", len(cases))
     try:
@@ -77,7 +77,7 @@ def audit_apart(
             for claim, verdict in judged:
                 verdicts[claim.id] = verdict
                 told.advance()
-    except (KeyboardInterrupt, Enough):
+    except (KeyboardInterrupt, StopRequested):
         pass  # the report names what is left
     finally:
         told.finish()
@@ -89,7 +89,7 @@ class _Case:
     """A claim to be judged, and what it is about."""
 
     claim: Claim
-    subject: Subject
+    subject: ClaimSubject
 
     @property
     def system(self) -> str:
@@ -110,12 +110,12 @@ def _cases(
         except PolhodeError as error:
             unread[claim.id] = Verdict(Answer.UNREAD, claim.context, reason=str(error))
         else:
-            cases.append(_Case(claim, Subject(part, system)))
+            cases.append(_Case(claim, ClaimSubject(part, system)))
     return cases, unread
 
 
 def _judged(
-    cases: Sequence[_Case], workers: int, limits: Limits
+    cases: Sequence[_Case], workers: int, limits: ClaimLimits
 ) -> Generator[tuple[Claim, Verdict]]:
     queue = _Queue(cases)
     with ExitStack() as crew:
@@ -149,7 +149,7 @@ class _Queue:
 class _Worker:
     """A process that judges one claim at a time; one that does not come back is replaced."""
 
-    def __init__(self, limits: Limits) -> None:
+    def __init__(self, limits: ClaimLimits) -> None:
         self._limits = limits
         self._begin()
 

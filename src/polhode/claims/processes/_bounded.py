@@ -8,8 +8,8 @@ from dataclasses import replace
 from functools import partial
 from math import inf
 
-from polhode.base import NumericError, ParseError, Sitting, Tell, can_part, within
-from polhode.claims._check import Enquiry
+from polhode.base import ForkedWorker, NumericError, ParseError, Tell, can_part, within
+from polhode.claims._check import CheckRequest
 from polhode.claims._verdict import Verdict
 from polhode.claims.meaning._the import The
 from polhode.derive import Equations, equations_only
@@ -65,7 +65,7 @@ def check(
         raise ParseError(f"an equation of type {type(latex).__name__}", expected="LaTeX, as a str")
     equations_only(equations, "a claim about the motion")
     said = map(_several, (let, given, small, read, positive))
-    enquiry = Enquiry(latex, context, *said)
+    enquiry = CheckRequest(latex, context, *said)
     if seconds is None:
         return enquiry.judged(equations, tell)
     if not isinstance(seconds, int | float) or not 0 < seconds < inf:
@@ -97,28 +97,30 @@ def uncorrected(failure: Verdict, seconds: float) -> Verdict:
 
 
 def _interruptible(
-    enquiry: Enquiry, equations: Equations, seconds: float, heard: Tell[Verdict]
+    enquiry: CheckRequest, equations: Equations, seconds: float, heard: Tell[Verdict]
 ) -> Verdict:
     return within(seconds, partial(enquiry.judged, equations), advice=_ADVICE, heard=heard)
 
 
-_sittings: dict[The, Sitting[Enquiry, Verdict]] = {}
+_sittings: dict[The, ForkedWorker[CheckRequest, Verdict]] = {}
 if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_sittings.clear)  # they answer the process that began them
 
 
-def _asked(enquiry: Enquiry, equations: Equations, seconds: float, heard: Tell[Verdict]) -> Verdict:
+def _asked(
+    enquiry: CheckRequest, equations: Equations, seconds: float, heard: Tell[Verdict]
+) -> Verdict:
     """Ask the process that judges claims on these equations, which nobody else asks meanwhile."""
     sitting = _sittings.pop(The(equations), None)
     if sitting is None or not sitting.is_open:
-        sitting = Sitting(lambda asked, tell: asked.judged(equations, tell))
+        sitting = ForkedWorker(lambda asked, tell: asked.judged(equations, tell))
     try:
         return sitting.ask(enquiry, seconds, _ADVICE, heard)
     finally:
         _keep(The(equations), sitting)
 
 
-def _keep(the: The, sitting: Sitting[Enquiry, Verdict]) -> None:
+def _keep(the: The, sitting: ForkedWorker[CheckRequest, Verdict]) -> None:
     """Keep it for the next claim, and few of its like."""
     if not sitting.is_open:
         return

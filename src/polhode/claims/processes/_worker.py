@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection
 
 from polhode.base import bound_memory, bound_time, ended_with
-from polhode.claims._audit import Desk
+from polhode.claims._audit import ClaimChecker
 from polhode.claims._verdict import Answer, Verdict
 from polhode.claims.document._document import Claim, Part
 from polhode.derive import Equations, derive
@@ -24,7 +24,7 @@ Reply = tuple[Verdict, bool]
 
 
 @dataclass(frozen=True)
-class Subject:
+class ClaimSubject:
     """What claims are about.
 
     Attributes:
@@ -47,7 +47,7 @@ class Request:
     """
 
     claim: Claim
-    subject: Subject | None
+    subject: ClaimSubject | None
     seconds: float
 
 
@@ -62,7 +62,7 @@ def work(requests: Connection, replies: Connection) -> None:
             equations[name] = derive(systems[name])
         return equations[name]
 
-    desk = Desk(resolved)
+    desk = ClaimChecker(resolved)
     replies.send(None)
     while True:
         try:
@@ -79,7 +79,7 @@ def work(requests: Connection, replies: Connection) -> None:
         bound_time(0)
 
 
-def _verdict(desk: Desk, part: Part, claim: Claim, replies: Connection) -> Verdict:
+def _verdict(desk: ClaimChecker, part: Part, claim: Claim, replies: Connection) -> Verdict:
     failures: list[Verdict] = []
 
     def tell(failure: Verdict) -> None:

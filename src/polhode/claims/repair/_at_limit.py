@@ -9,8 +9,8 @@ from polhode.algebra import Expr
 from polhode.claims.contexts._scaling import vanished
 from polhode.claims.latex._tree import Node, Statement
 from polhode.claims.meaning._components import Side
-from polhode.claims.repair._reading import Reading
-from polhode.claims.states._asked import Asked
+from polhode.claims.repair._reading import RepairNotation
+from polhode.claims.states._bound_claim import BoundClaim
 
 
 @dataclass(frozen=True)
@@ -22,15 +22,15 @@ class AtLimit:
         claim: whose small quantities vanish.
     """
 
-    reading: Reading
-    claim: Asked
+    reading: RepairNotation
+    claim: BoundClaim
 
-    def asked(self, statement: Statement, extra: Mapping[str, Expr]) -> Asked:
+    def asked(self, statement: Statement, extra: Mapping[str, Expr]) -> BoundClaim:
         """The claim a statement makes there."""
         near = self.reading.asked(statement, extra)
         return replace(near, given={**near.given, **vanished(self.claim.small)}, small=())
 
-    def near(self, there: Asked) -> Asked:
+    def near(self, there: BoundClaim) -> BoundClaim:
         """The same claim near the limit."""
         return replace(there, given=self.claim.given, small=self.claim.small)
 

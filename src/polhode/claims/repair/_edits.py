@@ -21,7 +21,7 @@ from polhode.claims.latex._tree import (
     walk,
 )
 from polhode.claims.repair._multiplier import Match
-from polhode.claims.repair._places import ONE, Place, negated, over, raised, times
+from polhode.claims.repair._places import ONE, NodePosition, negated, over, raised, times
 
 _AXES = (("1", "2", "3"), ("x", "y", "z"), ("rho", "phi", "z"))
 _PAIRS = (("sin", "cos"), ("sinh", "cosh"), ("tan", "cot"), ("sech", "tanh"))
@@ -50,7 +50,7 @@ class Edit:
         return self.what in ("missing factor", "missing term", "wrong symbol", "wrong expression")
 
 
-def edits(place: Place, match: Match) -> Iterator[Edit]:
+def edits(place: NodePosition, match: Match) -> Iterator[Edit]:
     """Ways to write that a place is to be multiplied by a matched factor."""
     if match.powers:
         yield from _by_quantities(place, match)
@@ -58,7 +58,7 @@ def edits(place: Place, match: Match) -> Iterator[Edit]:
         yield from _by_number(place, match.number)
 
 
-def _by_number(place: Place, number: Fraction) -> Iterator[Edit]:
+def _by_number(place: NodePosition, number: Fraction) -> Iterator[Edit]:
     node = place.node
     if number == -1 and (place.is_term or isinstance(node, Negative | PlusMinus)):
         yield Edit("wrong sign", place.path, negated(node), 1.0)
@@ -77,7 +77,7 @@ def _by_number(place: Place, number: Fraction) -> Iterator[Edit]:
         yield Edit("extra term", place.path, Number("0"), 1.0 + len([*letters(node)]) / 20)
 
 
-def emptied(place: Place) -> Iterator[Edit]:
+def emptied(place: NodePosition) -> Iterator[Edit]:
     """Ways to write that a whole side vanishes: nothing there, or the rate of a constant."""
     is_letter = isinstance(place.node, Name | Dots)
     is_said = Number("0") in place.parent.parts
@@ -122,14 +122,14 @@ def _scaled(node: Node, number: Fraction) -> Node:
     return over(above, Number(str(number.denominator)))
 
 
-def _by_quantities(place: Place, match: Match) -> Iterator[Edit]:
+def _by_quantities(place: NodePosition, match: Match) -> Iterator[Edit]:
     if place.is_term:
         yield from _inserted(place, match)
     yield from _removed(place, match)
     yield from _repowered(place, match)
 
 
-def _inserted(place: Place, match: Match) -> Iterator[Edit]:
+def _inserted(place: NodePosition, match: Match) -> Iterator[Edit]:
     if any(power < 0 and node in bases(place.node) for node, power in match.powers):
         return  # it would only be crossed out
     above = [raised(node, p) for node, p in match.powers if p > 0]
@@ -145,7 +145,7 @@ def _inserted(place: Place, match: Match) -> Iterator[Edit]:
     yield Edit("missing factor", place.path, node, 0.3 + match.size + sign)
 
 
-def _removed(place: Place, match: Match) -> Iterator[Edit]:
+def _removed(place: NodePosition, match: Match) -> Iterator[Edit]:
     """A factor that is not to be there: its reciprocal is what the place is multiplied by."""
     inside = isinstance(place.parent, Product | Quotient | Negative | PlusMinus)
     if match.number != 1 or not inside or len(match.powers) != 1:
@@ -155,7 +155,7 @@ def _removed(place: Place, match: Match) -> Iterator[Edit]:
         yield Edit("extra factor", place.path, ONE, 1.0)
 
 
-def _repowered(place: Place, match: Match) -> Iterator[Edit]:
+def _repowered(place: NodePosition, match: Match) -> Iterator[Edit]:
     """A quantity that is to have another power."""
     if match.number != 1 or len(match.powers) != 1:
         return
@@ -178,7 +178,7 @@ def _powered(node: Node) -> tuple[Node | None, int]:
     return None, 0
 
 
-def replaced_by(place: Place, known: Mapping[Node, bool]) -> Iterator[Edit]:
+def replaced_by(place: NodePosition, known: Mapping[Node, bool]) -> Iterator[Edit]:
     """A letter or function put in the place of another whose value fits."""
     for other in known:
         if other != place.node:
@@ -187,7 +187,7 @@ def replaced_by(place: Place, known: Mapping[Node, bool]) -> Iterator[Edit]:
             )
 
 
-def replaced(place: Place, node: Node, size: float) -> Edit:
+def replaced(place: NodePosition, node: Node, size: float) -> Edit:
     """Something else put at a place."""
     return Edit(_exchange(place.node, node), place.path, node, size)
 

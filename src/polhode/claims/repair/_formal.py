@@ -10,9 +10,9 @@ from polhode.algebra import Vector
 from polhode.claims.latex._tree import Cross, Node, Number, Statement, walk
 from polhode.claims.repair._figures import Figure, formed, scalar
 from polhode.claims.repair._links import Side
+from polhode.claims.repair._numeric_evaluator import UNKNOWN
 from polhode.claims.repair._places import tidied
-from polhode.claims.repair._reading import Reading
-from polhode.claims.repair._tally import UNKNOWN
+from polhode.claims.repair._reading import RepairNotation
 
 _TRIALS = 3
 _CLOSE = 1e-9
@@ -25,7 +25,7 @@ def is_empty(statement: Statement) -> bool:
     return same or any(isinstance(p, Cross) and p.left == p.right for p in walk(statement))
 
 
-def says_nothing(statement: Statement, side: Side, reading: Reading) -> bool:
+def says_nothing(statement: Statement, side: Side, reading: RepairNotation) -> bool:
     """Whether a side cancels, or is the same as one beside it, whatever its letters stand for."""
     relation, position = side
     sides = statement.relations[relation].sides
@@ -41,7 +41,7 @@ def says_nothing(statement: Statement, side: Side, reading: Reading) -> bool:
 class _Drawn:
     """Figures of nodes with random ones for letters, rates and whatever cannot be worked out."""
 
-    def __init__(self, reading: Reading) -> None:
+    def __init__(self, reading: RepairNotation) -> None:
         self._reading = reading
         self._random = np.random.default_rng(1)
         self._letters: dict[Node, Figure] = {}

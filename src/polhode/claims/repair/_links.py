@@ -6,8 +6,8 @@ from collections.abc import Collection
 from functools import cached_property
 
 from polhode.claims.latex._tree import Cases, Statement, walk
-from polhode.claims.repair._places import Place
-from polhode.claims.states._asked import Asked
+from polhode.claims.repair._places import NodePosition
+from polhode.claims.states._bound_claim import BoundClaim
 
 #: Relation of a statement, and number of a side in it.
 Side = tuple[int, int]
@@ -23,7 +23,7 @@ class Links:
         asked: the claim it makes.
     """
 
-    def __init__(self, statement: Statement, asked: Asked) -> None:
+    def __init__(self, statement: Statement, asked: BoundClaim) -> None:
         self._statement = statement
         self._defined = asked.defined
         self._every = frozenset(range(len(asked.members)))
@@ -52,14 +52,14 @@ class Links:
         relation, left = self._pairs[member]
         return (relation, left), (relation, left + 1)
 
-    def members(self, place: Place) -> frozenset[int]:
+    def members(self, place: NodePosition) -> frozenset[int]:
         """Those that change with what stands at a place."""
         if not self._is_plain:
             return self._every
         side = place.path[:2]
         return frozenset(m for m in range(len(self._pairs)) if side in self.sides(m))
 
-    def cost(self, place: Place, targets: Collection[int]) -> float | None:
+    def cost(self, place: NodePosition, targets: Collection[int]) -> float | None:
         """What it costs to change this side for these members; None where it is no side of them.
 
         The later side is the cheaper.

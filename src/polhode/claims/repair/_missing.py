@@ -9,7 +9,7 @@ import numpy as np
 
 from polhode.algebra import Expr, Vector
 from polhode.claims.latex._tree import (
-    Components,
+    ComponentList,
     Cross,
     Derivative,
     Dot,
@@ -22,10 +22,10 @@ from polhode.claims.latex._tree import (
 )
 from polhode.claims.repair._edits import Edit, bases, times_match
 from polhode.claims.repair._figures import scalar
-from polhode.claims.repair._places import Place, added, negated, put, times
-from polhode.claims.repair._tally import UNKNOWN
+from polhode.claims.repair._numeric_evaluator import UNKNOWN
+from polhode.claims.repair._places import NodePosition, added, negated, put, times
+from polhode.claims.repair._repair_context import RepairContext
 from polhode.claims.repair._vector_terms import vector_terms
-from polhode.claims.repair._workpiece import Workpiece
 from polhode.claims.repair._written import UNKNOWN_TERM, length, repeats, solved, written
 
 _MOST_MATCHES = 5
@@ -33,7 +33,10 @@ _STRANGE = 5  # letters that a force or an acceleration counts for which the cla
 
 
 def missing_terms(
-    work: Workpiece, place: Place, members: Sequence[int], inner: Collection[Place]
+    work: RepairContext,
+    place: NodePosition,
+    members: Sequence[int],
+    inner: Collection[NodePosition],
 ) -> Iterator[Edit]:
     """Terms to be added to a side, or to whatever can be a sum inside it."""
     if not _takes_terms(place, inner):
@@ -54,7 +57,7 @@ def _takes_away(node: Node, term: Node) -> bool:
     )
 
 
-def _terms(work: Workpiece, place: Place, members: Sequence[int]) -> Iterator[Node]:
+def _terms(work: RepairContext, place: NodePosition, members: Sequence[int]) -> Iterator[Node]:
     def adds(term: Node) -> bool:
         return not _takes_away(place.node, term) and not repeats(work, place, term)
 
@@ -68,8 +71,8 @@ def _terms(work: Workpiece, place: Place, members: Sequence[int]) -> Iterator[No
 
 
 def _along(
-    work: Workpiece,
-    place: Place,
+    work: RepairContext,
+    place: NodePosition,
     direction: Node | None,
     members: Sequence[int],
     adds: Callable[[Node], bool],
@@ -98,14 +101,14 @@ def _along(
         yield from filter(adds, written(work, lost, tail))
 
 
-def _takes_terms(place: Place, inner: Collection[Place]) -> bool:
+def _takes_terms(place: NodePosition, inner: Collection[NodePosition]) -> bool:
     """Whether a term may be lost there: of a side, a sum, or where a factor could make it right."""
-    inside = isinstance(place.parent, Derivative | Root | Components | Cross | Dot)
+    inside = isinstance(place.parent, Derivative | Root | ComponentList | Cross | Dot)
     return place.is_side or inside or isinstance(place.node, Sum) or place in inner
 
 
 def _lost(
-    work: Workpiece, place: Place, direction: Node | None, members: Sequence[int]
+    work: RepairContext, place: NodePosition, direction: Node | None, members: Sequence[int]
 ) -> Expr | None:
     """What is to be added, exactly, on the states of the claim."""
     term = UNKNOWN_TERM if direction is None else times(UNKNOWN_TERM, direction)

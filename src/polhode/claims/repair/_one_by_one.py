@@ -11,10 +11,10 @@ from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims.latex._tree import Call, Dots, Name, Node, Number, Power, Statement
 from polhode.claims.repair._edits import Edit, edits, replaced, turned
 from polhode.claims.repair._multiplier import Match
-from polhode.claims.repair._places import Place, places, raised
-from polhode.claims.repair._reading import Reading
+from polhode.claims.repair._places import NodePosition, places, raised
+from polhode.claims.repair._reading import RepairNotation
 from polhode.claims.repair._repaired import Repaired, smallest
-from polhode.claims.states._asked import Asked
+from polhode.claims.states._bound_claim import BoundClaim
 
 #: Contexts in which there is no residual that could be fitted.
 JUDGED_WHOLE = ("threshold", "limit", "number")
@@ -24,7 +24,7 @@ _NUMBERS = (Fraction(-1), Fraction(2), Fraction(1, 2), Fraction(4), Fraction(1, 
 
 
 def one_by_one(
-    statement: Statement, reading: Reading, holds: Callable[[Asked], bool]
+    statement: Statement, reading: RepairNotation, holds: Callable[[BoundClaim], bool]
 ) -> tuple[Repaired, ...]:
     """The smallest single changes with which a claim holds.
 
@@ -43,7 +43,7 @@ def one_by_one(
     return smallest(right) if right else ()
 
 
-def _changes(place: Place, reading: Reading) -> Iterator[Edit]:
+def _changes(place: NodePosition, reading: RepairNotation) -> Iterator[Edit]:
     node = place.node
     for number in _NUMBERS:
         yield from edits(place, Match(number))
@@ -71,7 +71,7 @@ def _is_like(other: Node, node: Node) -> bool:
     return _is_scalar_letter(other) and other != node
 
 
-def _possible(repair: Repaired, reading: Reading) -> Asked | None:
+def _possible(repair: Repaired, reading: RepairNotation) -> BoundClaim | None:
     """The claim it makes, if that is of one dimension."""
     try:
         asked = reading.asked(repair.statement, {})
@@ -80,7 +80,7 @@ def _possible(repair: Repaired, reading: Reading) -> Asked | None:
         return None
 
 
-def _is_right(asked: Asked, holds: Callable[[Asked], bool]) -> bool:
+def _is_right(asked: BoundClaim, holds: Callable[[BoundClaim], bool]) -> bool:
     try:
         return holds(asked)
     except (PolhodeError, ArithmeticError):

@@ -10,7 +10,7 @@ import numpy as np
 from polhode.claims.latex._tree import Number
 from polhode.claims.repair._edits import Edit, edits
 from polhode.claims.repair._multiplier import Match, Response, simple_number
-from polhode.claims.repair._places import Place
+from polhode.claims.repair._places import NodePosition
 from polhode.claims.states._numeric import Array
 
 _CLOSE = 1e-8
@@ -19,7 +19,7 @@ _MOST_TOGETHER = 3
 _MOST_PLACES = 24
 
 
-def fitted(responses: Mapping[Place, Response]) -> Iterator[tuple[Edit, ...]]:
+def fitted(responses: Mapping[NodePosition, Response]) -> Iterator[tuple[Edit, ...]]:
     """Sets of two or three changes of numbers or signs that together let a claim hold.
 
     Args:
@@ -62,7 +62,7 @@ def _solutions(
             yield sets[i], factors
 
 
-def _apart(chosen: Sequence[Place]) -> bool:
+def _apart(chosen: Sequence[NodePosition]) -> bool:
     """Whether no place is inside another."""
     return not any(
         a.path[: len(b.path)] == b.path or b.path[: len(a.path)] == a.path
@@ -70,7 +70,9 @@ def _apart(chosen: Sequence[Place]) -> bool:
     )
 
 
-def _written(chosen: Sequence[Place], factors: Sequence[Match]) -> Iterator[tuple[Edit, ...]]:
+def _written(
+    chosen: Sequence[NodePosition], factors: Sequence[Match]
+) -> Iterator[tuple[Edit, ...]]:
     options = [list(edits(p, match)) for p, match in zip(chosen, factors, strict=True)]
     if all(options):
         yield tuple(min(each, key=lambda edit: edit.size) for each in options)

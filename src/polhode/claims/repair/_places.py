@@ -23,7 +23,7 @@ from polhode.claims.latex._tree import (
 
 
 @dataclass(frozen=True)
-class Place:
+class NodePosition:
     """Where a node stands in a statement.
 
     Attributes:
@@ -62,17 +62,17 @@ class Place:
         return isinstance(self.parent, Derivative) and self.parent.partial and self.path[-1] == 1
 
 
-def places(statement: Statement) -> Iterator[Place]:
+def places(statement: Statement) -> Iterator[NodePosition]:
     """Every node of the relations of a statement, outermost first."""
     for i, relation in enumerate(statement.relations):
         yield from _below(relation, (i,))
 
 
-def _below(piece: Piece, path: tuple[int, ...]) -> Iterator[Place]:
+def _below(piece: Piece, path: tuple[int, ...]) -> Iterator[NodePosition]:
     for i, part in enumerate(piece.parts):
         here = (*path, i)
         if isinstance(part, Node):
-            yield Place(here, part, piece)
+            yield NodePosition(here, part, piece)
         yield from _below(part, here)
 
 

@@ -8,13 +8,13 @@ from typing import Protocol
 from polhode.algebra import Expr
 from polhode.claims.latex._tree import Node, Statement
 from polhode.claims.meaning._components import Side
-from polhode.claims.states._asked import Asked
+from polhode.claims.states._bound_claim import BoundClaim
 
 
-class Reading(Protocol):
+class RepairNotation(Protocol):
     """What repair needs to know of how a statement is read."""
 
-    def asked(self, statement: Statement, extra: Mapping[str, Expr]) -> Asked:
+    def asked(self, statement: Statement, extra: Mapping[str, Expr]) -> BoundClaim:
         """The claim a statement makes; `extra` are further letters it may use."""
         ...
 

@@ -12,19 +12,19 @@ from polhode.claims.repair._at_limit import AtLimit
 from polhode.claims.repair._exchanged import exchanged
 from polhode.claims.repair._formal import is_empty, says_nothing
 from polhode.claims.repair._one_by_one import JUDGED_WHOLE, one_by_one
-from polhode.claims.repair._reading import Reading
+from polhode.claims.repair._reading import RepairNotation
+from polhode.claims.repair._repair_search import ENOUGH, STAGES, RepairSearch
 from polhode.claims.repair._repaired import Repaired, smallest
 from polhode.claims.repair._trials import FITTED
-from polhode.claims.repair._workshop import ENOUGH, STAGES, Workshop
-from polhode.claims.states._asked import Asked
+from polhode.claims.states._bound_claim import BoundClaim
 
-Holds = Callable[[Asked], bool]
+Holds = Callable[[BoundClaim], bool]
 
 _MOST_EDITS = 4
 
 
 def repaired(
-    statement: Statement, reading: Reading, context: str, holds: Holds
+    statement: Statement, reading: RepairNotation, context: str, holds: Holds
 ) -> tuple[Repaired, ...]:
     """The smallest corrections, all of about the same size; none where none was found.
 
@@ -48,7 +48,7 @@ def repaired(
 
 
 def _fitted(
-    statement: Statement, reading: Reading, context: str, holds: Holds
+    statement: Statement, reading: RepairNotation, context: str, holds: Holds
 ) -> tuple[Repaired, ...]:
     whole = Repaired(statement, ())
     starts = chain([whole], _exchanged(whole, reading, context))
@@ -56,19 +56,21 @@ def _fitted(
     return next(filter(None, found), ())
 
 
-def _exchanged(whole: Repaired, reading: Reading, context: str) -> Iterator[Repaired]:
+def _exchanged(whole: Repaired, reading: RepairNotation, context: str) -> Iterator[Repaired]:
     """With sines and cosines of an angle exchanged, if less is wrong then."""
-    before = Workshop(whole, reading, context).wrong
+    before = RepairSearch(whole, reading, context).wrong
     for changes in exchanged(whole.statement):
         repair = whole.with_changes(changes)
-        if Workshop(repair, reading, context).wrong < before:
+        if RepairSearch(repair, reading, context).wrong < before:
             yield repair
 
 
-def _from(repair: Repaired, reading: Reading, context: str, holds: Holds) -> tuple[Repaired, ...]:
+def _from(
+    repair: Repaired, reading: RepairNotation, context: str, holds: Holds
+) -> tuple[Repaired, ...]:
     """The smallest corrections that begin with some changes."""
     for _ in range(_MOST_EDITS):
-        workshop = Workshop(repair, reading, context)
+        workshop = RepairSearch(repair, reading, context)
         if not workshop.failing:
             return ()
         whole: list[Repaired] = []
@@ -85,7 +87,7 @@ def _from(repair: Repaired, reading: Reading, context: str, holds: Holds) -> tup
     return ()
 
 
-def _begun(workshop: Workshop) -> Repaired | None:
+def _begun(workshop: RepairSearch) -> Repaired | None:
     """Some of the members corrected: with one place changed if that can be, else with more."""
     pairs = [pair for pair in pairwise(workshop.failing) if pair[1] == pair[0] + 1]
     groups = [*pairs, *((member,) for member in workshop.failing)]
@@ -94,13 +96,13 @@ def _begun(workshop: Workshop) -> Repaired | None:
     return next((repairs[0] for repairs in found), None)
 
 
-def _tells(repair: Repaired, reading: Reading) -> bool:
+def _tells(repair: Repaired, reading: RepairNotation) -> bool:
     """Whether it says more than that something is what it is."""
     inserted = [change.path for change in repair.changes if change.inserts]
     return not any(says_nothing(repair.statement, (p[0], p[1]), reading) for p in inserted)
 
 
-def _sound(repair: Repaired, failing: Sequence[int], reading: Reading, holds: Holds) -> bool:
+def _sound(repair: Repaired, failing: Sequence[int], reading: RepairNotation, holds: Holds) -> bool:
     """Whether it holds, is of one dimension, and says something."""
     if is_empty(repair.statement) or not _tells(repair, reading):
         return False
@@ -113,7 +115,7 @@ def _sound(repair: Repaired, failing: Sequence[int], reading: Reading, holds: Ho
         return False
 
 
-def _cancels(repair: Repaired, asked: Asked, failing: Sequence[int]) -> bool:
+def _cancels(repair: Repaired, asked: BoundClaim, failing: Sequence[int]) -> bool:
     """Whether what is brought in leaves nothing on both sides of a member."""
     if not any(change.inserts for change in repair.changes):
         return False

@@ -19,18 +19,18 @@ from polhode.claims.latex._tree import (
     walk,
 )
 from polhode.claims.repair._edits import Edit
-from polhode.claims.repair._places import Place, put, times
-from polhode.claims.repair._workpiece import Workpiece
+from polhode.claims.repair._places import NodePosition, put, times
+from polhode.claims.repair._repair_context import RepairContext
 from polhode.claims.repair._written import UNKNOWN_TERM, plainly_written, repeats, solved
 
 
-def may_be_rewritten(place: Place) -> bool:
+def may_be_rewritten(place: NodePosition) -> bool:
     """Whether it is a whole side, a term or a sum; what the claim is about keeps its letter."""
     is_subject = place.is_side and isinstance(_base(place.node), Name | Dots)
     return (place.is_term or isinstance(place.node, Sum)) and not is_subject
 
 
-def rewritten(work: Workpiece, place: Place, members: Sequence[int]) -> Iterator[Edit]:
+def rewritten(work: RepairContext, place: NodePosition, members: Sequence[int]) -> Iterator[Edit]:
     """What would have to stand at a place, but for its vectors."""
     tail = _tail(work, place.node)
     if tail is None:
@@ -81,7 +81,7 @@ def _letters(node: Node) -> Counter[Node]:
     return sum((_letters(part) for part in node.parts if isinstance(part, Node)), Counter())
 
 
-def _tail(work: Workpiece, node: Node) -> list[Node] | None:
+def _tail(work: RepairContext, node: Node) -> list[Node] | None:
     """The vectors that scalars of a term multiply; None where that cannot be said."""
     if isinstance(node, Negative):
         return _tail(work, node.of)

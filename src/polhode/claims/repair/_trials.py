@@ -7,15 +7,15 @@ from dataclasses import dataclass
 
 from polhode.algebra import Expr
 from polhode.claims.contexts._steady import solved_members
-from polhode.claims.states._asked import Asked
-from polhode.claims.states._bench import Bench, bench
-from polhode.claims.states._circumstances import AnyState, Circumstances, TrueMotion
+from polhode.claims.states._bound_claim import BoundClaim
+from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
+from polhode.claims.states._sample_points import SamplePoints, bench
 from polhode.claims.states._steady_states import steady_states
 
 _CLOSE = 1e-7
 
 #: What must vanish, with the member of the claim it belongs to.
-Residuals = Callable[[Asked], list[tuple[int, Expr]]]
+Residuals = Callable[[BoundClaim], list[tuple[int, Expr]]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,58 +28,58 @@ class Trials:
         residuals: of any claim of the same form, such as a corrected one.
     """
 
-    states: Circumstances
-    bench: Bench
+    states: ClaimDomain
+    bench: SamplePoints
     residuals: Residuals
 
-    def left(self, asked: Asked, members: Collection[int]) -> list[Expr]:
+    def left(self, asked: BoundClaim, members: Collection[int]) -> list[Expr]:
         """What must vanish for some of the members of a claim."""
         return [e for m, e in self.residuals(asked.only(members)) if m in members]
 
 
-def trials(asked: Asked, context: str) -> Trials:
+def trials(asked: BoundClaim, context: str) -> Trials:
     """Where a claim can be tried, by its context."""
     return _TRIALS[context](asked)
 
 
-def _on(states: Circumstances, asked: Asked, residuals: Residuals) -> Trials:
+def _on(states: ClaimDomain, asked: BoundClaim, residuals: Residuals) -> Trials:
     return Trials(states, bench(states, [e for _, e in residuals(asked)]), residuals)
 
 
-def _differences(asked: Asked) -> list[tuple[int, Expr]]:
+def _differences(asked: BoundClaim) -> list[tuple[int, Expr]]:
     return [(component.member, component.difference) for component in asked.components()]
 
 
-def _identity(asked: Asked) -> Trials:
+def _identity(asked: BoundClaim) -> Trials:
     return _on(asked.states(AnyState), asked, _differences)
 
 
-def _motion(asked: Asked) -> Trials:
+def _motion(asked: BoundClaim) -> Trials:
     return _on(asked.states(TrueMotion), asked, _differences)
 
 
-def _steady(asked: Asked) -> Trials:
+def _steady(asked: BoundClaim) -> Trials:
     family, *_ = steady_states(asked)
     if not solved_members(asked, 0):
         return _on(family, asked, _differences)
     states = asked.states(TrueMotion)
     relations: Sequence[Expr] = [r.numerator for r in family.settled_relations]
 
-    def put_in(changed: Asked) -> list[tuple[int, Expr]]:
+    def put_in(changed: BoundClaim) -> list[tuple[int, Expr]]:
         pairs = solved_members(changed, 0)
         return [(p.member, r.subs({p.quantity: p.value})) for p in pairs for r in relations]
 
     return _on(states, asked, put_in)
 
 
-def _launch(asked: Asked) -> Trials:
-    from polhode.claims.contexts._launch import bench_along  # it needs the simulator
+def _launch(asked: BoundClaim) -> Trials:
+    from polhode.claims.contexts._initial_value import bench_along  # it needs the simulator
 
     states, bench = bench_along(asked)
     return Trials(states, bench, _differences)
 
 
-_TRIALS: dict[str, Callable[[Asked], Trials]] = {
+_TRIALS: dict[str, Callable[[BoundClaim], Trials]] = {
     "identity": _identity,
     "motion": _motion,
     "steady": _steady,

@@ -9,21 +9,23 @@ import numpy as np
 
 from polhode.claims.latex._tree import Node
 from polhode.claims.repair._edits import times_match
-from polhode.claims.repair._places import Place
-from polhode.claims.repair._tally import UNKNOWN
-from polhode.claims.repair._workpiece import Terms, Workpiece
+from polhode.claims.repair._numeric_evaluator import UNKNOWN
+from polhode.claims.repair._places import NodePosition
+from polhode.claims.repair._repair_context import RepairContext, StatementTerms
 
 _MOST_MATCHES = 2
 
 
-def vector_terms(work: Workpiece, place: Place, members: Sequence[int]) -> Iterator[Node]:
+def vector_terms(
+    work: RepairContext, place: NodePosition, members: Sequence[int]
+) -> Iterator[Node]:
     """Multiples of vectors of the text, and of products of two, that make a formula right."""
     yield from _multiples(work, place, members, work.vectors)
     yield from _multiples(work, place, members, work.crossed)
 
 
 def _multiples(
-    work: Workpiece, place: Place, members: Sequence[int], terms: Terms
+    work: RepairContext, place: NodePosition, members: Sequence[int], terms: StatementTerms
 ) -> Iterator[Node]:
     if not len(terms):
         return

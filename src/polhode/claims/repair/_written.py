@@ -25,8 +25,8 @@ from polhode.claims.latex._tree import (
     Sum,
 )
 from polhode.claims.repair._edits import number_node
-from polhode.claims.repair._places import ZERO, Place, negated, over, raised, times
-from polhode.claims.repair._workpiece import Workpiece
+from polhode.claims.repair._places import ZERO, NodePosition, negated, over, raised, times
+from polhode.claims.repair._repair_context import RepairContext
 
 _UNKNOWN = Symbol("missing")
 _LARGEST_SIZE = 12
@@ -38,7 +38,7 @@ _FACTOR = 4  # how much longer something may be than a short multiple of it
 UNKNOWN_TERM = Name("missing")
 
 
-def solved(work: Workpiece, changed: Statement, members: Sequence[int]) -> Expr | None:
+def solved(work: RepairContext, changed: Statement, members: Sequence[int]) -> Expr | None:
     """What the unknown term of a changed statement has to be for some members to hold, exactly."""
     found = None
     try:
@@ -76,7 +76,7 @@ def length(node: Node) -> int:
     return rate + nested + sum(length(part) for part in node.parts if isinstance(part, Node))
 
 
-def written(work: Workpiece, value: Expr, tail: Sequence[Node]) -> Iterator[Node]:
+def written(work: RepairContext, value: Expr, tail: Sequence[Node]) -> Iterator[Node]:
     """A quantity times vectors in the letters of the text, at most one of them of the motion."""
     yield from plainly_written(work, value, tail)
     for node, moved in work.settled.items():
@@ -84,7 +84,7 @@ def written(work: Workpiece, value: Expr, tail: Sequence[Node]) -> Iterator[Node
             yield from plainly_written(work, value / moved, [node, *tail])
 
 
-def plainly_written(work: Workpiece, value: Expr, tail: Sequence[Node]) -> Iterator[Node]:
+def plainly_written(work: RepairContext, value: Expr, tail: Sequence[Node]) -> Iterator[Node]:
     """The same in letters that are free on the states of the claim, if it is that simple."""
     product = _product(value, work.plain)
     if product is not None and len(product[1]) + len(product[2]) < _LARGEST_SIZE:
@@ -152,7 +152,7 @@ def _fraction(number: Fraction, above: Iterable[Node], below: Iterable[Node]) ->
     return over(top, times(number_node(Fraction(number.denominator)), *below))
 
 
-def repeats(work: Workpiece, place: Place, node: Node) -> bool:
+def repeats(work: RepairContext, place: NodePosition, node: Node) -> bool:
     """Whether something new at a place brings in a whole side of the same chain, not a power."""
     sides = work.statement.relations[place.relation].sides
     others = {side for i, side in enumerate(sides) if i != place.path[1]} - {ZERO}

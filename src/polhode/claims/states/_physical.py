@@ -10,13 +10,13 @@ import numpy as np
 
 from polhode.algebra import Expr, Symbol
 from polhode.claims.meaning._the import The
-from polhode.claims.states._circumstances import Circumstances
+from polhode.claims.states._claim_domain import ClaimDomain
 from polhode.claims.states._numeric import number
 
 _ROUNDING = 1e-9
 
 
-def is_physical(states: Circumstances, values: Mapping[Symbol, Any]) -> Any:
+def is_physical(states: ClaimDomain, values: Mapping[Symbol, Any]) -> Any:
     """Whether bodies with these numbers can be; numbers may be arrays of one shape.
 
     What is declared positive is so, also where the circumstances determine it, and so is what the
@@ -31,7 +31,7 @@ def is_physical(states: Circumstances, values: Mapping[Symbol, Any]) -> Any:
     return reduce(np.logical_and, met, np.bool_(True))
 
 
-def demanded(states: Circumstances) -> frozenset[Symbol]:
+def demanded(states: ClaimDomain) -> frozenset[Symbol]:
     """The symbols whose numbers that takes."""
     above, not_below = _demands(The(states.equations))
     every = (*states.signs, *above, *(e for pair in not_below for e in pair))

@@ -9,7 +9,7 @@ from functools import lru_cache
 from math import atan
 from random import Random
 
-from polhode.algebra import Expr, Generator, Kind, Symbol, sqrt, under_name
+from polhode.algebra import Expr, Generator, Symbol, SymbolKind, sqrt, under_name
 from polhode.base import NumericError
 
 _SIMPLE = [Fraction(n, d) for d in (1, 2, 3) for n in range(1, 8) if n % d or d == 1]
@@ -18,7 +18,7 @@ _PI = Symbol("pi")
 
 
 @dataclass(frozen=True)
-class Point:
+class ExactPoint:
     """Exact values of symbols; angles by the tangent of their half, so that sines are rational.
 
     Attributes:
@@ -76,7 +76,7 @@ class Point:
         return dict(sorted({**plain, **angles}.items()))
 
 
-def points(expressions: Iterable[Expr], symbols: Iterable[Symbol], seed: int) -> Point:
+def points(expressions: Iterable[Expr], symbols: Iterable[Symbol], seed: int) -> ExactPoint:
     """A point with simple values for all symbols, those under a sine or cosine being angles."""
     random = Random(seed)
     angles = {a for e in expressions for g in e.generators for a in _angles(g)}
@@ -84,7 +84,7 @@ def points(expressions: Iterable[Expr], symbols: Iterable[Symbol], seed: int) ->
     draw = _draws(random, _SIMPLE)
     tilt = _draws(random, _HALF_TANGENTS)
     numbers = {s: draw(s) for s in wanted if s not in angles}
-    return Point(numbers, {s: tilt(s) for s in wanted if s in angles})
+    return ExactPoint(numbers, {s: tilt(s) for s in wanted if s in angles})
 
 
 def _draws(random: Random, pool: list[Fraction]) -> Callable[[Symbol], Fraction]:
@@ -94,7 +94,7 @@ def _draws(random: Random, pool: list[Fraction]) -> Callable[[Symbol], Fraction]
         if not left:
             left.extend(random.sample(pool, len(pool)))
         value = left.pop()
-        free = symbol.kind is not Kind.PARAMETER and not symbol.positive
+        free = symbol.kind is not SymbolKind.PARAMETER and not symbol.positive
         return -value if free and symbol.order and random.random() < 1 / 3 else value
 
     return draw

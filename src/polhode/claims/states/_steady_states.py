@@ -8,8 +8,8 @@ from functools import cached_property, lru_cache
 from polhode.algebra import ZERO, Expr, Symbol, eliminate
 from polhode.analyse import SteadyMotion, steady
 from polhode.claims.meaning._the import The
-from polhode.claims.states._asked import Asked
-from polhode.claims.states._circumstances import TrueMotion
+from polhode.claims.states._bound_claim import BoundClaim
+from polhode.claims.states._claim_domain import TrueMotion
 from polhode.derive import Equations
 
 _KEPT = 64
@@ -44,7 +44,7 @@ class SteadyStates(TrueMotion):
         return dict.fromkeys(self.equations.acceleration_symbols, ZERO)
 
 
-def steady_states(asked: Asked) -> tuple[SteadyStates, ...]:
+def steady_states(asked: BoundClaim) -> tuple[SteadyStates, ...]:
     """Every family of steady motions that obeys the claim's own restrictions.
 
     Families where the coordinates are singular are left out: a rate of precession means nothing

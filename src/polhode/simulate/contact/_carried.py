@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from polhode.algebra import ZERO, Expr, Kind, Symbol, sqrt
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, sqrt
 from polhode.derive import Automaton, Mode
 from polhode.model import Contact, Coulomb, Sliding
 from polhode.simulate._dynamics import WORK, Dynamics
@@ -25,19 +25,19 @@ def dynamics_of(
 def slip_symbols(contact: Contact) -> tuple[Symbol, Symbol]:
     """The slip velocity of a sliding contact, carried along."""
     first, second = (
-        Symbol(f"slip_{label}_{contact.spelled}", Kind.SPEED) for label in contact.on.tangents
+        Symbol(f"slip_{label}_{contact.spelled}", SymbolKind.SPEED) for label in contact.on.tangents
     )
     return first, second
 
 
 def gap_symbol(contact: Contact) -> Symbol:
     """The height of a body above its support, carried along."""
-    return Symbol(f"gap_{contact.spelled}", Kind.COORDINATE)
+    return Symbol(f"gap_{contact.spelled}", SymbolKind.COORDINATE)
 
 
 def room_symbol(contact: Contact) -> Symbol:
     """The distance to the edge of its support of a body that touches, carried along."""
-    return Symbol(f"room_{contact.spelled}", Kind.COORDINATE)
+    return Symbol(f"room_{contact.spelled}", SymbolKind.COORDINATE)
 
 
 def _silent(modes: Automaton, mode: Mode) -> dict[Symbol, Expr]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from polhode.base import DeclarationError, NumericError
 from polhode.derive import Automaton
 from polhode.model import Contact, Coulomb
-from polhode.simulate.contact._machine import Machine
+from polhode.simulate.contact._hybrid_system import HybridSystem
 
 _LEAST, _MOST = 1e-9, 1e9  # of friction: beyond, its forces drown in rounding, or drown all else
 
@@ -32,7 +32,7 @@ def _components(contact: Contact) -> list[str]:
     return [contact.component(label) for label in (*contact.on.tangents, contact.on.normal)]
 
 
-def check_numbers(machine: Machine) -> None:
+def check_numbers(machine: HybridSystem) -> None:
     """Refuse coefficients that no contact can have.
 
     Raises:
@@ -46,7 +46,7 @@ def check_numbers(machine: Machine) -> None:
             _check_friction(machine, contact)
 
 
-def _check_friction(machine: Machine, contact: Coulomb) -> None:
+def _check_friction(machine: HybridSystem, contact: Coulomb) -> None:
     kinetic, static = (machine.value(mu) for mu in (contact.mu, contact.mu_static))
     if kinetic < 0:
         raise _impossible("friction coefficient mu", kinetic, contact, "zero or more")

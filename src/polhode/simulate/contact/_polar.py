@@ -9,8 +9,8 @@ from polhode.algebra import Expr, Symbol
 from polhode.model import Contact
 from polhode.simulate._dynamics import WORK
 from polhode.simulate.contact._carried import slip_symbols
-from polhode.simulate.contact._entry import Entry
-from polhode.simulate.contact._machine import ModeMachine
+from polhode.simulate.contact._hybrid_system import CompiledMode
+from polhode.simulate.contact._mode_state import ModeState
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class PolarShape:
     wanted: tuple[Expr, ...]
 
 
-def polar_shape(mode: ModeMachine, entry: Entry, contacts: Sequence[Contact]) -> PolarShape:
+def polar_shape(mode: CompiledMode, entry: ModeState, contacts: Sequence[Contact]) -> PolarShape:
     """The same for a mode in which some contacts begin to slip.
 
     Args:

@@ -11,15 +11,15 @@ from polhode.model import FLIGHT, FRICTIONLESS, Apart, Coulomb, Phase
 from polhode.simulate._dynamics import Dynamics
 from polhode.simulate._names import published
 from polhode.simulate._start import read_start
-from polhode.simulate._task import Begun, Guarded, Motion, Task, timed
+from polhode.simulate._task import Guarded, InitialState, MotionResult, Task, timed
 from polhode.simulate._values import idle_parameters, read_parameters
-from polhode.simulate.contact._begin import begun_at
 from polhode.simulate.contact._checks import check_numbers
-from polhode.simulate.contact._course import Walk
-from polhode.simulate.contact._entry import Entry
-from polhode.simulate.contact._machine import Machine
-from polhode.simulate.contact._place import Place
-from polhode.simulate.forcing._drive import drive_of
+from polhode.simulate.contact._hybrid_integrator import HybridIntegrator
+from polhode.simulate.contact._hybrid_system import HybridSystem
+from polhode.simulate.contact._initial_mode import begun_at
+from polhode.simulate.contact._mode_state import ModeState
+from polhode.simulate.contact._state import State
+from polhode.simulate.forcing._prescribed_motion import prescribed_motion
 
 
 class ThroughModes:
@@ -27,26 +27,26 @@ class ThroughModes:
 
     def __init__(self, modes: Automaton, task: Task) -> None:
         with timed(task, "derive"):
-            self._drive = drive_of(modes.functions, task.forcing, task.end)
+            self._drive = prescribed_motion(modes.functions, task.forcing, task.end)
             idle = idle_parameters(modes.together.equations, task.given)
             constants = (*modes.parameters, *idle)
             equations = modes.together.equations
             self._dynamics = Dynamics(equations, self._drive.expressions, constants)
         self._modes = modes
-        self._machine: Machine | None = None
+        self._machine: HybridSystem | None = None
 
-    def follow(self, task: Task, progress: Progress) -> Motion:
+    def follow(self, task: Task, progress: Progress) -> MotionResult:
         numbers = read_parameters(self._dynamics, task.given, self._drive.constants(0.0))
         machine = self._with(numbers, task)
         check_numbers(machine)
         with timed(task, "compile"):
-            walk = Walk(machine, task.near_flat, progress, task.until)
+            walk = HybridIntegrator(machine, task.near_flat, progress, task.until)
             place, begun, apart = _begin(machine, task)
             first = begun_at(machine, place, apart)
             machine.mode(first.phases).stepper  # noqa: B018
         with timed(task, "integrate"):
             course = walk.along(first, task.end)
-        return Motion(
+        return MotionResult(
             course.segments,
             course.changes,
             course.ending,
@@ -58,23 +58,23 @@ class ThroughModes:
             guarded=Guarded(machine, apart),
         )
 
-    def _with(self, numbers: Mapping[Symbol, float], task: Task) -> Machine:
+    def _with(self, numbers: Mapping[Symbol, float], task: Task) -> HybridSystem:
         """The machine with these numbers; what it has compiled stays."""
         if self._machine is None:
-            self._machine = Machine(
+            self._machine = HybridSystem(
                 self._modes, self._drive, numbers, task.integrator, task.tolerance
             )
         self._machine.take(numbers)
         return self._machine
 
 
-def first_entry(machine: Machine, task: Task) -> tuple[Entry, Begun]:
+def first_entry(machine: HybridSystem, task: Task) -> tuple[ModeState, InitialState]:
     """The first mode of a motion, and the start as it was read."""
     place, begun, apart = _begin(machine, task)
     return begun_at(machine, place, apart), begun
 
 
-def _begin(machine: Machine, task: Task) -> tuple[Place, Begun, frozenset[int]]:
+def _begin(machine: HybridSystem, task: Task) -> tuple[State, InitialState, frozenset[int]]:
     """Where it starts, and which contacts are apart there.
 
     Contacts touch unless a height is given, and stick where they can unless that contradicts what
@@ -99,8 +99,8 @@ def _begin(machine: Machine, task: Task) -> tuple[Place, Begun, frozenset[int]]:
 
 
 def _read_on_surfaces(
-    machine: Machine, apart: frozenset[int], task: Task, *, slips: bool
-) -> tuple[Place, Begun]:
+    machine: HybridSystem, apart: frozenset[int], task: Task, *, slips: bool
+) -> tuple[State, InitialState]:
     """The start as it is read on the supports, or where they end on what is beyond their edges."""
     phases = _phases(machine.automaton, apart, slips=slips)
     place, begun = _read(machine, phases, task)
@@ -120,10 +120,12 @@ def _phases(modes: Automaton, apart: frozenset[int], *, slips: bool) -> tuple[Ph
     return tuple(found)
 
 
-def _read(machine: Machine, phases: tuple[Phase, ...], task: Task) -> tuple[Place, Begun]:
+def _read(
+    machine: HybridSystem, phases: tuple[Phase, ...], task: Task
+) -> tuple[State, InitialState]:
     mode = machine.mode(phases)
     plain = mode.dynamics.without_carried
     numbers = dict(zip(plain.parameters, mode.parameters.tolist(), strict=True))
     start = read_start(plain, task.start, numbers)
     state = dict(zip(plain.states, (float(x) for x in start.state), strict=True))
-    return mode.lifted(0.0, state, 0.0), Begun(plain, start)
+    return mode.lifted(0.0, state, 0.0), InitialState(plain, start)

@@ -10,20 +10,20 @@ import numpy as np
 from polhode.base import NumericError
 from polhode.derive import Guard
 from polhode.model import Contact, Coulomb, Rolling
-from polhode.simulate.contact._entry import Entry, beyond
-from polhode.simulate.contact._machine import Machine
-from polhode.simulate.contact._place import Place
-from polhode.simulate.contact._rise import STILL, fall_of
-from polhode.simulate.contact._settle import Known, settle
-from polhode.simulate.contact._shock import (
+from polhode.simulate.contact._contact_kinematics import ContactKinematics
+from polhode.simulate.contact._hybrid_system import HybridSystem
+from polhode.simulate.contact._impact import (
+    Impact,
     Roughness,
-    Shock,
-    coulomb_shock,
-    rough_shock,
-    smooth_shock,
+    coulomb_impact,
+    rough_impact,
+    smooth_impact,
 )
-from polhode.simulate.contact._touching import Meeting
-from polhode.simulate.integrate._numbers import Numbers
+from polhode.simulate.contact._lift_off import STILL, fall_of
+from polhode.simulate.contact._mode_state import ModeState, beyond
+from polhode.simulate.contact._select_mode import ContactStatus, select_mode
+from polhode.simulate.contact._state import State
+from polhode.simulate.integrate._number_types import NumberType
 from polhode.simulate.integrate._stepping import Array
 
 _REBOUND = 1e-13  # of the hardest landing: a rebound that is none
@@ -32,7 +32,7 @@ _UNFELT = 1e-12  # of what an impulse does where it acts: what it does elsewhere
 
 
 @dataclass(frozen=True)
-class Leaving:
+class ModeExit:
     """Where a mode ends.
 
     Attributes:
@@ -43,7 +43,7 @@ class Leaving:
     """
 
     guard: Guard | None
-    place: Place
+    place: State
     gaps: dict[int, float]
     rooms: dict[int, float]
 
@@ -55,39 +55,39 @@ class Transitions:
         machine: the modes.
     """
 
-    def __init__(self, machine: Machine) -> None:
+    def __init__(self, machine: HybridSystem) -> None:
         self._machine = machine
         self._hardest: dict[int, float] = {}
 
-    def next(self, before: Entry, leaving: Leaving) -> tuple[str, Entry]:
+    def next(self, before: ModeState, leaving: ModeExit) -> tuple[str, ModeState]:
         """What happens where a mode ends, and how the motion enters the mode that follows."""
         self._machine.move_on(leaving.place.time)
         kind, entry, opened = self._next(before, leaving)
         rooms = {i: _room(before, leaving, entry, i) for i in entry.rooms}
         return kind, replace(entry, gaps=_gaps(before, leaving, entry, opened), rooms=rooms)
 
-    def _next(self, before: Entry, leaving: Leaving) -> tuple[str, Entry, int | None]:
+    def _next(self, before: ModeState, leaving: ModeExit) -> tuple[str, ModeState, int | None]:
         """Also the contact that opens again at once, if one does."""
         guard, place = leaving.guard, leaving.place
         apart = frozenset(k for k, phase in enumerate(before.phases) if phase.flies)
         if guard is None:
-            return "jerk", settle(self._machine, place, Known(apart)), None
+            return "jerk", select_mode(self._machine, place, ContactStatus(apart)), None
         i = index_of(guard, self._machine)
         still = frozenset(k for k, phase in enumerate(before.phases) if phase.rolls)
         if guard.kind == "touches down":
             return *self._land(before, place, i), i
         far = beyond(before.phases)
         known = {
-            "lifts off": Known(apart | {i}, still - {i}, beyond=far),
-            "crosses the edge": Known(apart, still - {i}, beyond=far ^ {i}),
-            "slips": Known(apart, still - {i}, _starting(before, place) | {i}, far),
-            "sticks": Known(apart, still | {i}, beyond=far),
+            "lifts off": ContactStatus(apart | {i}, still - {i}, beyond=far),
+            "crosses the edge": ContactStatus(apart, still - {i}, beyond=far ^ {i}),
+            "slips": ContactStatus(apart, still - {i}, _starting(before, place) | {i}, far),
+            "sticks": ContactStatus(apart, still | {i}, beyond=far),
         }
-        entry = settle(self._machine, place, known[guard.kind])
+        entry = select_mode(self._machine, place, known[guard.kind])
         turned = guard.kind == "sticks" and entry.phases[i].slides
         return "turns round" if turned else guard.kind, entry, None
 
-    def _land(self, before: Entry, place: Place, i: int) -> tuple[str, Entry]:
+    def _land(self, before: ModeState, place: State, i: int) -> tuple[str, ModeState]:
         """A shock, then contact or another flight."""
         machine, numbers = self._machine, self._machine.numbers
         contact = machine.automaton.contacts[i]
@@ -102,9 +102,13 @@ class Transitions:
         meeting = meetings[i]
         slow = numbers.finer(STILL) * meeting.scale
         if meeting.velocity[2] > slow:
-            return "touches down", settle(machine, place, Known(apart, still, beyond=far))
+            return "touches down", select_mode(
+                machine, place, ContactStatus(apart, still, beyond=far)
+            )
         if meeting.velocity[2] >= -slow:
-            return "touches down", settle(machine, place, Known(apart - {i}, still, beyond=far))
+            return "touches down", select_mode(
+                machine, place, ContactStatus(apart - {i}, still, beyond=far)
+            )
         felt = meeting.arms @ numbers.solved(mass, meeting.arms.T)
         shock = self._shock(contact, felt, meeting.velocity, place.time)
         work = shock.impulse @ (meeting.support + (meeting.velocity + shock.velocity) / 2)
@@ -113,38 +117,42 @@ class Transitions:
         hardest = max(self._hardest.get(i, 0.0), -meeting.velocity[2])
         self._hardest[i] = hardest
         if shock.velocity[2] > numbers.finer(_REBOUND) * hardest:
-            bounced = settle(machine, after, Known(apart, still, beyond=far))
+            bounced = select_mode(machine, after, ContactStatus(apart, still, beyond=far))
             if self._rises(bounced, i, shock.velocity[2]):
                 return "bounces", bounced
         stuck = still | {i} if shock.sticks else still
-        return "touches down", settle(machine, after, Known(apart - {i}, stuck, beyond=far))
+        return "touches down", select_mode(
+            machine, after, ContactStatus(apart - {i}, stuck, beyond=far)
+        )
 
-    def _rises(self, bounced: Entry, i: int, speed: Any) -> bool:
+    def _rises(self, bounced: ModeState, i: int, speed: Any) -> bool:
         """Whether a contact that bounces is open for longer than the rounding of the time."""
         time = bounced.place.time
         fall = self._machine.mode(bounced.phases).closing_rates(bounced.state, time)[i]
         hop = fall_of(0.0, speed, fall) if fall < 0 else np.inf
         return bool(hop > _INSTANT * self._machine.numbers.spacing(time))
 
-    def _shock(self, contact: Contact, felt: Array, velocity: Array, time: float) -> Shock:
+    def _shock(self, contact: Contact, felt: Array, velocity: Array, time: float) -> Impact:
         numbers = self._machine.numbers
         restitution = self._machine.value(contact.restitution)
         if isinstance(contact, Coulomb):
             kinetic, static = (self._machine.value(m) for m in (contact.mu, contact.mu_static))
             roughness = Roughness(kinetic, static, restitution)
             where = f"{contact.name} at t = {float(time):.9g} s"
-            return coulomb_shock(felt, velocity, roughness, where, numbers)
+            return coulomb_impact(felt, velocity, roughness, where, numbers)
         if isinstance(contact, Rolling):
-            return rough_shock(felt, velocity, restitution, numbers)
-        return smooth_shock(felt, velocity, restitution)
+            return rough_impact(felt, velocity, restitution, numbers)
+        return smooth_impact(felt, velocity, restitution)
 
 
-def _starting(before: Entry, place: Place) -> frozenset[int]:
+def _starting(before: ModeState, place: State) -> frozenset[int]:
     """The contacts that have begun to slip at this very instant."""
     return frozenset(before.onset) if before.place.time == place.time else frozenset()
 
 
-def _gaps(before: Entry, leaving: Leaving, entry: Entry, landed: int | None) -> dict[int, float]:
+def _gaps(
+    before: ModeState, leaving: ModeExit, entry: ModeState, landed: int | None
+) -> dict[int, float]:
     """Heights of open contacts: as they were followed, and none where they have just opened."""
     return {
         k: leaving.gaps[k] if before.phases[k].flies and k != landed else 0.0
@@ -153,7 +161,7 @@ def _gaps(before: Entry, leaving: Leaving, entry: Entry, landed: int | None) -> 
     }
 
 
-def _room(before: Entry, leaving: Leaving, entry: Entry, i: int) -> float:
+def _room(before: ModeState, leaving: ModeExit, entry: ModeState, i: int) -> float:
     """The distance to an edge: as it was followed, and none where that has just been crossed.
 
     Where a support jerks it may have been shifted.
@@ -164,7 +172,9 @@ def _room(before: Entry, leaving: Leaving, entry: Entry, i: int) -> float:
     return 0.0 if crossed else leaving.rooms[i]
 
 
-def _feel(one: Meeting, other: Meeting, mass: Array, numbers: Numbers) -> bool:
+def _feel(
+    one: ContactKinematics, other: ContactKinematics, mass: Array, numbers: NumberType
+) -> bool:
     """Whether an impulse at one contact is felt at another."""
     shared = one.arms @ numbers.solved(mass, other.arms.T)
     own = one.arms @ numbers.solved(mass, one.arms.T)
@@ -179,7 +189,7 @@ def _shared(lands: str, touches: str, time: float) -> NumericError:
     )
 
 
-def index_of(guard: Guard, machine: Machine) -> int:
+def index_of(guard: Guard, machine: HybridSystem) -> int:
     """Which contact a guard watches; -1 for none."""
     names = [contact.name for contact in machine.automaton.contacts]
     return names.index(guard.contact.name) if guard.contact is not None else -1

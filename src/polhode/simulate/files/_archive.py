@@ -28,7 +28,7 @@ _ROUNDING = 2.0**-50  # of the largest coefficient: what the last ones have of r
 
 
 @dataclass(frozen=True, eq=False)
-class Stretch:
+class ChebyshevPiece:
     """What was integrated in one go, as Chebyshev series between knots.
 
     Attributes:
@@ -121,7 +121,7 @@ class Archive:
 
     declaration: str
     parameters: Mapping[str, float]
-    stretches: tuple[Stretch, ...]
+    stretches: tuple[ChebyshevPiece, ...]
     events: tuple[Mapping[str, Any], ...]
     times: Array
     details: Mapping[str, Any] = field(default_factory=dict)

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from polhode.algebra import SHAPES, Expr, Kind, Symbol
-from polhode.base import Codec, Shape
+from polhode.algebra import SHAPES, Expr, Symbol, SymbolKind
+from polhode.base import Codec, ShapeRecord
 from polhode.simulate._event import Event
 from polhode.simulate._segment import Segment
 from polhode.simulate._trajectory import Trajectory
@@ -28,7 +28,9 @@ def _table(rows: tuple[tuple[Any, Any], ...]) -> _Table:
     return _Table(rows)
 
 
-_CODEC = Codec((*SHAPES, Shape("table", (_Table,), lambda table: {"rows": table.rows}, _table)))
+_CODEC = Codec(
+    (*SHAPES, ShapeRecord("table", (_Table,), lambda table: {"rows": table.rows}, _table))
+)
 
 
 @dataclass(frozen=True)
@@ -138,7 +140,7 @@ def _prescribed(rows: tuple[tuple[Any, Expr], ...]) -> dict[Symbol, Expr]:
 
 
 def _is_given(symbol: Symbol) -> bool:
-    return symbol.kind in (Kind.TIME, Kind.PARAMETER)
+    return symbol.kind in (SymbolKind.TIME, SymbolKind.PARAMETER)
 
 
 # -- events ----------------------------------------------------------------------------------------
@@ -174,4 +176,4 @@ def symbol(label: str) -> Symbol:
     kind, order, name = label.split(" ", 2)
     if order not in ("0", "1", "2"):
         raise ValueError(f"the derivative {order[:20]}")
-    return Symbol(name, Kind(kind), int(order))
+    return Symbol(name, SymbolKind(kind), int(order))

@@ -17,7 +17,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from polhode.base import SCHEMA
-from polhode.simulate.files._archive import Archive, Stretch
+from polhode.simulate.files._archive import Archive, ChebyshevPiece
 from polhode.simulate.integrate._stepping import Array
 
 FORMAT = "polhode motion"
@@ -48,7 +48,7 @@ def packed(archive: Archive) -> bytes:
     return counted(len(head)) + head + arrays
 
 
-def _described(stretch: Stretch) -> dict[str, Any]:
+def _described(stretch: ChebyshevPiece) -> dict[str, Any]:
     pieces, order, _ = stretch.series.shape
     return {
         "segment": stretch.segment,
@@ -138,7 +138,7 @@ class _Arrays:
             raise ValueError(f"{len(self._left)} numbers more than there should be")
 
 
-def _stretch(item: Any, arrays: _Arrays) -> Stretch:
+def _stretch(item: Any, arrays: _Arrays) -> ChebyshevPiece:
     part = mapping(item)
     states = tuple(text(state) for state in _listed(part["states"]))
     pieces, order = _count(part, "pieces"), _count(part, "order")
@@ -149,7 +149,7 @@ def _stretch(item: Any, arrays: _Arrays) -> Stretch:
     for times in (steps, knots):
         if not np.all(np.diff(times) > 0) or times[0] != steps[0] or times[-1] != steps[-1]:
             raise ValueError("times of a stretch that do not rise from its begin to its end")
-    return Stretch(
+    return ChebyshevPiece(
         segment=_count(part, "segment", 0),
         mode=text(part["mode"]),
         states=states,

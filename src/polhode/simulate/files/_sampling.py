@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import cast
 
-from polhode.algebra import Kind, Symbol, dimension_of
+from polhode.algebra import Symbol, SymbolKind, dimension_of
 from polhode.base import LENGTH, MASS, PURE, TIME, Dimension, UnitError
 from polhode.derive import Equations
 from polhode.simulate._trajectory import Trajectory
@@ -55,7 +55,7 @@ def _couples(run: Trajectory) -> frozenset[str]:
 
 
 def _unit(symbol: Symbol | None, dimension: Dimension) -> str:
-    moves = symbol is not None and symbol.kind in (Kind.COORDINATE, Kind.SPEED)
+    moves = symbol is not None and symbol.kind in (SymbolKind.COORDINATE, SymbolKind.SPEED)
     if moves and dimension in _TURNING:
         return _TURNING[dimension]
     return _NAMED.get(dimension, str(dimension))

@@ -13,14 +13,14 @@ from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError, PolhodeError, StoreError, Tell, within
 from polhode.derive import Automaton, automaton, derive
 from polhode.model import System, read_declaration, write_declaration
+from polhode.simulate._absolute_values import sides_in_order
 from polhode.simulate._dynamics import WORK, Dynamics
 from polhode.simulate._event import placed
-from polhode.simulate._segment import Part, Segment
-from polhode.simulate._sides import sides_in_order
+from polhode.simulate._segment import Segment, TrajectoryPiece
 from polhode.simulate._task import AS_DECLARED
 from polhode.simulate._trajectory import Trajectory
-from polhode.simulate.contact._machine import Machine
-from polhode.simulate.files._archive import Archive, Stretch, series_of
+from polhode.simulate.contact._hybrid_system import HybridSystem
+from polhode.simulate.files._archive import Archive, ChebyshevPiece, series_of
 from polhode.simulate.files._details import (
     Details,
     details_of,
@@ -31,11 +31,11 @@ from polhode.simulate.files._details import (
 )
 from polhode.simulate.files._sampling import samples_of
 from polhode.simulate.files._store import read_archive, write_archive
-from polhode.simulate.forcing._drive import Drive
-from polhode.simulate.integrate._driver import Solution
+from polhode.simulate.forcing._prescribed_motion import PrescribedMotion
+from polhode.simulate.integrate._driver import SegmentSolution
 from polhode.simulate.integrate._integrators import chosen
-from polhode.simulate.integrate._numbers import DOUBLES
-from polhode.simulate.integrate._watched import Stop
+from polhode.simulate.integrate._number_types import DOUBLES
+from polhode.simulate.integrate._stop_criteria import Stop
 
 LONGEST = 60.0  # s of processor time
 
@@ -118,12 +118,12 @@ def archive_of(run: Trajectory) -> Archive:
     )
 
 
-def _stretch(number: int, segment: Segment, part: Part) -> Stretch:
+def _stretch(number: int, segment: Segment, part: TrajectoryPiece) -> ChebyshevPiece:
     solution = part.solution
     steps = np.append(solution.steps[solution.steps < part.end], part.end)
     knots, series = series_of(solution.at, steps)
     names = (symbol.published for symbol in segment.dynamics.parameters)
-    return Stretch(
+    return ChebyshevPiece(
         segment=number,
         mode=segment.mode,
         states=tuple(map(label, solution.symbols)),
@@ -211,28 +211,30 @@ class _Modes:
         self._prescribed = prescribed
         self._known: dict[str, Dynamics] = {}
 
-    def dynamics(self, stretch: Stretch) -> Dynamics:
+    def dynamics(self, stretch: ChebyshevPiece) -> Dynamics:
         """Of the mode of a stretch."""
         if stretch.mode not in self._known:
             self._known[stretch.mode] = self._made(stretch)
         return self._known[stretch.mode]
 
-    def _made(self, stretch: Stretch) -> Dynamics:
+    def _made(self, stretch: ChebyshevPiece) -> Dynamics:
         constants = {Symbol(name): value for name, value in stretch.constants.items()}
         if stretch.mode == AS_DECLARED:
             return Dynamics(derive(self._modes.system), self._prescribed, tuple(constants))
-        machine = Machine(
-            self._modes, Drive(self._prescribed, {}), constants, chosen(), tolerance=None
+        machine = HybridSystem(
+            self._modes, PrescribedMotion(self._prescribed, {}), constants, chosen(), tolerance=None
         )
         return machine.mode(self._modes.named(stretch.mode)).dynamics
 
 
-def _part(stretch: Stretch, dynamics: Dynamics, turned: Mapping[Symbol, Symbol]) -> Part:
+def _part(
+    stretch: ChebyshevPiece, dynamics: Dynamics, turned: Mapping[Symbol, Symbol]
+) -> TrajectoryPiece:
     symbols = tuple(map(symbol, stretch.states))
     missing = set(dynamics.states) - set(symbols) - {WORK}
     if missing or len(set(symbols)) < len(symbols):
         raise ValueError("states that are not those of the system")
-    solution = Solution(
+    solution = SegmentSolution(
         symbols,
         {angle: less for angle, less in turned.items() if less in symbols},
         stretch.steps,
@@ -241,4 +243,4 @@ def _part(stretch: Stretch, dynamics: Dynamics, turned: Mapping[Symbol, Symbol])
         stretch.at,
     )
     constants = np.array([stretch.constants[s.published] for s in dynamics.parameters])
-    return Part(stretch.begin, stretch.end, solution, constants)
+    return TrajectoryPiece(stretch.begin, stretch.end, solution, constants)

@@ -96,20 +96,20 @@ def _resolution(given: float | None, span: float) -> float:
 
 
 @dataclass(frozen=True)
-class _Seen:
+class _Evaluations:
     """Values of the function at increasing times that no polynomial is made of."""
 
     times: Array
     values: Array
 
-    def within(self, left: float, right: float) -> _Seen:
+    def within(self, left: float, right: float) -> _Evaluations:
         first, last = np.searchsorted(self.times, [left, right]).tolist()
-        return _Seen(self.times[first:last], self.values[first:last])
+        return _Evaluations(self.times[first:last], self.values[first:last])
 
 
-def _seen(function: Function, left: float, right: float, resolution: float) -> _Seen:
+def _seen(function: Function, left: float, right: float, resolution: float) -> _Evaluations:
     times = looked_at(left, right, resolution)
-    return _Seen(times, values_of(function, times))
+    return _Evaluations(times, values_of(function, times))
 
 
 @dataclass(frozen=True)
@@ -131,7 +131,7 @@ class _Piece:
     error: float
     allowed: float
 
-    def passes_by(self, seen: _Seen) -> bool:
+    def passes_by(self, seen: _Evaluations) -> bool:
         """Whether it differs by more than allowed from one of the function's values within it."""
         own = seen.within(self.left, self.right)
         values = polynomial.polyval(own.times - self.left, self.powers)
@@ -139,7 +139,7 @@ class _Piece:
 
 
 def _resolved(
-    function: Function, left: float, right: float, shortest: float, seen: _Seen
+    function: Function, left: float, right: float, shortest: float, seen: _Evaluations
 ) -> list[_Piece]:
     """Pieces from left to right, halved until each agrees with the function."""
     noise = _ROUNDING * float(np.max(np.abs(seen.values)))

@@ -14,23 +14,23 @@ from typing import Any
 import flint
 import numpy as np
 
-from polhode.algebra import Arithmetic, Kind, Op, Symbol
-from polhode.simulate.integrate._numbers import Numbers, fraction_of
-from polhode.simulate.integrate._series import Series
+from polhode.algebra import Arithmetic, Op, Symbol, SymbolKind
+from polhode.simulate.integrate._number_types import NumberType, fraction_of
+from polhode.simulate.integrate._series import TaylorSolution
 
 _SPARE = 32  # bits carried beyond those asked for
 
 
-def order_of(numbers: Numbers) -> int:
+def order_of(numbers: NumberType) -> int:
     """Of the series that reach farthest for what they cost."""
     return math.ceil(numbers.bits * math.log(2) / 2) + 1
 
 
-def series_of(numbers: Numbers, times: list[Any], steps: list[Any]) -> Series:
+def series_of(numbers: NumberType, times: list[Any], steps: list[Any]) -> TaylorSolution:
     """What was found, as sums of doubles: of every step, state and power the limbs."""
     limbs = np.array(steps).transpose(3, 0, 2, 1)  # from (steps, states, order + 1, limbs)
     joined = np.array([limbs_in([time], numbers)[0] for time in times]).T
-    return Series(numbers, numbers.joined(list(joined)), limbs)
+    return TaylorSolution(numbers, numbers.joined(list(joined)), limbs)
 
 
 def clocked(symbols: Sequence[Symbol], constants: Sequence[Any], now: Any) -> list[Any]:
@@ -38,7 +38,7 @@ def clocked(symbols: Sequence[Symbol], constants: Sequence[Any], now: Any) -> li
     values = iter(constants)
     clock = flint.arb_series([now, 1])
     return [
-        flint.arb_series([next(values)]) if symbol.kind is Kind.PARAMETER else clock
+        flint.arb_series([next(values)]) if symbol.kind is SymbolKind.PARAMETER else clock
         for symbol in symbols
     ]
 
@@ -74,7 +74,7 @@ def by_step(row: list[Any], step: Any) -> list[Any]:
     return [value * step**k for k, value in enumerate(row)]
 
 
-def limbs_in(row: list[Any], numbers: Numbers) -> list[list[float]]:
+def limbs_in(row: list[Any], numbers: NumberType) -> list[list[float]]:
     """Coefficients as sums of doubles."""
     found = []
     for value in row:
@@ -113,7 +113,7 @@ def arithmetic() -> Arithmetic:
 
 
 @contextmanager
-def working(numbers: Numbers, order: int) -> Iterator[None]:
+def working(numbers: NumberType, order: int) -> Iterator[None]:
     """Within it, balls have bits to spare, and series end after a power."""
     before = flint.ctx.prec
     flint.ctx.prec = numbers.bits + _SPARE

@@ -15,11 +15,11 @@ from polhode.base import NumericError, Progress
 from polhode.simulate.integrate._ascending import ascending, occurring
 from polhode.simulate.integrate._crossing import bisected
 from polhode.simulate.integrate._flow import Flow, Stage
-from polhode.simulate.integrate._numbers import DOUBLES, Numbers
+from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._quadrature import integral
 from polhode.simulate.integrate._steady import Constant, is_steady
 from polhode.simulate.integrate._stepping import Array, Leg, Stepper, broken, looks_along
-from polhode.simulate.integrate._watched import StepWatch, Stop, Watched
+from polhode.simulate.integrate._stop_criteria import StepWatch, Stop, StopCriteria
 
 _FEW = 10_000  # times for which states are remembered
 _ROUNDING = 8 * float(np.finfo(float).eps)
@@ -29,7 +29,7 @@ States: TypeAlias = Callable[[Array], Array]
 
 
 @dataclass(frozen=True)
-class Solution:
+class SegmentSolution:
     """All states at every instant of a stretch of time.
 
     Attributes:
@@ -47,7 +47,7 @@ class Solution:
     stop: Stop
     vanished: int | None
     _at: States = field(repr=False)
-    numbers: Numbers = DOUBLES
+    numbers: NumberType = DOUBLES
     _rounded_at: States | None = field(default=None, repr=False)
     _rest_at: Callable[[float], Array] | None = field(default=None, repr=False)
 
@@ -64,7 +64,7 @@ class Solution:
             return self._at(np.array([time]))[:, 0]
         return self._rest_at(time)
 
-    def rounded(self) -> Solution:
+    def rounded(self) -> SegmentSolution:
         """The same in doubles."""
         if self._rounded_at is None:
             return self
@@ -79,8 +79,8 @@ def integrate(
     start: Array,
     span: tuple[float, float],
     progress: Progress,
-    watched: Watched | None = None,
-) -> Solution:
+    watched: StopCriteria | None = None,
+) -> SegmentSolution:
     """Integrate a flow over a span of time, or as far as it goes.
 
     Args:
@@ -91,7 +91,7 @@ def integrate(
         NumericError: where the motion cannot even begin.
     """
     size = len(flow.core.symbols)
-    watched = watched or Watched()
+    watched = watched or StopCriteria()
     path = _legs(flow, stepper, parameters, start[:size], span, progress, watched)
     steps = ascending([leg.times for leg in path.legs])
     vanished = None
@@ -114,11 +114,13 @@ def integrate(
     def rest_at(time: float) -> Array:
         return np.concatenate([rest(np.array([time]))[:, 0] for rest in rests])
 
-    return Solution(flow.symbols, flow.turned, steps, path.stop, vanished, at, _rest_at=rest_at)
+    return SegmentSolution(
+        flow.symbols, flow.turned, steps, path.stop, vanished, at, _rest_at=rest_at
+    )
 
 
 def _vanishing(
-    path: _Path, watched: Watched, step: tuple[float, float]
+    path: _Path, watched: StopCriteria, step: tuple[float, float]
 ) -> tuple[float, int | None]:
     """When a vector vanishes within the last step, and which; its end if it only turned round."""
     for k, places in enumerate(watched.vectors):
@@ -184,13 +186,13 @@ def _legs(
     state: Array,
     span: tuple[float, float],
     progress: Progress,
-    watched: Watched,
+    watched: StopCriteria,
 ) -> _Path:
     """Angles that have grown far are counted from zero again: their rounding would spread."""
     now, end = span
     periods = np.array([period or np.inf for period in flow.periods])
     steps = StepWatch(watched, state.tolist(), span, progress)
-    watch = _Watch(steps, _TURNS * periods)
+    watch = _AngleMonitor(steps, _TURNS * periods)
     legs, begins, turned = list[Leg](), list[float](), list[Array]()
     offset = np.zeros(len(state))
     steady = is_steady(flow, parameters, state)
@@ -212,7 +214,7 @@ def _legs(
     return _Path(legs, np.array(begins), np.array(turned), np.isfinite(periods), stop)
 
 
-class _Watch:
+class _AngleMonitor:
     """Stops a leg when an angle has grown far, and all of them when there is reason to look."""
 
     def __init__(self, steps: StepWatch, limits: Array) -> None:
@@ -227,7 +229,7 @@ class _Watch:
         return self.stop is None and all(abs(state[i]) < limit for i, limit in self._limits)
 
 
-def stuck(solution: Solution) -> NumericError:
+def stuck(solution: SegmentSolution) -> NumericError:
     """The motion cannot be continued beyond the end of a solution."""
     return broken(float(solution.steps[-1]))
 

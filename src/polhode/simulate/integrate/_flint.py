@@ -20,7 +20,7 @@ from polhode.simulate.integrate._balls import (
     term,
     working,
 )
-from polhode.simulate.integrate._series import Launch, Series, Watch
+from polhode.simulate.integrate._series import InitialValueProblem, SeriesCallback, TaylorSolution
 from polhode.simulate.integrate._stepping import broken
 
 
@@ -29,14 +29,14 @@ class PowerSeries:
 
     name = "flint"
 
-    def integrate(self, launch: Launch, watch: Watch) -> Series:
+    def integrate(self, launch: InitialValueProblem, watch: SeriesCallback) -> TaylorSolution:
         """The motion up to its end, until `watch` says no, or as far as it goes."""
         order = order_of(launch.numbers)
         with working(launch.numbers, order):
             return _integrated(launch, order, watch)
 
 
-def _integrated(launch: Launch, order: int, watch: Watch) -> Series:
+def _integrated(launch: InitialValueProblem, order: int, watch: SeriesCallback) -> TaylorSolution:
     numbers = launch.numbers
     rates = launch.program.function(arithmetic())
     state = [ball(value) for value in launch.start]

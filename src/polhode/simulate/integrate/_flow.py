@@ -15,7 +15,7 @@ from math import lcm, pi
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.algebra import Compiled, Expr, Kind, Op, Program, Symbol, arrays
+from polhode.algebra import Compiled, Expr, Op, Program, Symbol, SymbolKind, arrays
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
 from polhode.simulate.integrate._foresight import degree_in
 from polhode.simulate.integrate._primitives import primitive
@@ -135,7 +135,7 @@ def flow_of(dynamics: Dynamics, *, reduced: bool) -> Flow:
 
 
 def _less_turns(angle: Symbol) -> Symbol:
-    return Symbol(f"{angle.name} less whole turns", Kind.COORDINATE)
+    return Symbol(f"{angle.name} less whole turns", SymbolKind.COORDINATE)
 
 
 def _influences(dynamics: Dynamics, rates: dict[Symbol, Expr]) -> dict[Symbol, set[Symbol]]:

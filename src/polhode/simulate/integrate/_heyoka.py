@@ -18,19 +18,19 @@ from typing import Any
 
 import numpy as np
 
-from polhode.algebra import Arithmetic, Kind, Program
+from polhode.algebra import Arithmetic, Program, SymbolKind
 from polhode.base import StoreError, cache
 from polhode.simulate.integrate._flow import Flow
 from polhode.simulate.integrate._stepping import (
     Array,
     Leg,
+    StepCallback,
     Stepper,
-    Watch,
     broken,
     longest_step,
     looks_along,
 )
-from polhode.simulate.integrate._taylor import Steps
+from polhode.simulate.integrate._taylor import TaylorSteps
 
 _LONG = 3000  # operations
 
@@ -85,7 +85,7 @@ def rates_of(program: Program, size: int, number: Callable[[Fraction], Any]) -> 
     heyoka = library()
     states = [heyoka.make_vars(f"x{i}") for i in range(size)]
     constants = (heyoka.par[i] for i in count())
-    others = {Kind.PARAMETER: lambda: next(constants), Kind.TIME: lambda: heyoka.time}
+    others = {SymbolKind.PARAMETER: lambda: next(constants), SymbolKind.TIME: lambda: heyoka.time}
     given = [others.get(s.kind, lambda: 0.0)() for s in program.arguments[size:]]
     arithmetic = Arithmetic.of(heyoka, lambda value: heyoka.expression(number(value)))
     rates = program.function(arithmetic)(*states, *given)
@@ -97,12 +97,14 @@ class _TaylorStepper:
     integrator: Any
     least_steps: int
 
-    def leg(self, parameters: Array, begin: float, state: Array, end: float, watch: Watch) -> Leg:
+    def leg(
+        self, parameters: Array, begin: float, state: Array, end: float, watch: StepCallback
+    ) -> Leg:
         taylor = self.integrator
         taylor.time = begin
         taylor.state[:] = state
         taylor.pars[:] = parameters[: len(taylor.pars)]
-        steps = Steps(begin)
+        steps = TaylorSteps(begin)
 
         def looked(taylor: Any) -> bool:
             steps.add(taylor.dtime, taylor.last_h, taylor.tc)

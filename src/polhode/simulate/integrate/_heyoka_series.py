@@ -12,8 +12,13 @@ import numpy as np
 
 from polhode.algebra import Program
 from polhode.simulate.integrate._heyoka import library, rates_of
-from polhode.simulate.integrate._numbers import LongDoubles, Numbers, number
-from polhode.simulate.integrate._series import Launch, Series, Watch, limbs_of
+from polhode.simulate.integrate._number_types import LongDoubles, NumberType, number
+from polhode.simulate.integrate._series import (
+    InitialValueProblem,
+    SeriesCallback,
+    TaylorSolution,
+    limbs_of,
+)
 from polhode.simulate.integrate._stepping import broken
 
 _SPARE_DIGITS = 8
@@ -25,11 +30,11 @@ class TaylorSeries:
 
     name = "heyoka"
 
-    def integrate(self, launch: Launch, watch: Watch) -> Series:
+    def integrate(self, launch: InitialValueProblem, watch: SeriesCallback) -> TaylorSolution:
         """The motion up to its end, until `watch` says no, or as far as it goes."""
         numbers = launch.numbers
         taylor = copy(_compiled(launch.program, len(launch.start), numbers))
-        read = _Reader(numbers)
+        read = _HeyokaNumbers(numbers)
         taylor.time = read(launch.begin)
         taylor.state[:] = [read(value) for value in launch.start]
         taylor.pars[:] = [read(value) for value in launch.constants[: len(taylor.pars)]]
@@ -42,7 +47,7 @@ class TaylorSeries:
             raise broken(float(taylor.time))
         times = numbers.joined(list(limbs_of(np.asarray(output.times), numbers.limbs)))
         limbs = limbs_of(_by_step(output), numbers.limbs).transpose(0, 1, 3, 2)
-        return Series(numbers, times, limbs)
+        return TaylorSolution(numbers, times, limbs)
 
 
 def _by_step(output: Any) -> Any:
@@ -60,9 +65,9 @@ def _by_step(output: Any) -> Any:
 
 
 @lru_cache(maxsize=32)
-def _compiled(program: Program, size: int, numbers: Numbers) -> Any:
+def _compiled(program: Program, size: int, numbers: NumberType) -> Any:
     """An integrator that is only ever copied."""
-    read = _Reader(numbers)
+    read = _HeyokaNumbers(numbers)
     return library().taylor_adaptive(
         rates_of(program, size, read),
         [read(0)] * size,
@@ -72,10 +77,10 @@ def _compiled(program: Program, size: int, numbers: Numbers) -> Any:
     )
 
 
-class _Reader:
+class _HeyokaNumbers:
     """Makes numbers of one precision as heyoka knows them."""
 
-    def __init__(self, numbers: Numbers) -> None:
+    def __init__(self, numbers: NumberType) -> None:
         self._numbers = numbers
         self._make, self.kind = _kind_of(numbers)
 
@@ -85,7 +90,7 @@ class _Reader:
         return self._make(exact.nstr(number(exact, value), digits, strip_zeros=False))
 
 
-def _kind_of(numbers: Numbers) -> tuple[Callable[[str], Any], dict[str, Any]]:
+def _kind_of(numbers: NumberType) -> tuple[Callable[[str], Any], dict[str, Any]]:
     """What makes such a number from text, and how heyoka is told of them."""
     heyoka = library()
     if isinstance(numbers, LongDoubles):

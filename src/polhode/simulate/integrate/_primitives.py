@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from polhode.algebra import ZERO, Expr, Kind, Symbol
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind
 from polhode.simulate._dynamics import Dynamics
 
 
@@ -54,7 +54,7 @@ def _written_out(dynamics: Dynamics, state: Symbol) -> Expr | None:
 
 
 def _is_rate(symbol: Symbol) -> bool:
-    return symbol.kind is Kind.FUNCTION and symbol.order > 0
+    return symbol.kind is SymbolKind.FUNCTION and symbol.order > 0
 
 
 def _integrated(symbol: Symbol) -> Symbol:
@@ -62,4 +62,4 @@ def _integrated(symbol: Symbol) -> Symbol:
 
 
 def _is_constant(coefficient: Expr) -> bool:
-    return all(s.kind is Kind.PARAMETER for s in coefficient.symbols())
+    return all(s.kind is SymbolKind.PARAMETER for s in coefficient.symbols())

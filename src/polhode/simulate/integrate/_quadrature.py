@@ -32,7 +32,7 @@ _MOST = 100_000  # new pieces at a time; nothing smooth needs more
 
 
 @dataclass(frozen=True)
-class Integral:
+class Quadrature:
     """Integrals of several functions of time from their common start.
 
     Attributes:
@@ -56,7 +56,7 @@ class Integral:
 
 def integral(
     function: Callable[[Array], Array], knots: Array, noise: Array | None = None
-) -> Integral:
+) -> Quadrature:
     """Integrate smooth functions of time to rounding.
 
     Args:
@@ -71,7 +71,9 @@ def integral(
     totals = np.cumsum(pieces.astype(np.longdouble), axis=1).astype(float)
     start = np.zeros((len(totals), 1))
     knots = np.append(left, right[-1:])
-    return Integral(knots, np.hstack([start, totals]), np.ascontiguousarray(inside.swapaxes(0, 1)))
+    return Quadrature(
+        knots, np.hstack([start, totals]), np.ascontiguousarray(inside.swapaxes(0, 1))
+    )
 
 
 def resolved(

@@ -13,8 +13,8 @@ from polhode.simulate.integrate._flow import Flow
 from polhode.simulate.integrate._stepping import (
     Array,
     Leg,
+    StepCallback,
     Stepper,
-    Watch,
     broken,
     longest_step,
     looks_along,
@@ -42,7 +42,9 @@ class _RungeKuttaStepper:
     tolerance: float
     least_steps: int
 
-    def leg(self, parameters: Array, begin: float, state: Array, end: float, watch: Watch) -> Leg:
+    def leg(
+        self, parameters: Array, begin: float, state: Array, end: float, watch: StepCallback
+    ) -> Leg:
         constants = parameters.tolist()
 
         def rate(time: float, state: Array) -> Array:

@@ -11,12 +11,12 @@ import numpy as np
 
 from polhode.algebra import Program
 from polhode.simulate.integrate._ascending import occurring
-from polhode.simulate.integrate._numbers import DOUBLES, Numbers
+from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._polynomials import pieces_at
 
 
 @dataclass(frozen=True, eq=False)
-class Series:
+class TaylorSolution:
     """All states over the steps of an integration, in numbers of any precision.
 
     Attributes:
@@ -26,7 +26,7 @@ class Series:
             doubles, shape (limbs, steps, order + 1, states).
     """
 
-    numbers: Numbers
+    numbers: NumberType
     times: Any
     limbs: Any = field(repr=False)
 
@@ -70,7 +70,7 @@ class Series:
         lengths = np.array([float(step) for step in self.times[1:] - self.times[:-1]])
         return since[which] + (places - which) * lengths[which]
 
-    def without_empty_steps(self) -> Series:
+    def without_empty_steps(self) -> TaylorSolution:
         """Without steps so short that no time passes in these numbers."""
         passes = self.times[1:] > self.times[:-1]
         if not np.any(passes):
@@ -93,7 +93,7 @@ class Series:
         return self._known[i]
 
     def _evaluated(
-        self, numbers: Numbers, starts: Any, times: Any, piece: Callable[[int], Any]
+        self, numbers: NumberType, starts: Any, times: Any, piece: Callable[[int], Any]
     ) -> Any:
         which = pieces_at(starts, times)
         found = np.empty((self.limbs.shape[3], len(times)), dtype=numbers.dtype)
@@ -121,7 +121,7 @@ def limbs_of(values: Any, count: int) -> Any:
     return np.array(limbs)
 
 
-class Watch(Protocol):
+class SeriesCallback(Protocol):
     """Looks on after every step."""
 
     def __call__(self, time: float, step: float, state: Sequence[Any]) -> bool:
@@ -130,7 +130,7 @@ class Watch(Protocol):
 
 
 @dataclass(frozen=True)
-class Launch:
+class InitialValueProblem:
     """What is integrated, from where and to where.
 
     Attributes:
@@ -143,7 +143,7 @@ class Launch:
     """
 
     program: Program
-    numbers: Numbers
+    numbers: NumberType
     constants: list[Any]
     start: list[Any]
     begin: Any
@@ -155,7 +155,7 @@ class SeriesIntegrator(Protocol):
 
     name: str
 
-    def integrate(self, launch: Launch, watch: Watch) -> Series:
+    def integrate(self, launch: InitialValueProblem, watch: SeriesCallback) -> TaylorSolution:
         """The motion up to its end, until `watch` says no, or as far as it goes.
 
         Raises:

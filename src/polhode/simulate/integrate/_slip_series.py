@@ -30,8 +30,8 @@ from polhode.simulate.integrate._balls import (
     term,
     working,
 )
-from polhode.simulate.integrate._numbers import Numbers
-from polhode.simulate.integrate._series import Series
+from polhode.simulate.integrate._number_types import NumberType
+from polhode.simulate.integrate._series import TaylorSolution
 
 _GROWING = 64  # places within a step at which the slips are looked at
 _HALVES = 200
@@ -39,7 +39,7 @@ _BARELY = 500  # bits
 
 
 @dataclass(frozen=True)
-class Beginning:
+class SlipSeries:
     """Slips that begin.
 
     Attributes:
@@ -56,14 +56,14 @@ class Beginning:
 
     program: Program
     others: Sequence[Symbol]
-    numbers: Numbers
+    numbers: NumberType
     constants: Sequence[Any]
     start: Sequence[Any]
     angles: Sequence[Any]
     begin: Any
     end: Any
 
-    def series(self) -> Series | None:
+    def series(self) -> TaylorSolution | None:
         """The other states and the slip velocities over one step; None where no slip grows."""
         order = order_of(self.numbers)
         with working(self.numbers, order):
@@ -73,7 +73,7 @@ class Beginning:
 class _Lengthening:
     """The coefficients of all states, which are found one after the other."""
 
-    def __init__(self, beginning: Beginning, order: int) -> None:
+    def __init__(self, beginning: SlipSeries, order: int) -> None:
         self._numbers = beginning.numbers
         self._order = order
         self._begin, self._end = ball(beginning.begin), ball(beginning.end)
@@ -84,7 +84,7 @@ class _Lengthening:
         self._angles = [[ball(value)] for value in beginning.angles]
         self._sizes = [[flint.arb(0)] for _ in beginning.angles]
 
-    def series(self) -> Series | None:
+    def series(self) -> TaylorSolution | None:
         felt = self._felt()
         for known in range(self._order):
             self._lengthen(known)

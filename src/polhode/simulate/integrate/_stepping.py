@@ -28,7 +28,7 @@ def longest_step(begin: float, end: float, fewest: int) -> float:
     return max((end - begin) / fewest, _SHORTEST * max(abs(begin), abs(end)))
 
 
-class Watch(Protocol):
+class StepCallback(Protocol):
     """Looks on after every step."""
 
     def __call__(self, time: float, state: list[float]) -> bool:
@@ -57,7 +57,9 @@ class Leg(Protocol):
 class Stepper(Protocol):
     """A compiled flow, ready to be integrated from any state with any parameters."""
 
-    def leg(self, parameters: Array, begin: float, state: Array, end: float, watch: Watch) -> Leg:
+    def leg(
+        self, parameters: Array, begin: float, state: Array, end: float, watch: StepCallback
+    ) -> Leg:
         """Integrate the core from `begin` to `end`, until `watch` says no, or as far as it goes.
 
         Raises:

@@ -12,7 +12,7 @@ from polhode.simulate.integrate._stepping import Array
 _MISSED = 2  # steps of rounding by which the sum of the steps may miss their end
 
 
-class Steps:
+class TaylorSteps:
     """Steps as they are made.
 
     Args:

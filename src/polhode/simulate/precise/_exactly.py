@@ -8,7 +8,7 @@ from typing import Any
 from polhode.algebra import Arithmetic, Expr, Symbol, compile_program, pi
 from polhode.base import Quantity, read_quantity, read_unit
 from polhode.simulate._names import Name, by_name, published
-from polhode.simulate.integrate._numbers import fraction_of, ratio
+from polhode.simulate.integrate._number_types import fraction_of, ratio
 
 
 def exact_values(

@@ -8,23 +8,23 @@ from typing import Any
 from polhode.base import NumericError
 from polhode.model import Contact
 from polhode.simulate._dynamics import CLOCK
-from polhode.simulate.contact._entry import Entry
-from polhode.simulate.contact._machine import ModeMachine
+from polhode.simulate.contact._hybrid_system import CompiledMode
+from polhode.simulate.contact._mode_state import ModeState
 from polhode.simulate.contact._polar import polar_shape
-from polhode.simulate.integrate._numbers import Numbers
-from polhode.simulate.integrate._slip_series import Beginning
-from polhode.simulate.integrate._watched import Stop
-from polhode.simulate.precise._stretch import State, Stretch
+from polhode.simulate.integrate._number_types import NumberType
+from polhode.simulate.integrate._slip_series import SlipSeries
+from polhode.simulate.integrate._stop_criteria import Stop
+from polhode.simulate.precise._precise_piece import PrecisePiece, StateValues
 
 
 def first_slip(
-    mode: ModeMachine,
-    entry: Entry,
-    state: State,
+    mode: CompiledMode,
+    entry: ModeState,
+    state: StateValues,
     end: Any,
     contacts: Sequence[Contact],
-    numbers: Numbers,
-) -> Stretch:
+    numbers: NumberType,
+) -> PrecisePiece:
     """As far as a power series about its first instant reaches.
 
     Args:
@@ -45,7 +45,7 @@ def first_slip(
     begin = entry.place.time
     start = [state[s] for s in shape.symbols]
     angles = [entry.onset[i] for i in shape.starting]
-    series = Beginning(program, others, numbers, constants, start, angles, begin, end).series()
+    series = SlipSeries(program, others, numbers, constants, start, angles, begin, end).series()
     if series is None:
         names = ", ".join(contacts[i].name for i in shape.starting)
         raise NumericError(
@@ -54,4 +54,4 @@ def first_slip(
             expected="a direction in which it grows steadily",
             advice="compute the motion in doubles, or end it before that time",
         )
-    return Stretch((*shape.symbols, *shape.polars), series, constants, Stop.PAUSE, begin)
+    return PrecisePiece((*shape.symbols, *shape.polars), series, constants, Stop.PAUSE, begin)

@@ -8,8 +8,8 @@ from typing import Any
 
 from polhode.algebra import Expr, Symbol
 from polhode.simulate._dynamics import CLOCK, Dynamics
-from polhode.simulate._task import Begun, Task
-from polhode.simulate.integrate._numbers import Numbers
+from polhode.simulate._task import InitialState, Task
+from polhode.simulate.integrate._number_types import NumberType
 from polhode.simulate.precise._exactly import evaluated, exact_value, exact_values, on
 from polhode.simulate.precise._precise_start import precise_start
 
@@ -29,7 +29,7 @@ class Given:
 
     parameters: Values
     start: Values
-    begun: Begun
+    begun: InitialState
     context: Any
 
     def state(self, symbols: tuple[Symbol, ...]) -> dict[Symbol, Any]:
@@ -44,7 +44,7 @@ class Given:
         return dict(zip(symbols, values, strict=True))
 
 
-def read_exactly(begun: Begun, known: set[Symbol], task: Task, numbers: Numbers) -> Given:
+def read_exactly(begun: InitialState, known: set[Symbol], task: Task, numbers: NumberType) -> Given:
     """What was given, once it has been read and checked as doubles.
 
     Args:
@@ -67,7 +67,7 @@ def read_exactly(begun: Begun, known: set[Symbol], task: Task, numbers: Numbers)
     return Given(parameters, start, begun, context)
 
 
-def exactly(duration: Any, numbers: Numbers) -> Any:
+def exactly(duration: Any, numbers: NumberType) -> Any:
     """A duration, s, with bits to spare."""
     (found,) = evaluated([exact_value(duration, {})], {}, numbers.exact)
     return found

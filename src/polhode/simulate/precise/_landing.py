@@ -10,13 +10,13 @@ import numpy as np
 from polhode.algebra import Expr
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate.integrate._crossing import bisected
-from polhode.simulate.integrate._series import Series
-from polhode.simulate.integrate._watched import Stop, Watched
-from polhode.simulate.precise._stretch import Stretch
+from polhode.simulate.integrate._series import TaylorSolution
+from polhode.simulate.integrate._stop_criteria import Stop, StopCriteria
+from polhode.simulate.precise._precise_piece import PrecisePiece
 
 
 @dataclass(frozen=True)
-class Spot:
+class PiecePoint:
     """A place within a stretch.
 
     Attributes:
@@ -28,7 +28,7 @@ class Spot:
     share: Any
 
 
-def fallen(dynamics: Dynamics, positive: Expr, stretch: Stretch, place: float) -> Spot:
+def fallen(dynamics: Dynamics, positive: Expr, stretch: PrecisePiece, place: float) -> PiecePoint:
     """Where an expression falls through zero, to the rounding of the numbers.
 
     Args:
@@ -45,10 +45,10 @@ def fallen(dynamics: Dynamics, positive: Expr, stretch: Stretch, place: float) -
         return function(*series.state(step, share), *constants, series.time(step, share))[0]
 
     share = numbers.zero(value, place - step)
-    return Spot(step, min(max(share, 0), 1))
+    return PiecePoint(step, min(max(share, 0), 1))
 
 
-def landing(stretch: Stretch, watched: Watched) -> tuple[Spot, int] | None:
+def landing(stretch: PrecisePiece, watched: StopCriteria) -> tuple[PiecePoint, int] | None:
     """Where a vector vanishes within the last step, and which; None if they only turn round."""
     if stretch.stop is not Stop.VANISHED:
         return None
@@ -59,7 +59,7 @@ def landing(stretch: Stretch, watched: Watched) -> tuple[Spot, int] | None:
     return None
 
 
-def _turning(series: Series, rows: list[int]) -> Spot:
+def _turning(series: TaylorSolution, rows: list[int]) -> PiecePoint:
     """Where a vector is across what it was when the last step began; else the end of the step."""
     step, numbers = series.steps - 1, series.numbers
     first = series.state(step, 0)[rows]
@@ -68,15 +68,15 @@ def _turning(series: Series, rows: list[int]) -> Spot:
         return first @ series.state(step, share)[rows]
 
     if along(1) > 0:
-        return Spot(step, 1)
+        return PiecePoint(step, 1)
     coarse = [float(value) for value in first]
     near = bisected(lambda share: _in_doubles(series, step, share, rows) @ coarse, 0.0, 1.0)
-    return Spot(step, numbers.zero(along, near))
+    return PiecePoint(step, numbers.zero(along, near))
 
 
-def _in_doubles(series: Series, step: int, share: float, rows: list[int]) -> Any:
+def _in_doubles(series: TaylorSolution, step: int, share: float, rows: list[int]) -> Any:
     return series.rounded_states(np.array([step + share]))[rows, 0]
 
 
-def _size(series: Series, spot: Spot, rows: list[int]) -> float:
+def _size(series: TaylorSolution, spot: PiecePoint, rows: list[int]) -> float:
     return float(series.numbers.size(series.state(spot.step, spot.share)[rows]))

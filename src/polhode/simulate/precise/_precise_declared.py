@@ -8,14 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
-from polhode.simulate._event import Change
-from polhode.simulate._lengths import refuse_vanishing
-from polhode.simulate._segment import Part, Segment
-from polhode.simulate._sides import (
+from polhode.simulate._absolute_values import (
     Here,
-    Passage,
-    Turns,
+    SideChange,
+    SideChangeCount,
     beyond,
     from_zero,
     nearer,
@@ -23,15 +19,24 @@ from polhode.simulate._sides import (
     sides_at,
     told_change,
 )
+from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
+from polhode.simulate._event import ModeSwitch
+from polhode.simulate._lengths import refuse_vanishing
+from polhode.simulate._segment import Segment, TrajectoryPiece
 from polhode.simulate._task import AS_DECLARED
-from polhode.simulate.contact._course import Course
+from polhode.simulate.contact._hybrid_integrator import HybridSolution
 from polhode.simulate.integrate._crossing import first_fall
 from polhode.simulate.integrate._rows import rows
 from polhode.simulate.integrate._stepping import Array, broken
-from polhode.simulate.integrate._watched import Stop, Watched
+from polhode.simulate.integrate._stop_criteria import Stop, StopCriteria
 from polhode.simulate.precise._given import Given
-from polhode.simulate.precise._landing import Spot, fallen
-from polhode.simulate.precise._stretch import InDoubles, State, Steps, Stretch
+from polhode.simulate.precise._landing import PiecePoint, fallen
+from polhode.simulate.precise._precise_piece import (
+    InDoubles,
+    PieceIntegrator,
+    PrecisePiece,
+    StateValues,
+)
 
 _LOOK = 12  # steps after which absolute values are looked at
 
@@ -45,17 +50,17 @@ class _Declared:
 
 
 @dataclass(frozen=True)
-class _Cut:
+class _DeclaredCut:
     """A stretch up to the end of a side, or to its own."""
 
-    part: Part
-    state: State
+    part: TrajectoryPiece
+    state: StateValues
     time: Any
     stop: Stop
-    passage: Passage | None
+    passage: SideChange | None
 
 
-def as_declared(dynamics: Dynamics, given: Given, steps: Steps) -> Course:
+def as_declared(dynamics: Dynamics, given: Given, steps: PieceIntegrator) -> HybridSolution:
     """The contacts as they are declared, and kept to.
 
     Args:
@@ -67,10 +72,10 @@ def as_declared(dynamics: Dynamics, given: Given, steps: Steps) -> Course:
     numbers, careful = steps.numbers, steps.numbers.careful
     constants = careful.array([given.parameters[s] for s in dynamics.parameters])
     now = given.context.mpf(0)
-    state: State = given.state(dynamics.states) | {WORK: now}
+    state: StateValues = given.state(dynamics.states) | {WORK: now}
     face = dynamics.on(sides_at(dynamics, Here(state, constants, now, careful)))
-    segments, changes, turns = list[Segment](), list[Change](), Turns()
-    parts, stop = list[Part](), Stop.TIME
+    segments, changes, turns = list[Segment](), list[ModeSwitch](), SideChangeCount()
+    parts, stop = list[TrajectoryPiece](), Stop.TIME
     while now < steps.end and stop is not Stop.INTERRUPTED:
         cut = _along(_Declared(face, constants), state, (now, steps.end), steps)
         parts.append(cut.part)
@@ -84,27 +89,33 @@ def as_declared(dynamics: Dynamics, given: Given, steps: Steps) -> Course:
         sides = beyond(dynamics, here, face.sides, cut.passage)
         if sides != face.sides:
             time, kind = numbers.array([now])[0], told_change(cut.passage, sides)
-            changes.append(Change(time, kind, AS_DECLARED, AS_DECLARED))
+            changes.append(ModeSwitch(time, kind, AS_DECLARED, AS_DECLARED))
         face = dynamics.on(sides)
     if parts:
         segments.append(_segment(face, parts))
-    return Course(tuple(segments), tuple(changes), AS_DECLARED)
+    return HybridSolution(tuple(segments), tuple(changes), AS_DECLARED)
 
 
-def _segment(face: Dynamics, parts: list[Part]) -> Segment:
+def _segment(face: Dynamics, parts: list[TrajectoryPiece]) -> Segment:
     return Segment(AS_DECLARED, parts[0].begin, parts[-1].end, face, tuple(parts))
 
 
-def _along(moving: _Declared, state: State, span: tuple[Any, Any], steps: Steps) -> _Cut:
+def _along(
+    moving: _Declared, state: StateValues, span: tuple[Any, Any], steps: PieceIntegrator
+) -> _DeclaredCut:
     """Up to the end of a span, or of a side."""
     passages, careful = passages_of(moving.dynamics), steps.numbers.careful
-    watched = Watched(pause=_LOOK) if passages else Watched()
+    watched = StopCriteria(pause=_LOOK) if passages else StopCriteria()
     stretch = steps.along(moving, state, span, watched, span[0])
     found = _passed(moving.dynamics, passages, stretch)
     if found is None:
         if stretch.stop is Stop.STUCK:
             raise broken(float(stretch.series.times[-1]))
-        spot, time, passage = Spot(stretch.series.steps - 1, 1), stretch.series.times[-1], None
+        spot, time, passage = (
+            PiecePoint(stretch.series.steps - 1, 1),
+            stretch.series.times[-1],
+            None,
+        )
     else:
         spot, passage = found
         time = stretch.series.time(spot.step, spot.share)
@@ -114,12 +125,12 @@ def _along(moving: _Declared, state: State, span: tuple[Any, Any], steps: Steps)
     part = stretch.part(time)
     refuse_vanishing(moving.dynamics, part.rounded())
     there = stretch.state(spot.step, spot.share, careful)
-    return _Cut(part, there, careful.array([time])[0], stretch.stop, passage)
+    return _DeclaredCut(part, there, careful.array([time])[0], stretch.stop, passage)
 
 
 def _passed(
-    dynamics: Dynamics, passages: Sequence[Passage], stretch: Stretch
-) -> tuple[Spot, Passage] | None:
+    dynamics: Dynamics, passages: Sequence[SideChange], stretch: PrecisePiece
+) -> tuple[PiecePoint, SideChange] | None:
     """Where the first side ends, and which."""
     if not passages:
         return None

@@ -8,19 +8,31 @@ from typing import Any
 
 from polhode.base import Progress
 from polhode.derive import Guard
-from polhode.simulate._event import Change
+from polhode.simulate._absolute_values import SideChange, nearer, sides_at, told_change
+from polhode.simulate._event import ModeSwitch
 from polhode.simulate._lengths import refuse_vanishing
-from polhode.simulate._segment import Part, Segment
-from polhode.simulate._sides import Passage, nearer, sides_at, told_change
+from polhode.simulate._segment import Segment, TrajectoryPiece
 from polhode.simulate.contact._carried import slip_symbols
-from polhode.simulate.contact._course import LANDED, VANISHED, Outcome, Walk, leaving, place_of
-from polhode.simulate.contact._entry import Entry, state_on
-from polhode.simulate.contact._lookout import Lookout
-from polhode.simulate.contact._machine import Machine, ModeMachine
-from polhode.simulate.integrate._watched import Stop, Watched
+from polhode.simulate.contact._guard_monitor import GuardMonitor
+from polhode.simulate.contact._hybrid_integrator import (
+    LANDED,
+    VANISHED,
+    HybridIntegrator,
+    Outcome,
+    leaving,
+    place_of,
+)
+from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
+from polhode.simulate.contact._mode_state import ModeState, state_on
+from polhode.simulate.integrate._stop_criteria import Stop, StopCriteria
 from polhode.simulate.precise._first_slip import first_slip
-from polhode.simulate.precise._landing import Spot, fallen, landing
-from polhode.simulate.precise._stretch import InDoubles, State, Steps, Stretch
+from polhode.simulate.precise._landing import PiecePoint, fallen, landing
+from polhode.simulate.precise._precise_piece import (
+    InDoubles,
+    PieceIntegrator,
+    PrecisePiece,
+    StateValues,
+)
 
 _LOOK = 12  # steps after which the guards are looked at
 _INSTANT = 32  # steps of rounding of the time: a hop that is over sooner is none
@@ -30,13 +42,13 @@ _INSTANT = 32  # steps of rounding of the time: a hop that is over sooner is non
 class _Cut:
     """A stretch up to where its contact mode ends, or to its own end."""
 
-    part: Part
-    state: State
+    part: TrajectoryPiece
+    state: StateValues
     time: Any
     guard: Guard | None
 
 
-class PreciseWalk(Walk):
+class PreciseWalk(HybridIntegrator):
     """Follows a motion from mode to mode.
 
     Args:
@@ -49,8 +61,8 @@ class PreciseWalk(Walk):
 
     def __init__(
         self,
-        machine: Machine,
-        steps: Steps,
+        machine: HybridSystem,
+        steps: PieceIntegrator,
         near_flat: float,
         progress: Progress,
         until: frozenset[str],
@@ -58,16 +70,16 @@ class PreciseWalk(Walk):
         super().__init__(machine, near_flat, progress, until)
         self._steps = steps
 
-    def stay(self, entry: Entry, end: Any) -> Outcome:
+    def stay(self, entry: ModeState, end: Any) -> Outcome:
         """As long as the mode lasts."""
         machine = self._machine
         whole = machine.mode(entry.phases)
         begin = now = since = entry.place.time
-        state: State = state_on(machine, entry)
+        state: StateValues = state_on(machine, entry)
         mode = whole.on(sides_at(whole.dynamics, whole.here(state, now)))
-        lookout = Lookout(machine, self._near_flat, mode, entry)
-        parts = list[Part]()
-        before, turns = list[Segment](), list[Change]()
+        lookout = GuardMonitor(machine, self._near_flat, mode, entry)
+        parts = list[TrajectoryPiece]()
+        before, turns = list[Segment](), list[ModeSwitch]()
         guard, stop = None, Stop.PAUSE
         shortest = _INSTANT * machine.numbers.spacing(begin)
         limit = min(end, begin + max(self.hop(mode, entry), shortest))
@@ -82,11 +94,11 @@ class PreciseWalk(Walk):
             parts.append(cut.part)
             state, now, guard, stop = cut.state, cut.time, cut.guard, stretch.stop
             limit = end
-            if isinstance(guard, Passage):
+            if isinstance(guard, SideChange):
                 sides = self._turned(whole, mode, state, now, guard)
                 if sides != mode.dynamics.sides:
                     kind, name = told_change(guard, sides), mode.mode.name
-                    turns.append(Change(self._steps.numbers.array([now])[0], kind, name, name))
+                    turns.append(ModeSwitch(self._steps.numbers.array([now])[0], kind, name, name))
                 before.append(self._segment(mode, since, now, parts))
                 since, parts, guard = now, [], None
                 mode = whole.on(sides)
@@ -96,19 +108,21 @@ class PreciseWalk(Walk):
         there = leaving(mode, guard, state, now, entry.place.work)
         return Outcome(tuple(before), tuple(turns), there)
 
-    def _segment(self, mode: ModeMachine, begin: Any, end: Any, parts: Sequence[Part]) -> Segment:
+    def _segment(
+        self, mode: CompiledMode, begin: Any, end: Any, parts: Sequence[TrajectoryPiece]
+    ) -> Segment:
         ends = self._steps.numbers.array([begin, end])
         return Segment(mode.mode.name, ends[0], ends[1], mode.dynamics, tuple(parts))
 
     def _next(
-        self, lookout: Lookout, state: State, span: tuple[Any, Any], begin: Any
-    ) -> tuple[Stretch, _Cut]:
+        self, lookout: GuardMonitor, state: StateValues, span: tuple[Any, Any], begin: Any
+    ) -> tuple[PrecisePiece, _Cut]:
         """Up to the end of a span, or to the first guard that falls."""
         watched = self._watched_in(lookout.mode, lookout.entry, state, span[0])
         stretch = self._steps.along(lookout.mode, state, span, watched, begin)
         cut = self._cut(lookout, stretch, watched)
         again = None
-        if isinstance(cut.guard, Passage):
+        if isinstance(cut.guard, SideChange):
             again = nearer(stretch.series.times, cut.part.end, self._steps.numbers)
         if again is not None:
             limit = self._machine.numbers.array([again])[0]
@@ -116,7 +130,9 @@ class PreciseWalk(Walk):
         refuse_vanishing(lookout.mode.dynamics, cut.part.rounded())
         return stretch, cut
 
-    def _watched_in(self, mode: ModeMachine, entry: Entry, state: State, now: Any) -> Watched:
+    def _watched_in(
+        self, mode: CompiledMode, entry: ModeState, state: StateValues, now: Any
+    ) -> StopCriteria:
         """What to look at from a state on."""
         symbols = self._steps.symbols(mode.dynamics)
         contacts = self._machine.automaton.contacts
@@ -126,14 +142,14 @@ class PreciseWalk(Walk):
         scale = self.scale_at(place_of(mode, state, now), entry) or 1 if pairs else 1
         finer = self._steps.numbers.finer
         least, passing = finer(VANISHED) * scale, finer(LANDED) * scale
-        return Watched(_LOOK, places, float(least), float(passing), tally=self._tally)
+        return StopCriteria(_LOOK, places, float(least), float(passing), tally=self._tally)
 
-    def _cut(self, lookout: Lookout, stretch: Stretch, watched: Watched) -> _Cut:
+    def _cut(self, lookout: GuardMonitor, stretch: PrecisePiece, watched: StopCriteria) -> _Cut:
         """A stretch up to the first guard that falls."""
         landed = landing(stretch, watched)
         seen = InDoubles(stretch)
         fall = lookout.first_fall(seen)
-        spot, guard = Spot(stretch.series.steps - 1, 1), None
+        spot, guard = PiecePoint(stretch.series.steps - 1, 1), None
         if landed is not None:
             spot, guard = landed[0], lookout.landing(landed[1])
         if fall is not None and fall[0] < spot.step + float(spot.share):

@@ -10,25 +10,25 @@ from polhode.algebra import Expr
 from polhode.base import DeclarationError, Progress
 from polhode.simulate._event import Event, events_of, placed
 from polhode.simulate._segment import Segment
-from polhode.simulate._task import Guarded, Motion, Task
+from polhode.simulate._task import Guarded, MotionResult, Task
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate._watching import passages
-from polhode.simulate.contact._begin import begun_at
-from polhode.simulate.contact._course import Course
-from polhode.simulate.contact._machine import Machine
-from polhode.simulate.contact._place import Place
+from polhode.simulate.contact._hybrid_integrator import HybridSolution
+from polhode.simulate.contact._hybrid_system import HybridSystem
+from polhode.simulate.contact._initial_mode import begun_at
+from polhode.simulate.contact._state import State
 from polhode.simulate.forcing._pieces import Pieces
-from polhode.simulate.integrate._numbers import Numbers
+from polhode.simulate.integrate._number_types import NumberType
 from polhode.simulate.integrate._series import SeriesIntegrator
 from polhode.simulate.precise._given import Given, exactly, read_exactly
 from polhode.simulate.precise._precise_declared import as_declared
+from polhode.simulate.precise._precise_piece import PieceIntegrator
 from polhode.simulate.precise._precise_walk import PreciseWalk
-from polhode.simulate.precise._stretch import Steps
 from polhode.simulate.precise._wanted import Wanted
 
 
 def precisely(
-    rough: Trajectory, motion: Motion, task: Task, wanted: Wanted, progress: Progress
+    rough: Trajectory, motion: MotionResult, task: Task, wanted: Wanted, progress: Progress
 ) -> Trajectory:
     """The same motion in other numbers.
 
@@ -47,7 +47,7 @@ def precisely(
     given = read_exactly(motion.begun, known, task, numbers)
     duration = exactly(wanted.duration, numbers)
     end = numbers.array([duration])[0]
-    steps = Steps(_integrator(task.integrator.name), numbers, end, progress)
+    steps = PieceIntegrator(_integrator(task.integrator.name), numbers, end, progress)
     if motion.guarded is None:
         course = as_declared(motion.begun.dynamics, given, steps)
         events = _events_beside(rough, course)
@@ -67,7 +67,7 @@ def precisely(
     return _with_events(run, wanted.events)
 
 
-def _events_beside(rough: Trajectory, course: Course) -> tuple[Event, ...]:
+def _events_beside(rough: Trajectory, course: HybridSolution) -> tuple[Event, ...]:
     """Start and end, and between them what was seen of the motion in doubles."""
     first, *turns, last = events_of(course)
     seen = [e for e in rough.events[1:-1] if not e.divides and e.time < last.time]
@@ -75,7 +75,7 @@ def _events_beside(rough: Trajectory, course: Course) -> tuple[Event, ...]:
     return (first, *between, last)
 
 
-def _refuse_samples(forcing: Mapping[Any, Any], numbers: Numbers) -> None:
+def _refuse_samples(forcing: Mapping[Any, Any], numbers: NumberType) -> None:
     for name, given in forcing.items():
         if isinstance(given, Pieces) or (callable(given) and not isinstance(given, Expr)):
             raise DeclarationError(
@@ -99,11 +99,11 @@ def _integrator(name: str) -> SeriesIntegrator:
 
 
 def _through_modes(
-    guarded: Guarded, given: Given, steps: Steps, task: Task, progress: Progress
-) -> Course:
+    guarded: Guarded, given: Given, steps: PieceIntegrator, task: Task, progress: Progress
+) -> HybridSolution:
     """Through all contact modes, as the forces demand."""
     rough, numbers = guarded.machine, steps.numbers.careful
-    machine = Machine(
+    machine = HybridSystem(
         rough.automaton, rough.drive, given.parameters, rough.integrator, None, numbers, rough
     )
     equations = rough.automaton.apart.equations
@@ -112,7 +112,7 @@ def _through_modes(
         for symbols in (equations.coordinates, equations.speeds)
     )
     zero = given.context.mpf(0)
-    first = begun_at(machine, Place(zero, coordinates, speeds, zero), guarded.apart)
+    first = begun_at(machine, State(zero, coordinates, speeds, zero), guarded.apart)
     walk = PreciseWalk(machine, steps, task.near_flat, progress, task.until)
     return walk.along(first, steps.end)
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from polhode.algebra import Expr
-from polhode.simulate.integrate._numbers import Numbers
+from polhode.simulate.integrate._number_types import NumberType
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,7 @@ class Wanted:
         events: expressions whose passing through zero is recorded, by name.
     """
 
-    numbers: Numbers
+    numbers: NumberType
     duration: Any
     samples: Any
     events: Mapping[str, Expr]

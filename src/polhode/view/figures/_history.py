@@ -11,7 +11,7 @@ from polhode.simulate import Trajectory
 from polhode.view._quantities import (
     Array,
     Named,
-    Quantity,
+    PlottedQuantity,
     common_unit,
     instants,
     label,
@@ -94,7 +94,7 @@ def _legend(axes: Axes, columns: int) -> Legend:
 
 def panels(run: Trajectory, names: Sequence[str]) -> list[list[str]]:
     """A group of names split into what can share an axis: one unit, sizes that compare."""
-    found: list[list[tuple[Quantity, float, str]]] = []
+    found: list[list[tuple[PlottedQuantity, float, str]]] = []
     for name in names:
         one, size = quantity(run, name), largest(run.evaluate(name, instants(run)))
         home = next((group for group in found if _fits(one, size, group)), None)
@@ -105,7 +105,9 @@ def panels(run: Trajectory, names: Sequence[str]) -> list[list[str]]:
     return [[name for _, _, name in group] for group in found]
 
 
-def _fits(one: Quantity, size: float, group: list[tuple[Quantity, float, str]]) -> bool:
+def _fits(
+    one: PlottedQuantity, size: float, group: list[tuple[PlottedQuantity, float, str]]
+) -> bool:
     sizes = [other for _, other, _ in group if other]
     comparable = not size or all(1 / _DISPARATE < size / s < _DISPARATE for s in sizes)
     return comparable and one.unit == group[0][0].unit

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from polhode.base import DeclarationError
 from polhode.simulate import Trajectory
-from polhode.view._quantities import Named, Quantity, instants, largest, quantity, scale_for
+from polhode.view._quantities import Named, PlottedQuantity, instants, largest, quantity, scale_for
 from polhode.view.figures._drawn import Drawn
 from polhode.view.figures._style import COLOURS, axes_or_new, house_style
 
@@ -35,7 +35,7 @@ def phase_portrait(run: Trajectory, name: Named, *, ax: Axes | None = None) -> D
     return Drawn(axes, [line])
 
 
-def _with_rate(run: Trajectory, named: Named) -> tuple[Quantity, Quantity]:
+def _with_rate(run: Trajectory, named: Named) -> tuple[PlottedQuantity, PlottedQuantity]:
     one = quantity(run, named)
     rate = f"{one.name}_dot"
     if rate not in run.quantities:

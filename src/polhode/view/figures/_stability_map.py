@@ -109,7 +109,7 @@ def stability_map(
 
 
 @dataclass(frozen=True)
-class _Axis:
+class _MapAxis:
     """A quantity with the values it takes along one side of the map, SI."""
 
     symbol: Symbol
@@ -121,7 +121,7 @@ class _Axis:
         return label(math(Expr.generator(self.symbol)), self.scale)
 
 
-def _axis(found: Stability, span: Span) -> _Axis:
+def _axis(found: Stability, span: Span) -> _MapAxis:
     name, *ends = span
     equations = found.family.reduced.equations
     symbol = _symbol(equations, name)
@@ -129,7 +129,7 @@ def _axis(found: Stability, span: Span) -> _Axis:
     low, high = (to_si(end, dimension, symbol.published) for end in ends)
     unit = si_unit(dimension, angle=is_angle(equations, symbol))
     values = np.linspace(low, high, _POINTS)
-    return _Axis(symbol, values, scale_for(unit, float(np.max(np.abs(values)))))
+    return _MapAxis(symbol, values, scale_for(unit, float(np.max(np.abs(values)))))
 
 
 def _symbol(equations: Equations, name: str | Symbol | Expr) -> Symbol:
@@ -149,7 +149,7 @@ class _Field:
     """Expressions on the family, as numbers all over the map."""
 
     found: Stability
-    axes: tuple[_Axis, _Axis]
+    axes: tuple[_MapAxis, _MapAxis]
     numbers: Mapping[Any, Value]
     branch: int
 

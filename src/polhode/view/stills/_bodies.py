@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from polhode.view._scene import SceneBody, Shape, Triple
+from polhode.view._scene import BodyShape, SceneBody, Triple
 from polhode.view._shapes import reach_of
 from polhode.view.stills._mesh import (
     Mesh,
@@ -34,7 +34,7 @@ def body_mesh(body: SceneBody) -> Mesh:
 
 
 @lru_cache(_REMEMBERED)
-def _mesh(shape: Shape, held: tuple[Triple, ...]) -> Mesh:
+def _mesh(shape: BodyShape, held: tuple[Triple, ...]) -> Mesh:
     mesh = _BUILDERS.get(shape.kind, _ball)(*shape.size)
     if shape.kind != "ellipsoid":
         mesh = mesh.placed(_basis(shape), np.array(shape.centre))
@@ -44,7 +44,7 @@ def _mesh(shape: Shape, held: tuple[Triple, ...]) -> Mesh:
     return together([mesh, *rods])
 
 
-def _basis(shape: Shape) -> np.ndarray:
+def _basis(shape: BodyShape) -> np.ndarray:
     axis, across = np.array(shape.axis), np.array(shape.across)
     return np.stack([across, np.cross(axis, across), axis], axis=1)
 

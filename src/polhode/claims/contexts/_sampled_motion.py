@@ -1,0 +1,186 @@
+"""A motion by numbers, and a relation along it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+from typing import TypeAlias
+
+import numpy as np
+
+from polhode.algebra import ZERO, Expr, Symbol, as_symbol, time
+from polhode.base import PolhodeError
+from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.meaning._the import The
+from polhode.claims.states._bound_claim import SENSE, BoundClaim
+from polhode.claims.states._claim_domain import TrueMotion
+from polhode.claims.states._numeric import Array, number
+from polhode.claims.states._sample_points import real_states
+from polhode.simulate import Trajectory, simulate
+
+Name: TypeAlias = str | Symbol | Expr
+Numbers: TypeAlias = tuple[tuple[Symbol, float], ...]
+
+TIME = as_symbol(time)
+
+_SAMPLES = 400
+_CLOSE = 1e-6
+_SETTLED = 1e-3
+_LASTING = _SAMPLES // 20
+_NARROWED = 8
+_PARTS = 64
+_KEPT = 16
+
+
+@dataclass(frozen=True, eq=False)
+class SampledMotion:
+    """One motion from a start.
+
+    Attributes:
+        run: the motion.
+        start: the number of every symbol at its start, SI.
+        begin: time at the start, as the text counts it, s.
+        times: since the start at which it is looked at, s.
+    """
+
+    run: Trajectory
+    start: Mapping[Symbol, float]
+    begin: float
+    times: Array
+
+    def at(self, event: Mapping[Symbol, Expr]) -> SampledMotion | None:
+        """The moment at which quantities first have these values; the whole where none are given.
+
+        None where that does not come to pass.
+        """
+        for symbol, value in event.items():
+            moment = self._first_at(symbol, float(number(value, self.start)))
+            return None if moment is None else replace(self, times=moment)
+        return self
+
+    def _first_at(self, symbol: Symbol, level: float) -> Array | None:
+        """When a quantity first has a value: the interval between samples, made ever shorter."""
+        times = self.times
+        for _ in range(_NARROWED):
+            away = self.run.evaluate(symbol, times) - level
+            crossed = np.flatnonzero(np.diff(np.sign(away)))
+            if not len(crossed):
+                return None
+            first = int(crossed[0])
+            times = np.linspace(times[first], times[first + 1], _PARTS)
+        return times[:1]
+
+    def state(self, part: float) -> dict[Symbol, float]:
+        """The number of every symbol when some part of the motion is over, SI."""
+        moment = self.times[-1:] * part
+        found = replace(self, times=moment).states
+        return {s: float(np.ravel(values)[0]) for s, values in found.items()}
+
+    @cached_property
+    def states(self) -> dict[Symbol, Array | float]:
+        """The number of every symbol at the sample times, SI."""
+        equations = self.run.equations
+        varying = (*equations.coordinates, *equations.speeds)
+        found = {s: self.run.evaluate(s, self.times) for s in varying}
+        return {**self.start, **found, TIME: self.times + self.begin}
+
+
+def courses(
+    states: TrueMotion, used: list[Expr], clock: Symbol | None, duration: float
+) -> Iterator[SampledMotion]:
+    """Motions from starts that obey what is said of them, with different parameters.
+
+    Args:
+        states: the starts.
+        used: expressions that have to be real there.
+        clock: the letter of the text for the time at the start; None where that is zero.
+        duration: of the motions, s.
+    """
+    equations = states.equations
+    state = (*equations.coordinates, *equations.speeds)
+    letters = {s for e in used for s in e.symbols()} - {TIME}
+    for start in real_states(states, used):
+        start.update({s: start[s] for s in letters})  # also those that vanish from the start alone
+        first = tuple((s, start[s]) for s in state)
+        parameters = tuple((s, start[s]) for s in equations.parameters)
+        try:
+            run = _followed(The(equations), parameters, first, duration)
+        except PolhodeError:
+            continue
+        begun = 0.0 if clock is None else start[clock]
+        yield SampledMotion(run, start, begun, np.linspace(0.0, duration, _SAMPLES))
+
+
+@lru_cache(maxsize=_KEPT)
+def _followed(the: The, parameters: Numbers, first: Numbers, duration: float) -> Trajectory:
+    """One motion, which corrections of a claim are tried on as well."""
+    given: dict[Name, float] = dict(parameters)
+    start: dict[Name, float] = dict(first)
+    return simulate(the.equations, given, start, duration)
+
+
+@dataclass(frozen=True, eq=False)
+class Followed:
+    """One scalar relation along a motion.
+
+    Attributes:
+        course: the motion.
+        component: the relation.
+        sign: its sign.
+        sides: values of both sides at the sample times.
+        rounding: of the numbers that the text prints, at the sample times; zero where it has none.
+    """
+
+    course: SampledMotion
+    component: ScalarRelation
+    sign: str
+    sides: tuple[Array, Array]
+    rounding: Array
+
+    @classmethod
+    def along(
+        cls, course: SampledMotion, component: ScalarRelation, asked: BoundClaim, states: TrueMotion
+    ) -> Followed:
+        """The relation, with accelerations and reactions those of the motion."""
+        half = asked.digits.get(component.member, ZERO)
+        found = map(states.on, (component.left, component.right, half))
+        left, right, rounding = (_sampled(each, course) for each in found)
+        sign = asked.members[component.member].sign
+        return cls(course, component, sign, (left, right), np.abs(rounding))
+
+    @cached_property
+    def _scale(self) -> float:
+        return float(max(np.abs(self.sides).max(), 1e-300))
+
+    def _met(self, margin: float) -> Array:
+        """Where the relation is met, by a margin."""
+        left, right = self.sides
+        if self.sign in SENSE:
+            return np.asarray((left - right) * SENSE[self.sign] > margin * self._scale)
+        near = np.maximum(_CLOSE * self._scale, self.rounding)
+        return np.asarray(np.abs(left - right) <= near)
+
+    def exception(self, when: str) -> int | None:
+        """The sample that refutes the relation's holding this often; None where none does."""
+        match when:
+            case "never":
+                wrong = self._met(_CLOSE)
+            case "sometimes":
+                return None if self._met(_CLOSE).any() else 0
+            case "finally":
+                return None if self._settles else len(self.course.times) - 1
+            case _:
+                wrong = np.logical_not(self._met(-_CLOSE))
+        return int(np.argmax(wrong)) if wrong.any() else None
+
+    @property
+    def _settles(self) -> bool:
+        """Whether the relation comes to be met, nearly and for some time on end."""
+        left, right = self.sides
+        near = np.logical_or(self._met(-_CLOSE), np.abs(left - right) <= _SETTLED * self._scale)
+        return bool(np.convolve(near, np.ones(_LASTING), "valid").max() >= _LASTING)
+
+
+def _sampled(side: Expr, course: SampledMotion) -> Array:
+    return np.broadcast_to(np.asarray(number(side, course.states), float), course.times.shape)

@@ -1,0 +1,129 @@
+"""A claim bound to a system, ready to be judged."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from typing import TypeVar, cast
+
+from polhode.algebra import ZERO, Expr, Symbol
+from polhode.claims.latex._tree import Node
+from polhode.claims.meaning._components import Member, ScalarRelation, components
+from polhode.claims.meaning._the import The
+from polhode.claims.states._claim_domain import ClaimDomain
+from polhode.derive import Equations
+
+States = TypeVar("States", bound=ClaimDomain)
+
+_KEPT = 64
+
+#: Signs that claim the equality of both sides.
+EQUALITY = ("=", "≡")
+#: Sign of left less right that each sign claims.
+SENSE = {">": 1, "≥": 1, "<": -1, "≤": -1}
+#: Of these, the signs that exclude equality.
+STRICT = (">", "<")
+#: Signs that compare magnitudes in a limit; they bound nothing.
+MAGNITUDES = ("≫", "≪")
+
+
+@dataclass(frozen=True)
+class Small:
+    """A quantity that is taken as small.
+
+    Attributes:
+        quantity: it vanishes in the limit: θ - π/2, Ω, or 1/ω for a large ω.
+        order: highest power of it that the claim keeps; None where no order is stated.
+    """
+
+    quantity: Expr
+    order: int | None = None
+
+
+@lru_cache(maxsize=_KEPT)
+def _states(
+    kind: type[ClaimDomain],
+    the: The,
+    given: tuple[tuple[Symbol, Expr], ...],
+    relations: tuple[Expr, ...],
+    positive: tuple[Expr, ...],
+) -> ClaimDomain:
+    """The states, kept with all that was found out about them."""
+    return kind(the.equations, dict(given), relations, positive)
+
+
+@dataclass(frozen=True)
+class BoundClaim:
+    """A claim and where it is asked to hold.
+
+    Attributes:
+        branches: the members of the claim; more than one tuple of them where it says ±.
+        equations: of the system.
+        given: symbols restricted to values.
+        relations: expressions that vanish besides, such as L² - 2 I₂ T.
+        small: quantities that are small.
+        positive: expressions that the text takes as positive.
+        digits: for every member, half a unit of the last printed digit of a number.
+        start: for claims on a motion, values at its start.
+        when: for statements on a motion, how often they hold: always, never, sometimes,
+            initially, finally.
+        defined: letters that the claim defines itself; what defines them is no member.
+    """
+
+    branches: tuple[tuple[Member, ...], ...]
+    equations: Equations
+    given: Mapping[Symbol, Expr] = field(default_factory=dict)
+    relations: tuple[Expr, ...] = ()
+    small: tuple[Small, ...] = ()
+    positive: tuple[Expr, ...] = ()
+    digits: Mapping[int, Expr] = field(default_factory=dict)
+    start: Mapping[Symbol, Expr] = field(default_factory=dict)
+    when: str = ""
+    defined: tuple[Node, ...] = ()
+
+    @property
+    def members(self) -> tuple[Member, ...]:
+        """The members, on the first branch."""
+        return self.branches[0]
+
+    def components(self, branch: int = 0) -> tuple[ScalarRelation, ...]:
+        """All members of a branch as scalar relations."""
+        numbered = enumerate(self.branches[branch])
+        return tuple(c for i, r in numbered for c in components(i, r.left, r.right))
+
+    def says_choice(self, member: int) -> bool:
+        """Whether ± makes a member differ from branch to branch."""
+        first, *others = (branch[member] for branch in self.branches)
+        return any(other.left != first.left or other.right != first.right for other in others)
+
+    def states(self, kind: type[States]) -> States:
+        """The states of a kind on which the claim is asked to hold."""
+        found = _states(kind, The(self.equations), self._given, self.relations, self.positive)
+        return cast(States, found)
+
+    @property
+    def _given(self) -> tuple[tuple[Symbol, Expr], ...]:
+        return tuple(self.given.items())
+
+    def only(self, members: Collection[int]) -> BoundClaim:
+        """The claim that some of the members make; the others are left in place, as 0 = 0."""
+        branches = tuple(
+            tuple(r if i in members else NOTHING for i, r in enumerate(branch))
+            for branch in self.branches
+        )
+        return replace(self, branches=branches)
+
+
+@dataclass(frozen=True)
+class _Nothing:
+    """The relation 0 = 0, which keeps the place of a member that is judged elsewhere."""
+
+    left: Expr = ZERO
+    sign: str = "="
+    right: Expr = ZERO
+    is_alternative: bool = False
+    printed: None = None
+
+
+NOTHING = _Nothing()

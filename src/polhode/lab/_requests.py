@@ -1,0 +1,184 @@
+"""What the page asks for, read from its JSON: of the right shapes and sizes, or refused."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from math import isfinite
+from typing import Any, NoReturn
+
+from polhode.base import ParseError
+
+CONTACTS = ("", "rolling", "smooth", "friction")
+
+_LONGEST = 300  # characters of a value
+_LONGEST_LATEX = 4000
+_MOST_VALUES = 80
+_MOST_ROWS = 1500  # of the path of a sheet
+_LARGEST = 1e4  # m or s, in the path of a sheet
+
+Row = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class RunRequest:
+    """A motion that is asked for; its values are texts, which only the library's readers read.
+
+    Attributes:
+        system: its name.
+        contact: rolling, smooth or friction; empty for what is declared.
+        settings: parameters, prescribed functions and mu, by name.
+        start: coordinates and speeds, by name.
+        duration: such as 10 s; empty for the usual one.
+        sheet: path of a dragged sheet: time (s) and place (m); empty for none.
+    """
+
+    system: str
+    contact: str = ""
+    settings: Mapping[str, str] = field(default_factory=dict)
+    start: Mapping[str, str] = field(default_factory=dict)
+    duration: str = ""
+    sheet: tuple[Row, ...] = ()
+
+
+@dataclass(frozen=True)
+class Question:
+    """An equation that is to be judged.
+
+    Attributes:
+        system: its name.
+        contact: as in `RunRequest`.
+        latex: the equation.
+        context: where it is to hold.
+    """
+
+    system: str
+    contact: str
+    latex: str
+    context: str
+
+
+@dataclass(frozen=True)
+class Fields:
+    """The members of a JSON object, taken one by one with their types checked."""
+
+    values: Mapping[str, Any]
+
+    @classmethod
+    def read(cls, body: bytes) -> Fields:
+        """Strict JSON: an object, without NaN, infinities and repeated names.
+
+        Raises:
+            ParseError: for anything else.
+        """
+        try:
+            document = json.loads(
+                body.decode("utf-8"), parse_constant=_no_number, object_pairs_hook=_once
+            )
+        except (ValueError, RecursionError) as error:
+            raise ParseError("a request that is no JSON", expected="a JSON object") from error
+        if not isinstance(document, dict):
+            raise ParseError("a request that is no JSON object", expected="a JSON object")
+        return cls(document)
+
+    def only(self, *names: str) -> Fields:
+        """Itself, if it has no other members."""
+        for name in self.values:
+            if name not in names:
+                raise _wrong(name, f"one of {', '.join(names)}")
+        return self
+
+    def text(self, name: str, longest: int = _LONGEST) -> str:
+        """A text; empty where it is left out."""
+        value = self.values.get(name, "")
+        if not isinstance(value, str) or len(value) > longest:
+            raise _wrong(name, f"a text of at most {longest} characters")
+        return value
+
+    def one_of(self, name: str, known: Sequence[str]) -> str:
+        """One of a few words."""
+        value = self.text(name)
+        if value not in known:
+            raise _wrong(name, f"one of {', '.join(filter(None, known))}")
+        return value
+
+    def texts(self, name: str) -> dict[str, str]:
+        """Texts by name."""
+        value = self.values.get(name, {})
+        if not isinstance(value, dict) or len(value) > _MOST_VALUES:
+            raise _wrong(name, f"an object of at most {_MOST_VALUES} texts")
+        inner = Fields(value)
+        return {key[:_LONGEST]: inner.text(key) for key in value}
+
+    def rows(self, name: str) -> tuple[Row, ...]:
+        """Rows of a time and two lengths, the times increasing from 0."""
+        value = self.values.get(name, [])
+        if not isinstance(value, list) or len(value) > _MOST_ROWS:
+            raise _wrong(name, f"a list of at most {_MOST_ROWS} rows")
+        rows = tuple(_row(name, row) for row in value)
+        if len(rows) == 1 or any(b[0] <= a[0] for a, b in pairwise(rows)):
+            raise _wrong(name, "at least two rows with times that increase")
+        return rows
+
+
+def run_request(fields: Fields) -> RunRequest:
+    """The motion that is asked for.
+
+    Raises:
+        ParseError: for a member that is not known, or of the wrong type or size.
+    """
+    return RunRequest(
+        fields.text("system"),
+        fields.one_of("contact", CONTACTS),
+        fields.texts("settings"),
+        fields.texts("start"),
+        fields.text("duration"),
+        fields.rows("sheet"),
+    )
+
+
+def question_of(fields: Fields) -> Question:
+    """The equation that is to be judged.
+
+    Raises:
+        ParseError: for a member that is not known, or of the wrong type or size.
+    """
+    fields.only("system", "contact", "latex", "context")
+    return Question(
+        fields.text("system"),
+        fields.one_of("contact", CONTACTS),
+        fields.text("latex", _LONGEST_LATEX),
+        fields.text("context") or "motion",
+    )
+
+
+def _row(name: str, row: object) -> Row:
+    if not isinstance(row, list) or len(row) != 3:
+        raise _wrong(name, "rows of a time and two lengths")
+    t, x, y = (_number(name, value) for value in row)
+    return t, x, y
+
+
+def _number(name: str, value: object) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise _wrong(name, "numbers")
+    if not (isfinite(value) and abs(value) <= _LARGEST):
+        raise _wrong(name, f"numbers not beyond {_LARGEST:g}")
+    return float(value)
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        raise ValueError("a name comes twice")
+    return found
+
+
+def _no_number(text: str) -> NoReturn:
+    raise ValueError(f"{text} is no number of JSON")
+
+
+def _wrong(name: str, expected: str) -> ParseError:
+    return ParseError(f"{name[:40]!r} in the request", expected=expected)

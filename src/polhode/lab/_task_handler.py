@@ -1,0 +1,128 @@
+"""The tasks of a worker, done with what it keeps of the systems it was asked about."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from functools import cached_property
+from typing import Any
+
+from polhode.base import Progress
+from polhode.lab._claims import answered, claims_about, judged
+from polhode.lab._controls import with_usual_numbers
+from polhode.lab._describe import described, followed, outcome, read, seen
+from polhode.lab._exports import exported
+from polhode.lab._files import KINDS
+from polhode.lab._formulas import invariants_of
+from polhode.lab._offer import Own, entry_of
+from polhode.lab._packet import packet
+from polhode.lab._requests import CONTACTS, Fields, question_of, run_request
+from polhode.lab._standing import SteadyFamily, families_of
+from polhode.lab._system_session import SystemSession
+from polhode.lab._variants import variant
+
+_WISH = ("system", "contact", "settings", "start", "duration", "sheet")
+
+
+class TaskHandler:
+    """Everything a worker knows how to do.
+
+    Args:
+        own: a system of the user's own.
+        progress: told of every step of a simulation.
+    """
+
+    def __init__(self, own: Own | None, progress: Progress) -> None:
+        self._own = own
+        self._progress = progress
+        self._desks: dict[str, SystemSession] = {}
+        self._families: dict[tuple[str, str], list[SteadyFamily]] = {}
+        self._invariants: dict[tuple[str, str], list[dict[str, Any]]] = {}
+
+    def do(self, task: str, body: bytes) -> bytes:
+        """The reply to a request: a JSON document, a packet with numbers, or a file.
+
+        Raises:
+            PolhodeError: for a request that cannot be met.
+        """
+        return self._tasks[task](Fields.read(body))
+
+    @cached_property
+    def _tasks(self) -> Mapping[str, Callable[[Fields], bytes]]:
+        return {
+            "describe": self._describe,
+            "run": self._run,
+            "read": self._read,
+            "follow": self._follow,
+            "standing": self._standing,
+            "claims": self._claims,
+            "judge": self._judge,
+            "check": self._check,
+            "export": self._export,
+        }
+
+    def _desk(self, name: str) -> SystemSession:
+        if name not in self._desks:
+            entry = entry_of(name, self._own)
+            bare = variant(entry, "")
+            self._desks[name] = SystemSession(with_usual_numbers(entry, bare.equations))
+        return self._desks[name]
+
+    def _describe(self, fields: Fields) -> bytes:
+        fields.only("system", "contact")
+        desk = self._desk(fields.text("system"))
+        chosen = desk.variant(fields.one_of("contact", CONTACTS))
+        return _json(described(chosen, desk.variant("")))
+
+    def _run(self, fields: Fields) -> bytes:
+        wish = run_request(fields.only(*_WISH))
+        played = self._desk(wish.system).play(wish, self._progress)
+        return packet(seen(played.variant, played.run))
+
+    def _read(self, fields: Fields) -> bytes:
+        wish = run_request(fields.only(*_WISH))
+        played = self._desk(wish.system).play(wish, self._progress)
+        account = read(played.variant, played.run)
+        return packet({"account": account, "outcome": outcome(played.run)})
+
+    def _follow(self, fields: Fields) -> bytes:
+        wish = run_request(fields.only(*_WISH))
+        return packet(followed(self._desk(wish.system).play(wish, self._progress).run))
+
+    def _standing(self, fields: Fields) -> bytes:
+        wish = run_request(fields.only(*_WISH))
+        desk = self._desk(wish.system)
+        chosen = desk.variant(wish.contact)
+        key = (wish.system, wish.contact)
+        if key not in self._families:
+            self._families[key] = families_of(chosen.equations, chosen.system)
+            self._invariants[key] = invariants_of(chosen.equations)
+        numbers = desk.numbers(wish)
+        state = {**numbers.parameters, **numbers.start}
+        return _json(
+            {
+                "families": [family.standing(state) for family in self._families[key]],
+                "invariants": self._invariants[key],
+            }
+        )
+
+    def _claims(self, fields: Fields) -> bytes:
+        return _json({"claims": claims_about(fields.only("system").text("system"))})
+
+    def _judge(self, fields: Fields) -> bytes:
+        return _json(judged(fields.only("system", "id").text("id")))
+
+    def _check(self, fields: Fields) -> bytes:
+        question = question_of(fields)
+        equations = self._desk(question.system).variant(question.contact).equations
+        return _json(answered(question, equations))
+
+    def _export(self, fields: Fields) -> bytes:
+        fields.only(*_WISH, "kind")
+        kind = fields.one_of("kind", tuple(KINDS))
+        wish = run_request(fields)
+        return exported(kind, self._desk(wish.system).play(wish, self._progress))
+
+
+def _json(document: Mapping[str, Any]) -> bytes:
+    return json.dumps(document, ensure_ascii=False, allow_nan=False).encode("utf-8")

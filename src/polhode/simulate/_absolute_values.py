@@ -1,0 +1,376 @@
+"""Absolute values along a motion: on which side of zero their arguments are, and where they cross.
+
+A right-hand side with |x| or x/|x| in it is smooth on either side of x = 0 and is integrated there
+by itself. Where x reaches zero, its rates on both sides say what follows: they agree, and the
+motion crosses; or both drive it back, and x stays zero (Filippov, Differential Equations with
+Discontinuous Righthand Sides, 1988), which dry friction calls sticking.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from polhode.algebra import ZERO, Expr, SquareRoot, Symbol, SymbolKind
+from polhode.base import DeclarationError, NumericError
+from polhode.derive import Guard
+from polhode.simulate._dynamics import CLOCK, Dynamics, EquationsOfMotion, sign_symbol
+from polhode.simulate._segment import TrajectoryPiece, values_of
+from polhode.simulate.integrate._crossing import first_fall
+from polhode.simulate.integrate._flow import Flow
+from polhode.simulate.integrate._number_types import DOUBLES, NumberType
+from polhode.simulate.integrate._stepping import Array
+
+PASSES = "passes"
+"""The kind of a guard that ends a side."""
+
+_ALIKE = 1e-9  # relative difference of rates on both sides that is rounding
+_BEYOND = 1e-9  # of the largest value so far: how far beyond zero there is reason to look
+_MOST = 50_000  # changes of side in one motion
+_MOST_HURRIED = 32  # the same, one soon after the other
+_RESIDUAL = 1e-9  # of the largest value on a stretch: what may be left of zero where it begins
+_HURRIED = 1e-6  # of the longest time between two of them
+_FAR = 2.0  # times as far as the first end of a side: steps that long lose its digits
+_INSTANT = 64  # steps of rounding of the time
+_NEARER = 1.5  # how far to go instead
+
+Sides = Mapping[SquareRoot, int]
+Values = Callable[[Array], Array]
+
+
+@dataclass(frozen=True)
+class SideChange(Guard):
+    """Where the side on which an absolute value is ends.
+
+    Attributes:
+        root: the absolute value.
+        leaves: for one whose argument is held at zero, the side on which it is let go.
+    """
+
+    root: SquareRoot
+    leaves: int = 0
+
+
+def passages_of(dynamics: Dynamics) -> tuple[SideChange, ...]:
+    """What ends the sides that equations hold on."""
+    found = list[SideChange]()
+    for root, side in dynamics.sides.items():
+        if side:
+            positive = dynamics.on_side(root.plain or ZERO) * side
+            found.append(SideChange(None, PASSES, positive, root))
+        else:
+            sign = Expr.generator(sign_symbol(root))
+            found += [SideChange(None, PASSES, 1 - k * sign, root, k) for k in (1, -1)]
+    return tuple(found)
+
+
+@dataclass(frozen=True)
+class Here:
+    """An instant of a motion.
+
+    Attributes:
+        state: value of every state of the equations.
+        constants: of the parameters, in the order of the equations.
+        time: s.
+        numbers: what these are.
+    """
+
+    state: Mapping[Symbol, Any]
+    constants: Any
+    time: Any
+    numbers: NumberType = DOUBLES
+
+    def values(self, dynamics: Dynamics, expressions: Sequence[Expr]) -> Array:
+        """Values of expressions, in doubles; not-a-number where they have none."""
+        states = tuple(s for s in dynamics.states if s in self.state)
+        known = (*states, *dynamics.parameters, CLOCK)
+        function = dynamics.function(expressions, known, numbers=self.numbers)
+        given = [self.state[s] for s in states]
+        try:
+            with np.errstate(all="ignore"):
+                found = function(*self.numbers.array([*given, *self.constants, self.time]))
+        except ArithmeticError:
+            return np.full(len(expressions), np.nan)
+        return np.array([float(value) for value in found])
+
+
+def sides_at(
+    dynamics: Dynamics, here: Here, kept: Sides | None = None, passed: SquareRoot | None = None
+) -> dict[SquareRoot, int]:
+    """The side of every absolute value from an instant on.
+
+    Args:
+        dynamics: of which no sides are known.
+        kept: sides up to then.
+        passed: the one whose argument has just reached zero.
+
+    Raises:
+        NumericError: where no side, or more than one, can follow.
+    """
+    known = {} if kept is None else {r: side for r, side in kept.items() if r != passed}
+    open_ = [] if passed is None else [passed]
+    sides = _closed(dynamics, here, known, open_)
+    for _ in range(2 * len(open_) + 2):
+        before = dict(sides)
+        for root in open_:
+            if root in sides:
+                chosen = {**sides, root: _followed(dynamics, here, sides, root)}
+                sides = _closed(dynamics, here, chosen, open_)
+        if sides == before:
+            return sides
+    raise _undetermined(open_[0], here)
+
+
+def _closed(
+    dynamics: Dynamics, here: Here, known: Sides, open_: list[SquareRoot]
+) -> dict[SquareRoot, int]:
+    """Sides of all absolute values; those that are neither known nor away from zero stay open."""
+    sides: dict[SquareRoot, int] = {}
+    while roots := dynamics.on(sides).undecided:
+        root = roots[0]
+        if root in known:
+            sides[root] = known[root]
+            continue
+        (value,) = here.values(dynamics.on(sides), [root.plain or ZERO])
+        if not value and root not in open_:
+            open_.append(root)
+        sides[root] = -1 if value < 0 else 1
+    return sides
+
+
+def smooth_at(
+    dynamics: Dynamics, state: Sequence[float], parameters: Mapping[Symbol, float]
+) -> Dynamics:
+    """Equations on the sides of all absolute values that a state is on.
+
+    Args:
+        state: values of all states.
+
+    Raises:
+        NumericError: where an argument of an absolute value is zero.
+    """
+    here = Here(dict(zip(dynamics.states, state, strict=True)), list(parameters.values()), 0.0)
+    zero = list[SquareRoot]()
+    sides = _closed(dynamics, here, {}, zero)
+    if zero:
+        raise NumericError(
+            f"small departures from a state at which {_named(zero[0])} is zero",
+            expected="a state around which the equations are smooth",
+            advice=f"choose one on either side of {_named(zero[0])} = 0",
+        )
+    return dynamics.on(sides)
+
+
+def sides_in_order(dynamics: Dynamics, values: Iterable[int]) -> dict[SquareRoot, int]:
+    """Sides of which only the values were kept, in the order in which they were found."""
+    sides: dict[SquareRoot, int] = {}
+    for value in values:
+        sides[dynamics.on(sides).undecided[0]] = value
+    return sides
+
+
+def _followed(dynamics: Dynamics, here: Here, sides: Sides, root: SquareRoot) -> int:
+    """The side that follows where an argument is zero; 0 where it stays there."""
+    above, below = (dynamics.on({**sides, root: side}) for side in (1, -1))
+    _refuse_jump(above, below, here, root)
+    rate = above.on_side(root.plain or ZERO)
+    for _ in range(2):
+        rate = rate.dt()
+        try:
+            up, down = (float(here.values(face, [rate])[0]) for face in (above, below))
+        except DeclarationError:  # the rate of an acceleration
+            break
+        least = _ALIKE * max(abs(up), abs(down))
+        if not least:
+            continue
+        up, down = (0.0 if abs(x) <= least else x for x in (up, down))
+        if up > 0 > down:
+            raise _undetermined(root, here)
+        if up <= 0 <= down:
+            return 0
+        return 1 if up > 0 or down > 0 else -1
+    if _alike(above, below, here, list(above.rates)):
+        return sides[root] or 1
+    raise _undetermined(root, here)
+
+
+def _alike(one: Dynamics, other: Dynamics, here: Here, expressions: Sequence[Expr]) -> bool:
+    first, second = (here.values(face, expressions) for face in (one, other))
+    scale = np.max(np.abs(first), initial=0.0) + np.max(np.abs(second), initial=0.0)
+    return bool(np.all(np.abs(first - second) <= _ALIKE * scale))
+
+
+def _refuse_jump(above: Dynamics, below: Dynamics, here: Here, root: SquareRoot) -> None:
+    """Refuse velocities that jump: what would make them jump is an impulse that nobody gave."""
+    equations = above.equations
+    own = [*equations.kinematics.values(), *equations.dependent.values()]
+    own += [entry for row in equations.mass.rows for entry in row]
+    own += _places_and_velocities(equations)
+    feeling = [e for e in own if _is_driven(e) or above.on_side(e) != below.on_side(e)]
+    if feeling and not _alike(above, below, here, feeling):
+        raise NumericError(
+            f"a place or velocity that jumps where {_named(root)} is zero, at t = {_told(here)} s",
+            expected="positions and prescribed motions without corners",
+            advice="round the corner off, or end the motion before that time",
+        )
+
+
+def _places_and_velocities(equations: EquationsOfMotion) -> list[Expr]:
+    """Of all bodies, where the equations know of bodies."""
+    motion = getattr(equations, "kinetics", None)
+    if motion is None:
+        return []
+    velocities = (vector for pair in motion.velocities.values() for vector in pair)
+    return [c for vector in (*motion.places.values(), *velocities) for c in vector.components]
+
+
+def _is_driven(expression: Expr) -> bool:
+    return any(symbol.kind is SymbolKind.FUNCTION for symbol in expression.symbols())
+
+
+# -- along a motion --------------------------------------------------------------------------------
+
+
+def overshoots(
+    dynamics: Dynamics, passages: Sequence[SideChange], flow: Flow, constants: Array
+) -> Callable[[float, Sequence[float]], bool]:
+    """Whether a state of the core is beyond one of these, so that there is reason for a look.
+
+    What follows there is of no use, and may run away.
+    """
+    core = flow.core.symbols
+    arguments = (*flow.states, *flow.parameters, CLOCK)
+    programs = [dynamics.program([p.positive], arguments) for p in passages]
+    outside = set(range(len(core), len(flow.states)))
+    functions = [p.function() for p in programs if not p.reads & outside]
+    rest = [0.0] * len(outside)
+    given = constants.tolist()
+    largest = [0.0] * len(functions)
+
+    def over(time: float, state: Sequence[float]) -> bool:
+        found = False
+        for k, function in enumerate(functions):
+            try:
+                (value,) = function(*state, *rest, *given, time)
+            except (ArithmeticError, ValueError):
+                return True
+            largest[k] = max(largest[k], abs(value))
+            found = found or value < -_BEYOND * largest[k]
+        return found
+
+    return over
+
+
+def first_passage(
+    dynamics: Dynamics, passages: Sequence[SideChange], part: TrajectoryPiece
+) -> tuple[TrajectoryPiece, SideChange | None]:
+    """A part up to the first end of a side, and which that is."""
+    if not passages:
+        return part, None
+    expressions = [passage.positive for passage in passages]
+
+    def values(times: Array) -> Array:
+        return values_of(dynamics, part, expressions, times)
+
+    fall = first_fall(from_zero(values, part.solution.steps), part.solution.steps)
+    if fall is None:
+        return part, None
+    return replace(part, end=fall.time), passages[fall.guard]
+
+
+def from_zero(values: Values, knots: Array, first: int = 0) -> Values:
+    """Values along a stretch, moved up by what they are below zero where it begins.
+
+    A side begins where its argument is zero, to the rounding of the time: a little before or after.
+
+    Args:
+        values: at some times or places, shape (functions, times).
+        knots: of the stretch.
+        first: of the functions to be moved; those before stay as they are.
+    """
+    there = values(knots)
+    largest = np.max(np.abs(there), axis=1, initial=0.0)
+    below = -there[:, 0]
+    moved = (np.arange(len(there)) >= first) & (below > 0) & (below <= _RESIDUAL * largest)
+    if not np.any(moved):
+        return values
+    shift = np.where(moved, below, 0.0)[:, None]
+    return lambda times: values(times) + shift
+
+
+def nearer(steps: Any, end: Any, numbers: NumberType = DOUBLES) -> Any | None:
+    """How far to integrate again where steps went far beyond what ends a side; None if not.
+
+    The digits of a long step are those of its end. What ends within the rounding of the time, as
+    it does where two sides end together, is left as it is: nothing is known over so short a time.
+    """
+    begin, wanted = steps[0], end - steps[0]
+    if wanted <= _INSTANT * numbers.spacing(begin) or steps[-1] - begin <= _FAR * wanted:
+        return None
+    return begin + _NEARER * wanted
+
+
+def beyond(
+    dynamics: Dynamics, here: Here, sides: Sides, passage: SideChange
+) -> dict[SquareRoot, int]:
+    """The sides that follow where one ends; `dynamics` without any.
+
+    Raises:
+        NumericError: where none follows, or more than one.
+    """
+    if passage.leaves:
+        return sides_at(dynamics, here, {**sides, passage.root: passage.leaves})
+    return sides_at(dynamics, here, sides, passage.root)
+
+
+def told_change(passage: SideChange, after: Sides) -> str:
+    """What an event at the end of a side is called."""
+    if passage.leaves:
+        return "leaves zero"
+    return "changes sign" if after.get(passage.root, 1) else "stays zero"
+
+
+class SideChangeCount:
+    """Watches how often sides end in one motion."""
+
+    def __init__(self) -> None:
+        self._count = 0
+        self._hurried = 0
+        self._longest = 0.0
+        self._last = 0.0
+
+    def count(self, time: float, passage: SideChange) -> None:
+        """One more.
+
+        Raises:
+            NumericError: where they do not come to an end.
+        """
+        passed, self._last = float(time) - self._last, float(time)
+        self._count += 1
+        self._longest = max(self._longest, passed)
+        self._hurried = self._hurried + 1 if passed <= _HURRIED * self._longest else 0
+        if self._hurried >= _MOST_HURRIED or self._count > _MOST:
+            raise NumericError(
+                f"{_named(passage.root)} changes sign without end near t = {float(time):.9g} s",
+                expected="a motion that settles on one side of where it is zero, or stays there",
+                advice="end the motion before; ph.Coulomb follows dry friction at a contact",
+            )
+
+
+def _undetermined(root: SquareRoot, here: Here) -> NumericError:
+    return NumericError(
+        f"what happens where {_named(root)} is zero, at t = {_told(here)} s, is not determined",
+        expected="forces that drive it to one side, or back from both",
+        advice="start elsewhere; ph.Coulomb follows dry friction at a contact",
+    )
+
+
+def _named(root: SquareRoot) -> str:
+    return f"{root.plain}"
+
+
+def _told(here: Here) -> str:
+    return f"{float(here.time):.9g}"

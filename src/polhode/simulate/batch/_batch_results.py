@@ -1,0 +1,132 @@
+"""Where many motions were seen, and what happened to them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from polhode.algebra import Symbol
+from polhode.simulate.batch._batch_segment import BatchSegment, Quantity
+from polhode.simulate.batch._forcing_intervals import ForcingIntervals
+from polhode.simulate.integrate._stepping import Array
+
+LAST = -1
+"""The look at the end of a motion, whenever that is."""
+
+Rows = NDArray[np.intp]
+
+
+@dataclass(frozen=True)
+class Events:
+    """What happened to motions, in order.
+
+    Attributes:
+        kinds: all that occur.
+        times: s, shape (motions, most that happened to one of them); not-a-number where nothing.
+        codes: places among the kinds, or -1.
+    """
+
+    kinds: tuple[str, ...]
+    times: Array
+    codes: Rows
+
+
+@dataclass(frozen=True)
+class BatchResults:
+    """States of motions at some looks, each in the contact mode that it was in there.
+
+    Attributes:
+        times: of the looks, s; the last of them is the time at which every motion has ended.
+        constants: of all parameters, shape (motions,).
+        stretches: of prescribed motions.
+        end: of every motion, s.
+        first: modes that they start in.
+        last: modes that they end in.
+    """
+
+    times: Array
+    constants: Mapping[Symbol, Array]
+    stretches: ForcingIntervals
+    end: Array
+    first: list[str]
+    last: list[str]
+    _seen: dict[int, dict[int, list[tuple[BatchSegment, Rows, Array]]]] = field(
+        default_factory=dict
+    )
+    _happened: list[tuple[int, float, str]] = field(default_factory=list)
+
+    @classmethod
+    def of(
+        cls,
+        count: int,
+        times: Array,
+        constants: Mapping[Symbol, Array],
+        stretches: ForcingIntervals,
+        mode: str,
+    ) -> BatchResults:
+        """Of motions that nothing has happened to so far."""
+        end = np.full(count, times[-1])
+        return cls(times, constants, stretches, end, [mode] * count, [mode] * count)
+
+    def constants_from(self, rows: Rows, times: Array) -> dict[Symbol, Array]:
+        """All constants of some motions, as they are from some times on."""
+        return self._constants_of(rows) | self.stretches.from_then(times)
+
+    def constants_until(self, rows: Rows, times: Array) -> dict[Symbol, Array]:
+        """The same as they are up to some times."""
+        return self._constants_of(rows) | self.stretches.until_then(times)
+
+    def _constants_of(self, rows: Rows) -> dict[Symbol, Array]:
+        return {symbol: values[rows] for symbol, values in self.constants.items()}
+
+    def note(self, look: int, stay: BatchSegment, rows: Rows, states: Array) -> None:
+        """States of some motions, shape (states, rows)."""
+        by_mode = self._seen.setdefault(look, {})
+        by_mode.setdefault(id(stay), []).append((stay, rows, states))
+
+    def note_one(
+        self, look: int, stay: BatchSegment, row: int, state: Mapping[Symbol, float]
+    ) -> None:
+        """The state of one motion."""
+        states = np.array([[state.get(symbol, 0.0)] for symbol in stay.states])
+        self.note(look, stay, np.array([row]), states)
+
+    def happened(self, row: int, time: float, kind: str) -> None:
+        """Something happened to a motion."""
+        self._happened.append((row, time, kind))
+
+    def finish(self, row: int, time: float, mode: str) -> None:
+        """A motion has come to its end."""
+        self.end[row] = time
+        self.last[row] = mode
+
+    def values(self, quantity: Quantity, look: int) -> Array:
+        """A quantity at a look, shape (motions,); not-a-number where a motion was not seen."""
+        found = np.full(len(self.end), np.nan)
+        clock = self.end if look == LAST else np.full(len(self.end), self.times[look])
+        constants = self.constants_until if look == LAST else self.constants_from
+        for stay, rows, states in self._by_mode(look):
+            seen = dict(zip(stay.states, states, strict=True))
+            known = constants(rows, clock[rows])
+            found[rows] = stay.values(quantity, clock[rows], seen, known)
+        return found
+
+    def _by_mode(self, look: int) -> Iterator[tuple[BatchSegment, Rows, Array]]:
+        for parts in self._seen.get(look, {}).values():
+            rows = np.concatenate([rows for _, rows, _ in parts])
+            yield parts[0][0], rows, np.concatenate([x for *_, x in parts], axis=1)
+
+    def events(self) -> Events:
+        """All that happened, motion by motion."""
+        kinds = tuple(dict.fromkeys(kind for *_, kind in self._happened))
+        told = sorted(self._happened, key=lambda one: one[:2])
+        rows = np.array([row for row, *_ in told], dtype=np.intp)
+        places = np.arange(len(rows)) - np.searchsorted(rows, rows, "left")
+        shape = (len(self.end), int(np.max(places, initial=-1)) + 1)
+        times, codes = np.full(shape, np.nan), np.full(shape, -1, dtype=np.intp)
+        times[rows, places] = [time for _, time, _ in told]
+        codes[rows, places] = [kinds.index(kind) for *_, kind in told]
+        return Events(kinds, times, codes)

@@ -1,0 +1,128 @@
+"""Many motions through all their contact modes: abreast within a mode, one by one in between.
+
+Motions that leave a mode wait until those that are in the same next mode are taken up together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from polhode.simulate._segment import TrajectoryPiece, state_at
+from polhode.simulate.batch._batch_results import LAST, BatchResults
+from polhode.simulate.batch._batch_segment import BatchSegment
+from polhode.simulate.batch._mode_batch import BatchExit, Group, ModeBatch, Phases, Starts, Stays
+from polhode.simulate.batch._single_trajectory import Entered, SingleTrajectoryStepper
+from polhode.simulate.contact._mode_state import ModeState
+
+_MOST_CHANGES = 1000  # of one motion, before it is left to itself
+
+
+@dataclass(frozen=True)
+class _Waiting:
+    row: int
+    changes: int
+    scale: float
+    entered: Entered
+
+
+class BatchScheduler(ModeBatch):
+    """Motions of one system that go on from mode to mode.
+
+    Args:
+        stays, sightings: as of a company.
+        pilot: takes single motions from mode to mode.
+        starts: start values of a motion.
+    """
+
+    def __init__(
+        self, stays: Stays, sightings: BatchResults, pilot: SingleTrajectoryStepper, starts: Starts
+    ) -> None:
+        super().__init__(stays, sightings)
+        self._pilot = pilot
+        self._starts = starts
+        self._waiting: dict[Phases, list[_Waiting]] = {}
+
+    def run(self) -> None:
+        """Follow all that wait, until nobody does."""
+        while self._waiting:
+            phases = max(self._waiting, key=lambda p: len(self._waiting[p]))
+            self.together(phases, _group(self._waiting.pop(phases)))
+
+    def start(self, row: int) -> None:
+        def begin() -> None:
+            entry = self._pilot.first(self._starts(row))
+            self.sightings.first[row] = self._stays(entry.phases).mode
+            self._enter(row, entry, 0)
+
+        self._attempt(row, begin)
+
+    def _leave(self, row: int, departure: BatchExit) -> None:
+        def go_on() -> None:
+            kind, entry = self._pilot.leave(departure)
+            self.sightings.happened(row, departure.time, kind)
+            self._enter(row, entry, departure.changes + 1)
+
+        self._attempt(row, go_on)
+
+    def _doubt(self, row: int, entry: ModeState | None) -> None:
+        if entry is None:
+            self.start(row)
+        else:
+            self._attempt(row, lambda: self._by_itself(row, entry))
+
+    def _attempt(self, row: int, step: Callable[[], None]) -> None:
+        """Take a step with one motion; one that fails is told when it is followed by itself."""
+        constants = self.sightings.constants
+        self._pilot.take({s: float(values[row]) for s, values in constants.items()})
+        try:
+            step()
+        except Exception:  # whatever it is, it is this motion's alone
+            self.lost.add(row)
+
+    def _enter(self, row: int, entry: ModeState, changes: int) -> None:
+        """Let a motion enter a mode, and wait for others in it."""
+        end = float(self.sightings.times[-1])
+        if changes > _MOST_CHANGES or not self._pilot.goes_abreast(entry):
+            return self._by_itself(row, entry)
+        entered = self._pilot.enter(entry, end)
+        if entered.guard is not None or entered.time >= end:
+            return self._by_itself(row, entry)
+        if entered.part is not None:
+            self._note_stretch(row, self._stays(entry.phases), entered.part)
+        scale = self._pilot.speed_scale(entry) if entry.slips else 0.0
+        waiting = _Waiting(row, changes, scale, entered)
+        return self._waiting.setdefault(entry.phases, []).append(waiting)
+
+    def _by_itself(self, row: int, entry: ModeState) -> None:
+        """Follow a motion step by step from where it enters a mode."""
+        course = self._pilot.to_the_end(entry, float(self.sightings.times[-1]))
+        stays = [self._stays(self._pilot.phases(segment.mode)) for segment in course.segments]
+        for stay, segment in zip(stays, course.segments, strict=True):
+            for part in segment.parts:
+                self._note_stretch(row, stay, part)
+        last = course.segments[-1]
+        self.sightings.note_one(LAST, stays[-1], row, state_at(last.parts[-1], last.end))
+        self.sightings.finish(row, last.end, course.ending)
+        for change in course.changes:
+            self.sightings.happened(row, change.time, change.kind)
+
+    def _note_stretch(self, row: int, stay: BatchSegment, part: TrajectoryPiece) -> None:
+        """States at the looks within a stretch of time."""
+        times = self.sightings.times[:-1]
+        for look in np.flatnonzero((part.begin <= times) & (times < part.end)):
+            self.sightings.note_one(int(look), stay, row, state_at(part, float(times[look])))
+
+
+def _group(waiting: Sequence[_Waiting]) -> Group:
+    states = [w.entered.state for w in waiting]
+    return Group(
+        np.array([w.row for w in waiting]),
+        np.array([w.entered.time for w in waiting]),
+        {s: np.array([state[s] for state in states]) for s in states[0]},
+        np.array([w.scale for w in waiting]),
+        [w.entered.entry for w in waiting],
+        [w.changes for w in waiting],
+    )

@@ -1,0 +1,193 @@
+"""One contact mode, for many motions at once."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from polhode.algebra import ZERO, Expr, Matrix, Symbol
+from polhode.base import look_up
+from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
+from polhode.simulate._readable import readable
+from polhode.simulate.batch._batch_stage import BatchArrivals, BatchStage
+from polhode.simulate.batch._endings import Ending
+from polhode.simulate.batch._forcing_intervals import ForcingIntervals
+from polhode.simulate.batch._lanes import Lanes
+from polhode.simulate.integrate._rows import rows
+from polhode.simulate.integrate._stepping import Array
+
+_CLEAR = 1e-9  # of a guard, relative to the largest: further above its least value is no doubt
+#: Slip speed, relative to the velocities around, that is as good as none. Not sooner: where the
+#: friction hardly exceeds what it opposes, the slip turns all the way down to nothing.
+STILL = 1e-12
+_NEARLY = 1e-6  # of the determinant of a matrix: less of it is as good as none
+
+Quantity = str | Symbol | Expr
+
+
+class BatchSegment:
+    """What many motions do while they stay in one contact mode.
+
+    Args:
+        dynamics: the equations.
+        mode: its name.
+        endings: what may end it.
+        quantities: that are to be read.
+        names: of all quantities of the system: those that this mode does not have are zero in it.
+        tolerance: relative, of one step.
+        stretches: of prescribed motions.
+        whole: whether other modes follow, that need all states, or only what is read counts.
+        square: a matrix that must stay regular.
+    """
+
+    def __init__(
+        self,
+        dynamics: Dynamics,
+        mode: str,
+        endings: Sequence[Ending],
+        quantities: Collection[Quantity],
+        names: Collection[str],
+        tolerance: float | None,
+        stretches: ForcingIntervals,
+        *,
+        whole: bool = False,
+        square: Matrix | None = None,
+    ) -> None:
+        self.dynamics = dynamics
+        self.mode = mode
+        self.endings = tuple(endings)
+        self._square = square
+        self._names = names
+        self._tolerance = tolerance
+        self._stretches = stretches
+        self._whole = whole
+        self.states = self._needed(quantities)
+
+    @property
+    def doubtful(self) -> int:
+        """The guard that only tells that a motion cannot be followed."""
+        return len(self.endings)
+
+    def launch(
+        self,
+        begin: Array,
+        states: Mapping[Symbol, Array],
+        constants: Mapping[Symbol, Array],
+        scales: Array,
+    ) -> BatchStage:
+        """Motions that are taken up in this mode.
+
+        Args:
+            begin: s.
+            states: of all motions; zero where there is none.
+            constants: likewise, of all parameters, and coefficients of prescribed motions.
+            scales: size of the velocities that slips are the difference of, m/s.
+        """
+        rest = np.zeros(len(begin))
+        jams = [] if self._square is None else [rest]
+        least = [e.least + (STILL if e.slips else 0.0) * scales for e in self.endings]
+        found = BatchStage(
+            begin,
+            rows([states.get(s, rest) for s in self.states], len(begin)),
+            self.ordered(constants, len(begin)),
+            rows([*least, *jams], len(begin)),
+            self._stretches.until_jerk(begin),
+        )
+        if jams:
+            found.least[-1] = _NEARLY * np.abs(self.lanes.guarded(found)[-1])
+        return found
+
+    def ordered(self, constants: Mapping[Symbol, Array], count: int) -> Array:
+        """Constants of so many motions as the equations take them, shape (parameters, motions)."""
+        values: Array = rows([constants[s] for s in self.dynamics.parameters], count)
+        return values
+
+    def clear(self, launch: BatchStage) -> NDArray[np.bool_]:
+        """Motions that are taken up where all is finite, and no guard is anywhere near its fall."""
+        with np.errstate(all="ignore"):
+            above = self.lanes.guarded(launch)
+        rates = self.lanes.values([self._rates[s] for s in self.states], launch)
+        sizes = np.where(np.isfinite(above), np.abs(above), 0.0)
+        least = _CLEAR * np.max(sizes, axis=1, initial=0.0, keepdims=True)
+        finite = np.all(np.isfinite(rates), axis=0)
+        return np.asarray(finite & np.all(above > least, axis=0), dtype=bool)
+
+    def follow(self, launch: BatchStage, times: Array) -> BatchArrivals:
+        """All motions to every one of some times, as far as they go."""
+        return self.lanes.follow(launch, times)
+
+    def rates(self, launch: BatchStage) -> Array:
+        """Of the states where motions are taken up, shape (states, motions)."""
+        return self.lanes.values([self._rates[s] for s in self.states], launch)
+
+    def values(
+        self,
+        quantity: Quantity,
+        times: Array,
+        states: Mapping[Symbol, Array],
+        constants: Mapping[Symbol, Array],
+    ) -> Array:
+        """A quantity of many motions, each at its own time; shape (motions,)."""
+        there = self.launch(times, states, constants, np.zeros(len(times)))
+        (found,) = self.lanes.values([self._expression(quantity)], there)
+        return np.asarray(found, dtype=float)
+
+    # -- what is integrated ---------------------------------------------------------------------
+
+    def _expression(self, quantity: Quantity) -> Expr:
+        if isinstance(quantity, Expr):
+            return quantity
+        name = quantity if isinstance(quantity, str) else quantity.published
+        if name in self._names and name not in self._readable:
+            return ZERO
+        return look_up(name, self._readable, "quantity of this system")
+
+    @cached_property
+    def _readable(self) -> dict[str, Expr]:
+        return readable(self.dynamics, {})
+
+    @cached_property
+    def _rates(self) -> dict[Symbol, Expr]:
+        dynamics = self.dynamics
+        rates = dict(zip(dynamics.states, dynamics.rates, strict=True))
+        return rates | {WORK: dynamics.equations.power}
+
+    def _needed(self, quantities: Collection[Quantity]) -> tuple[Symbol, ...]:
+        """The states that what is asked for depends on, and those that these depend on."""
+        rates = self._rates
+        asked = [self._expression(quantity) for quantity in quantities]
+        wanted = self._read([*asked, *(ending.positive for ending in self.endings)])
+        if self._whole:
+            wanted |= set(rates) - {WORK}
+        while wanted != (more := wanted | self._read([rates[s] for s in wanted])):
+            wanted = more
+        return tuple(s for s in rates if s in wanted) or tuple(self.dynamics.states)
+
+    def _read(self, expressions: Sequence[Expr]) -> set[Symbol]:
+        given = (*self._rates, *self.dynamics.parameters, CLOCK)
+        places = self.dynamics.program(expressions, given).reads
+        return {given[i] for i in places} & set(self._rates)
+
+    @cached_property
+    def lanes(self) -> Lanes:
+        """The compiled equations."""
+        return Lanes(
+            self.dynamics,
+            self.states,
+            self._rates,
+            [ending.positive for ending in self.endings],
+            self._square,
+            self._tolerance,
+            self._stretches,
+            driven=self._is_driven,
+        )
+
+    @property
+    def _is_driven(self) -> bool:
+        """Whether the time itself occurs, and not only that since a knot."""
+        dynamics = self.dynamics
+        motions = (dynamics.prescribed.get(f, ZERO) for f in dynamics.equations.functions)
+        return any(CLOCK in motion.symbols() for motion in motions)

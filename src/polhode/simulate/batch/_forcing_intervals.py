@@ -1,0 +1,128 @@
+"""Prescribed motions that change from stretch to stretch, as many motions at once have them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from polhode.algebra import Symbol
+from polhode.simulate.forcing._pieces import Pieces
+from polhode.simulate.forcing._prescribed_motion import PrescribedMotion
+from polhode.simulate.integrate._stepping import Array
+
+_SMOOTH = 1e-9  # change of an acceleration, over the largest one, that no force notices
+
+
+@dataclass(frozen=True)
+class ForcingIntervals:
+    """Coefficients of prescribed motions, each set for a stretch of time.
+
+    Attributes:
+        drive: the prescribed motions.
+        end: of all motions, s.
+    """
+
+    drive: PrescribedMotion
+    end: float
+
+    @cached_property
+    def breaks(self) -> Array:
+        """When coefficients change on the way, s."""
+        return np.array(sorted(t for t in self.drive.breaks if 0 < t < self.end), dtype=float)
+
+    @cached_property
+    def jerks(self) -> Array:
+        """When a velocity jumps on the way, s."""
+        return np.array(sorted(t for t in self.drive.jerks if 0 < t < self.end), dtype=float)
+
+    @cached_property
+    def abrupt(self) -> frozenset[float]:
+        """When an acceleration jumps on the way, and with it forces, s."""
+        return frozenset(t for p in self.drive.pieces.values() for t in _abrupt(p))
+
+    @cached_property
+    def symbols(self) -> tuple[Symbol, ...]:
+        """The coefficients."""
+        return tuple(self.drive.constants(0.0))
+
+    @cached_property
+    def _begins(self) -> Array:
+        return np.concatenate([[0.0], self.breaks])
+
+    @cached_property
+    def _table(self) -> Array:
+        """Shape (symbols, stretches)."""
+        rows = [list(self.drive.constants(t).values()) for t in self._begins.tolist()]
+        return np.array(rows, dtype=float).reshape(len(rows), len(self.symbols)).T
+
+    def from_then(self, times: Array) -> dict[Symbol, Array]:
+        """Coefficients that hold from some times on."""
+        return self._held(np.searchsorted(self.breaks, times, "right"))
+
+    def until_then(self, times: Array) -> dict[Symbol, Array]:
+        """Coefficients that hold up to some times."""
+        return self._held(np.searchsorted(self.breaks, times, "left"))
+
+    def _held(self, stretches: NDArray[np.intp]) -> dict[Symbol, Array]:
+        return dict(zip(self.symbols, self.table(stretches), strict=True))
+
+    def table(self, stretches: NDArray[np.intp]) -> Array:
+        """Coefficients of some stretches, by their places; shape (symbols, stretches)."""
+        return self._table[:, stretches]
+
+    def begun_before(self, time: float) -> float:
+        """Beginning of the stretch that lasts until a time, s."""
+        return float(self._begins[np.searchsorted(self.breaks, time, "left")])
+
+    def until_jerk(self, begin: Array) -> Array:
+        """How far motions go before a support jerks, at most to their end; s, shape (motions,)."""
+        return np.append(self.jerks, self.end)[np.searchsorted(self.jerks, begin, "right")]
+
+
+def _abrupt(pieces: Pieces) -> Iterator[float]:
+    """Knots at which the second derivative changes."""
+    knots = pieces.knots
+    after = pieces.acceleration(knots)
+    before = np.concatenate([[0.0], _ends(pieces)])
+    largest = max(float(np.max(np.abs(after))), float(np.max(np.abs(before))))
+    yield from knots[np.abs(after - before) > _SMOOTH * largest].tolist()
+
+
+def _ends(pieces: Pieces) -> Array:
+    """Second derivatives at the ends of all pieces."""
+    powers = np.arange(2, pieces.coefficients.shape[1])
+    factors = powers * (powers - 1) * np.diff(pieces.knots)[:, None] ** (powers - 2)
+    return np.asarray(np.sum(pieces.coefficients[:, 2:] * factors, axis=1))
+
+
+@dataclass(frozen=True)
+class PauseTimes:
+    """Times at which many motions pause: to be looked at, or since what drives them changes.
+
+    Attributes:
+        times: s, rising.
+        looks: place of each among the times that were asked for, or -1.
+        held: coefficients that hold up to each, shape (symbols, times), in their order.
+        abrupt: where forces may jump.
+    """
+
+    times: Array
+    looks: list[int]
+    held: Array
+    abrupt: list[bool]
+
+    @classmethod
+    def of(cls, asked: Array, stretches: ForcingIntervals) -> PauseTimes:
+        """Of the times that were asked for, and those of the prescribed motions."""
+        times = np.union1d(asked, stretches.breaks)
+        places = {time: place for place, time in enumerate(asked.tolist())}
+        return cls(
+            times,
+            [places.get(time, -1) for time in times.tolist()],
+            stretches.table(np.searchsorted(stretches.breaks, times, "left")),
+            [time in stretches.abrupt for time in times.tolist()],
+        )

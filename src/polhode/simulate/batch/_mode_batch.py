@@ -1,0 +1,199 @@
+"""Many motions that go abreast through one contact mode, for as long as each stays in it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from polhode.algebra import Symbol
+from polhode.derive import Guard
+from polhode.model import Phase
+from polhode.simulate._names import Name
+from polhode.simulate.batch._batch_results import LAST, BatchResults, Rows
+from polhode.simulate.batch._batch_segment import STILL, BatchSegment
+from polhode.simulate.batch._batch_stage import NONE, BatchArrivals, BatchStage
+from polhode.simulate.contact._mode_state import ModeState
+from polhode.simulate.integrate._stepping import Array
+
+_AT_ONCE = 4096  # motions that are taken up together: memory is bounded, lanes are full
+_LANDED = 1e-10  # slip speed, relative to the velocities around, that is none
+
+Phases = tuple[Phase, ...]
+Stays = Callable[[Phases], BatchSegment]
+Starts = Callable[[int], Mapping[Name, Any]]
+
+
+@dataclass(frozen=True)
+class Group:
+    """Motions that are taken up together in one mode.
+
+    Attributes:
+        rows: which ones they are.
+        begin: s, shape (motions,).
+        states: by symbol, shape (motions,).
+        scales: size of the velocities that slips are the difference of, m/s.
+        entries: of the mode; None where a motion starts in it.
+        changes: of mode so far.
+    """
+
+    rows: Rows
+    begin: Array
+    states: Mapping[Symbol, Array]
+    scales: Array
+    entries: Sequence[ModeState | None]
+    changes: Sequence[int]
+
+
+@dataclass(frozen=True)
+class BatchExit:
+    """Where a motion leaves a mode.
+
+    Attributes:
+        phases: of the contacts, in the mode.
+        guard: that ended it; None for a jerk of a support.
+        time: s.
+        state: by symbol.
+        changes: of mode before.
+    """
+
+    phases: Phases
+    guard: Guard | None
+    time: float
+    state: Mapping[Symbol, float]
+    changes: int
+
+
+class ModeBatch:
+    """Motions of one system, each with its own numbers, in their first mode.
+
+    Args:
+        stays: what many motions do in a mode.
+        sightings: where they are seen and what happens to them.
+
+    Attributes:
+        sightings: the same.
+        lost: motions that are to be followed by themselves from their start.
+    """
+
+    def __init__(self, stays: Stays, sightings: BatchResults) -> None:
+        self._stays = stays
+        self.sightings = sightings
+        self.lost: set[int] = set()
+
+    def start(self, row: int) -> None:
+        """Take up a motion of which it is not clear what mode it starts in."""
+        self.lost.add(row)
+
+    def run(self) -> None:
+        """Follow all that wait for others, until nobody does."""
+
+    def together(self, phases: Phases, group: Group) -> None:
+        """Follow motions through one mode."""
+        stay = self._stays(phases)
+        constants = self.sightings.constants_from(group.rows, group.begin)
+        launch = stay.launch(group.begin, group.states, constants, group.scales)
+        clear = stay.clear(launch)
+        for i in np.flatnonzero(~clear).tolist():
+            self._doubt(int(group.rows[i]), group.entries[i])
+        which = np.flatnonzero(clear)
+        for begin in range(0, len(which), _AT_ONCE):
+            self._abreast(phases, group, launch, which[begin : begin + _AT_ONCE])
+
+    def _leave(self, row: int, departure: BatchExit) -> None:
+        """A motion leaves the mode, and does not end there."""
+        self.lost.add(row)
+
+    def _doubt(self, row: int, entry: ModeState | None) -> None:
+        """A motion begins where one cannot be sure that it stays in the mode at all."""
+        self.lost.add(row)
+
+    def _abreast(self, phases: Phases, group: Group, launch: BatchStage, which: Rows) -> None:
+        stay, rows, launch = self._stays(phases), group.rows[which], launch.some(which)
+        found = self._landed(stay, rows, launch, stay.follow(launch, self.sightings.times[1:]))
+        self._note(stay, rows, launch, found)
+        self.lost |= set(rows[~found.good].tolist())
+        on = found.good & (found.guard == NONE)
+        over = found.end >= self.sightings.times[-1]
+        self._finish(stay, rows, found, on & over, "", stay.mode)
+        self._go_on(phases, group, which, found, on & ~over, None)
+        for k, ending in enumerate(stay.endings):
+            here = found.good & (found.guard == k)
+            if ending.kind:
+                self._finish(stay, rows, found, here, ending.kind, ending.mode)
+            else:
+                self._go_on(phases, group, which, found, here, ending.guard)
+
+    def _go_on(
+        self,
+        phases: Phases,
+        group: Group,
+        which: Rows,
+        found: BatchArrivals,
+        here: NDArray[np.bool_],
+        guard: Guard | None,
+    ) -> None:
+        """Motions go on in another mode."""
+        symbols = self._stays(phases).states
+        for j in np.flatnonzero(here).tolist():
+            state = dict(zip(symbols, found.states[-1, :, j].tolist(), strict=True))
+            changes = group.changes[which[j]]
+            departure = BatchExit(phases, guard, float(found.end[j]), state, changes)
+            self._leave(int(group.rows[which[j]]), departure)
+
+    def _landed(
+        self, stay: BatchSegment, rows: Rows, launch: BatchStage, found: BatchArrivals
+    ) -> BatchArrivals:
+        """The arrivals, moved on to where slips vanish that nearly have.
+
+        What is left of the way is so short that it takes no time to speak of.
+        """
+        states, end, good = found.states.copy(), found.end.copy(), found.good.copy()
+        good &= found.guard != stay.doubtful
+        for k, ending in enumerate(stay.endings):
+            here = np.flatnonzero(found.guard == k)
+            if ending.slips is None or not len(here):
+                continue
+            constants = self.sightings.constants_until(rows[here], end[here])
+            there = launch.some(here).moved(
+                end[here], states[-1][:, here], stay.ordered(constants, len(here))
+            )
+            rates = stay.rates(there)
+            places = [stay.states.index(s) for s in ending.slips]
+            slip, change = there.states[places], rates[places]
+            left = -np.sum(slip * change, axis=0) / np.sum(change * change, axis=0)
+            states[-1][:, here] += left * rates
+            end[here] += left
+            miss = np.hypot(*(slip + left * change))
+            good[here] &= miss <= _LANDED / STILL * launch.least[k, here]
+        return replace(found, states=states, end=end, good=good)
+
+    def _note(
+        self, stay: BatchSegment, rows: Rows, launch: BatchStage, found: BatchArrivals
+    ) -> None:
+        """States at the looks before the last."""
+        starts = np.flatnonzero(launch.begin == 0.0)
+        self.sightings.note(0, stay, rows[starts], launch.states[:, starts])
+        for look, time in enumerate(self.sightings.times[1:-1]):
+            there = np.flatnonzero((launch.begin <= time) & (time < found.end))
+            self.sightings.note(look + 1, stay, rows[there], found.states[look][:, there])
+
+    def _finish(
+        self,
+        stay: BatchSegment,
+        rows: Rows,
+        found: BatchArrivals,
+        here: NDArray[np.bool_],
+        kind: str,
+        mode: str,
+    ) -> None:
+        """The end of motions, by an event or not."""
+        which = np.flatnonzero(here)
+        self.sightings.note(LAST, stay, rows[which], found.states[-1][:, which])
+        for row, time in zip(rows[which].tolist(), found.end[which].tolist(), strict=True):
+            self.sightings.finish(row, time, mode)
+            if kind:
+                self.sightings.happened(row, time, kind)

@@ -1,0 +1,138 @@
+"""Where bodies and supports meet, in numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from polhode.algebra import Expr, linear_parts
+from polhode.derive import Automaton, Mode, Touch
+from polhode.simulate.contact._state import Function, State
+from polhode.simulate.integrate._number_types import NumberType
+from polhode.simulate.integrate._stepping import Array
+
+_ROUNDING = 16  # steps of rounding of the coordinates: a distance from an edge that is none
+
+
+class Touching:
+    """Where bodies and supports meet, from the shared state."""
+
+    def __init__(
+        self,
+        modes: Automaton,
+        compiled: Callable[[Sequence[Expr]], Function],
+        numbers: NumberType,
+    ) -> None:
+        self._compiled = compiled
+        self._numbers = numbers
+        self._edges = any(touch.reserve for touch in modes.apart.touches)
+        self._here = self._seen(modes.apart)
+        self._there = self._seen(modes.beyond) if self._edges else self._here
+        self._shape = (len(modes.contacts), 3, len(modes.apart.equations.speeds))
+
+    def _seen(self, mode: Mode) -> Function:
+        speeds = mode.equations.speeds
+        motion = mode.equations.kinetics
+        velocities = [v for t in mode.touches for v in (*t.slip, t.closing)]
+        parts = [linear_parts(motion.on_speeds(v), speeds) for v in velocities]
+        return self._compiled(
+            [
+                *(t.gap for t in mode.touches),
+                *(t.reserve for t in mode.touches),
+                *(t.reserve.chain(motion.rate) for t in mode.touches),
+                *(v for t in mode.touches for v in _support_velocity(mode, t)),
+                *(rest for _, rest in parts),
+                *(c for row, _ in parts for c in row),
+            ]
+        )
+
+    def at(self, place: State, beyond: frozenset[int]) -> list[ContactKinematics]:
+        """Every contact, at one instant; some of them beyond the edge of their support."""
+        here = self._meetings(self._here, place)
+        if not beyond:
+            return here
+        there = self._meetings(self._there, place)
+        return [there[i] if i in beyond else meeting for i, meeting in enumerate(here)]
+
+    def beyond(self, place: State) -> frozenset[int]:
+        """The contacts that are beyond the edge of their support, or are about to be."""
+        if not self._edges:
+            return frozenset()
+        rounding = _ROUNDING * self._numbers.spacing(max(abs(q) for q in place.coordinates))
+        found = enumerate(self._meetings(self._here, place))
+        return frozenset(i for i, meeting in found if meeting.is_beyond(rounding))
+
+    def _meetings(self, function: Function, place: State) -> list[ContactKinematics]:
+        state = np.concatenate([place.coordinates, place.speeds])
+        found = function(state, place.time, ())
+        count = self._shape[0]
+        gaps, reserves, drifts = found[: 3 * count].reshape(3, count)
+        supports, rests = found[3 * count : 9 * count].reshape(2, count, 3)
+        arms = found[9 * count :].reshape(self._shape)
+        return [
+            ContactKinematics(
+                gap,
+                reserve,
+                drift,
+                rest + arm @ place.speeds,
+                arm,
+                support,
+                np.max(np.abs(rest) + np.abs(arm) @ np.abs(place.speeds), initial=0.0),
+            )
+            for gap, reserve, drift, support, rest, arm in zip(
+                gaps, reserves, drifts, supports, rests, arms, strict=True
+            )
+        ]
+
+
+@dataclass(frozen=True)
+class ContactKinematics:
+    """A contact at one instant.
+
+    Attributes:
+        gap: m.
+        reserve: how far it is on this side of the support's edge, m.
+        drift: rate of that, m/s.
+        velocity: of the body's point against the support: along it twice, and away from it, m/s.
+        arms: the same per unit of every shared speed, shape (3, speeds).
+        support: velocity of the support there, in inertial space, m/s.
+        scale: size of what the velocity is the sum of, m/s.
+    """
+
+    gap: float
+    reserve: float
+    drift: float
+    velocity: Array
+    arms: Array
+    support: Array
+    scale: float
+
+    def is_beyond(self, rounding: float) -> bool:
+        """Whether it is beyond the edge; at the edge, whether it does not come back from there.
+
+        Args:
+            rounding: distance from the edge that is none, m.
+        """
+        if abs(self.reserve) <= rounding:
+            return bool(self.drift <= 0)
+        return bool(self.reserve < 0)
+
+    def room(self, *, is_beyond: bool) -> Any:
+        """How far it is from the edge on the side whose surface it touches, m."""
+        return max(-self.reserve if is_beyond else self.reserve, 0.0)
+
+    def leaving(self, *, is_beyond: bool) -> Any:
+        """Rate of that, m/s."""
+        return -self.drift if is_beyond else self.drift
+
+
+def _support_velocity(mode: Mode, touch: Touch) -> tuple[Expr, ...]:
+    motion = mode.equations.kinetics
+    contact = touch.contact
+    place = motion.places[contact.body] + contact.arm
+    velocity = motion.resolve(contact.on.velocity(place).express(contact.on.axes))
+    labels = (*contact.on.tangents, contact.on.normal)
+    return tuple(velocity.dot(contact.on.axes[label]) for label in labels)

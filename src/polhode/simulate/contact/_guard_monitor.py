@@ -1,0 +1,225 @@
+"""Where a stretch of a motion ends, since a guard of its contact mode falls."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+
+from polhode.algebra import Expr, Symbol
+from polhode.base import NumericError
+from polhode.derive import Guard
+from polhode.simulate._absolute_values import from_zero
+from polhode.simulate._dynamics import CLOCK
+from polhode.simulate._segment import TrajectoryPiece
+from polhode.simulate.contact._carried import gap_symbol, room_symbol
+from polhode.simulate.contact._contact_kinematics import ContactKinematics
+from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
+from polhode.simulate.contact._lift_off import STILL, LiftOff
+from polhode.simulate.contact._mode_state import ModeState, beyond
+from polhode.simulate.contact._select_mode import painleve
+from polhode.simulate.contact._transition import index_of
+from polhode.simulate.integrate._crossing import first_fall
+from polhode.simulate.integrate._rows import rows
+from polhode.simulate.integrate._stepping import Array, broken
+from polhode.simulate.integrate._stop_criteria import Stop
+
+_JAMMED = 1e-6  # of what sliding has in reserve before it jams: as good as none
+_INSTANT = 8  # steps of rounding of the time, over which nothing can be told from a height
+
+
+class DenseOutput(Protocol):
+    """The states along a stretch of the motion, in doubles, by a place that rises with the time."""
+
+    @property
+    def symbols(self) -> tuple[Symbol, ...]:
+        """The states."""
+
+    @property
+    def turned(self) -> Mapping[Symbol, Symbol]:
+        """Of large angles: the symbol of the angle less whole turns."""
+
+    @property
+    def constants(self) -> Array:
+        """The parameters."""
+
+    @property
+    def knots(self) -> Array:
+        """The places between which everything is smooth."""
+
+    def at(self, places: Array) -> Array:
+        """States, shape (states, places)."""
+
+    def times(self, places: Array) -> Array:
+        """When, s."""
+
+    def passed(self, places: Array) -> Array:
+        """Since the mode was entered, s; zero where nothing can be told from a height yet."""
+
+
+@dataclass(frozen=True)
+class _Seen:
+    """A part of a motion in doubles, by the time; and when its mode was entered, s."""
+
+    part: TrajectoryPiece
+    begin: float
+
+    @property
+    def symbols(self) -> tuple[Symbol, ...]:
+        return self.part.solution.symbols
+
+    @property
+    def turned(self) -> Mapping[Symbol, Symbol]:
+        return self.part.solution.turned
+
+    @property
+    def constants(self) -> Array:
+        return self.part.constants
+
+    @property
+    def knots(self) -> Array:
+        return self.part.solution.steps
+
+    def at(self, places: Array) -> Array:
+        return self.part.solution.at(places)
+
+    def times(self, places: Array) -> Array:
+        return places
+
+    def passed(self, places: Array) -> Array:
+        passed = places - self.begin
+        return np.where(passed <= _INSTANT * np.spacing(self.begin), 0.0, passed)
+
+
+def _time(seen: DenseOutput, place: float) -> float:
+    return float(seen.times(np.array([place]))[0])
+
+
+@dataclass(frozen=True)
+class GuardMonitor:
+    """Looks at the guards of a mode along a stretch of the motion.
+
+    Attributes:
+        machine: the modes.
+        near_flat: value at which an expression that must stay positive counts as gone.
+        mode: the one that the motion is in.
+        entry: where it was entered.
+    """
+
+    machine: HybridSystem
+    near_flat: float
+    mode: CompiledMode
+    entry: ModeState
+
+    @cached_property
+    def meetings(self) -> list[ContactKinematics]:
+        """What meets where the mode is entered."""
+        return self.machine.touching.at(self.entry.place, beyond(self.entry.phases))
+
+    def cut(self, part: TrajectoryPiece) -> tuple[TrajectoryPiece, Guard | None]:
+        """The part up to the first guard that falls, and that guard."""
+        seen = _Seen(part, self.entry.place.time)
+        fall = self.first_fall(seen)
+        if fall is not None:
+            return replace(part, end=fall[0]), fall[1]
+        if part.solution.stop is Stop.STUCK:
+            raise self.broken(seen)
+        return part, self.landing(part.solution.vanished)
+
+    def first_fall(self, seen: DenseOutput) -> tuple[float, Guard] | None:
+        """Where the first guard falls, and that guard.
+
+        Raises:
+            NumericError: where sliding jams before.
+        """
+        watched = [g for g in self.mode.mode.guards if g.kind != "sticks"]
+        watched += self.mode.passages
+        if not (watched or self.mode.can_jam):
+            return None
+        values = self._values(seen, watched)
+        if self.mode.passages:
+            values = from_zero(values, seen.knots, len(watched) - len(self.mode.passages))
+        fall = first_fall(values, seen.knots)
+        if fall is None:
+            return None
+        if fall.guard == len(watched):
+            raise self._jammed(seen, fall.time)
+        return fall.time, watched[fall.guard]
+
+    def broken(self, seen: DenseOutput) -> NumericError:
+        """Why the motion cannot be continued where a stretch ends: Painlevé's paradox, if it is."""
+        last = seen.knots[-1]
+        if self.mode.can_jam:
+            reserves = self._values(seen, [])(seen.knots)[-1]
+            if reserves[-1] <= _JAMMED * np.max(reserves):
+                return self._jammed(seen, last)
+        return broken(_time(seen, last))
+
+    def _jammed(self, seen: DenseOutput, place: float) -> NumericError:
+        return painleve(", ".join(e.name for e in self.mode.sliding), _time(seen, place))
+
+    def _values(self, seen: DenseOutput, watched: list[Guard]) -> Callable[[Array], Array]:
+        """Values of the guards, and how far sliding is from jamming."""
+        mode = self.mode
+        expressions = [self.looked_at(guard) for guard in watched]
+        size = len(mode.mode.equations.speeds)
+        masses = [e for row in mode.mode.equations.mass.rows for e in row] if mode.can_jam else []
+        arguments = (*seen.symbols, *mode.dynamics.parameters, CLOCK)
+        wanted = [*expressions, *masses]
+        function = mode.dynamics.function(wanted, arguments, seen.turned)
+        leaving = self._leaving(watched)
+
+        def looked(places: Array) -> Array:
+            with np.errstate(all="ignore"):
+                found = function(*seen.at(places), *seen.constants, seen.times(places))
+            values: Array = rows(found, len(places))
+            for k, rise in leaving.items():
+                values[k] = rise.mean(values[k], seen.passed(places))
+            own = values[: len(expressions)]
+            if not mode.can_jam:
+                return own
+            matrices = values[len(expressions) :].T.reshape(-1, size, size)
+            with np.errstate(all="ignore"):
+                return np.vstack([own, np.linalg.det(matrices)])
+
+        return looked
+
+    def _leaving(self, watched: list[Guard]) -> dict[int, LiftOff]:
+        """The guards of contacts that have just opened or crossed an edge, and how these rise."""
+        found, entry = {}, self.entry
+        for k, guard in enumerate(watched):
+            i = index_of(guard, self.machine)
+            if i < 0:
+                continue
+            meeting, is_beyond = self.meetings[i], entry.phases[i].is_beyond
+            still = float(self.machine.numbers.finer(STILL) * meeting.scale)
+            if guard.kind == "touches down" and entry.gaps.get(i) == 0.0:
+                found[k] = LiftOff(float(meeting.velocity[2]), still)
+            if guard.kind == "crosses the edge" and entry.rooms[i] == 0.0:
+                found[k] = LiftOff(float(meeting.leaving(is_beyond=is_beyond)), still)
+        return found
+
+    def looked_at(self, guard: Guard) -> Expr:
+        """What falls through zero where a guard does."""
+        if guard.kind == "touches down" and guard.contact is not None:
+            return Expr.generator(gap_symbol(guard.contact))
+        if guard.kind == "crosses the edge" and guard.contact is not None:
+            return Expr.generator(room_symbol(guard.contact))
+        if guard.kind == "near-flat":
+            return guard.positive - self.near_flat
+        return guard.positive
+
+    def landing(self, vanished: int | None) -> Guard | None:
+        """The guard of the contact whose slip velocity vanishes, if one does."""
+        if vanished is None:
+            return None
+        i = sorted(self.entry.slips)[vanished]
+        name = self.machine.automaton.contacts[i].name
+        return next(
+            g
+            for g in self.mode.mode.guards
+            if g.kind == "sticks" and g.contact and g.contact.name == name
+        )

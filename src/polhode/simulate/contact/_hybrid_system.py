@@ -1,0 +1,363 @@
+"""A contact mode in numbers: what moves it, what it feels, and how others are handed over to it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from polhode.algebra import Compiled, Expr, Symbol, compile_program, linear_parts
+from polhode.base import NumericError
+from polhode.derive import Automaton, Mode
+from polhode.model import Contact, Phase, Sliding
+from polhode.simulate._absolute_values import Here, Sides, passages_of, sides_at
+from polhode.simulate._dynamics import CLOCK, Dynamics
+from polhode.simulate.contact._carried import dynamics_of
+from polhode.simulate.contact._contact_kinematics import Touching
+from polhode.simulate.contact._state import Function, State
+from polhode.simulate.forcing._prescribed_motion import PrescribedMotion
+from polhode.simulate.integrate._flow import Flow, flow_of
+from polhode.simulate.integrate._number_types import DOUBLES, NumberType
+from polhode.simulate.integrate._rows import rows
+from polhode.simulate.integrate._stepping import Array, Integrator, Stepper
+
+Constants = Mapping[Symbol, float]
+
+
+class HybridSystem:
+    """The modes of one system with one set of numbers.
+
+    Args:
+        automaton: the modes.
+        drive: motions that are given.
+        constants: value of every parameter.
+        integrator: what integrates them.
+        tolerance: of its steps.
+        numbers: what is computed with.
+        rough: the same machine in doubles; None for that itself.
+    """
+
+    def __init__(
+        self,
+        automaton: Automaton,
+        drive: PrescribedMotion,
+        constants: Constants,
+        integrator: Integrator,
+        tolerance: float | None,
+        numbers: NumberType = DOUBLES,
+        rough: HybridSystem | None = None,
+    ) -> None:
+        self.numbers = numbers
+        self.rough = rough or self
+        self.automaton = automaton
+        self.drive = drive
+        self.take(constants)
+        self.integrator = integrator
+        self.tolerance = tolerance
+        self._modes: dict[tuple[Phase, ...], CompiledMode] = {}
+        self._functions: dict[tuple[Expr, tuple[Symbol, ...]], Compiled] = {}
+
+    def take(self, constants: Constants) -> None:
+        """Take other values of the same parameters, for another motion from the beginning."""
+        self._held = self.drive.constants(0.0)
+        self.constants: Constants = dict(constants) | dict(self._held)
+
+    def move_on(self, now: float) -> None:
+        """Take the coefficients of the prescribed motions that hold from an instant on."""
+        held = self.drive.constants(now)
+        if held is not self._held:
+            self._held = held
+            self.constants = {**self.constants, **held}
+
+    def mode(self, phases: tuple[Phase, ...]) -> CompiledMode:
+        """The machinery of a mode, made when it is first needed."""
+        if phases not in self._modes:
+            self._modes[phases] = CompiledMode(self, self.automaton.mode(phases))
+        return self._modes[phases]
+
+    def value(self, expression: Expr) -> Any:
+        """The value of an expression of constants."""
+        known = tuple(self.constants)
+        if (expression, known) not in self._functions:
+            function = compile_program([expression], known).function(self.numbers.scalars)
+            self._functions[expression, known] = function
+        found = self._functions[expression, known](*self.constants.values())[0]
+        return self.numbers.scalar(found)
+
+    @cached_property
+    def apart(self) -> CompiledMode:
+        """The mode in which nothing touches."""
+        return self.mode(self.automaton.apart.phases)
+
+    @cached_property
+    def touching(self) -> Touching:
+        """What every contact sees, from the shared state."""
+        return Touching(self.automaton, self.apart.function, self.numbers)
+
+
+class CompiledMode:
+    """One contact mode with numbers."""
+
+    def __init__(self, machine: HybridSystem, mode: Mode, dynamics: Dynamics | None = None) -> None:
+        self.mode = mode
+        self._machine = machine
+        self._numbers = machine.numbers
+        self._last: tuple[Constants, Array, list[float]] = ({}, np.empty(0), [])
+        self._faces: dict[int, CompiledMode] = {}
+        self.dynamics = dynamics or dynamics_of(
+            machine.automaton, mode, machine.drive.expressions, machine.constants
+        )
+        self.passages = passages_of(self.dynamics)
+
+    def on(self, sides: Sides) -> CompiledMode:
+        """The same mode on given sides of all absolute values."""
+        dynamics = self.dynamics.on(sides)
+        if dynamics is self.dynamics:
+            return self
+        if id(dynamics) not in self._faces:
+            self._faces[id(dynamics)] = CompiledMode(self._machine, self.mode, dynamics)
+        return self._faces[id(dynamics)]
+
+    def here(self, state: Mapping[Symbol, Any], time: Any) -> Here:
+        """An instant of a motion in this mode."""
+        return Here(state, self.parameters, time, self._numbers)
+
+    @property
+    def parameters(self) -> Array:
+        """The constants, in the order of the programs; those of prescribed motions change."""
+        return self._taken[1]
+
+    @property
+    def _taken(self) -> tuple[Constants, Array, list[float]]:
+        """What the constants were read from; the constants as an array, and as a list."""
+        if self._last[0] is not self._machine.constants:
+            known = self._machine.constants
+            values = self._numbers.array([known[s] for s in self.dynamics.parameters])
+            self._last = (known, values, values.tolist())
+        return self._last
+
+    @cached_property
+    def flow(self) -> Flow:
+        """What is integrated."""
+        return flow_of(self.dynamics, reduced=self._machine.integrator.dense)
+
+    @cached_property
+    def stepper(self) -> Stepper:
+        """The compiled flow."""
+        return self._machine.integrator.prepare(self.flow, self._machine.tolerance)
+
+    def rest(self, state: Mapping[Symbol, float], time: float) -> Array:
+        """A state as the flow takes it: less what is known of it as functions of time."""
+        return self.flow.rest(state, self.parameters, time)
+
+    @cached_property
+    def sides(self) -> Compiled:
+        """What stays positive where the equations hold: of the core, the parameters, the time."""
+        sides = [guard.positive for guard in self.mode.guards if guard.kind == "near-flat"]
+        given = (*self.flow.core.symbols, *self.dynamics.parameters, CLOCK)
+        return self.dynamics.program(sides, given).function()
+
+    def function(self, expressions: Iterable[Expr], extra: Sequence[Symbol] = ()) -> Function:
+        """Expressions as a function of the state, the time and values of extra symbols."""
+        states = tuple(s for s in self.dynamics.states if s not in self.dynamics.carried)
+        known = (*states, *extra, *self.dynamics.parameters, CLOCK)
+        if self.dynamics.undecided:
+            return self._function_by_sides(tuple(expressions), states, tuple(extra))
+        compiled = self.dynamics.program(expressions, known).function(self._numbers.scalars)
+
+        def values(state: Array, time: float, more: Sequence[float] = ()) -> Array:
+            constants = self._taken[2]
+            try:
+                found = compiled(*state[: len(states)].tolist(), *more, *constants, time)
+            except (ArithmeticError, ValueError) as error:
+                raise singular(time) from error
+            return np.asarray(self._numbers.array(found))
+
+        return values
+
+    def _function_by_sides(
+        self, expressions: tuple[Expr, ...], states: tuple[Symbol, ...], extra: tuple[Symbol, ...]
+    ) -> Function:
+        """The same where absolute values occur: on whichever sides a state is."""
+        known: dict[int, Function] = {}
+
+        def values(state: Array, time: float, more: Sequence[float] = ()) -> Array:
+            now = dict(zip(states, state[: len(states)].tolist(), strict=True))
+            face = self.on(sides_at(self.dynamics, self.here(now, time)))
+            if id(face) not in known:
+                known[id(face)] = face.function(expressions, extra)
+            return known[id(face)](state, time, more)
+
+        return values
+
+    # -- to and from the shared state -----------------------------------------------------------
+
+    @cached_property
+    def _lift(self) -> Function:
+        apart = self._machine.automaton.apart.equations
+        wanted = (*apart.coordinates, *apart.speeds)
+        lifted = self.mode.lifted
+        return self.function([lifted.get(s, Expr.generator(s)) for s in wanted])
+
+    def lifted(self, time: float, state: Mapping[Symbol, float], work: float) -> State:
+        """The shared state of a state of this mode."""
+        own = [s for s in self.dynamics.states if s not in self.dynamics.carried]
+        values = self._lift(self._numbers.array([state[s] for s in own]), time, ())
+        size = len(self._machine.automaton.apart.equations.coordinates)
+        return State(time, values[:size], values[size:], work)
+
+    @cached_property
+    def _projection(self) -> Function:
+        """Shared speeds as this mode has them: what they are at rest, and per speed of its own."""
+        motion = self.mode.equations.kinetics
+        apart = self._machine.automaton.apart.equations
+        parts = [
+            linear_parts(
+                motion.on_speeds(self.mode.lifted.get(s, Expr.generator(s))), motion.speeds
+            )
+            for s in apart.speeds
+        ]
+        return self.function([rest for _, rest in parts] + [c for row, _ in parts for c in row])
+
+    def entered(self, place: State) -> tuple[Array, Array]:
+        """Coordinates and speeds of this mode, and the impulse-free projection on its motions.
+
+        What the constraints take away is taken by impulses along their reactions: momentum along
+        every motion that remains is kept, M P u = M (u_shared − rest) along P.
+        """
+        apart = self._machine.apart
+        names = apart.mode.equations.coordinates
+        values = dict(zip(names, place.coordinates, strict=True))
+        numbers = self._numbers
+        coordinates = numbers.array([values[s] for s in self.mode.equations.coordinates])
+        size = len(self.mode.equations.speeds)
+        state = np.concatenate([coordinates, numbers.array(np.zeros(size))])
+        found = self._projection(state, place.time, ())
+        rest, columns = found[: len(place.speeds)], found[len(place.speeds) :]
+        allowed = columns.reshape(len(place.speeds), size)
+        momentum = apart.mass(place) @ (place.speeds - rest)
+        reduced = allowed.T @ apart.mass(place) @ allowed
+        return coordinates, numbers.solved(reduced, allowed.T @ momentum)
+
+    @cached_property
+    def _mass(self) -> Function:
+        return self.function([e for row in self.mode.equations.mass.rows for e in row])
+
+    def mass(self, place: State) -> Array:
+        """The mass matrix, of the mode in which nothing touches."""
+        size = len(place.speeds)
+        state = np.concatenate([place.coordinates, place.speeds])
+        return self._mass(state, place.time, ()).reshape(size, size)
+
+    # -- forces and slips -----------------------------------------------------------------------
+
+    @property
+    def directions(self) -> tuple[Symbol, ...]:
+        """Symbols for the direction and speed of slip, contact after contact."""
+        return tuple(s for e in self.sliding for s in (*e.direction, e.slip_speed))
+
+    @property
+    def sliding(self) -> tuple[Sliding, ...]:
+        """The contacts that slide with friction."""
+        return tuple(e for e in self.mode.equations.system.elements if isinstance(e, Sliding))
+
+    def sliding_at(self, contact: Contact) -> Sliding:
+        """A contact as it slides with friction."""
+        return next(e for e in self.sliding if e.name == contact.name)
+
+    @cached_property
+    def _contact_forces(self) -> Function:
+        components = self.mode.equations.components
+        wanted = []
+        for touch, phase in zip(self.mode.touches, self.mode.phases, strict=True):
+            contact = touch.contact
+            labels = (*contact.on.tangents, contact.on.normal)
+            if not phase.flies:
+                wanted += [components.get(contact.component(label), Expr.of(0)) for label in labels]
+            else:
+                wanted += [Expr.of(0)] * 3
+        return self.function(wanted, self.directions)
+
+    def contact_forces(self, state: Array, time: float, directions: Sequence[float]) -> Array:
+        """Force along the two tangents and the normal of every contact, shape (contacts, 3)."""
+        return self._contact_forces(state, time, directions).reshape(-1, 3)
+
+    @cached_property
+    def _closing_rates(self) -> Function:
+        motion = self.mode.equations.kinetics
+        rates = [touch.closing.chain(motion.rate) for touch in self.mode.touches]
+        return self.function(rates, self.directions)
+
+    def closing_rates(self, state: Array, time: float) -> Array:
+        """How fast every contact that is open is opening faster, m/s², shape (contacts,)."""
+        return self._closing_rates(state, time, [0.0] * len(self.directions))
+
+    @cached_property
+    def _room_rates(self) -> Function:
+        rate = self.mode.equations.kinetics.rate
+        return self.function(
+            [t.room.chain(rate).chain(rate) for t in self.mode.touches], self.directions
+        )
+
+    def room_rates(self, state: Array, time: float, directions: Sequence[float]) -> Array:
+        """How fast every contact leaves the edge of its support faster, m/s², shape (contacts,)."""
+        return self._room_rates(state, time, directions)
+
+    @cached_property
+    def _masses(self) -> Function:
+        entries = [e for row in self.mode.equations.mass.rows for e in row]
+        return self.function(entries, self.directions)
+
+    @cached_property
+    def can_jam(self) -> bool:
+        """Whether the friction reaches into the mass matrix."""
+        entries = [e for row in self.mode.equations.mass.rows for e in row]
+        return any(set(self.directions) & entry.symbols() for entry in entries)
+
+    def jamming(self, state: Array, time: float, directions: Sequence[float]) -> float:
+        """Determinant of the mass matrix over that without friction; sliding needs it positive."""
+        if not self.can_jam:
+            return 1.0
+        size = len(self.mode.equations.speeds)
+        with_friction, without = (
+            np.linalg.det(self._masses(state, time, d).reshape(size, size))
+            for d in (directions, [0.0] * len(directions))
+        )
+        return float(with_friction / without)
+
+    @cached_property
+    def slip_changes(self) -> tuple[Expr, ...]:
+        """Rates of the slip velocities of all contacts, m/s²."""
+        motion = self.mode.equations.kinetics
+        touches = self.mode.touches
+        return tuple(slip.chain(motion.rate) for touch in touches for slip in touch.slip)
+
+    @cached_property
+    def _slip_rates(self) -> Function:
+        return self.function(self.slip_changes, self.directions)
+
+    def slip_rates_along(self, state: Array, time: float, directions: Sequence[Any]) -> Array:
+        """The same for arrays of directions, shape (contacts, 2, directions)."""
+        states = tuple(s for s in self.dynamics.states if s not in self.dynamics.carried)
+        known = (*states, *self.directions, *self.dynamics.parameters, CLOCK)
+        function = self.dynamics.function(self.slip_changes, known)
+        with np.errstate(all="ignore"):
+            found = function(*state[: len(states)], *directions, *self.parameters, time)
+        count = max(np.size(direction) for direction in directions)
+        rates: Array = rows(found, count)
+        return rates.reshape(-1, 2, count)
+
+    def slip_rates(self, state: Array, time: float, directions: Sequence[float]) -> Array:
+        """Rate of the slip velocity of every contact, m/s², shape (contacts, 2)."""
+        return self._slip_rates(state, time, directions).reshape(-1, 2)
+
+
+def singular(time: float) -> NumericError:
+    """An expression without a finite value."""
+    return NumericError(
+        f"the equations have no finite value at t = {float(time):.9g} s",
+        expected="a motion away from singular positions",
+        advice="start elsewhere, or end before that time",
+    )

@@ -1,0 +1,155 @@
+"""Where a contact mode is entered, and what its constraints do to the speeds there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from polhode.algebra import Symbol
+from polhode.model import Phase
+from polhode.simulate._dynamics import WORK
+from polhode.simulate.contact._carried import gap_symbol, room_symbol, slip_symbols
+from polhode.simulate.contact._contact_kinematics import ContactKinematics
+from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
+from polhode.simulate.contact._state import State
+from polhode.simulate.integrate._number_types import DOUBLES, NumberType
+from polhode.simulate.integrate._stepping import Array
+
+
+@dataclass(frozen=True)
+class ModeState:
+    """A mode, and where it is entered.
+
+    Attributes:
+        phases: of every contact.
+        place: the shared state, after what the entry did to the speeds.
+        coordinates: of the mode.
+        speeds: of the mode.
+        onset: for contacts that begin to slip, the angle of the slip to come.
+        slips: slip velocities, by contact.
+        gaps: heights above the support of contacts that have just left it.
+        rooms: distances to the edge of their supports of contacts that touch, where there is one.
+    """
+
+    phases: tuple[Phase, ...]
+    place: State
+    coordinates: Array
+    speeds: Array
+    onset: dict[int, Any] = field(default_factory=dict)
+    slips: dict[int, Array] = field(default_factory=dict)
+    gaps: dict[int, float] = field(default_factory=dict)
+    rooms: dict[int, float] = field(default_factory=dict)
+
+    @property
+    def state(self) -> Array:
+        """Coordinates and speeds of the mode."""
+        return np.concatenate([self.coordinates, self.speeds])
+
+    def rounded(self) -> ModeState:
+        """The same in doubles."""
+        double = DOUBLES.array
+        return replace(
+            self,
+            place=self.place.rounded(),
+            coordinates=double(self.coordinates),
+            speeds=double(self.speeds),
+            onset={i: float(angle) for i, angle in self.onset.items()},
+            slips={i: double(slip) for i, slip in self.slips.items()},
+            gaps={i: float(gap) for i, gap in self.gaps.items()},
+            rooms={i: float(room) for i, room in self.rooms.items()},
+        )
+
+
+def entered(
+    machine: HybridSystem,
+    place: State,
+    phases: tuple[Phase, ...],
+    meetings: Sequence[ContactKinematics],
+    starting: frozenset[int],
+) -> ModeState:
+    """A mode with what entering it does to the speeds.
+
+    Args:
+        starting: contacts that begin to slip; in which direction remains to be found.
+    """
+    mode = machine.mode(phases)
+    coordinates, speeds = mode.entered(place)
+    after = _after(machine, place, mode, coordinates, speeds, meetings, phases)
+    sliding = [i for i, phase in enumerate(phases) if phase.slides]
+    none = machine.numbers.array(np.zeros(2))
+    slips = {i: none if i in starting else meetings[i].velocity[:2] for i in sliding}
+    onset = dict.fromkeys(sorted(starting), 0.0)
+    rooms = _rooms(mode, meetings)
+    return ModeState(phases, after, coordinates, speeds, onset, slips, rooms=rooms)
+
+
+def _rooms(mode: CompiledMode, meetings: Sequence[ContactKinematics]) -> dict[int, Any]:
+    """How far contacts that touch are from the edges of their supports."""
+    there = zip(mode.mode.touches, mode.mode.phases, meetings, strict=True)
+    return {
+        i: meeting.room(is_beyond=phase.is_beyond)
+        for i, (touch, phase, meeting) in enumerate(there)
+        if touch.reserve and not phase.flies
+    }
+
+
+def _after(
+    machine: HybridSystem,
+    place: State,
+    mode: CompiledMode,
+    coordinates: Array,
+    speeds: Array,
+    meetings: Sequence[ContactKinematics],
+    phases: tuple[Phase, ...],
+) -> State:
+    """The shared state in the mode; what its constraints did to the speeds did work."""
+    own = (*mode.mode.equations.coordinates, *mode.mode.equations.speeds)
+    values: dict[Any, float] = dict(zip(own, (*coordinates, *speeds), strict=True))
+    lifted = mode.lifted(place.time, values, place.work)
+    change = lifted.speeds - place.speeds
+    touching = [m for m, p in zip(meetings, phases, strict=True) if not p.flies]
+    if not touching or not np.any(change):
+        return lifted
+    arms = np.vstack([m.arms for m in touching])
+    impulse = machine.numbers.least(arms.T, machine.apart.mass(place) @ change)
+    middle = [m.velocity + m.support + m.arms @ change / 2 for m in touching]
+    return lifted.kicked(np.zeros_like(change), impulse @ np.concatenate(middle))
+
+
+def directions_of(entry: ModeState, numbers: NumberType = DOUBLES) -> list[Any]:
+    """Components of the slip directions, and slip speeds, of all sliding contacts."""
+    found = list[Any]()
+    for i, slip in sorted(entry.slips.items()):
+        size = numbers.size(slip)
+        if i in entry.onset:
+            found += [*numbers.direction(entry.onset[i]), 0.0]
+        else:
+            found += [slip[0] / size, slip[1] / size, size]
+    return found
+
+
+def state_on(machine: HybridSystem, entry: ModeState) -> dict[Symbol, Any]:
+    """All states where a mode is entered, those that are carried along included."""
+    mode = machine.mode(entry.phases)
+    equations, carried = mode.mode.equations, mode.dynamics.carried
+    own = (*equations.coordinates, *equations.speeds)
+    state = dict(zip(own, entry.state.tolist(), strict=True))
+    meetings = machine.touching.at(entry.place, beyond(entry.phases))
+    for i, touch in enumerate(mode.mode.touches):
+        gap, room = gap_symbol(touch.contact), room_symbol(touch.contact)
+        slips = slip_symbols(touch.contact)
+        if gap in carried:
+            state[gap] = entry.gaps.get(i, meetings[i].gap)
+        if room in carried:
+            state[room] = entry.rooms[i]
+        if slips[0] in carried:
+            state |= zip(slips, entry.slips[i].tolist(), strict=True)
+    return {**state, WORK: entry.place.work}
+
+
+def beyond(phases: tuple[Phase, ...]) -> frozenset[int]:
+    """The contacts that are beyond the edge of their support."""
+    return frozenset(i for i, phase in enumerate(phases) if phase.is_beyond)

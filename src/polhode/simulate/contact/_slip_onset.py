@@ -1,0 +1,270 @@
+"""The beginning of slip, at which its direction has no history.
+
+With the slip velocity s = ρ (cos ψ, sin ψ) the equations are ρ̇ = ṡ·ŝ and ρ ψ̇ = ṡ·ŝ', regular at
+ρ = 0 if ψ starts where ṡ·ŝ' vanishes, but infinitely stiff there: they are solved by collocation
+at Radau's points, which include the end of a step and not its beginning.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache as once
+
+import numpy as np
+from numpy.polynomial import legendre
+from numpy.typing import NDArray
+from threadpoolctl import ThreadpoolController
+
+from polhode.base import NumericError
+from polhode.simulate.integrate._crossing import bisected
+from polhode.simulate.integrate._stepping import Array
+
+_STAGES = 9
+_RESOLVED = 1e-14  # last coefficients of a step, relative to the largest
+_ROUNDED = 1e-11  # the same, of a series that a shorter step resolves no better: rounding
+_TURN = 10.0  # rad: what the rounding of an angle is relative to, as that of a small difference
+_NOISE = 1e-15  # of a slip speed, relative to its largest within a step
+_ENDED = 1e-12  # the same, beyond which no step is resolved
+_PARTS = np.concatenate([np.geomspace(1e-6, 0.02, 30), np.linspace(0.03, 1.0, 98)])
+_WELL_INSIDE, _CLOSER = (
+    0.2,
+    0.01,
+)  # part of a step at which slip ends in it that calls for a shorter
+_NEWTON = 12
+_SHORTEST = 1e-13
+
+
+def _radau() -> tuple[Array, Array]:
+    """Points of [0, 1] with 0 in front, and the matrix that differentiates through them."""
+    series = np.zeros(_STAGES + 1)
+    series[_STAGES], series[_STAGES - 1] = 1.0, -1.0
+    points = np.concatenate([[0.0], (np.sort(legendre.legroots(series).real) + 1) / 2])
+    points[-1] = 1.0
+    gaps = points[:, None] - points[None, :] + np.eye(len(points))
+    weights = 1 / np.prod(gaps, axis=1)
+    matrix = weights[None, :] / weights[:, None] / gaps
+    np.fill_diagonal(matrix, 0.0)
+    np.fill_diagonal(matrix, -np.sum(matrix, axis=1))
+    return points, matrix
+
+
+_POINTS, _SLOPES = _radau()
+_TO_SERIES = np.linalg.inv(legendre.legvander(2 * _POINTS - 1, _STAGES))
+
+
+@dataclass(frozen=True)
+class SlipOnset:
+    """A solution, step by step.
+
+    Attributes:
+        times: ends of the steps, s.
+        series: Legendre coefficients of the states, shape (steps, orders, states).
+        end: how far it goes; within the last step if the slip vanishes there, s.
+        vanished: which slip vanishes at the end, if one does.
+    """
+
+    times: Array
+    series: Array
+    end: float
+    vanished: int | None
+
+    def at(self, times: Array) -> Array:
+        """States, shape (states, times)."""
+        step = np.clip(np.searchsorted(self.times, times, "right") - 1, 0, len(self.series) - 1)
+        left, right = self.times[step], self.times[step + 1]
+        place = (2 * times - left - right) / (right - left)
+        return _values(place, self.series[step])
+
+
+def _values(place: Array, series: Array) -> Array:
+    """Legendre series, one per place: series (places, orders, states) to (states, places)."""
+    return np.asarray(
+        legendre.legval(place[None, :], np.transpose(series, (1, 2, 0)), tensor=False)
+    )
+
+
+Indices = NDArray[np.intp]
+#: Rates of all states, of angles ρ ψ̇: states (n, m) and times (m,) to (n, m).
+Rates = Callable[[Array, Array], Array]
+
+
+def slip_onset(
+    rates: Rates,
+    start: Array,
+    begin: float,
+    end: float,
+    pull: float,
+    enough: Callable[[float, Array], bool],
+    slips: int = 1,
+) -> SlipOnset:
+    """Integrate from the instant at which slip begins.
+
+    Args:
+        start: states, the last of them ρ = 0 and ψ of every slip.
+        pull: size of what ρ̇ is the difference of, m/s².
+        enough: whether an explicit method can go on, given the time since the beginning.
+        slips: how many begin.
+
+    Raises:
+        NumericError: where the slip has no beginning that could be found.
+    """
+    with _pools().limit(limits=1):  # on matrices this small, threads only wait for one another
+        angles = np.arange(len(start) - 2 * slips + 1, len(start), 2)
+        return _followed(rates, start, begin, end, pull, enough, angles)
+
+
+@once
+def _pools() -> ThreadpoolController:
+    """The threads of linear algebra; looking for them takes a while."""
+    return ThreadpoolController()
+
+
+def _followed(
+    rates: Rates,
+    start: Array,
+    begin: float,
+    end: float,
+    pull: float,
+    enough: Callable[[float, Array], bool],
+    angles: Indices,
+) -> SlipOnset:
+    now, state = begin, start
+    times, series = [begin], list[Array]()
+    length, unresolved = min(end - begin, 1e-3), np.inf
+    vanished: int | None = None
+    shortest = min(_SHORTEST * max(end - begin, abs(begin)), end - begin)
+    while now < end and vanished is None:
+        length = min(length, end - now)
+        step = _step(rates, now, length, state, pull, angles)
+        if length < shortest and series:
+            vanished = _ended(series, state, angles - 1)
+            break
+        if length < shortest:
+            raise NumericError(
+                f"slip that begins at t = {begin:.9g} s cannot be followed",
+                expected="a direction in which it grows steadily",
+            )
+        if step is None or not step.is_resolved(unresolved):
+            unresolved = np.inf if step is None else step.tail
+            length /= 4
+            continue
+        unresolved = np.inf
+        last, which = step.vanishing
+        if which is not None and last < _WELL_INSIDE and length > 4 * shortest:
+            length *= max(last, _CLOSER)
+            continue
+        vanished = which
+        state = step.end
+        times.append(min(now + length, end))
+        series.append(step.series)
+        now = now + length * last if which is not None else times[-1]
+        if enough(now - begin, state):
+            break
+        length *= 2
+    return SlipOnset(np.array(times), np.array(series), now, vanished)
+
+
+def _ended(series: list[Array], state: Array, sizes: Indices) -> int | None:
+    """Which ρ is as good as none where no step is short enough to go on, if one is."""
+    largest = np.max([np.max(np.abs(step[:, sizes]), axis=0) for step in series], axis=0)
+    left = np.abs(state[sizes]) / largest
+    return int(np.argmin(left)) if np.min(left) <= _ENDED else None
+
+
+@dataclass(frozen=True)
+class _Step:
+    """Legendre series of all states over one step, the states at its end, and the last terms."""
+
+    series: Array
+    end: Array
+    tail: float
+    sizes: Indices
+
+    def is_resolved(self, before: float) -> bool:
+        """Whether the series ends, or ends no sooner than over a step four times as long did."""
+        return self.tail <= _RESOLVED or before / 4 <= self.tail <= _ROUNDED
+
+    @property
+    def vanishing(self) -> tuple[float, int | None]:
+        """The part of the step after which the first ρ vanishes, and which, if any does."""
+        found = [(self._vanishes(row), k) for k, row in enumerate(self.sizes.tolist())]
+        parts = [(part, k) for part, k in found if part is not None]
+        return min(parts, default=(np.inf, None))
+
+    def _vanishes(self, row: int) -> float | None:
+        """The part of the step after which a ρ vanishes (not where it begins to grow)."""
+        series = self.series[:, row]
+
+        def size(part: float) -> float:
+            return float(legendre.legval(2 * part - 1, series))
+
+        noise = _NOISE * float(np.max(np.abs(series)))
+        sizes = legendre.legval(2 * _PARTS - 1, series)
+        beyond = np.flatnonzero(sizes < -noise)
+        if not len(beyond):
+            return None
+        after = int(beyond[0])
+        before = max(_PARTS[:after][sizes[:after] > 0].tolist(), default=0.0)
+        return bisected(size, before, float(_PARTS[after]))
+
+
+def _step(
+    rates: Rates, begin: float, length: float, start: Array, pull: float, angles: Indices
+) -> _Step | None:
+    """One step; None if it is too long for its equations to be solved."""
+    least = np.full(len(start), pull * length)
+    least[angles] = _TURN
+    times = begin + length * _POINTS[1:]
+    stages = np.repeat(start[:, None], _STAGES, axis=1)
+    stages[angles - 1] = np.maximum(stages[angles - 1], 0.0)
+    last = np.inf
+    for _ in range(_NEWTON):
+        residual, slope = _system(rates, times, length, start, stages, angles)
+        try:
+            change = np.linalg.solve(slope, -residual.ravel()).reshape(stages.shape)
+        except np.linalg.LinAlgError:
+            return None
+        if not np.all(np.isfinite(change)):
+            return None
+        stages = stages + change
+        sizes = np.maximum(least, np.max(np.abs(stages), axis=1))
+        size = float(np.max(np.abs(change) / sizes[:, None]))
+        if size < 1e-14 or (size < 1e-11 and size >= last):
+            break
+        last = size
+    else:
+        return None
+    whole = np.hstack([start[:, None], stages])
+    coefficients = _TO_SERIES @ whole.T
+    tails = np.max(np.abs(coefficients[-2:]), axis=0)
+    sizes = np.maximum(least, np.max(np.abs(coefficients), axis=0))
+    end = np.asarray(stages[:, -1], dtype=float)
+    tail = float(np.max(tails / sizes))
+    return _Step(np.asarray(coefficients, dtype=float), end, tail, angles - 1)
+
+
+def _system(
+    rates: Rates, times: Array, length: float, start: Array, stages: Array, angles: Indices
+) -> tuple[Array, Array]:
+    """Residual of the collocation, and its derivative by all stages (by complex steps)."""
+    states, count = stages.shape
+    whole = np.hstack([start[:, None], stages])
+    slopes = whole @ _SLOPES[1:].T / length
+    leading = np.ones_like(stages)
+    leading[angles] = stages[angles - 1]
+    tiny = 1e-30
+    moved = np.repeat(stages[:, None, :].astype(complex), states, axis=1)
+    each = np.arange(states)
+    moved[each, each] += 1j * tiny
+    found = rates(moved.reshape(states, -1), np.tile(times, states))
+    residual = leading * slopes - np.real(found).reshape(moved.shape)[:, 0]
+    inner = -np.imag(found).reshape(moved.shape) / tiny
+    inner[angles, angles - 1] += slopes[angles]
+    full = np.zeros((states, count, states, count))
+    spread = _SLOPES[1:, 1:] / length
+    for k in range(states):
+        full[k, :, k, :] = leading[k][:, None] * spread
+    stage = np.arange(count)
+    full[:, stage, :, stage] += np.transpose(inner, (2, 0, 1))
+    return residual, full.reshape(states * count, states * count)

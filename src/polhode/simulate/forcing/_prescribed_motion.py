@@ -1,0 +1,165 @@
+"""Prescribed motions as integrated: expressions of time, with constants stretch by stretch."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from math import inf
+from typing import Any
+
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, time
+from polhode.base import DeclarationError, look_up
+from polhode.simulate._names import Name, by_name, published
+from polhode.simulate.forcing._approximation import Approximation
+from polhode.simulate.forcing._callable import approximated
+from polhode.simulate.forcing._pieces import Pieces
+from polhode.simulate.integrate._stepping import Array
+
+
+@dataclass(frozen=True)
+class PrescribedMotion:
+    """All prescribed functions of a system.
+
+    Attributes:
+        expressions: each as an expression of time, of parameters, and of coefficients that change
+            from stretch to stretch.
+        pieces: the functions that are polynomials between knots.
+    """
+
+    expressions: Mapping[Symbol, Expr]
+    pieces: Mapping[Symbol, Pieces]
+
+    def constants(self, now: float) -> Mapping[Symbol, float]:
+        """Coefficients that hold from an instant on: the same object as long as they hold."""
+        return self._held(bisect_right(self._times, now))
+
+    @cached_property
+    def _held(self) -> Callable[[int], Mapping[Symbol, float]]:
+        return lru_cache(maxsize=4)(self._on_stretch)
+
+    def _on_stretch(self, stretch: int) -> Mapping[Symbol, float]:
+        """Coefficients on one of the stretches between changes, 0 being before the first."""
+        now = self._times[stretch - 1] if stretch else -inf
+        found: dict[Symbol, float] = {}
+        for symbol, pieces in self.pieces.items():
+            begin, coefficients = pieces.polynomial(pieces.piece(now))
+            places = _coefficients(symbol, pieces)
+            found[_begin(symbol)] = begin
+            found |= dict.fromkeys(places, 0.0)
+            found |= dict(zip(places, (float(c) for c in coefficients), strict=False))
+        return found
+
+    @cached_property
+    def jerks(self) -> frozenset[float]:
+        """Instants at which a velocity jumps, s."""
+        return frozenset(jump.time for p in self.pieces.values() for jump in p.jumps)
+
+    @cached_property
+    def resolution(self) -> dict[str, float]:
+        """Of those that were given as Python functions, by name, s."""
+        return {symbol.published: p.resolution for symbol, p in self._approximations.items()}
+
+    def confirm(self, steps: Array) -> None:
+        """Evaluate Python functions again, within the steps of a motion.
+
+        Raises:
+            NumericError: where one does not have the value that the motion was computed with.
+        """
+        for symbol, pieces in self._approximations.items():
+            pieces.confirm(symbol.published, steps)
+
+    @property
+    def _approximations(self) -> dict[Symbol, Approximation]:
+        return {s: p for s, p in self.pieces.items() if isinstance(p, Approximation)}
+
+    def until(self, now: float, end: float) -> float:
+        """How far the coefficients hold, at most to the end."""
+        place = bisect_right(self._times, now)
+        return min(end, self._times[place]) if place < len(self._times) else end
+
+    @cached_property
+    def breaks(self) -> frozenset[float]:
+        """Instants at which coefficients change, s."""
+        return frozenset(t for p in self.pieces.values() for t in p.breaks)
+
+    @cached_property
+    def _times(self) -> list[float]:
+        return sorted(self.breaks)
+
+    def stretches(self, end: float) -> Iterator[tuple[float, float]]:
+        """Between 0 and the end, from each change of coefficients to the next."""
+        breaks = [t for t in self._times if 0 < t < end]
+        yield from zip([0.0, *breaks], [*breaks, end], strict=True)
+
+
+def prescribed_motion(
+    functions: tuple[Symbol, ...], forcing: Mapping[Name, Any], duration: float
+) -> PrescribedMotion:
+    """Prescribed functions from what was given for each: an expression, samples or a callable.
+
+    Raises:
+        DeclarationError: for a function that is missing, not known, or given by the motion itself.
+        NumericError: for a callable that is not smooth.
+    """
+    known = by_name(functions)
+    given = {
+        look_up(published(name), known, "prescribed function of this system"): motion
+        for name, motion in forcing.items()
+    }
+    missing = [symbol.published for symbol in functions if symbol not in given]
+    if missing:
+        raise DeclarationError(
+            f"no motion for {', '.join(missing)}",
+            expected="an expression of time for every prescribed function",
+            advice=f"add forcing={{'{missing[0]}': ...}} with an expression of polhode.time",
+        )
+    pieces = {s: p for s, motion in given.items() if (p := _pieces(motion, duration)) is not None}
+    plain = {s: _expression(s, motion) for s, motion in given.items() if s not in pieces}
+    counted = {_since(s): time - Expr.generator(_begin(s)) for s in pieces}
+    polynomials = {s: _polynomial(s, p) for s, p in pieces.items()}
+    return PrescribedMotion({**plain, **polynomials, **counted}, pieces)
+
+
+def _pieces(motion: Any, duration: float) -> Pieces | None:
+    if isinstance(motion, Pieces):
+        return motion
+    if callable(motion) and not isinstance(motion, Expr):
+        return approximated(motion, 0.0, duration)
+    return None
+
+
+def _expression(symbol: Symbol, motion: Any) -> Expr:
+    expression = Expr.of(motion)
+    strange = [
+        s for s in expression.symbols() if s.kind not in (SymbolKind.TIME, SymbolKind.PARAMETER)
+    ]
+    if strange:
+        raise DeclarationError(
+            f"the prescribed {symbol.published}(t) depends on {strange[0].published}",
+            expected="an expression of time and parameters",
+            advice="a force that depends on the motion is a load of the system",
+        )
+    return expression
+
+
+def _polynomial(symbol: Symbol, pieces: Pieces) -> Expr:
+    """Counted from the beginning of its stretch, which keeps its digits however late that is."""
+    since = Expr.generator(_since(symbol))
+    powers = enumerate(_coefficients(symbol, pieces))
+    return sum((Expr.generator(c) * since**k for k, c in powers), ZERO)
+
+
+def _begin(symbol: Symbol) -> Symbol:
+    return Symbol(f"{symbol.name} from", SymbolKind.PARAMETER)
+
+
+def _since(symbol: Symbol) -> Symbol:
+    """Time since then. A symbol of its own: multiplied out, the powers would lose their digits."""
+    return Symbol(f"{symbol.name} since", SymbolKind.FUNCTION)
+
+
+def _coefficients(symbol: Symbol, pieces: Pieces) -> list[Symbol]:
+    count = max(2, pieces.coefficients.shape[1])
+    return [Symbol(f"{symbol.name} coefficient {k}", SymbolKind.PARAMETER) for k in range(count)]

@@ -1,0 +1,148 @@
+"""What is watched while integrating: vectors that may vanish, and the steps of the motion."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+from math import hypot, inf
+from operator import mul
+from typing import Any
+
+from polhode.base import Progress, StopRequested
+from polhode.simulate.integrate._number_types import DOUBLES, NumberType
+from polhode.simulate.integrate._step_count import StepCount
+
+_SMALLEST = 1e-14  # length of a step, over the time and the longest, at a singular position
+_ALMOST = 100.0  # times the length at which a vector has vanished: there it turns round
+
+
+class Stop(Enum):
+    """Why an integration came to its end."""
+
+    TIME = "the end was reached"
+    INTERRUPTED = "who listens has enough"
+    PAUSE = "enough steps to look at"
+    VANISHED = "a vector that was watched vanished or turned round"
+    STUCK = "the motion cannot be continued"
+
+
+@dataclass(frozen=True)
+class StopCriteria:
+    """What to look at while integrating.
+
+    Attributes:
+        pause: steps after which to stop for a look.
+        vectors: places in the core of vectors that stop the integration where they vanish.
+        least: length, m/s, at which such a vector has vanished.
+        passing: the same at an instant at which it turns round, or where steps become too short.
+        over: whether the motion is certainly over at a state, so that there is reason for a look.
+        tally: of the steps of the whole motion.
+    """
+
+    pause: float = inf
+    vectors: tuple[tuple[int, ...], ...] = ()
+    least: float = 0.0
+    passing: float = 0.0
+    over: Callable[[float, Sequence[Any]], bool] = lambda time, state: False
+    tally: StepCount = field(default_factory=StepCount)
+
+    def seen(self, state: Sequence[Any]) -> list[list[float]]:
+        """The vectors in a state of the core; alone, they are known to the digits of doubles."""
+        return [[float(state[place]) for place in places] for places in self.vectors]
+
+
+class _Vanishing:
+    """Watches from step to step whether a vector vanishes.
+
+    Args:
+        watched: which vectors, and what is small.
+        state: at the beginning.
+    """
+
+    def __init__(self, watched: StopCriteria, state: Sequence[Any]) -> None:
+        self._watched = watched
+        self._vectors = watched.seen(state)
+        self._shrinks = [False for _ in self._vectors]
+
+    def at(self, state: Sequence[Any]) -> bool:
+        """Whether one vanishes, or turns round, on the way to a state."""
+        before, self._vectors = self._vectors, self._watched.seen(state)
+        shrank, self._shrinks = self._shrinks, list(map(_is_shorter, self._vectors, before))
+        return any(map(self._vanishes, before, self._vectors, shrank))
+
+    @property
+    def is_near(self) -> bool:
+        """Whether one is as small as where it turns round."""
+        return any(hypot(*vector) <= self._watched.passing for vector in self._vectors)
+
+    def _vanishes(self, before: list[float], now: list[float], shrank: bool) -> bool:
+        turned = sum(map(mul, before, now)) <= 0.0
+        size = hypot(*now)
+        # Where it turns round within a few steps, none of them need be half a turn.
+        grows = shrank and size <= _ALMOST * self._watched.least and not _is_shorter(now, before)
+        return turned or grows or size <= self._watched.least
+
+
+class StepWatch:
+    """Tells of every step of a stretch of a motion, and says where there is reason to stop.
+
+    Args:
+        watched: what may stop it.
+        state: at the beginning.
+        span: from its beginning to where it is to end, s.
+        progress: told of every step.
+        numbers: in which the states are.
+    """
+
+    def __init__(
+        self,
+        watched: StopCriteria,
+        state: Sequence[Any],
+        span: tuple[float, float],
+        progress: Progress,
+        numbers: NumberType = DOUBLES,
+    ) -> None:
+        self._watched = watched
+        self._span = span
+        self._progress = progress
+        self._smallest = float(numbers.finer(_SMALLEST))
+        self._size = len(state) * numbers.bits / DOUBLES.bits
+        self._longest = 0.0
+        self._steps = 0
+        self._vanishing = _Vanishing(watched, state)
+
+    def after(self, time: float, step: float, state: Sequence[Any]) -> Stop | None:
+        """Why to stop after a step, if at all.
+
+        Args:
+            time: at its end, s.
+            step: its length, s; infinite where it is not known.
+            state: at its end.
+
+        Raises:
+            NumericError: where there are too many steps already, or will be.
+        """
+        self._steps += 1
+        try:
+            self._progress.advance()
+        except StopRequested:
+            return Stop.INTERRUPTED
+        hurries = not self._vanishing.is_near
+        self._watched.tally.count(self._span, time, self._size, hurries=hurries)
+        if self._vanishing.at(state):
+            return Stop.VANISHED
+        if self._is_short(time, step) and time < self._span[1]:
+            return Stop.VANISHED if self._vanishing.is_near else Stop.STUCK
+        if self._steps >= self._watched.pause or self._watched.over(time, state):
+            return Stop.PAUSE
+        return None
+
+    def _is_short(self, time: float, step: float) -> bool:
+        if step < inf:
+            self._longest = max(self._longest, step)
+        return step < self._smallest * max(abs(time), self._longest)
+
+
+def _is_shorter(one: list[float], other: list[float]) -> bool:
+    return hypot(*one) < hypot(*other)
