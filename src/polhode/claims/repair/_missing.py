@@ -29,7 +29,6 @@ from polhode.claims.repair._vector_terms import vector_terms
 from polhode.claims.repair._written import UNKNOWN_TERM, length, repeats, solved, written
 
 _MOST_MATCHES = 5
-_STRANGE = 5  # letters that a force or an acceleration counts for which the claim does not know
 
 
 def missing_terms(
@@ -44,8 +43,9 @@ def missing_terms(
     deep = 0.05 if isinstance(place.parent, Node) else 0.0
     for term in _terms(work, place, members):
         letters = {piece for piece in walk(term) if isinstance(piece, Node)}
-        strange = sum(map(work.is_strange, letters))
-        size = 2.0 + deep + (length(term) + _STRANGE * strange) / 20
+        if any(map(work.is_strange, letters)):  # it would only rewrite what is left over
+            continue
+        size = 2.0 + deep + length(term) / 20
         yield Edit("missing term", place.path, added(place.node, term), size)
 
 
