@@ -41,6 +41,11 @@ class Read:
     def __str__(self) -> str:
         return f"{self.plain} as {self.meaning}"
 
+    @property
+    def is_worth_saying(self) -> bool:
+        """Whether another quantity may be thought of; the axes 1, 2, 3 of a body are its own."""
+        return not self.meaning.startswith("axis ") or self.plain in ("x", "y", "z")
+
     def to_json(self) -> dict[str, str]:
         """As it stands in a JSON document."""
         return {"letter": self.letter, "meaning": self.meaning}
@@ -170,8 +175,8 @@ class Verdict(Shown):
     @property
     def notes(self) -> tuple[str, ...]:
         """What is shown beside the verdict: remarks, and what letters were taken to mean."""
-        read = (f"read: {'; '.join(map(str, self.readings))}",) if self.readings else ()
-        return (*self.remarks, *read)
+        read = "; ".join(str(reading) for reading in self.readings if reading.is_worth_saying)
+        return (*self.remarks, f"read: {read}") if read else self.remarks
 
     def proved(self) -> Verdict:
         """With all evidence for it."""
