@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import islice, product
+from itertools import product
 from math import prod
 
 from polhode.base import ParseError
@@ -109,7 +109,7 @@ def judged_in_every_reading(
 ) -> JudgedReading | Verdict:
     """The reading whose verdict stands, or an ambiguous verdict."""
     first = judge(ways[0])
-    return settled([first, *map(judge, islice(ways, 1, None))]) if len(ways) > 1 else first
+    return settled([first, *map(judge, ways[1:])]) if len(ways) > 1 else first
 
 
 def _meant(way: JudgedReading, letters: Iterable[Name]) -> str:

@@ -13,7 +13,7 @@ import numpy as np
 from polhode.algebra import Symbol
 from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.balance._jets import Jet
-from polhode.claims.balance._trial import Jets, Trial
+from polhode.claims.balance._trial import Jets, Trial, cross, dot
 from polhode.claims.latex import _tree as tree
 from polhode.model import Body, Pivot, Restraint, System
 
@@ -167,15 +167,3 @@ def _without_rates(number: float) -> Jet:
 
 def _letter(restraint: Restraint) -> str:
     return restraint.name.partition("_")[0]
-
-
-def dot(a: Jets, b: Jets) -> Jet:
-    """The scalar product of two vectors."""
-    found: Jet = reduce(add, a * b)
-    return found
-
-
-def cross(a: Jets, b: Jets) -> Jets:
-    """The vector product of two vectors."""
-    turned = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    return np.array(turned, dtype=object)

@@ -18,8 +18,8 @@ import numpy as np
 
 from polhode.algebra import Expr, Op, Symbol, Vector
 from polhode.claims.balance._jets import JETS, Jet
-from polhode.claims.balance._second_letters import Inertia, Letters, UnreadError, cross, dot
-from polhode.claims.balance._trial import Jets, Trial
+from polhode.claims.balance._second_letters import Inertia, Letters, UnreadError
+from polhode.claims.balance._trial import Jets, Trial, cross, dot
 from polhode.claims.latex import _tree as tree
 from polhode.model import System
 

@@ -151,7 +151,7 @@ class Trial:
 
     def inertial_rate(self, vector: Jets) -> Jets:
         """Rate of a vector in inertial space."""
-        return np.array([c.dt for c in vector], dtype=object) + _cross(self._carried, vector)
+        return np.array([c.dt for c in vector], dtype=object) + cross(self._carried, vector)
 
     def angular_momentum(self, body: Body) -> Jets:
         """About its centre of mass, kg m²/s."""
@@ -161,21 +161,21 @@ class Trial:
         """What the inertia tensor of a body about its centre of mass maps a vector to."""
         found = np.array(self.scalars(_axes_and_moments(body, self._root)), dtype=object)
         axes, moments = found.reshape(2, 3, 3)
-        along = [_dot(axis, vector) for axis in axes]
-        return sum(axis * _dot(row, along) for axis, row in zip(axes, moments, strict=True))
+        along = [dot(axis, vector) for axis in axes]
+        return sum(axis * dot(row, along) for axis, row in zip(axes, moments, strict=True))
 
     def slip(self, restraint: Restraint, direction: Vector) -> Jet:
         """Relative velocity that a restraint rules out, along a direction."""
         relative = self._point(restraint.body, restraint.arm) - self.vector(restraint.velocity)
         if restraint.other is not None:
             relative = relative - self._point(restraint.other, restraint.other_arm)
-        return _dot(relative, self.vector(direction))
+        return dot(relative, self.vector(direction))
 
     def _point(self, body: Body, arm: Vector | None) -> Jets:
         moving = self.bodies[body]
         if arm is None:
             return moving.angular
-        return moving.velocity + _cross(moving.angular, self.vector(arm))
+        return moving.velocity + cross(moving.angular, self.vector(arm))
 
     def slips(self) -> tuple[Array, Array]:
         """All ruled-out relative velocities and their rates: (restraints, motions) each."""
@@ -224,11 +224,13 @@ def _prescribed(function: Symbol, state: Mapping[Symbol, float]) -> dict[Symbol,
     }
 
 
-def _dot(a: Any, b: Any) -> Jet:
+def dot(a: Any, b: Any) -> Jet:
+    """The scalar product of two vectors."""
     return Jet.of(a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
 
 
-def _cross(a: Jets, b: Jets) -> Jets:
+def cross(a: Jets, b: Jets) -> Jets:
+    """The vector product of two vectors."""
     return np.array(
         [
             a[1] * b[2] - a[2] * b[1],

@@ -170,7 +170,7 @@ class Vocabulary:
         that is declared along a rod which swings is not F·ẑ.
         """
         if name in self.told:
-            return Sense(self.told[name])
+            return self._said(name)
         if name in self.chosen:
             return self._read(name, (self.chosen[name],))
         phrases = _phrases(self.mechanics).get(name, ())
@@ -196,8 +196,6 @@ class Vocabulary:
     def _read(self, name: Name, phrases: tuple[str, ...]) -> Sense:
         distinct = _distinct(self.mechanics, phrases)
         meaning = quantity(self.mechanics, distinct[0])
-        if name in self._plain and name not in self.chosen and len(distinct) == 1:
-            return Sense(meaning)
         return Sense(meaning, (Reading(name, distinct[0], distinct),))
 
     @property
