@@ -1,16 +1,16 @@
-// Where the picture is seen from: about the middle of the motion, or along with a body.
+// The view: around the middle of the motion, or following a body.
 
 import { type PerspectiveCamera, Plane, Quaternion, Raycaster, Sphere, Vector2, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import type { Room } from "./extent";
-import type { House } from "./house";
+import type { Extent } from "./extent";
+import type { Display } from "./display";
 import type { Triple } from "./scene";
 
 const CLOSE = 2.15; // reaches of the body that are in view about it when it is followed
 const LIT = 1.7; // of what is in view, so that shadows beside it are there too
 const STEEPEST = 0.995; // cosine from the upright
 
-export class Eye {
+export class CameraView {
   private readonly controls: OrbitControls;
   private readonly place = new Vector3();
   private readonly level: [Vector3, Vector3];
@@ -21,14 +21,14 @@ export class Eye {
    * @param moved told of every change.
    */
   constructor(
-    private readonly house: House,
+    private readonly display: Display,
     private readonly holder: HTMLElement,
-    private readonly room: Room,
+    private readonly extent: Extent,
     public follow: boolean,
     private readonly body: (out: Vector3) => Vector3,
     private readonly moved: () => void,
   ) {
-    const { radius, reach, up } = room;
+    const { radius, reach, up } = extent;
     this.level = horizontal(up);
     this.camera.up.copy(up); // which the controls read when they are made
     this.controls = new OrbitControls(this.camera, holder);
@@ -38,22 +38,22 @@ export class Eye {
     this.camera.near = reach / 8;
     this.camera.far = 300 * Math.max(radius, reach);
     this.camera.updateProjectionMatrix();
-    house.lights.fit(reach);
+    display.lights.fit(reach);
   }
 
   private get camera(): PerspectiveCamera {
-    return this.house.camera;
+    return this.display.camera;
   }
 
-  /** Whether pulling turns the view; where it does not, something else is pulled. */
+  /** Whether dragging rotates the view. */
   set turns(turns: boolean) {
     this.controls.enabled = turns;
   }
 
-  /** Look from where an earlier eye did, as far away as goes with the size of the bodies. */
-  takeOver({ controls, room }: Eye, from: Vector3): void {
-    const offset = from.clone().sub(controls.target).multiplyScalar(this.room.reach / room.reach);
-    if (!this.follow && this.room.reach === room.reach) this.controls.target.copy(controls.target);
+  /** Take over an earlier view, at a distance in proportion to the size of the bodies. */
+  takeOver({ controls, extent }: CameraView, from: Vector3): void {
+    const offset = from.clone().sub(controls.target).multiplyScalar(this.extent.reach / extent.reach);
+    if (!this.follow && this.extent.reach === extent.reach) this.controls.target.copy(controls.target);
     this.camera.position.copy(this.controls.target).add(offset);
     this.controls.enabled = controls.enabled;
     this.controls.update();
@@ -63,20 +63,20 @@ export class Eye {
     this.controls.dispose();
   }
 
-  /** The place on the level ground under a point of the screen, along the root frame; m. */
+  /** The point on the horizontal ground under a point of the screen, in the root frame; m. */
   groundAt(x: number, y: number): Triple | null {
     const box = this.holder.getBoundingClientRect();
     const point = new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2);
     const sight = new Raycaster();
     sight.setFromCamera(point, this.camera);
-    const hit = sight.ray.intersectPlane(new Plane(this.room.up), this.place);
+    const hit = sight.ray.intersectPlane(new Plane(this.extent.up), this.place);
     return hit && hit.toArray();
   }
 
-  /** Back to where the picture was first seen from, as near as all of it is in view. */
+  /** Back to the initial view, as close as possible with everything in view. */
   home(): void {
     const [side, ahead] = this.level;
-    const offset = this.room.up.clone().multiplyScalar(0.44).addScaledVector(ahead, -0.82).addScaledVector(side, 0.36);
+    const offset = this.extent.up.clone().multiplyScalar(0.44).addScaledVector(ahead, -0.82).addScaledVector(side, 0.36);
     this.target(this.controls.target);
     this.camera.position.copy(this.controls.target).add(offset);
     this.controls.update();
@@ -91,9 +91,9 @@ export class Eye {
     this.home();
   }
 
-  /** Turn the view about the upright and up or down, rad. */
+  /** Rotate the view about the vertical and up or down, rad. */
   orbit(round: number, over: number): void {
-    const { up } = this.room;
+    const { up } = this.extent;
     const offset = this.camera.position.clone().sub(this.controls.target);
     offset.applyQuaternion(new Quaternion().setFromAxisAngle(up, round));
     const aside = up.clone().cross(offset).normalize();
@@ -110,7 +110,7 @@ export class Eye {
     this.moved();
   }
 
-  /** Go along with the body, if it is followed. */
+  /** Move with the body, if it is followed. */
   chase(): void {
     if (!this.follow) return;
     const before = this.controls.target.clone();
@@ -121,15 +121,15 @@ export class Eye {
   }
 
   private target(out: Vector3): Vector3 {
-    return this.follow ? this.body(out) : out.copy(this.room.middle);
+    return this.follow ? this.body(out) : out.copy(this.extent.middle);
   }
 
   private get balls(): Sphere[] {
-    const { balls, reach } = this.room;
+    const { balls, reach } = this.extent;
     return this.follow ? [new Sphere(this.body(new Vector3()), CLOSE * reach)] : balls;
   }
 
-  /** From which all balls are in view, in the direction that the camera has; m. */
+  /** Distance from which all spheres are in view, in the present direction of the camera; m. */
   private distance(): number {
     const half = Math.tan((this.camera.fov * Math.PI) / 360);
     const turn = this.camera.quaternion.clone().invert();
@@ -143,11 +143,11 @@ export class Eye {
   private aim(): void {
     const target = this.target(this.place);
     const radius = Math.max(...this.balls.map((ball) => ball.center.distanceTo(target) + ball.radius));
-    this.house.lights.aim(target, LIT * radius, this.room.up, this.level);
+    this.display.lights.aim(target, LIT * radius, this.extent.up, this.level);
   }
 }
 
-/** Two level directions, to the right and away. */
+/** Two horizontal directions, to the right and away. */
 function horizontal(up: Vector3): [Vector3, Vector3] {
   const guess = Math.abs(up.z) > 0.9 ? new Vector3(0, 1, 0) : new Vector3(0, 0, 1);
   const side = guess.clone().cross(up).normalize();

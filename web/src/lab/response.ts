@@ -1,9 +1,9 @@
-// Answers with many numbers: JSON, and the numbers as they are after it; see the lab room of polhode.
+// Responses with many numbers: JSON followed by binary numbers, as written by polhode.lab.
 
 const WORD = 4; // bytes of a number, and of the length of the JSON
 
-/** What was sent, every array with its numbers. */
-export function opened<T>(packet: ArrayBuffer): T {
+/** The content, every array with its numbers. */
+export function decoded<T>(packet: ArrayBuffer): T {
   const length = new DataView(packet).getUint32(0, true);
   const text = new TextDecoder().decode(new Uint8Array(packet, WORD, length));
   const numbers = new Float32Array(packet, WORD + length);

@@ -1,8 +1,8 @@
-// Taking things away: the address of a state, and files of a motion.
+// Sharing and saving: the address of a state, and files of a motion.
 
 import { make } from "../dom";
-import { post } from "./ask";
-import { said } from "./claims";
+import { post } from "./requests";
+import { explanation } from "./claims";
 
 const FILES: Record<string, string> = {
   page: "Page",
@@ -13,7 +13,7 @@ const FILES: Record<string, string> = {
   mp4: "Movie (MP4)",
 };
 
-export function keeping(wish: () => object, tell: (message: string) => void): HTMLElement {
+export function sharing(wish: () => object, tell: (message: string) => void): HTMLElement {
   const share = make("button", { type: "button", class: "switch" }, "Copy link");
   share.addEventListener("click", () => {
     navigator.clipboard.writeText(location.href).then(
@@ -27,7 +27,7 @@ export function keeping(wish: () => object, tell: (message: string) => void): HT
     const kind = menu.value;
     menu.value = "";
     tell("Making the file; a movie takes its time …");
-    void saved(kind, wish()).then(tell, (error) => tell(said(error)));
+    void saved(kind, wish()).then(tell, (error) => tell(explanation(error)));
   });
   return make("div", { class: "keeping" }, share, menu);
 }

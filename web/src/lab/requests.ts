@@ -1,6 +1,6 @@
-// Questions to the lab's server: the newest of a kind counts, and older ones hold it up only so long.
+// Requests to the server of the lab: of each kind only the latest counts.
 
-import { opened } from "./packet";
+import { decoded } from "./response";
 
 export interface Refusal {
   given: string;
@@ -19,9 +19,9 @@ export async function ask<T>(task: string, question: object, signal?: AbortSigna
   return (await post(task, question, signal)).json() as Promise<T>;
 }
 
-/** An answer with many numbers. */
-export async function askForNumbers<T>(task: string, question: object, signal?: AbortSignal): Promise<T> {
-  return opened<T>(await (await post(task, question, signal)).arrayBuffer());
+/** A response with binary numbers. */
+export async function requestNumbers<T>(task: string, question: object, signal?: AbortSignal): Promise<T> {
+  return decoded<T>(await (await post(task, question, signal)).arrayBuffer());
 }
 
 export async function post(task: string, question: object, signal?: AbortSignal): Promise<Response> {
@@ -37,8 +37,8 @@ export async function post(task: string, question: object, signal?: AbortSignal)
 
 const PATIENCE = 1000; // ms that a newer question waits for an older one's answer
 
-/** Asks one question at a time, and then the newest of those that came meanwhile. */
-export class Asker<T> {
+/** Sends one request at a time, and then the latest of those that came in the meantime. */
+export class LatestRequest<T> {
   private next: object | null = null;
   private waiting = 0;
   private under: AbortController | null = null;
@@ -58,7 +58,7 @@ export class Asker<T> {
     this.waiting = window.setTimeout(() => this.begin(), this.delay);
   }
 
-  /** What was asked is of no interest any more. */
+  /** Cancel the pending requests. */
   forget(): void {
     this.next = null;
     this.under?.abort();

@@ -1,11 +1,11 @@
-// What stays from one picture to the next: the canvas, the light, the eye, and all that looks the same.
+// What is kept from one motion to the next: canvas, lights, camera and unchanged objects.
 
 import { LineSegments, type Material, Mesh, type Object3D, PCFShadowMap, PerspectiveCamera, Scene, WebGLRenderer } from "three";
 import { Lights } from "./lights";
 
 const FIELD = 32; // degrees that are seen from top to bottom
 
-export class House {
+export class Display {
   readonly renderer = rendererOf();
   readonly world = new Scene();
   readonly camera = new PerspectiveCamera(FIELD);
@@ -14,13 +14,13 @@ export class House {
   private former = new Map<string, Object3D[]>();
   private gone: Object3D[] = [];
 
-  /** Another picture begins: what stands is there for it to take, until it is `set`. */
+  /** Begin another motion: existing objects can be reused until `set`. */
   begin(): void {
     this.former = this.parts;
     this.parts = new Map();
   }
 
-  /** The part that these data decide: one that stands already, or a new one. */
+  /** The object determined by these data: an existing one, or a new one. */
   part<T extends Object3D>(data: unknown, build: () => T): T {
     const key = JSON.stringify(data);
     const standing = this.former.get(key)?.pop() as T | undefined;
@@ -28,7 +28,7 @@ export class House {
     return this.put(key, standing ?? build());
   }
 
-  /** A part of this picture alone. */
+  /** An object of this motion only. */
   own<T extends Object3D>(part: T): T {
     return this.put("", part);
   }
@@ -39,14 +39,14 @@ export class House {
     return part;
   }
 
-  /** What was not taken goes. */
+  /** Remove what was not reused. */
   set(): void {
     this.gone.push(...[...this.former.values()].flat());
     this.former.clear();
     for (const part of this.gone) part.removeFromParent();
   }
 
-  /** Draw; what went is given up only then, or shaders that are shared would go with it. */
+  /** Draw; only then dispose of removed objects, since disposing earlier would drop shared shaders. */
   draw(): void {
     this.renderer.render(this.world, this.camera);
     for (const part of this.gone.splice(0)) part.traverse(giveUp);

@@ -1,9 +1,9 @@
-// What stands in place of the picture where a browser cannot draw it.
+// Shown in place of the picture if the browser has no WebGL.
 
 import { make } from "./dom";
 
-/** @param working what there is all the same. */
-export function makeBlind(picture: HTMLElement, working: string): void {
+/** @param working what still works. */
+export function makeFallback(picture: HTMLElement, working: string): void {
   picture.removeAttribute("tabindex");
   picture.setAttribute("role", "note");
   picture.removeAttribute("aria-label");

@@ -1,4 +1,4 @@
-// Steady motions and thresholds, with where the present start stands relative to them.
+// Steady motions and thresholds, and the position of the present start relative to them.
 
 import { formula, make } from "../dom";
 import { shownNumber } from "./sliders";
@@ -45,7 +45,7 @@ function branches(family: Family, go: Go): HTMLElement[] {
   });
 }
 
-/** A value in SI units as people read it: angles in degrees. */
+/** A value in SI units for display: angles in degrees. */
 function inUnit(value: number, unit: string): string {
   return unit === "rad" ? `${shownNumber((value * 180) / Math.PI)} deg` : `${shownNumber(value)} ${unit}`;
 }
@@ -62,14 +62,14 @@ function stability(family: Family): HTMLElement[] {
   return [...rows, ...verdict, make("p", { class: "long" }, `Loss: ${family.loss ?? ""}`)];
 }
 
-/** What speaks for an inequality over what speaks against it; the threshold is in the middle. */
+/** Ratio of the two sides of an inequality; the threshold is in the middle. */
 function scale(ratio: number | null): HTMLElement {
   const power = ratio === null ? DECADES : ratio > 0 ? Math.log10(ratio) / DECADES : -DECADES;
   const place = 50 + 50 * Math.max(-1, Math.min(1, power));
   const mark = make("span", { class: "mark" });
   mark.style.left = `${place}%`;
-  const said = ratio === null ? "nothing speaks against it" : `${shownNumber(ratio)} times the threshold`;
-  return make("div", { class: "scale", role: "img", "aria-label": said, title: said }, mark, make("span", { class: "told" }, said));
+  const explanation = ratio === null ? "nothing speaks against it" : `${shownNumber(ratio)} times the threshold`;
+  return make("div", { class: "scale", role: "img", "aria-label": explanation, title: explanation }, mark, make("span", { class: "told" }, explanation));
 }
 
 function valued(title: string, values: Valued[]): HTMLElement[] {

@@ -1,4 +1,4 @@
-// What holds the points of bodies that stay where they are in space.
+// Supports of fixed points of bodies.
 
 import { type Object3D, Vector3 } from "three";
 import { bracket, post } from "./shapes";
@@ -6,14 +6,14 @@ import { bracket, post } from "./shapes";
 const THICK = 0.1; // of a post, in reaches
 const HANGS = 0.4; // reaches above the middle, from where a point hangs instead of standing
 
-interface Room {
+interface Extent {
   up: Vector3;
   middle: Vector3;
   reach: number;
 }
 
-/** Points that are held stand on posts on a floor of this height, or hang. */
-export function posts(points: Vector3[], floor: number, { up, middle, reach }: Room): Object3D[] {
+/** Fixed points stand on posts on a floor of this height, or hang from above. */
+export function mounts(points: Vector3[], floor: number, { up, middle, reach }: Extent): Object3D[] {
   const highest = middle.dot(up) + HANGS * reach;
   return points.map((point) => {
     const height = point.dot(up);
