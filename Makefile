@@ -43,7 +43,7 @@ $(BROWSER): tests/browser/package-lock.json
 	@touch $@
 
 test: $(READY) $(FRONT_END) $(BROWSER)
-	@$(BIN)/python -m pytest -n 2 $(T)
+	@$(BIN)/python -m pytest -n 2 --dist worksteal $(T)
 
 check: $(READY)
 	$(BIN)/ruff check
