@@ -16,13 +16,13 @@ from polhode.catalogue import CATALOGUE
 from polhode.claims._notation import Notation, letter
 from polhode.claims.document._document import Definition, Part
 from polhode.claims.latex import read_latex
+from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import Name
 from polhode.claims.meaning._bindings import Bound, bind
 from polhode.claims.meaning._letters import letters
 from polhode.claims.meaning._meaning import BindingError, Meaning
 from polhode.claims.meaning._mechanics import Mechanics
 from polhode.claims.meaning._phrases import quantity
-from polhode.claims.meaning._spelling import name_of, spelled
 from polhode.derive import Equations
 
 

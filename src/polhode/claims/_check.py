@@ -28,10 +28,10 @@ from polhode.claims._typed import (
 from polhode.claims._verdict import Answer, Correction, Verdict
 from polhode.claims.contexts._contexts import CONTEXTS, holds, judge
 from polhode.claims.latex import bare_names, read_latex, write_latex
+from polhode.claims.latex._names import spelled
 from polhode.claims.latex._tree import Node, Piece, Statement
 from polhode.claims.meaning._bindings import Bound
 from polhode.claims.meaning._evaluate import UnclearDerivativeError
-from polhode.claims.meaning._spelling import spelled
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.derive import Equations
 

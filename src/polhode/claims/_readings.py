@@ -15,9 +15,8 @@ from polhode.base import ParseError
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims._notation import Notation
 from polhode.claims._verdict import Answer, Read, Verdict
-from polhode.claims.latex._name_latex import name_latex
+from polhode.claims.latex._names import name_latex, spelled
 from polhode.claims.latex._tree import Name, Piece
-from polhode.claims.meaning._spelling import spelled
 from polhode.claims.meaning._vocabulary import Reading, Vocabulary
 from polhode.claims.states._bound_claim import BoundClaim
 

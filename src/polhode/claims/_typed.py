@@ -13,10 +13,10 @@ from polhode.base import ParseError, UnitError, read_quantity
 from polhode.claims._notation import Notation, letter
 from polhode.claims.document._document import Definition
 from polhode.claims.latex import read_latex
+from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import Dots, Name, Node, Piece
 from polhode.claims.meaning._bindings import BoundRelation
 from polhode.claims.meaning._meaning import BindingError, Meaning, signed
-from polhode.claims.meaning._spelling import name_of, spelled
 from polhode.claims.states._bound_claim import Small
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")

@@ -1,7 +1,8 @@
-"""Brackets paired, and what only lays a formula out taken away.
+"""Brackets paired, and what only sets the layout of a formula removed.
 
-After this a line break, a column mark or a wide space stands only where it parts one thing that is
-said from the next: between the rows of a display, of a column or of cases, never inside a bracket.
+After this a line break, a column mark or a wide space stands only where it separates one statement
+or entry from the next: between the rows of a display, of a column or of cases, never inside a
+bracket.
 """
 
 from __future__ import annotations
@@ -35,6 +36,20 @@ class Paired:
     tokens: tuple[Token, ...]
     partner: dict[int, int]
 
+    @property
+    def around_relations(self) -> frozenset[int]:
+        """Where the round brackets open that hold a relation."""
+        found: set[int] = set()
+        around: list[int] = []
+        for place, token in enumerate(self.tokens):
+            if place in self.partner:
+                around.append(place)
+            elif closes(token):
+                around.pop()
+            elif token.kind == "sign" and around and self.tokens[around[-1]].is_mark("("):
+                found.add(around[-1])
+        return frozenset(found)
+
 
 def paired(source: str, tokens: Sequence[Token]) -> Paired:
     """The tokens that say something, with their brackets paired.
@@ -67,7 +82,7 @@ def _partners(source: str, tokens: Sequence[Token]) -> dict[int, int]:
             waiting.append(place)
             if len(waiting) > DEEPEST:
                 problem = f"brackets nested more than {DEEPEST} deep"
-                raise refusal(source, token.span, problem, "a formula that a reader can follow")
+                raise refusal(source, token.span, problem, "a formula with less nesting")
         elif closes(token):
             if not waiting or not _match(tokens[waiting[-1]], token):
                 raise _unmatched(source, [tokens[place] for place in waiting], token)

@@ -1,7 +1,8 @@
 """LaTeX cut into tokens, in one pass from left to right.
 
-Spellings are settled here: ``\\leq``, ``\\le`` and ``≤`` are one token, spacing and type size are
-none. What no mechanics text would write is refused at its place.
+Here ``\\leq``, ``\\le`` and ``≤`` become one token, and spacing and type size none. Words of the
+text around its formulas are told from the formulas by their dollar signs. A macro or character that
+no mechanics text would use is refused at its place.
 """
 
 from __future__ import annotations
@@ -14,7 +15,6 @@ from difflib import get_close_matches
 
 from polhode.base import ParseError
 from polhode.claims.latex import _lexicon as lexicon
-from polhode.claims.latex._prose import prose_of, split_number
 from polhode.claims.latex._tree import Span
 
 LONGEST = 20_000  # characters
@@ -42,6 +42,18 @@ _RUN = re.compile(r"\s*(?:\{([\s~]*[A-Za-z][A-Za-z.~\s]*)\}|([A-Za-z]+))")
 _ENVIRONMENT = re.compile(r"\s*\{([A-Za-z]{1,20})\*?\}(?:\s*\[[tbc]\])?")
 _COLUMNS = re.compile(r"\s*\{[lcrp@|\s]{0,40}\}|\s*\{[0-9]{1,2}\}")
 _INDEX = re.compile(r"\s*\[\s*([0-9]{1,2}|[a-z])\s*\]")
+
+# prose around formulas
+_DOLLARS = re.compile(r"\$\$?")
+_LINE_END = re.compile(r"\\n(?![a-z])")  # as a transcript spells it
+_MATHEMATICS = re.compile(r"[\\^_=<>]")
+_TWO_LETTERS = re.compile(r"[A-Za-z]{2}")
+_EQUATION_NUMBER = re.compile(r"\(([0-9]{1,4})\)[\s.,]*\Z")
+
+# names without their backslash
+_MACRO = re.compile(r"\\(?:text|mathrm|operatorname|label|tag)\s*\{[^{}]*\}|\\[A-Za-z]+")
+_NAMES = sorted(lexicon.GREEK | lexicon.FUNCTIONS.keys() - {"tg"}, key=len, reverse=True)
+_BARE = re.compile(rf"(?<![A-Za-z])({'|'.join(_NAMES)})(?![A-Za-z])")
 
 
 @dataclass(frozen=True)
@@ -101,7 +113,7 @@ class _Scanner:
         self._source = source
         self._place = 0
         self._found: list[Token] = []
-        self._prose = prose_of(source)
+        self._prose = _prose_of(source)
 
     def all(self) -> list[Token]:
         while self._place < len(self._source):
@@ -119,7 +131,7 @@ class _Scanner:
     def _words_outside(self) -> Iterator[Token]:
         """What stands between formulas in dollar signs, and the equation number that ends it."""
         start, self._place = self._place, self._prose[self._place]
-        words, number = split_number(self._source[start : self._place])
+        words, number = _split_number(self._source[start : self._place])
         if words:
             yield self._token("words", words, start)
         if number:
@@ -297,3 +309,33 @@ _SPECIAL = (
     | dict.fromkeys(lexicon.SILENT_WITH_ARGUMENT, "skipped")
     | {"tag": "tag", "sqrt": "root", "begin": "environment", "end": "environment"}
 )
+
+
+def _prose_of(source: str) -> dict[int, int]:
+    """Where each stretch of words begins and ends.
+
+    Outside the dollar signs is prose, unless it holds signs of mathematics: transcripts lose
+    dollar signs. Without any, all is mathematics.
+    """
+    edges = [0, *(place for match in _DOLLARS.finditer(source) for place in match.span())]
+    outside = zip(edges[::4], [*edges[1::4], len(source)], strict=False)
+    stretches = {start: end for start, end in outside if _is_prose(source[start:end])}
+    return stretches if len(edges) > 1 else {}
+
+
+def _split_number(prose: str) -> tuple[str, str]:
+    """The words of a stretch and the equation number in brackets at its end, "" for none."""
+    words = " ".join(_LINE_END.sub(" ", prose).split())
+    number = _EQUATION_NUMBER.search(words)
+    before = words[: number.start()] if number else words
+    return before.strip(" .,;:"), number[1] if number else ""
+
+
+def _is_prose(stretch: str) -> bool:
+    bare = _LINE_END.sub(" ", stretch)
+    return bool(_TWO_LETTERS.search(bare)) and not _MATHEMATICS.search(bare)
+
+
+def bare_names(latex: str) -> tuple[str, ...]:
+    """Greek letters and functions without a backslash, which LaTeX reads letter by letter."""
+    return tuple(dict.fromkeys(_BARE.findall(_MACRO.sub(" ", latex))))

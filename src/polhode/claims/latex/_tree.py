@@ -1,4 +1,4 @@
-"""What a formula says, before anybody asks what its letters mean.
+"""What a formula prints, before its letters are given a meaning.
 
 The tree keeps to what is printed: which letter carries a hat, which sign stands between two
 vectors, what is divided by what. Whether a letter is a vector, a function of time or a parameter is
@@ -7,7 +7,7 @@ for the bindings to say. Letters go by their published names: ``theta``, ``Omega
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import Any, TypeVar
@@ -312,6 +312,18 @@ class Statement(Piece):
     notes: tuple[str, ...] = ()
     tags: tuple[str, ...] = ()
     assumptions: tuple[Relation, ...] = ()
+
+
+def product(factors: Sequence[Node], span: Span = NOWHERE) -> Node:
+    """Factors side by side; a single one is itself, and no factors make 1."""
+    if len(factors) == 1:
+        return factors[0]
+    return Product(tuple(factors), span=span) if factors else Number("1", span=span)
+
+
+def factors_of(node: Node) -> tuple[Node, ...]:
+    """The factors of a product; anything else is its own factor."""
+    return node.factors if isinstance(node, Product) else (node,)
 
 
 def walk(piece: Piece) -> Iterator[Piece]:

@@ -7,9 +7,7 @@ from functools import singledispatch
 from itertools import pairwise
 
 from polhode.claims.latex import _lexicon as lexicon
-from polhode.claims.latex._differentials import SIGNS, factors_of
-from polhode.claims.latex._labels import label_latex
-from polhode.claims.latex._name_latex import letter_latex, name_latex, scripts_latex
+from polhode.claims.latex._names import label_latex, letter_latex, name_latex, scripts_latex
 from polhode.claims.latex._tree import (
     At,
     Call,
@@ -39,6 +37,7 @@ from polhode.claims.latex._tree import (
     Statement,
     Sum,
     Words,
+    factors_of,
 )
 
 _SIGNS = {"=": "=", "<": "<", ">": ">", "→": r"\to", "↔": r"\leftrightarrow"} | {
@@ -58,8 +57,8 @@ _SIGNED = (Sum, Negative, PlusMinus)
 _OPEN = (*_SIGNED, Cross, Dot, Integral)  # bracketed beside a sign of multiplication
 _WIDE = (*_OPEN, Product)  # and beside another factor
 _RAISED_BARE = (Number, Dots, At, Magnitude, Component, ComponentList, Evaluated, Differential)
-_TAKEN_FOR_DIFFERENTIALS = frozenset(Name(letter) for letter in SIGNS)
-_BRACKETED_ANGLES = frozenset(SIGNS) | {"n", "k", "pi", "constant"}
+_TAKEN_FOR_DIFFERENTIALS = frozenset(Name(letter) for letter in lexicon.DIFFERENTIALS)
+_BRACKETED_ANGLES = frozenset(lexicon.DIFFERENTIALS) | {"n", "k", "pi", "constant"}
 _KNOWN_TO_LATEX = lexicon.FUNCTIONS.keys() - {"sech", "csch", "arsinh", "arcosh", "artanh"}
 _TIME = re.compile(r"t\b|t_")
 

@@ -23,9 +23,9 @@ from polhode.algebra import (
 from polhode.algebra import tanh as tanh
 from polhode.base import NumericError
 from polhode.claims.latex import _tree as tree
+from polhode.claims.latex._names import spelled
 from polhode.claims.meaning import _meaning as meanings
 from polhode.claims.meaning._meaning import BindingError, Meaning, as_scalar, as_vector
-from polhode.claims.meaning._spelling import spelled
 from polhode.claims.meaning._vocabulary import LAGRANGIAN, Vocabulary
 
 TIME = tree.Name("t")

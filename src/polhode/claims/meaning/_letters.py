@@ -12,9 +12,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from polhode.algebra import Vector
+from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Name, Node
 from polhode.claims.meaning._mechanics import Mechanics
-from polhode.claims.meaning._spelling import name_of
 from polhode.model import Contact, Element, Frame, Gravity, Pivot
 
 _VECTOR, _HAT = "vector", "hat"

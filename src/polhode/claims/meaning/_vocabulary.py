@@ -9,12 +9,12 @@ from functools import cached_property, lru_cache
 from itertools import chain
 
 from polhode.algebra import Expr, Symbol, SymbolKind, Vector, pi, time
+from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import At, Call, Component, Derivative, Name, Node, Piece, walk
 from polhode.claims.meaning._letters import letters
 from polhode.claims.meaning._meaning import BindingError, Meaning, alike, dot, positive_root
 from polhode.claims.meaning._mechanics import Mechanics
 from polhode.claims.meaning._phrases import quantity
-from polhode.claims.meaning._spelling import name_of, spelled
 from polhode.claims.meaning._the import The
 from polhode.derive import Equations
 
