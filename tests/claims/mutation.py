@@ -18,7 +18,8 @@ from polhode.claims._check import judged_claim
 from polhode.claims._typed import with_start
 from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.latex import Statement, read_latex, write_latex
-from polhode.claims.meaning._components import Member, Side
+from polhode.claims.meaning._meaning import Side
+from polhode.claims.meaning._relations import Member
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import AnyState
 from polhode.derive import Equations, derive

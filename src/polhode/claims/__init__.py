@@ -24,8 +24,8 @@ from polhode.claims.latex import Statement as Statement
 from polhode.claims.latex import read_latex as read_latex
 from polhode.claims.latex import write_latex as write_latex
 from polhode.claims.meaning._bindings import Bound as Bound
-from polhode.claims.meaning._bindings import BoundRelation as BoundRelation
 from polhode.claims.meaning._meaning import BindingError as BindingError
+from polhode.claims.meaning._relations import BoundRelation as BoundRelation
 from polhode.claims.processes._bounded import check as check
 from polhode.claims.processes._bounded import uncorrected as uncorrected
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from polhode.algebra import Expr, Generator, Symbol, under_name
 from polhode.base import PURE, TIME, Dimension, PolhodeError
-from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import BoundClaim
 
 

@@ -12,11 +12,11 @@ from polhode.claims.document._document import Claim, Definition, Part
 from polhode.claims.latex import read_latex
 from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import Name, Node, Statement
-from polhode.claims.meaning._bindings import EQUAL, Bound, BoundRelation, bind, restrictions
-from polhode.claims.meaning._components import Side
+from polhode.claims.meaning._bindings import EQUAL, Bound, bind, restrictions
 from polhode.claims.meaning._evaluate import Evaluator
-from polhode.claims.meaning._meaning import BindingError, Meaning, as_scalar, signed, sort
+from polhode.claims.meaning._meaning import BindingError, Meaning, Side, as_scalar, signed, sort
 from polhode.claims.meaning._phrases import quantity
+from polhode.claims.meaning._relations import BoundRelation
 from polhode.claims.meaning._vocabulary import Vocabulary, constant
 from polhode.claims.states._bound_claim import SENSE, BoundClaim, Small
 from polhode.derive import Equations

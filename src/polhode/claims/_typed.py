@@ -15,8 +15,8 @@ from polhode.claims.document._document import Definition
 from polhode.claims.latex import read_latex
 from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import Dots, Name, Node, Piece
-from polhode.claims.meaning._bindings import BoundRelation
 from polhode.claims.meaning._meaning import BindingError, Meaning, signed
+from polhode.claims.meaning._relations import BoundRelation
 from polhode.claims.states._bound_claim import Small
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")

@@ -52,7 +52,7 @@ class Paired:
 
 
 def paired(source: str, tokens: Sequence[Token]) -> Paired:
-    """The tokens that say something, with their brackets paired.
+    """The tokens that carry meaning, with their brackets paired.
 
     Raises:
         ParseError: for a bracket without its partner, and for brackets nested too deeply.
@@ -60,8 +60,8 @@ def paired(source: str, tokens: Sequence[Token]) -> Paired:
     joined = _joined_rows(tokens)
     flowing = _without_layouts(joined, _partners(source, joined))
     printed = _without_bare_braces(flowing, _partners(source, flowing))
-    said = _without_breaks_in_brackets(printed)
-    return Paired(tuple(said), _partners(source, said))
+    kept = _without_breaks_in_brackets(printed)
+    return Paired(tuple(kept), _partners(source, kept))
 
 
 def opens(token: Token) -> bool:
@@ -88,7 +88,9 @@ def _partners(source: str, tokens: Sequence[Token]) -> dict[int, int]:
                 raise _unmatched(source, [tokens[place] for place in waiting], token)
             partner[waiting.pop()] = place
     if waiting:
-        raise _unclosed(source, tokens[waiting[-1]])
+        opener = tokens[waiting[-1]]
+        problem = f"{shown(opener)} is never closed"
+        raise refusal(source, opener.span, problem, "brackets in pairs")
     return partner
 
 
@@ -102,14 +104,10 @@ def _match(opener: Token, closer: Token) -> bool:
 
 def _unmatched(source: str, waiting: Sequence[Token], closer: Token) -> ParseError:
     if not waiting:
-        return refusal(source, closer.span, f"{shown(closer)} closes nothing", "what it closes")
+        return refusal(source, closer.span, f"{shown(closer)} closes nothing", "an opening bracket")
     opener = waiting[-1]
     problem = f"{shown(opener)} at character {opener.span[0] + 1} closed by {shown(closer)}"
     return refusal(source, closer.span, problem, "brackets in pairs")
-
-
-def _unclosed(source: str, opener: Token) -> ParseError:
-    return refusal(source, opener.span, f"{shown(opener)} is never closed", "brackets in pairs")
 
 
 def shown(token: Token) -> str:
@@ -168,14 +166,11 @@ def _without_bare_braces(tokens: Sequence[Token], partner: dict[int, int]) -> li
         if token.is_mark("{") and not is_argument and place not in overs:
             dropped |= {place, partner[place]}
             continue
-        wanted[-1] = max(0, wanted[-1] - 1) + _arity(token)
+        arguments = 1 if token.is_mark("^", "_") else _WANTED.get(token.kind, 0)
+        wanted[-1] = max(0, wanted[-1] - 1) + arguments
         if opens(token):
             wanted.append(0)
     return [token for place, token in enumerate(tokens) if place not in dropped]
-
-
-def _arity(token: Token) -> int:
-    return int(token.is_mark("^", "_")) or _WANTED.get(token.kind, 0)
 
 
 def _braces_around_over(tokens: Sequence[Token], partner: dict[int, int]) -> set[int]:
@@ -192,7 +187,7 @@ def _braces_around_over(tokens: Sequence[Token], partner: dict[int, int]) -> set
 
 
 def _without_breaks_in_brackets(tokens: Sequence[Token]) -> list[Token]:
-    """Without the breaks that no reader takes for an end; an environment keeps its rows."""
+    """Without the breaks that end nothing; an environment keeps its rows."""
     kept: list[Token] = []
     around: list[Token] = []
     for token in tokens:

@@ -975,7 +975,8 @@ _ATOMS: dict[str, Callable[[_Parser], Node]] = {
     "begin": _Parser._environment,
     "{": _Parser._group,
     "|": _Parser._magnitude,
-} | dict.fromkeys(_OPENERS, _Parser._bracket)
+    **dict.fromkeys(_OPENERS, _Parser._bracket),
+}
 
 
 def _is_count(node: Node) -> bool:

@@ -3,49 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from polhode.algebra import ZERO, Expr, Vector
 from polhode.claims.latex import _tree as tree
-from polhode.claims.latex._tree import Node, Relation, Span, Statement, walk
-from polhode.claims.meaning._components import Side
+from polhode.claims.latex._tree import Node, Relation, Statement, walk
 from polhode.claims.meaning._evaluate import FORWARD, TIME, Evaluator
 from polhode.claims.meaning._meaning import (
     BindingError,
     Meaning,
+    Side,
     Tensor,
     as_scalar,
     over,
     rate,
     zero_like,
 )
-from polhode.claims.meaning._printed_terms import PrintedRelation, changing
+from polhode.claims.meaning._relations import BoundRelation, PrintedRelation, changing
 from polhode.claims.meaning._vocabulary import Vocabulary
 
 EQUAL = ("=", "≡")
 COMPARED = (*EQUAL, "≈", "≠", "<", ">", "≤", "≥", "≪", "≫", "∝")
-
-
-@dataclass(frozen=True)
-class BoundRelation:
-    """One member of a claim.
-
-    Attributes:
-        left: what stands left of the sign.
-        sign: one of = ≡ ≈ ≠ < > ≤ ≥ ≪ ≫ ∝.
-        right: what stands right of it.
-        span: first and one past the last character of the member in its LaTeX.
-        is_alternative: whether it is a further value after an "or".
-        printed: its two sides as they stand; None for a relation that nobody printed.
-    """
-
-    left: Side
-    sign: str
-    right: Side
-    span: Span = (0, 0)
-    is_alternative: bool = False
-    printed: PrintedRelation | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)

@@ -25,6 +25,9 @@ class Tensor:
 
 Meaning: TypeAlias = Expr | Vector | Tensor
 
+#: One side of a relation.
+Side = Expr | Vector
+
 
 class BindingError(ParseError):
     """A formula that was read but whose symbols cannot be given a meaning.

@@ -18,6 +18,19 @@ from polhode.model import Body, Frame, Gravity, Restraint
 
 
 @dataclass(frozen=True, eq=False)
+class EquationsKey:
+    """Equations as a key of a cache, equal only to the key of the very same object."""
+
+    equations: Equations
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, EquationsKey) and self.equations is other.equations
+
+    def __hash__(self) -> int:
+        return id(self.equations)
+
+
+@dataclass(frozen=True, eq=False)
 class Mechanics:
     """The quantities of one system; where no body is named, its first one is meant.
 

@@ -13,9 +13,8 @@ from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import At, Call, Component, Derivative, Name, Node, Piece, walk
 from polhode.claims.meaning._letters import letters
 from polhode.claims.meaning._meaning import BindingError, Meaning, alike, dot, positive_root
-from polhode.claims.meaning._mechanics import Mechanics
+from polhode.claims.meaning._mechanics import EquationsKey, Mechanics
 from polhode.claims.meaning._phrases import quantity
-from polhode.claims.meaning._the import The
 from polhode.derive import Equations
 
 LAGRANGIAN = Name("L")  # where it is no angular momentum
@@ -76,7 +75,7 @@ class Vocabulary:
     @classmethod
     def of(cls, equations: Equations) -> Vocabulary:
         """What is known from the declaration alone."""
-        return cls(_mechanics(The(equations)))
+        return cls(_mechanics(EquationsKey(equations)))
 
     def saying(self, told: Mapping[Node, Meaning]) -> Vocabulary:
         """With more letters, or with other meanings."""
@@ -272,7 +271,7 @@ def _names(piece: Piece) -> Iterator[Name]:
 
 
 @lru_cache(maxsize=_KEPT)
-def _mechanics(the: The) -> Mechanics:
+def _mechanics(the: EquationsKey) -> Mechanics:
     """The same for all texts on one system, with all that was found out about it."""
     return Mechanics(the.equations)
 

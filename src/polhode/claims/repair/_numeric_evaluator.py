@@ -10,8 +10,8 @@ import numpy as np
 from polhode.algebra import Expr, Triad, Vector
 from polhode.base import NumericError, PolhodeError
 from polhode.claims.latex._tree import Node, Statement
-from polhode.claims.meaning._components import Member, Side, triad_of
-from polhode.claims.meaning._meaning import Tensor
+from polhode.claims.meaning._meaning import Side, Tensor
+from polhode.claims.meaning._relations import Member, triad_of
 from polhode.claims.repair._figures import Figure, carried, formed, is_arithmetic, scalar, together
 from polhode.claims.repair._links import Links
 from polhode.claims.repair._places import NodePosition

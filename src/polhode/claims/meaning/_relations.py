@@ -1,4 +1,4 @@
-"""The terms that a relation prints, and what each of them contributes to it.
+"""Relations of a claim: as bound, by scalar components, and with the terms that they print.
 
 A term contributes what its side changes by, to first order, when the term is stretched by a small
 factor: of √(1 - 4x) the term 4x contributes -2x/√(1 - 4x), however small x itself is.
@@ -7,18 +7,125 @@ factor: of √(1 - 4x) the term 4x contributes -2x/√(1 - 4x), however small x 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from typing import Protocol
 
-from polhode.algebra import ZERO, Expr, Symbol, Vector
+from polhode.algebra import ZERO, Expr, Symbol, Triad, Vector, zero_vector
+from polhode.base import ParseError
 from polhode.claims.latex import _tree as tree
-from polhode.claims.latex._tree import Node
-from polhode.claims.meaning._components import Side
+from polhode.claims.latex._tree import Node, Span
 from polhode.claims.meaning._evaluate import TIME, Evaluator
-from polhode.claims.meaning._meaning import BindingError, Meaning, Tensor
+from polhode.claims.meaning._meaning import BindingError, Meaning, Side, Tensor, sort
+from polhode.model import Frame
 
 _STRETCH = Symbol("stretch")
 _LETTER = tree.Name("stretch", "of a term")
 _STRETCHED = tree.Sum((tree.Number("1"), _LETTER))
+
+
+@dataclass(frozen=True)
+class BoundRelation:
+    """One member of a claim.
+
+    Attributes:
+        left: what stands left of the sign.
+        sign: one of = ≡ ≈ ≠ < > ≤ ≥ ≪ ≫ ∝.
+        right: what stands right of it.
+        span: first and one past the last character of the member in its LaTeX.
+        is_alternative: whether it is a further value after an "or".
+        printed: its two sides as they stand; None for a relation that nobody printed.
+    """
+
+    left: Side
+    sign: str
+    right: Side
+    span: Span = (0, 0)
+    is_alternative: bool = False
+    printed: PrintedRelation | None = field(default=None, compare=False, repr=False)
+
+
+class Member(Protocol):
+    """One member of a claim: a left side, a sign such as "=", and a right side."""
+
+    @property
+    def left(self) -> Side:
+        """The left side."""
+        ...
+
+    @property
+    def sign(self) -> str:
+        """The sign between them."""
+        ...
+
+    @property
+    def right(self) -> Side:
+        """The right side."""
+        ...
+
+    @property
+    def is_alternative(self) -> bool:
+        """Whether it is a further value after an "or"."""
+        ...
+
+    @property
+    def printed(self) -> PrintedRelation | None:
+        """Its two sides as they stand in print."""
+        ...
+
+
+@dataclass(frozen=True)
+class ScalarRelation:
+    """One scalar relation of a claim.
+
+    Attributes:
+        member: which link of a chain or row of a block, counted from 0.
+        label: direction of a vector relation; empty for a scalar.
+    """
+
+    member: int
+    label: str
+    left: Expr
+    right: Expr
+
+    @property
+    def difference(self) -> Expr:
+        """Left side less right side."""
+        return self.left - self.right
+
+
+def components(member: int, left: Side, right: Side) -> tuple[ScalarRelation, ...]:
+    """The scalar relations that a relation stands for.
+
+    Raises `ParseError` for a scalar set against a vector; the number 0 may stand for a vector.
+    """
+    match left, right:
+        case Expr(), Expr():
+            return (ScalarRelation(member, "", left, right),)
+        case Vector(), Vector():
+            return tuple(_along(member, left, right))
+        case Vector(), Expr() if not right:
+            return tuple(_along(member, left, zero_vector(left.triad)))
+        case Expr(), Vector() if not left:
+            return tuple(_along(member, zero_vector(right.triad), right))
+    raise ParseError(
+        f"a {sort(left)} set against a {sort(right)}",
+        expected="two scalars or two vectors",
+        advice="look for a lost hat, arrow or dot product",
+    )
+
+
+def triad_of(left: Side, right: Side) -> Triad | None:
+    """The directions along which a relation between vectors is taken apart; none for scalars."""
+    vectors = [side for side in (left, right) if isinstance(side, Vector)]
+    return next((v.triad for v in vectors if not v.is_zero), vectors[-1].triad if vectors else None)
+
+
+def _along(member: int, left: Vector, right: Vector) -> Iterator[ScalarRelation]:
+    triad = (right if left.is_zero else left).triad
+    labels = triad.labels if isinstance(triad, Frame) else ("1", "2", "3")
+    sides = left.express(triad).components, right.express(triad).components
+    for label, one, other in zip(labels, *sides, strict=True):
+        yield ScalarRelation(member, label, one, other)
 
 
 @dataclass(frozen=True)
