@@ -158,7 +158,7 @@ def test_the_line_is_that_of_the_field() -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ('[document]\ntitle = "x\n', "no TOML"),
+        ('[document]\ntitle = "x\n', "not TOML"),
         ("", "no title"),
         ("claim = 3\n[document]\ntitle = 'x'", "one [[claim]] for each"),
         ("[document]\ntitle = 'x'\n[claim]\nid = 'a'", "use double brackets"),

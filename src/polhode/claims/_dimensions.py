@@ -1,4 +1,4 @@
-"""Whether all terms of a claim have one dimension, as far as the declaration tells."""
+"""Whether all terms of a claim have one dimension, as far as the declaration determines."""
 
 from __future__ import annotations
 
@@ -11,37 +11,38 @@ from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import BoundClaim
 
 
-def dimensions_at_odds(asked: BoundClaim) -> str:
+def dimensions_at_odds(claim: BoundClaim) -> str:
     """The members whose terms have different dimensions, in words; empty where there are none."""
     try:
-        gauge = _Gauge(asked.equations.dimensions)
+        analysis = _DimensionalAnalysis(claim.equations.dimensions)
     except PolhodeError:
         return ""
-    odd = {c.member: found for c in asked.components() if (found := _dimensions(c, gauge))}
-    told = (f"{_listed(found)} in member {member + 1}" for member, found in odd.items())
-    return f"terms of different dimensions: {'; '.join(told)}" if odd else ""
+    odd = {c.member: found for c in claim.components() if (found := _dimensions(c, analysis))}
+    if not odd:
+        return ""
+    listed = (
+        f"{' and '.join(sorted(map(str, found)))} in member {member + 1}"
+        for member, found in odd.items()
+    )
+    return f"terms of different dimensions: {'; '.join(listed)}"
 
 
-def _listed(found: tuple[Dimension, ...]) -> str:
-    return " and ".join(sorted(map(str, found)))
-
-
-def _dimensions(component: ScalarRelation, gauge: _Gauge) -> tuple[Dimension, ...]:
+def _dimensions(component: ScalarRelation, analysis: _DimensionalAnalysis) -> tuple[Dimension, ...]:
     """The dimensions of a component's terms, where they are not all the same."""
-    every = [d for side in (component.left, component.right) for d in gauge.terms(side)]
+    every = [d for side in (component.left, component.right) for d in analysis.terms(side)]
     found = tuple(dict.fromkeys(every))
     return found if len(found) > 1 else ()
 
 
-class _Gauge:
-    """Tells dimensions by those of the symbols; of a generator only once."""
+class _DimensionalAnalysis:
+    """Dimensions of expressions from those of the symbols; of each generator only once."""
 
     def __init__(self, known: Mapping[Symbol, Dimension]) -> None:
         self._known = known
         self._found: dict[Generator, Dimension | None] = {}
 
     def terms(self, side: Expr) -> Iterator[Dimension]:
-        """Of every term of which the dimension is known, over the first term below."""
+        """Of every term whose dimension is known, over the first term of the denominator."""
         below = next((self._product(powers) for powers, _ in side.denominator.terms()), PURE)
         for powers, _ in side.numerator.terms():
             above = self._product(powers)
@@ -68,7 +69,7 @@ class _Gauge:
             base = PURE if generator.name == "pi" else self._known.get(generator.base())
             return None if base is None else base / TIME**generator.order
         if under_name(generator) is not None:
-            return None  # it would have to be looked into
+            return None  # unknown without expanding it
         if not generator.depth or generator.partner() is not None:
             return PURE
         inside = next(iter(generator.arguments[0].numerator.terms()))[0]

@@ -1,4 +1,4 @@
-"""A statement that was read, bound to a model: its members as relations of exact quantities."""
+"""A statement bound to a model: its members as relations between exact quantities."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ class Bound:
 
     Attributes:
         branches: the members; twice, for the upper and the lower sign, where it says ±.
-        defined: letters that it defines, bound by nothing else, with what they stand for.
+        defined: letters that it defines, which nothing else does, with what they stand for.
         conditions: what restricts it: relations in brackets after a word such as "if", and the
             range of a coordinate or speed.
-        values: values of coordinates and speeds in brackets, which may restrict it or be said.
+        values: values of coordinates and speeds in brackets, which may be conditions or claims.
         digits: for members with a decimal number on the right, half a unit of its last digit.
     """
 
@@ -98,7 +98,7 @@ def _is_of_state(relation: BoundRelation, vocabulary: Vocabulary) -> bool:
 
 
 class _Binder:
-    """Binds the relations of one statement in their order; later ones know what earlier define."""
+    """Binds the relations of one statement in order; later ones use what earlier ones define."""
 
     def __init__(self, evaluator: Evaluator) -> None:
         self._evaluator = evaluator
@@ -129,7 +129,7 @@ class _Binder:
         return letter and not self._evaluator.vocabulary.has(node) and not self._reads(node)
 
     def _refuse_primes(self, node: Node) -> None:
-        """Two primes on a quantity of the system are no new letter but a rate."""
+        """Two primes on a quantity of the system are meant as a rate, not as a new letter."""
         vocabulary = self._evaluator.vocabulary
         if not isinstance(node, tree.Name) or node.primes < 2 or vocabulary.has(node):
             return
@@ -142,7 +142,7 @@ class _Binder:
             )
 
     def _reads(self, node: Node) -> bool:
-        """Whether a node that is no known letter has a meaning by its parts."""
+        """Whether a node that is not a known letter has a meaning by its parts."""
         if isinstance(node, tree.Name):
             return False
         try:
@@ -153,7 +153,7 @@ class _Binder:
 
     def _define(self, node: Node, value: Meaning) -> None:
         self.defined[node] = value
-        vocabulary = self._evaluator.vocabulary.saying({node: value})
+        vocabulary = self._evaluator.vocabulary.stating({node: value})
         self._evaluator = replace(self._evaluator, vocabulary=vocabulary)
 
     def _member(self, printed: PrintedRelation, sign: str) -> BoundRelation:
@@ -181,7 +181,7 @@ class _Binder:
         return _side(one), _side(two)
 
     def _undone(self, node: Node, inverse: tree.Call, other: Node) -> tuple[Side, Side]:
-        """c artanh x = y read as x = tanh(y/c)."""
+        """The equation c artanh x = y as x = tanh(y/c)."""
         value = self._evaluator.value
         factor = value(_without(node, inverse))
         inside = as_scalar(over(value(other), factor), inverse.function)
@@ -222,7 +222,7 @@ def _says_constant(node: Node) -> bool:
 
 
 def _inverse(node: Node) -> tree.Call | None:
-    """The inverse function that a side consists of, but for factors."""
+    """The inverse function that a side consists of, apart from factors."""
     match node:
         case tree.Call(function) if function in FORWARD:
             return node
@@ -289,4 +289,6 @@ def _scalars(left: Side, right: Side) -> Iterator[tuple[Expr, Expr]]:
         case Vector(), Expr() if not right:
             yield from ((component, ZERO) for component in left.components)
         case _:
-            raise BindingError("a scalar set equal to a vector", expected="two of a kind")
+            raise BindingError(
+                "a scalar set equal to a vector", expected="two scalars or two vectors"
+            )

@@ -1,4 +1,4 @@
-"""From what is printed to what is meant: a node of the tree becomes a scalar or a vector."""
+"""Values of printed formulas: a node of the tree becomes a scalar, a vector or a tensor."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ _FUNCTIONS: dict[str, Callable[[Expr], Expr]] = {
     "exp": exp,
 }
 
-#: What undoes an inverse function: artanh x = y says x = tanh y.
+#: The inverse of each inverse function: artanh x = y says x = tanh y.
 FORWARD: dict[str, Callable[[Expr], Expr]] = {
     "arcsin": sin,
     "arccos": cos,
@@ -61,12 +61,12 @@ FORWARD: dict[str, Callable[[Expr], Expr]] = {
 
 
 class UnclearDerivativeError(BindingError):
-    """A derivative with d by a coordinate, of a quantity that varies otherwise as well."""
+    """A derivative d/dθ of a quantity that varies with more than θ."""
 
     def __init__(self, of: str, by: str) -> None:
         super().__init__(
             f"d({of})/d({by}) where {of} varies with more than {by}",
-            expected="one that all readings agree on",
+            expected="a derivative on which all readings agree",
             advice=f"write \\partial for the derivative at fixed speeds, or the rate of {of} over "
             f"the rate of {by} for the one along the motion",
         )
@@ -92,12 +92,12 @@ class Evaluator:
         Raises `BindingError` for symbols without a meaning and for kinds that do not go together.
         """
         key = node, self.upper, self.per_time
-        known = self.vocabulary.found
+        known = self.vocabulary.values
         if key not in known:
-            known[key] = self._found(node)
+            known[key] = self._computed(node)
         return known[key]
 
-    def _found(self, node: tree.Node) -> Meaning:
+    def _computed(self, node: tree.Node) -> Meaning:
         found = self.vocabulary.find(node)
         if found is not None:
             return found
@@ -150,11 +150,11 @@ class Evaluator:
         return reduce(lambda value, _: value.diff(variable), range(node.order), whole)
 
     def _total(self, node: tree.Derivative, whole: Expr, variable: Symbol) -> Expr:
-        """dE/dθ where E depends on more than θ: two readings, neither of which goes by itself.
+        """dE/dθ where E depends on more than θ, which texts read in two ways.
 
-        Raises `UnclearDerivativeError` where the vocabulary settles on none.
+        Raises `UnclearDerivativeError` where the vocabulary chooses neither.
         """
-        match self.vocabulary.totals:
+        match self.vocabulary.total_derivative:
             case "partial":
                 return reduce(lambda value, _: value.diff(variable), range(node.order), whole)
             case "along the motion":
@@ -163,7 +163,7 @@ class Evaluator:
         raise UnclearDerivativeError(spelled(node.of), spelled(node.by))
 
     def _seen_from_axes(self, value: Meaning) -> Meaning:
-        """∂L/∂t of a vector: the rate that its axes see."""
+        """∂L/∂t of a vector: its rate relative to the axes of the body."""
         if isinstance(value, Vector):
             axes = self.vocabulary.mechanics.body.axes
             return value.express(axes).dt(axes)
@@ -223,14 +223,14 @@ class Evaluator:
         return meanings.power(self.value(node.base), self.value(node.exponent), self._root)
 
     def _is_exponential(self, node: tree.Power) -> bool:
-        """Whether e is no letter of the text; e² would rather be one that it does not explain."""
+        """Whether e is Euler's number: no letter of the text, and not e², which may be one."""
         plain = isinstance(node.exponent, tree.Number)
         return node.base == _EULER and not plain and not self.vocabulary.has(_EULER)
 
     @_value.register
     def _(self, node: tree.Root) -> Meaning:
         if node.index is not None and self.scalar(node.index) != 2:
-            raise BindingError("a root that is no square root", expected="a square root")
+            raise BindingError("a root other than a square root", expected="a square root")
         return self._root(self.scalar(node.of))
 
     def _root(self, radicand: Expr) -> Expr:
@@ -242,7 +242,7 @@ class Evaluator:
             raise BindingError(
                 f"the function {node.function}",
                 expected=f"one of {', '.join(_FUNCTIONS)}",
-                advice="an inverse function may stand alone on one side, but for a factor",
+                advice="an inverse function may stand alone on one side, apart from factors",
             )
         return _FUNCTIONS[node.function](self.scalar(node.argument))
 
@@ -265,8 +265,8 @@ class Evaluator:
     def _(self, node: tree.Evaluated) -> Meaning:
         raise BindingError(
             f"a quantity taken at {node.subscript}",
-            expected="one at the state that the claim is about",
-            advice=f"leave the bar out and restrict the claim to {node.subscript}",
+            expected="a quantity at the state that the claim is about",
+            advice=f"leave out the bar and restrict the claim to {node.subscript}",
             option="given",
         )
 

@@ -1,4 +1,4 @@
-"""What letters mean: scalars, vectors, inertia tensors; and what signs between them do."""
+"""Meanings of formulas: scalars, vectors and inertia tensors, with the operations on them."""
 
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ class BindingError(ParseError):
     """A formula that was read but whose symbols cannot be given a meaning.
 
     Attributes:
-        symbol: the symbol at fault, in ASCII; empty where the trouble is a sign between two.
-        near: names that are known and resemble it.
+        symbol: the symbol at fault, in ASCII; empty where two quantities do not go together.
+        near: known names that resemble it.
     """
 
     def __init__(
@@ -134,7 +134,7 @@ def power(base: Meaning, exponent: Meaning, root: Callable[[Expr], Expr]) -> Mea
     number = exponent.rational if isinstance(exponent, Expr) else None
     if number is None or number.denominator > 2 or abs(number) > _HIGHEST:
         raise BindingError(
-            "a power whose exponent is no number",
+            "a power whose exponent is not a number",
             expected=f"a whole or half number up to {_HIGHEST}",
         )
     if isinstance(base, Tensor):
@@ -180,7 +180,7 @@ def sort(meaning: Meaning) -> str:
 
 
 def positive_root(radicand: Expr, positive: Collection[Expr]) -> Expr:
-    """The square root, where the signs of some quantities are known besides."""
+    """The square root, simplified by the known signs of some quantities."""
     try:
         return with_signs(sqrt(radicand), positive)
     except NumericError as error:
@@ -190,12 +190,12 @@ def positive_root(radicand: Expr, positive: Collection[Expr]) -> Expr:
 
 
 def positive_size(x: Expr, positive: Collection[Expr]) -> Expr:
-    """The magnitude, where the signs of some quantities are known besides."""
+    """The magnitude, simplified by the known signs of some quantities."""
     return with_signs(absolute(x), positive)
 
 
 def signed(meaning: Meaning, positive: Collection[Expr]) -> Meaning:
-    """A scalar or vector in which the signs of some quantities are used."""
+    """A scalar or vector simplified by the known signs of some quantities."""
     match meaning:
         case Expr():
             return with_signs(meaning, positive)

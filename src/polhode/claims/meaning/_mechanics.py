@@ -1,7 +1,7 @@
 """Quantities of a model, formed from its declaration.
 
-All declared speeds, all rates and the reaction components stay symbols: what a text says of a
-quantity is then a statement about the declaration, and not about equations derived from it.
+All declared speeds, all rates and the reaction components stay symbols, so that a claim about a
+quantity is a claim about the declaration, and not about equations derived from it.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ class Mechanics:
 
     @property
     def body(self) -> Body:
-        """The body meant where none is named."""
+        """The first body, which is meant where none is named."""
         return self.equations.system.bodies[0]
 
     def _body(self, name: str) -> Body:
@@ -213,7 +213,7 @@ class Mechanics:
         return sum(shares, self.body.axes.zero)
 
     def torque(self, about: str = "cm") -> Vector:
-        """Of all that acts from outside, about a point, N m."""
+        """Of all external forces and couples about a point, N m."""
         centre, places = self.position(about or "cm"), self.declared.places
         total = self.body.axes.zero
         for line in self.equations.lines:
@@ -275,7 +275,7 @@ class Mechanics:
         return self.in_rates(self.lagrangian()).diff(known[coordinate].derivative())
 
     def in_speeds(self, quantity: Meaning) -> Meaning:
-        """With rates of coordinates such as ẏ put in terms of the speeds that are declared."""
+        """With rates of coordinates such as ẏ expressed by the declared speeds."""
         rates = {q.derivative(): rate for q, rate in self.declared.rates.items()}
         match quantity:
             case Expr():
@@ -285,7 +285,7 @@ class Mechanics:
         return quantity
 
     def in_rates(self, expression: Expr) -> Expr:
-        """With speeds such as ω₃ put in terms of the rates of the coordinates."""
+        """With speeds such as ω₃ expressed by the rates of the coordinates."""
         rates = self.declared.rates
         found = {s for rate in rates.values() for s in rate.symbols() if s.kind is SymbolKind.SPEED}
         speeds = sorted(found, key=lambda symbol: symbol.published)

@@ -33,7 +33,7 @@ class BoundRelation:
         right: what stands right of it.
         span: first and one past the last character of the member in its LaTeX.
         is_alternative: whether it is a further value after an "or".
-        printed: its two sides as they stand; None for a relation that nobody printed.
+        printed: its two sides as they stand; None for a relation that is not printed.
     """
 
     left: Side
@@ -163,10 +163,10 @@ class PrintedRelation:
     def terms(self, node: Node) -> tuple[Term, ...]:
         """The terms of one of the sides.
 
-        Raises `BindingError` for a side whose terms cannot be told.
+        Raises `BindingError` for a side whose terms cannot be evaluated.
         """
         letter: dict[Node, Meaning] = {_LETTER: Expr.generator(_STRETCH)}
-        vocabulary = self.evaluator.vocabulary.saying(letter)
+        vocabulary = self.evaluator.vocabulary.stating(letter)
         return tuple(_terms(node, replace(self.evaluator, vocabulary=vocabulary)))
 
     def factors(self, node: Node) -> tuple[tuple[Node, Meaning], ...]:
