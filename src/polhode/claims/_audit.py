@@ -59,13 +59,10 @@ class ClaimChecker:
 
     def _notation(self, part: Part, claim: Claim, chosen: Chosen) -> Notation:
         start = (f"{name} = {value}" for name, value in claim.start.items())
-        return reduce(with_start, start, self._of_part(part, chosen).of_claim(claim))
-
-    def _of_part(self, part: Part, chosen: Chosen) -> Notation:
         key = part.id, frozenset(chosen.items())
         if key not in self._notations:
             self._notations[key] = Notation.of_part(self.resolver(part.system), part, chosen)
-        return self._notations[key]
+        return reduce(with_start, start, self._notations[key].of_claim(claim))
 
 
 def _accompanying(part: Part, claim: Claim) -> Iterator[Statement]:

@@ -53,16 +53,13 @@ class _DimensionalAnalysis:
         """Of a product of powers; None where it has a letter of unknown dimension."""
         whole = PURE
         for generator, power in powers.items():
-            found = self._of(generator)
+            if generator not in self._found:
+                self._found[generator] = self._dimension(generator)
+            found = self._found[generator]
             if found is None:
                 return None
             whole = whole * (found if power == 1 else found**power)
         return whole
-
-    def _of(self, generator: Generator) -> Dimension | None:
-        if generator not in self._found:
-            self._found[generator] = self._dimension(generator)
-        return self._found[generator]
 
     def _dimension(self, generator: Generator) -> Dimension | None:
         if isinstance(generator, Symbol):

@@ -182,7 +182,15 @@ class Notation:
         """The claim that a bound statement makes under this notation's restrictions."""
         equalities = [r for r in bound.conditions if r.sign in EQUAL]
         values, vanishing = restrictions((*self.given, *equalities))
-        _refuse_unclear(bound, values)
+        for relation in bound.values:
+            if relation.left not in values and relation.right not in values:
+                said = f"{relation.left} = {relation.right} in brackets"
+                raise ParseError(
+                    f"{said}, which may be a condition or a claim",
+                    expected="a word that tells which, such as (if ...)",
+                    advice="write \\text{if} inside the bracket, or state it as given",
+                    option="given",
+                )
         given: dict[Symbol, Expr] = {as_symbol(s): value for s, value in values.items()}
         equations = self.vocabulary.mechanics.equations
         return BoundClaim(
@@ -234,16 +242,3 @@ def _ranges(bound: Bound) -> Iterator[Expr]:
         if relation.sign in SENSE:
             left, right = (as_scalar(s, "a bound") for s in (relation.left, relation.right))
             yield (left - right) * SENSE[relation.sign]
-
-
-def _refuse_unclear(bound: Bound, given: Mapping[Expr, Expr]) -> None:
-    """Refuse a value in brackets that may be either a condition or a claim."""
-    for relation in bound.values:
-        if relation.left not in given and relation.right not in given:
-            raise ParseError(
-                f"{relation.left} = {relation.right} in brackets, which may be a condition or a "
-                "claim",
-                expected="a word that tells which, such as (if ...)",
-                advice="write \\text{if} inside the bracket, or state it as given",
-                option="given",
-            )

@@ -54,7 +54,8 @@ def read_document(source: str | Path) -> Document:
     content = _toml(text)
     lines = text.splitlines()
     _refuse_unknown_fields(content)
-    head = Table("document", content.get("document", {}), _line(lines, "[document]"), lines)
+    header = next((n for n, line in enumerate(lines, 1) if line.strip() == "[document]"), 1)
+    head = Table("document", content.get("document", {}), header, lines)
     head.refuse_others(_DOCUMENT)
     parts = _parts(tables("part", content.get("part", []), lines))
     claims = _claims(tables("claim", content.get("claim", []), lines), parts)
@@ -103,10 +104,6 @@ def _refuse_unknown_fields(content: dict[str, Any]) -> None:
         )
     if not isinstance(content.get("document", {}), dict):
         raise ParseError("'document' that is not a table", expected="[document] with a title")
-
-
-def _line(lines: list[str], header: str) -> int:
-    return next((n for n, text in enumerate(lines, 1) if text.strip() == header), 1)
 
 
 def _parts(found: tuple[Table, ...]) -> dict[str, Part]:
@@ -165,7 +162,9 @@ def _claims(found: tuple[Table, ...], parts: dict[str, Part]) -> tuple[Claim, ..
             raise table.wrong("part", f"one of {', '.join(parts) or 'the parts: there is none'}")
         claims[claim.id] = claim
     for table in found:
-        _refuse_unknown_origin(table, claims)
+        for origin in table.texts("follows_from"):
+            if origin not in claims or origin == table.values["id"]:
+                raise table.wrong("follows_from", "ids of other claims of this document")
     return tuple(claims.values())
 
 
@@ -197,12 +196,6 @@ def _claim(table: Table) -> Claim:
     if bool(claim.read_as) != bool(claim.reason):
         raise table.wrong("reason", "read_as together with its reason", "say how the damage shows")
     return claim
-
-
-def _refuse_unknown_origin(table: Table, claims: dict[str, Claim]) -> None:
-    for origin in table.texts("follows_from"):
-        if origin not in claims or origin == table.values["id"]:
-            raise table.wrong("follows_from", "ids of other claims of this document")
 
 
 # -- one table, field by field -------------------------------------------------------------------

@@ -116,7 +116,10 @@ class _Binder:
     def _chain(self, relation: Relation) -> Iterator[BoundRelation]:
         sides = relation.sides
         if relation.signs and relation.signs[0] in EQUAL and self._is_new(sides[0]):
-            self._define(sides[0], self._evaluator.value(sides[1]))
+            definition = {sides[0]: self._evaluator.value(sides[1])}
+            self.defined |= definition
+            vocabulary = self._evaluator.vocabulary.stating(definition)
+            self._evaluator = replace(self._evaluator, vocabulary=vocabulary)
             relation = replace(relation, sides=sides[1:], signs=relation.signs[1:])
         chain = zip(relation.sides, relation.signs, relation.sides[1:], strict=False)
         for place, (left, sign, right) in enumerate(chain):
@@ -151,11 +154,6 @@ class _Binder:
             return False
         return True
 
-    def _define(self, node: Node, value: Meaning) -> None:
-        self.defined[node] = value
-        vocabulary = self._evaluator.vocabulary.stating({node: value})
-        self._evaluator = replace(self._evaluator, vocabulary=vocabulary)
-
     def _member(self, printed: PrintedRelation, sign: str) -> BoundRelation:
         left, right = printed.left, printed.right
         if sign not in COMPARED:
@@ -176,16 +174,13 @@ class _Binder:
         for node, other in ((left, right), (right, left)):
             inverse = _inverse(node)
             if inverse is not None:
-                return self._undone(node, inverse, other)
+                # c artanh x = y is read as x = tanh(y/c), which has no branches to choose from
+                value = self._evaluator.value
+                factor = value(_without(node, inverse))
+                inside = as_scalar(over(value(other), factor), inverse.function)
+                return _side(value(inverse.argument)), FORWARD[inverse.function](inside)
         one, two = self._evaluator.value(left), self._evaluator.value(right)
         return _side(one), _side(two)
-
-    def _undone(self, node: Node, inverse: tree.Call, other: Node) -> tuple[Side, Side]:
-        """The equation c artanh x = y as x = tanh(y/c)."""
-        value = self._evaluator.value
-        factor = value(_without(node, inverse))
-        inside = as_scalar(over(value(other), factor), inverse.function)
-        return _side(value(inverse.argument)), FORWARD[inverse.function](inside)
 
     def _half_unit(self, node: Node) -> Expr | None:
         numbers = [p for p in walk(node) if isinstance(p, tree.Number) and "." in p.text]

@@ -9,7 +9,6 @@ from functools import reduce, singledispatchmethod
 
 from polhode.algebra import (
     Expr,
-    Symbol,
     Vector,
     as_symbol,
     cos,
@@ -146,21 +145,13 @@ class Evaluator:
         if node.partial:
             whole = self.vocabulary.mechanics.in_rates(whole)
         elif {s for s in whole.symbols() if s.kind.varies} - {variable}:
-            return self._total(node, whole, variable)
-        return reduce(lambda value, _: value.diff(variable), range(node.order), whole)
-
-    def _total(self, node: tree.Derivative, whole: Expr, variable: Symbol) -> Expr:
-        """dE/dθ where E depends on more than θ, which texts read in two ways.
-
-        Raises `UnclearDerivativeError` where the vocabulary chooses neither.
-        """
-        match self.vocabulary.total_derivative:
-            case "partial":
-                return reduce(lambda value, _: value.diff(variable), range(node.order), whole)
-            case "along the motion":
+            # dE/dθ where E varies with more than θ is ∂E/∂θ in some texts, Ė/θ̇ in others.
+            if not self.vocabulary.total_derivative:
+                raise UnclearDerivativeError(spelled(node.of), spelled(node.by))
+            if self.vocabulary.total_derivative == "along the motion":
                 rate = Expr.generator(variable).dt()
                 return reduce(lambda value, _: value.dt() / rate, range(node.order), whole)
-        raise UnclearDerivativeError(spelled(node.of), spelled(node.by))
+        return reduce(lambda value, _: value.diff(variable), range(node.order), whole)
 
     def _seen_from_axes(self, value: Meaning) -> Meaning:
         """∂L/∂t of a vector: its rate relative to the axes of the body."""
@@ -218,14 +209,11 @@ class Evaluator:
 
     @_value.register
     def _(self, node: tree.Power) -> Meaning:
-        if self._is_exponential(node):
+        # e is Euler's number unless the text defines it; e² may be the square of a length.
+        is_number = isinstance(node.exponent, tree.Number)
+        if node.base == _EULER and not is_number and not self.vocabulary.has(_EULER):
             return exp(self.scalar(node.exponent))
         return meanings.power(self.value(node.base), self.value(node.exponent), self._root)
-
-    def _is_exponential(self, node: tree.Power) -> bool:
-        """Whether e is Euler's number: no letter of the text, and not e², which may be one."""
-        plain = isinstance(node.exponent, tree.Number)
-        return node.base == _EULER and not plain and not self.vocabulary.has(_EULER)
 
     @_value.register
     def _(self, node: tree.Root) -> Meaning:

@@ -8,7 +8,7 @@ turns with the body and happens to keep their labels.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 
 from polhode.algebra import Vector
@@ -153,7 +153,10 @@ def _directions(mechanics: Mechanics) -> Iterator[Entry]:
                     yield Name(label, decoration=_HAT), (f"axis {label} of {frame.name}",)
         known.update(labels)
     for frame in reversed(chain):
-        for subscript in _triad_names(frame):
+        # Below an ω, texts write the labels of a triad: 123, (1,2,3) or 1,2,3.
+        short = all(len(label) == 1 for label in frame.labels)
+        joined = "".join(frame.labels) if short else " ".join(frame.labels)
+        for subscript in (joined, f"({','.join(frame.labels)})", ",".join(frame.labels)):
             yield (
                 Name("omega", subscript, decoration=_VECTOR),
                 (f"angular velocity of {frame.name}",),
@@ -163,10 +166,3 @@ def _directions(mechanics: Mechanics) -> Iterator[Entry]:
 def _is_fixed(frame: Frame) -> bool:
     """Whether a frame keeps its directions in the root frame: all its angles are constant."""
     return not any(s.kind.varies for f in frame.lineage for s in f.angle.symbols())
-
-
-def _triad_names(frame: Frame) -> Iterable[str]:
-    """What texts write below an ω for a triad: 123, (1,2,3) or 1,2,3."""
-    short = all(len(label) == 1 for label in frame.labels)
-    joined = "".join(frame.labels) if short else " ".join(frame.labels)
-    return joined, f"({','.join(frame.labels)})", ",".join(frame.labels)

@@ -94,8 +94,13 @@ def cross(left: Meaning, right: Meaning) -> Meaning:
     match left, right:
         case Vector(), Vector():
             return left.cross(right)
-        case (Expr(), Expr()) | (Expr(), Vector()) | (Vector(), Expr()):
-            return _stretched(left, right)
+        case Expr(), Expr():
+            return left * right
+        case (Expr() as factor, Vector()) | (Vector(), Expr() as factor):
+            # Unless the scalar is a plain number, it is a vector that lost its hat or boldness.
+            if factor.rational is None:
+                raise _mismatch(left, "×", right, "look for a lost hat or arrow")
+            return times(left, right)
     raise _mismatch(left, "×", right, "")
 
 
@@ -109,15 +114,6 @@ def dot(left: Meaning, right: Meaning) -> Meaning:
         case (Expr(), Expr()) | (Expr(), Vector()) | (Vector(), Expr()):
             return times(left, right)
     raise _mismatch(left, "·", right, "")
-
-
-def _stretched(left: Meaning, right: Meaning) -> Meaning:
-    """A scalar × a vector is a lost hat or bold letter, unless the scalar is a plain number."""
-    both = isinstance(left, Expr) and isinstance(right, Expr)
-    numbers = [m.rational for m in (left, right) if isinstance(m, Expr)]
-    if both or any(number is not None for number in numbers):
-        return times(left, right)
-    raise _mismatch(left, "×", right, "look for a lost hat or arrow")
 
 
 def over(above: Meaning, below: Meaning) -> Meaning:

@@ -151,9 +151,9 @@ class Mechanics:
 
     def acceleration(self, of: str = "") -> Vector:
         """Of a centre of mass, m/s²."""
-        return self.velocity(of).dt() if of == "cm" else self._acceleration_of(self._place(of)[0])
-
-    def _acceleration_of(self, body: Body) -> Vector:
+        if of == "cm":
+            return self.velocity(of).dt()
+        body, _ = self._place(of)
         return self.declared.places[body].dt().dt()
 
     def angular_velocity(self, of: str = "") -> Vector:
