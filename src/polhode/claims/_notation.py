@@ -175,7 +175,7 @@ class Notation:
 
     @cached_property
     def _wider(self) -> dict[tuple[tuple[str, Expr], ...], Notation]:
-        """Notations with further letters, kept with the values that they have found."""
+        """Notations with further letters, kept with the values found so far."""
         return {(): self}
 
     def claimed(self, bound: Bound) -> BoundClaim:

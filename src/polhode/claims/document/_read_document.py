@@ -200,6 +200,7 @@ def _claim(table: Table) -> Claim:
 
 # -- one table, field by field -------------------------------------------------------------------
 
+_LONGEST_SHOWN = 40  # characters of a value in an error
 _HEADER = re.compile(r"\s*\[{1,2}\s*([\w.\-\"' ]+?)\s*\]{1,2}\s*(?:#.*)?")
 
 
@@ -288,7 +289,9 @@ class Table:
 
     def wrong(self, key: str, expected: str, advice: str = "") -> ParseError:
         """The error about one field."""
-        given = f"{key} = {_short(self.values[key])}" if key in self.values else f"no {key}"
+        shown = repr(self.values.get(key))
+        shown = shown if len(shown) <= _LONGEST_SHOWN else shown[: _LONGEST_SHOWN - 3] + "..."
+        given = f"{key} = {shown}" if key in self.values else f"no {key}"
         place = f"line {self.line_of(key)}: {given} in [{self.name}]"
         return ParseError(place, expected=expected, advice=advice)
 
@@ -329,8 +332,3 @@ def tables(name: str, entries: object, lines: Sequence[str]) -> tuple[Table, ...
 def _header(text: str) -> str:
     match = _HEADER.fullmatch(text)
     return match.group(1) if match else ""
-
-
-def _short(value: object) -> str:
-    shown = repr(value)
-    return shown if len(shown) <= 40 else shown[:37] + "..."

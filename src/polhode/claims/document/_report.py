@@ -157,7 +157,7 @@ class Report(Shown):
             "schema": SCHEMA,
             "title": self.document.title,
             "source": self.document.source,
-            "claims": [_plain(judged) for judged in self.judged],
+            "claims": [_claim_json(judged) for judged in self.judged],
             "counts": self.counts,
             "consequences": [
                 {
@@ -214,7 +214,7 @@ def _row(judged: Judged) -> str:
     return start + shorten(remark, _WIDEST, placeholder=" …") if remark else start.rstrip()
 
 
-def _plain(judged: Judged) -> dict[str, Any]:
+def _claim_json(judged: Judged) -> dict[str, Any]:
     claim, verdict = judged.claim, judged.verdict
     correction = verdict.correction
     return {

@@ -77,6 +77,7 @@ _ADDING = ("+", "-", "±", "∓")
 _MULTIPLYING = ("×", "·", "*")
 _OPENERS = ("(", "[", "\\{", "bar(", "null(")
 _LETTERS = {"letter", "decoration", "dots", "alphabet"}
+_ANGLES = _LETTERS | {"fraction"}  # what an angle behind a number may begin with
 _FACTORS = _LETTERS | {
     "number",
     "function",
@@ -450,17 +451,14 @@ class _Parser:
 
     def _starts_factor(self) -> bool:
         token = self._token
-        starts = (
-            token.kind in _FACTORS
-            or token.is_mark("{", *_OPENERS)
-            or (token.is_mark("|") and not self._bars and not self._next.is_mark("_"))
-        )
-        return starts and not (self._around == "" and self._at_aside())
-
-    def _at_aside(self) -> bool:
-        """Whether the bracket that opens here is no factor."""
+        if token.kind in _FACTORS or token.is_mark("{"):
+            return True
+        if token.is_mark("|"):
+            return not self._bars and not self._next.is_mark("_")
+        if not token.is_mark(*_OPENERS):
+            return False
         is_aside = self._at_bracketed_words() or self._place in self._asides
-        return is_aside or self._at_equation_number()
+        return self._around != "" or not (is_aside or self._at_equation_number())
 
     def _factor(self) -> Node:
         """An atom with all that belongs to it."""
@@ -737,15 +735,11 @@ class _Parser:
                 of = self._angle()
             return Negative(of, span=self._since(start))
         factors = [self._factor()]
-        while _is_count(factors[-1]) and self._starts_angle():
+        while _is_count(factors[-1]) and (self._token.kind in _ANGLES or self._at("(", "[")):
             factors.append(self._factor())
         if _is_rate(factors[-1]) and self._token.kind == "letter" and self._token.text == "t":
             factors.append(self._factor())
         return product(factors, self._since(start))
-
-    def _starts_angle(self) -> bool:
-        token = self._token
-        return token.kind in _LETTERS or token.kind == "fraction" or token.is_mark("(", "[")
 
     # -- letters with their hats, dots, primes and labels ---------------------------------------
 

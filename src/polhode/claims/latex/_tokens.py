@@ -95,15 +95,10 @@ def refusal(source: str, span: Span, problem: str, expected: str = "") -> ParseE
     """The error for a place in a text, with the place shown."""
     place = min(span[0], len(source))
     start = max(0, place - SHOWN)
-    excerpt = "".join(_printable(c) for c in source[start : place + SHOWN])
+    excerpt = source[start : place + SHOWN].replace("\n", " ").replace("\t", " ")
+    excerpt = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in excerpt)
     shown = f"at character {place + 1}:\n    {excerpt}\n    {' ' * (place - start)}^"
     return ParseError(problem, expected=expected, advice=shown)
-
-
-def _printable(character: str) -> str:
-    if character in "\n\t":
-        return " "
-    return character if character.isprintable() else "\N{REPLACEMENT CHARACTER}"
 
 
 class _Scanner:
@@ -131,11 +126,13 @@ class _Scanner:
     def _words_outside(self) -> Iterator[Token]:
         """What stands between formulas in dollar signs, and the equation number that ends it."""
         start, self._place = self._place, self._prose[self._place]
-        words, number = _split_number(self._source[start : self._place])
+        prose = " ".join(_LINE_END.sub(" ", self._source[start : self._place]).split())
+        number = _EQUATION_NUMBER.search(prose)
+        words = (prose[: number.start()] if number else prose).strip(" .,;:")
         if words:
             yield self._token("words", words, start)
         if number:
-            yield self._token("tag", number, start)
+            yield self._token("tag", number[1], start)
 
     def _space(self, text: str, start: int) -> Iterator[Token]:
         strange = next(
@@ -269,40 +266,32 @@ def _named(token: Token) -> Token:
     return token
 
 
-def _macros() -> dict[str, tuple[str, str]]:
-    tables = {
-        "letter": lexicon.LETTERS,
-        "label": lexicon.LABELS,
-        "words": lexicon.WORDS_IN_LABELS,
-        "function": lexicon.FUNCTIONS,
-        "sign": lexicon.SIGNS,
-        "arrow": lexicon.ARROWS,
-        "mark": lexicon.MARKS,
-        "dots": {name: str(count) for name, count in lexicon.DOTS.items()},
-        "decoration": lexicon.DECORATIONS,
-        "alphabet": lexicon.ALPHABETS,
-        "fraction": dict.fromkeys(lexicon.FRACTIONS, "frac"),
-        "derivative": lexicon.DERIVATIVES,
-        "integral": {"int": "int", "oint": "int"},
-        "gap": dict.fromkeys(lexicon.GAPS, "gap"),
-        "row": dict.fromkeys(lexicon.ROWS, "row"),
-        "silent": dict.fromkeys(lexicon.SILENT, ""),
-    }
-    return {name: (kind, text) for kind, table in tables.items() for name, text in table.items()}
-
-
-def _characters() -> dict[str, tuple[str, str]]:
-    return (
-        {mark: ("mark", mark) for mark in "+-/^_'{}()[]|&,;.:*"}
-        | {character: ("mark", mark) for character, mark in lexicon.CHARACTERS.items()}
-        | {character: ("sign", sign) for character, sign in lexicon.SIGN_CHARACTERS.items()}
-        | {character: ("letter", name) for character, name in lexicon.LETTER_CHARACTERS.items()}
-        | {character: ("arrow", character) for character in lexicon.ARROW_CHARACTERS}
-    )
-
-
-_MACROS = _macros()
-_CHARACTERS = _characters()
+_TABLES = {  # macros by the kind of token that they are
+    "letter": lexicon.LETTERS,
+    "label": lexicon.LABELS,
+    "words": lexicon.WORDS_IN_LABELS,
+    "function": lexicon.FUNCTIONS,
+    "sign": lexicon.SIGNS,
+    "arrow": lexicon.ARROWS,
+    "mark": lexicon.MARKS,
+    "dots": {name: str(count) for name, count in lexicon.DOTS.items()},
+    "decoration": lexicon.DECORATIONS,
+    "alphabet": lexicon.ALPHABETS,
+    "fraction": dict.fromkeys(lexicon.FRACTIONS, "frac"),
+    "derivative": lexicon.DERIVATIVES,
+    "integral": {"int": "int", "oint": "int"},
+    "gap": dict.fromkeys(lexicon.GAPS, "gap"),
+    "row": dict.fromkeys(lexicon.ROWS, "row"),
+    "silent": dict.fromkeys(lexicon.SILENT, ""),
+}
+_MACROS = {name: (kind, text) for kind, table in _TABLES.items() for name, text in table.items()}
+_CHARACTERS = (
+    {mark: ("mark", mark) for mark in "+-/^_'{}()[]|&,;.:*"}
+    | {character: ("mark", mark) for character, mark in lexicon.CHARACTERS.items()}
+    | {character: ("sign", sign) for character, sign in lexicon.SIGN_CHARACTERS.items()}
+    | {character: ("letter", name) for character, name in lexicon.LETTER_CHARACTERS.items()}
+    | {character: ("arrow", character) for character in lexicon.ARROW_CHARACTERS}
+)
 _SPECIAL = (
     dict.fromkeys(lexicon.WORDS, "words")
     | dict.fromkeys(lexicon.UPRIGHT | lexicon.UPRIGHT_FROM_HERE, "upright")
@@ -321,14 +310,6 @@ def _prose_of(source: str) -> dict[int, int]:
     outside = zip(edges[::4], [*edges[1::4], len(source)], strict=False)
     stretches = {start: end for start, end in outside if _is_prose(source[start:end])}
     return stretches if len(edges) > 1 else {}
-
-
-def _split_number(prose: str) -> tuple[str, str]:
-    """The words of a stretch and the equation number in brackets at its end, "" for none."""
-    words = " ".join(_LINE_END.sub(" ", prose).split())
-    number = _EQUATION_NUMBER.search(words)
-    before = words[: number.start()] if number else words
-    return before.strip(" .,;:"), number[1] if number else ""
 
 
 def _is_prose(stretch: str) -> bool:

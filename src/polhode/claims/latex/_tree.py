@@ -32,7 +32,8 @@ class Piece:
     @cached_property
     def parts(self) -> tuple[Piece, ...]:
         """The pieces directly inside, in order of printing."""
-        return tuple(piece for value in self._said for piece in _pieces(value))
+        entries = (v if isinstance(v, tuple) else (v,) for v in self._said)
+        return tuple(e for entry in entries for e in entry if isinstance(e, Piece))
 
     @cached_property
     def _said(self) -> tuple[object, ...]:
@@ -344,11 +345,13 @@ def mapped(piece: PieceT, change: Callable[[Any], Piece]) -> PieceT:
     return type(piece)(*changed, span=piece.span)
 
 
-def _pieces(value: object) -> Iterator[Piece]:
-    if isinstance(value, Piece):
-        yield value
-    elif isinstance(value, tuple):
-        yield from (item for item in value if isinstance(item, Piece))
+def replaced(node: Node, old: Node, new: Node) -> Node:
+    """The node with one node in it, that very one and none of its equals, replaced."""
+
+    def change(piece: Node) -> Node:
+        return new if piece is old else mapped(piece, change)
+
+    return change(node)
 
 
 def _changed(value: object, change: Callable[[Any], Piece]) -> object:

@@ -127,9 +127,18 @@ class _Binder:
                 yield self._member(PrintedRelation(self._evaluator, left, right, place == 0), sign)
 
     def _is_new(self, node: Node) -> bool:
-        letter = isinstance(node, tree.Name | tree.Differential | tree.At)
+        """Whether a node is a letter without a meaning so far, be it by its parts."""
         self._refuse_primes(node)
-        return letter and not self._evaluator.vocabulary.has(node) and not self._reads(node)
+        is_letter = isinstance(node, tree.Name | tree.Differential | tree.At)
+        if not is_letter or self._evaluator.vocabulary.has(node):
+            return False
+        if isinstance(node, tree.Name):
+            return True
+        try:
+            self._evaluator.value(node)
+        except BindingError:
+            return True
+        return False
 
     def _refuse_primes(self, node: Node) -> None:
         """Two primes on a quantity of the system are meant as a rate, not as a new letter."""
@@ -143,16 +152,6 @@ class _Binder:
                 advice=r"write \ddot{...}, or define the letter",
                 option="let",
             )
-
-    def _reads(self, node: Node) -> bool:
-        """Whether a node that is not a known letter has a meaning by its parts."""
-        if isinstance(node, tree.Name):
-            return False
-        try:
-            self._evaluator.value(node)
-        except BindingError:
-            return False
-        return True
 
     def _member(self, printed: PrintedRelation, sign: str) -> BoundRelation:
         left, right = printed.left, printed.right
@@ -176,21 +175,25 @@ class _Binder:
             if inverse is not None:
                 # c artanh x = y is read as x = tanh(y/c), which has no branches to choose from
                 value = self._evaluator.value
-                factor = value(_without(node, inverse))
+                factor = value(tree.replaced(node, inverse, tree.Number("1")))
                 inside = as_scalar(over(value(other), factor), inverse.function)
                 return _side(value(inverse.argument)), FORWARD[inverse.function](inside)
         one, two = self._evaluator.value(left), self._evaluator.value(right)
         return _side(one), _side(two)
 
     def _half_unit(self, node: Node) -> Expr | None:
+        """Half a unit of the last digit of the only decimal number in a node, times its factor."""
         numbers = [p for p in walk(node) if isinstance(p, tree.Number) and "." in p.text]
         if len(numbers) != 1:
             return None
         (number,) = numbers
         half = Fraction(1, 2 * 10 ** len(number.text.partition(".")[2]))
-        unit = as_scalar(self._evaluator.value(_replaced(node, number, "1")), "a number")
-        none = as_scalar(self._evaluator.value(_replaced(node, number, "0")), "a number")
-        return (unit - none) * half
+
+        def with_number(text: str) -> Expr:
+            changed = tree.replaced(node, number, tree.Number(text))
+            return as_scalar(self._evaluator.value(changed), "a number")
+
+        return (with_number("1") - with_number("0")) * half
 
 
 def _by_cases(relation: Relation) -> Iterator[Relation]:
@@ -227,24 +230,6 @@ def _inverse(node: Node) -> tree.Call | None:
         case tree.Negative(of):
             return _inverse(of)
     return None
-
-
-def _without(node: Node, inverse: tree.Call) -> Node:
-    one = tree.Number("1")
-
-    def change(piece: Node) -> Node:
-        return one if piece is inverse else tree.mapped(piece, change)
-
-    return change(node)
-
-
-def _replaced(node: Node, number: tree.Number, text: str) -> Node:
-    def change(piece: Node) -> Node:
-        if piece is number:
-            return tree.Number(text)
-        return tree.mapped(piece, change)
-
-    return change(node)
 
 
 def _side(meaning: Meaning) -> Side:

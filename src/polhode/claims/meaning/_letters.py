@@ -26,16 +26,10 @@ Entry = tuple[Node, tuple[str, ...]]
 def letters(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
     """Phrases for what each letter may stand for, the likeliest first."""
     found: dict[Node, dict[str, None]] = {}
-    for node, phrases in _entries(mechanics):
-        found.setdefault(node, {}).update(dict.fromkeys(phrases))
+    for entries in (_energies, _elements, _motion, _directions):
+        for node, phrases in entries(mechanics):
+            found.setdefault(node, {}).update(dict.fromkeys(phrases))
     return {node: tuple(phrases) for node, phrases in found.items()}
-
-
-def _entries(mechanics: Mechanics) -> Iterator[Entry]:
-    yield from _energies(mechanics)
-    yield from _elements(mechanics)
-    yield from _motion(mechanics)
-    yield from _directions(mechanics)
 
 
 def _energies(mechanics: Mechanics) -> Iterator[Entry]:
@@ -69,7 +63,8 @@ def _motion(mechanics: Mechanics) -> Iterator[Entry]:
         ("r", "position"),
         ("I", "inertia"),
     ):
-        yield Name(letter, decoration=_VECTOR), _of_each(quantity, mechanics)
+        of_each = [""] if len(bodies) == 1 else [f" of {body.name}" for body in bodies]
+        yield Name(letter, decoration=_VECTOR), tuple(f"{quantity}{of}" for of in of_each)
     yield from {
         Name("v", "cm", decoration=_VECTOR): ("velocity of cm",),
         Name("a", "cm", decoration=_VECTOR): ("acceleration of cm",),
@@ -87,12 +82,6 @@ def _motion(mechanics: Mechanics) -> Iterator[Entry]:
     }.items()
     if any(isinstance(load, Gravity) for load in mechanics.equations.system.loads):
         yield Name("g", decoration=_VECTOR), ("gravity",)
-
-
-def _of_each(quantity: str, mechanics: Mechanics) -> tuple[str, ...]:
-    """The quantity of the body, or of each of several."""
-    bodies = mechanics.equations.system.bodies
-    return (quantity,) if len(bodies) == 1 else tuple(f"{quantity} of {b.name}" for b in bodies)
 
 
 def _about_points(quantity: str, mechanics: Mechanics) -> tuple[str, ...]:
@@ -126,17 +115,13 @@ def _elements(mechanics: Mechanics) -> Iterator[Entry]:
         if isinstance(letter, Name):
             plain = replace(letter, subscript="", decoration=_VECTOR)
             yield plain, (f"force of {element.name}",)
-        for label in (element.name, *_labels(element)):
+        kinds = ((Contact, ("contact",)), (Pivot, ("pivot", "p")))
+        usual = next((labels for kind, labels in kinds if isinstance(element, kind)), ())
+        for label in (element.name, *usual):
             yield Name("F", label, decoration=_VECTOR), (f"force of {element.name}",)
             yield Name("v", label, decoration=_VECTOR), (f"velocity of {element.name}",)
             yield Name("L", label, decoration=_VECTOR), (f"angular momentum about {element.name}",)
             yield Name("tau", label, decoration=_VECTOR), (f"torque about {element.name}",)
-
-
-def _labels(element: Element) -> tuple[str, ...]:
-    """What texts write below a letter for the kind of contact or joint."""
-    kinds = ((Contact, ("contact",)), (Pivot, ("pivot", "p")))
-    return next((labels for kind, labels in kinds if isinstance(element, kind)), ())
 
 
 def _directions(mechanics: Mechanics) -> Iterator[Entry]:

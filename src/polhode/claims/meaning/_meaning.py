@@ -202,15 +202,13 @@ def signed(meaning: Meaning, positive: Collection[Expr]) -> Meaning:
 
 def with_signs(x: Expr, positive: Collection[Expr]) -> Expr:
     """With |f| replaced by f for every f that is known to be positive."""
-    plain = {g: known for g in x.generators if (known := _unwrapped(g, positive)) is not None}
-    return x.recast(plain) if plain else x
-
-
-def _unwrapped(generator: Generator, positive: Collection[Expr]) -> Expr | None:
-    inside = getattr(generator, "plain", None)
-    if inside is None:
-        return None
-    return next((f for f in (inside, -inside) if f in positive), None)
+    known: dict[Generator, Expr] = {}
+    for generator in x.generators:
+        inside = getattr(generator, "plain", None)  # the f of a generator |f|
+        for f in () if inside is None else (inside, -inside):
+            if f in positive:
+                known.setdefault(generator, f)
+    return x.recast(known) if known else x
 
 
 def alike(one: Meaning, other: Meaning) -> bool:

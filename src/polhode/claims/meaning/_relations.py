@@ -224,12 +224,9 @@ def _sums(piece: tree.Piece, argument: Node | None) -> Iterator[tuple[tree.Sum, 
 
 
 def _contribution(node: Node, leaf: Node, evaluator: Evaluator) -> Side:
-    def change(piece: tree.Piece) -> tree.Piece:
-        if piece is leaf:
-            return tree.Product((_STRETCHED, leaf))
-        return tree.mapped(piece, change)
-
-    found = evaluator.value(change(node))  # type: ignore[arg-type]
+    """What a side changes by, to first order, as one of its terms is stretched."""
+    stretched = tree.replaced(node, leaf, tree.Product((_STRETCHED, leaf)))
+    found = evaluator.value(stretched)
     if isinstance(found, Tensor):
         raise BindingError("a tensor on one side", expected="a scalar or a vector")
     if isinstance(found, Vector):
