@@ -1,4 +1,4 @@
-"""Anything at all is read or refused with a word on the place: no crash, no hang."""
+"""Any text is read, or refused at a place that is shown: no crash, no hang."""
 
 import pytest
 from hypothesis import given

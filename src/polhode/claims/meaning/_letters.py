@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import lru_cache
 
 from polhode.algebra import Vector
 from polhode.claims.latex._names import name_of
@@ -23,7 +24,8 @@ _VECTOR, _HAT = "vector", "hat"
 Entry = tuple[Node, tuple[str, ...]]
 
 
-def letters(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
+@lru_cache(maxsize=16)  # systems; mechanics are compared by identity
+def phrases_by_letter(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
     """Phrases for what each letter may stand for, the likeliest first."""
     found: dict[Node, dict[str, None]] = {}
     for entries in (_energies, _elements, _motion, _directions):

@@ -12,6 +12,8 @@ from functools import cached_property
 from polhode.algebra import ZERO, Expr, SymbolKind, Vector, linear_parts, solve, symbols
 from polhode.base import DeclarationError
 from polhode.claims.balance._declared import Placement, declared, reaction_symbol
+from polhode.claims.latex._names import name_of
+from polhode.claims.latex._tree import Node
 from polhode.claims.meaning._meaning import Meaning, Tensor
 from polhode.derive import Equations
 from polhode.model import Body, Frame, Gravity, Restraint
@@ -53,6 +55,11 @@ class Mechanics:
         every = (*known.parameters, *known.coordinates, *known.speeds, *rates, *second, *driven)
         found = {symbol.published: Expr.generator(symbol) for symbol in every}
         return found | {line.name: _reaction(line.name) for line in self.equations.lines}
+
+    @cached_property
+    def letters(self) -> dict[Node, Expr]:
+        """The scalars by the letters that they are printed as, with their dots."""
+        return {name_of(name): value for name, value in self.scalars.items()}
 
     @cached_property
     def declared(self) -> Placement:

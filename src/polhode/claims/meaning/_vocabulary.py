@@ -11,7 +11,7 @@ from itertools import chain
 from polhode.algebra import Expr, Symbol, SymbolKind, Vector, pi, time
 from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import At, Call, Component, Derivative, Name, Node, Piece, walk
-from polhode.claims.meaning._letters import letters
+from polhode.claims.meaning._letters import phrases_by_letter
 from polhode.claims.meaning._meaning import BindingError, Meaning, alike, dot, positive_root
 from polhode.claims.meaning._mechanics import EquationsKey, Mechanics
 from polhode.claims.meaning._phrases import quantity
@@ -84,7 +84,7 @@ class Vocabulary:
     @property
     def declared(self) -> dict[Node, Expr]:
         """Letters that the declaration itself uses, with their dots, and their meanings."""
-        return _declared(self.mechanics)
+        return self.mechanics.letters
 
     def choosing(self, chosen: Mapping[Name, str]) -> Vocabulary:
         """With letters of several meanings read as quantities of the model."""
@@ -172,8 +172,8 @@ class Vocabulary:
             return self._stated(name)
         if name in self.chosen:
             return self._read(name, (self.chosen[name],))
-        phrases = _phrases(self.mechanics).get(name, ())
-        if name in self._plain:
+        phrases = phrases_by_letter(self.mechanics).get(name, ())
+        if name in self._symbols:
             phrases = (f"declared {spelled(name)}",)
         component = self._component(name, self._exactly) if phrases else None
         if component is not None and len(component.readings) == 2:
@@ -181,11 +181,13 @@ class Vocabulary:
             along = [f"{vector.phrase} along {phrase}" for phrase in axis.phrases]
             if not axis.phrase.startswith("axis "):  # a length taken out of a vector
                 along = []
-            if name in self._plain and self._is_one_of(self._plain[name], along):
-                return Sense(self._plain[name])  # along an axis at rest, as the declaration has it
+            if name in self._symbols and self._is_one_of(self._symbols[name], along):
+                return Sense(
+                    self._symbols[name]
+                )  # along an axis at rest, as the declaration has it
             phrases = (*phrases, *along[:1])
-        if len(phrases) == 1 and name in self._plain:
-            return Sense(self._plain[name])
+        if len(phrases) == 1 and name in self._symbols:
+            return Sense(self._symbols[name])
         return self._read(name, phrases) if phrases else None
 
     def _is_one_of(self, meaning: Meaning, phrases: Iterable[str]) -> bool:
@@ -197,9 +199,10 @@ class Vocabulary:
         meaning = quantity(self.mechanics, distinct[0])
         return Sense(meaning, (Reading(name, distinct[0], distinct),))
 
-    @property
-    def _plain(self) -> dict[Node, Expr]:
-        return _plain(self.mechanics)
+    @cached_property
+    def _symbols(self) -> dict[Node, Expr]:
+        """Letters that stand for a symbol: those of the declaration, π and the time."""
+        return {**self.declared, Name("pi"): pi, Name("t"): time}
 
     def _unit(self, sense: Sense | None) -> Sense | None:
         if sense is None or not isinstance(sense.meaning, Vector):
@@ -219,7 +222,7 @@ class Vocabulary:
         return Sense(dot(vector.meaning, axis.meaning), (*vector.readings, *axis.readings))
 
     def _unknown(self, node: Node) -> BindingError:
-        known = (*self.stated, *_phrases(self.mechanics), *self._plain)
+        known = (*self.stated, *phrases_by_letter(self.mechanics), *self._symbols)
         names = {spelled(node): node for node in known}
         near = tuple(get_close_matches(spelled(node), names, n=3, cutoff=0.6))
         return BindingError(
@@ -251,7 +254,7 @@ class Vocabulary:
 
     def vectors(self) -> Iterator[Node]:
         """Letters of vectors that a text on this system may use, those of the text first."""
-        named = _phrases(self.mechanics)
+        named = phrases_by_letter(self.mechanics)
         for node in dict.fromkeys([*self.stated, *named]):
             if isinstance(node, Name) and node.decoration != _HAT:
                 yield node
@@ -274,22 +277,6 @@ def _names(piece: Piece) -> Iterator[Name]:
 def _mechanics(key: EquationsKey) -> Mechanics:
     """One for all texts on a system, so that what it has computed is kept."""
     return Mechanics(key.equations)
-
-
-@lru_cache(maxsize=_KEPT)
-def _declared(mechanics: Mechanics) -> dict[Node, Expr]:
-    return {name_of(name): value for name, value in mechanics.scalars.items()}
-
-
-@lru_cache(maxsize=_KEPT)
-def _plain(mechanics: Mechanics) -> dict[Node, Expr]:
-    """Letters that stand for a symbol: those of the declaration, π and the time."""
-    return {**_declared(mechanics), Name("pi"): pi, Name("t"): time}
-
-
-@lru_cache(maxsize=_KEPT)
-def _phrases(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
-    return letters(mechanics)
 
 
 @lru_cache(maxsize=4096)
