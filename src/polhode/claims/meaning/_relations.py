@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from typing import Protocol
 
 from polhode.algebra import ZERO, Expr, Symbol, Triad, Vector, zero_vector
 from polhode.base import ParseError
@@ -42,35 +41,6 @@ class BoundRelation:
     span: Span = (0, 0)
     is_alternative: bool = False
     printed: PrintedRelation | None = field(default=None, compare=False, repr=False)
-
-
-class Member(Protocol):
-    """One member of a claim: a left side, a sign such as "=", and a right side."""
-
-    @property
-    def left(self) -> Side:
-        """The left side."""
-        ...
-
-    @property
-    def sign(self) -> str:
-        """The sign between them."""
-        ...
-
-    @property
-    def right(self) -> Side:
-        """The right side."""
-        ...
-
-    @property
-    def is_alternative(self) -> bool:
-        """Whether it is a further value after an "or"."""
-        ...
-
-    @property
-    def printed(self) -> PrintedRelation | None:
-        """Its two sides as they stand in print."""
-        ...
 
 
 @dataclass(frozen=True)
