@@ -19,7 +19,7 @@ from polhode.claims.latex import read_latex
 from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import Name
 from polhode.claims.meaning._bindings import Bound, bind
-from polhode.claims.meaning._letters import letters
+from polhode.claims.meaning._letters import phrases_by_letter
 from polhode.claims.meaning._meaning import BindingError, Meaning
 from polhode.claims.meaning._mechanics import Mechanics
 from polhode.claims.meaning._phrases import quantity
@@ -142,7 +142,7 @@ def test_published_names_become_printed_letters() -> None:
 @pytest.mark.parametrize("name", CATALOGUE)
 def test_every_usual_letter_has_a_meaning(name: str) -> None:
     mechanics = Mechanics(equations(name))
-    for phrase in chain.from_iterable(letters(mechanics).values()):
+    for phrase in chain.from_iterable(phrases_by_letter(mechanics).values()):
         quantity(mechanics, phrase)
 
 

@@ -210,14 +210,14 @@ def test_every_verdict_shows_its_readings() -> None:
 
 def misread(monkeypatch: pytest.MonkeyPatch, letter: str, phrase: str) -> None:
     """Let the first reader take a letter for another quantity."""
-    known = letters.letters
+    known = letters.phrases_by_letter
 
     def mistaken(mechanics):
         found = known(mechanics)
         (node,) = (n for n in found if n.letter == letter and n.decoration == "hat")
         return found | {node: (phrase,)}
 
-    monkeypatch.setattr(vocabulary, "letters", mistaken)
+    monkeypatch.setattr(vocabulary, "phrases_by_letter", mistaken)
 
 
 @pytest.mark.parametrize("latex", [r"\hat{\mathbf z} = \hat{\mathbf 3}", r"L_z = I_3\omega_3"])

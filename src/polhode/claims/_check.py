@@ -199,7 +199,9 @@ class _PublishedClaim:
 
     def _read_twice(self, verdict: Verdict, claim: BoundClaim, notation: Notation) -> Verdict:
         """The verdict, unless a reader that shares nothing with the first one reads otherwise."""
-        from polhode.claims.contexts._read_anew import disputed  # NumPy, for what was bound alone
+        from polhode.claims.contexts._read_anew import (
+            disputed,
+        )  # NumPy, needed only for claims that could be bound
 
         vocabulary = notation.vocabulary
         phrases = {r.letter: r.phrase for r in vocabulary.readings([self.statement])} | dict(

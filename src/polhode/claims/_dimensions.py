@@ -12,7 +12,7 @@ from polhode.claims.states._bound_claim import BoundClaim
 
 
 def dimensions_at_odds(claim: BoundClaim) -> str:
-    """The members whose terms have different dimensions, in words; empty where there are none."""
+    """The members whose terms have different dimensions, in words; empty if all are consistent."""
     try:
         analysis = _DimensionalAnalysis(claim.equations.dimensions)
     except PolhodeError:

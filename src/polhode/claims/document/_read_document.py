@@ -120,7 +120,7 @@ def _part(table: Table, earlier: dict[str, Part]) -> Part:
     table.refuse_others(_PART)
     like = table.text("like")
     if like and like not in earlier:
-        raise table.wrong("like", f"an earlier part: {', '.join(earlier) or 'there is none'}")
+        raise table.wrong("like", f"an earlier part: {', '.join(earlier) or 'no part is earlier'}")
     own = Part(
         id=table.text("id", required=True),
         title=table.text("title"),
@@ -159,7 +159,9 @@ def _claims(found: tuple[Table, ...], parts: dict[str, Part]) -> tuple[Claim, ..
         if claim.id in claims:
             raise table.wrong("id", "an id of its own", f"line {claims[claim.id].line} has it")
         if claim.part not in parts:
-            raise table.wrong("part", f"one of {', '.join(parts) or 'the parts: there is none'}")
+            raise table.wrong(
+                "part", f"one of {', '.join(parts) or 'the parts, which are missing'}"
+            )
         claims[claim.id] = claim
     for table in found:
         for origin in table.texts("follows_from"):
@@ -296,7 +298,7 @@ class Table:
         return ParseError(place, expected=expected, advice=advice)
 
     def line_of(self, key: str) -> int:
-        """Line where a field begins; that of the header where there is none."""
+        """Line where a field begins; that of the header if it is missing."""
         start = re.compile(rf"\s*[\"']?{re.escape(key)}[\"']?\s*=")
         below = re.compile(rf"\s*\[{{1,2}}\s*[\w\-]+\.{re.escape(key)}\s*\]")
         for number in range(self.line, len(self.lines) + 1):

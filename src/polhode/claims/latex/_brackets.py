@@ -155,21 +155,21 @@ def _without_bare_braces(tokens: Sequence[Token], partner: dict[int, int]) -> li
     r"""Without the braces that print nothing: those that hold no argument and no ``\over``."""
     dropped: set[int] = set()
     overs = _braces_around_over(tokens, partner)
-    wanted = [0]  # arguments still to come, bracket by bracket
+    awaited = [0]  # arguments still to come, bracket by bracket
     for place, token in enumerate(tokens):
         if place in dropped:
             continue
         if closes(token):
-            wanted.pop()
+            awaited.pop()
             continue
-        is_argument = wanted[-1] > 0 or (place > 0 and tokens[place - 1].kind == "function")
+        is_argument = awaited[-1] > 0 or (place > 0 and tokens[place - 1].kind == "function")
         if token.is_mark("{") and not is_argument and place not in overs:
             dropped |= {place, partner[place]}
             continue
         arguments = 1 if token.is_mark("^", "_") else _WANTED.get(token.kind, 0)
-        wanted[-1] = max(0, wanted[-1] - 1) + arguments
+        awaited[-1] = max(0, awaited[-1] - 1) + arguments
         if opens(token):
-            wanted.append(0)
+            awaited.append(0)
     return [token for place, token in enumerate(tokens) if place not in dropped]
 
 

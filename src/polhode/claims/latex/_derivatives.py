@@ -96,7 +96,7 @@ def _differentiated(
 
 
 def _started(factor: Node, sign: str, order: int) -> tuple[Node, ...] | None:
-    """What a factor that begins a numerator leaves to differentiate; none if it begins none."""
+    """What is differentiated, if a factor begins a numerator: the x of dx; None for any other."""
     match factor:
         case Differential(of, printed) if printed == sign and order == 1:
             return (of,)

@@ -106,7 +106,7 @@ _ENDS = {"row", "gap", "words", "arrow", "tag", "close"}
 
 
 def read_latex(text: str) -> Statement:
-    r"""What a display says, read from its LaTeX.
+    r"""The relations of a display, read from its LaTeX.
 
     Dollar signs, ``\[ \]``, alignment, spacing, type sizes and punctuation may be there. Of a
     formula in text style, ``a b/c d`` is a b over c d up to the next vector, and ``\sin 2\theta
@@ -160,7 +160,7 @@ class _Parser:
     # -- statements: relations, with words, gaps and numbers between them -----------------------
 
     def statement(self) -> Statement:
-        """All that the display says."""
+        """The whole display."""
         while self._token.kind != "close":
             if not self._took_separator():
                 self._read_relation()
@@ -181,7 +181,7 @@ class _Parser:
         return statement
 
     def _took_separator(self) -> bool:
-        """Take what stands between relations, if it is there, and keep what it says."""
+        """Take what stands between relations, if it is there, and keep its words and numbers."""
         token = self._token
         if token.kind in ("row", "gap") or self._at(",", ";", ".", ":", "&"):
             self._take()

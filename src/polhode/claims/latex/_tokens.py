@@ -1,8 +1,8 @@
 """LaTeX cut into tokens, in one pass from left to right.
 
-Here ``\\leq``, ``\\le`` and ``≤`` become one token, and spacing and type size none. Words of the
-text around its formulas are told from the formulas by their dollar signs. A macro or character that
-no mechanics text would use is refused at its place.
+Synonyms such as ``\\leq``, ``\\le`` and ``≤`` become the same token; spacing and type sizes are
+dropped. Dollar signs separate formulas from the words around them. A macro or character that no
+mechanics text would use is refused at its place.
 """
 
 from __future__ import annotations
@@ -20,7 +20,6 @@ from polhode.claims.latex._tree import Span
 LONGEST = 20_000  # characters
 SHOWN = 40  # of them on either side of a place
 
-_SPACES = " \t\r\n\N{NO-BREAK SPACE}\N{THIN SPACE}\N{NARROW NO-BREAK SPACE}"
 _LONGEST = 1000  # characters of a number
 _NUMBER = r"[0-9]+(?:\.[0-9]+)?|\.[0-9]+"
 _PATTERN = re.compile(
@@ -146,7 +145,7 @@ class _Scanner:
         yield self._token("row", text, start)
 
     def _number(self, text: str, start: int) -> Iterator[Token]:
-        """A number; what wants a single token is given its first digit, as TeX does."""
+        """A number; what takes a single token is given the first digit alone, as in TeX."""
         if len(text) > _LONGEST:
             problem = f"a number of {len(text)} characters"
             raise self._refused(start, problem, f"one of at most {_LONGEST}")
@@ -210,7 +209,7 @@ class _Scanner:
         yield _named(self._token("words", self._raw(name, start), start))
 
     def _upright(self, name: str, start: int) -> Iterator[Token]:
-        """Upright words; a font change around anything else says nothing."""
+        """Upright words; a font change around anything else is dropped."""
         pattern = _RUN if name in lexicon.UPRIGHT_FROM_HERE else _PLAIN
         match = pattern.match(self._source, self._place)
         if match:
@@ -258,7 +257,7 @@ def _trimmed(words: str) -> str:
 
 
 def _named(token: Token) -> Token:
-    """Words, or the letter or function that only a font was changed around."""
+    """Words, or a letter or function in another font."""
     if token.text in lexicon.FUNCTIONS:
         return Token("function", lexicon.FUNCTIONS[token.text], token.span)
     if len(token.text) == 1 and token.text.isalpha():
@@ -266,7 +265,7 @@ def _named(token: Token) -> Token:
     return token
 
 
-_TABLES = {  # macros by the kind of token that they are
+_TABLES = {  # macros by kind of token
     "letter": lexicon.LETTERS,
     "label": lexicon.LABELS,
     "words": lexicon.WORDS_IN_LABELS,

@@ -75,14 +75,14 @@ def write_latex(piece: Piece) -> str:
 
 @write_latex.register
 def _(statement: Statement) -> str:
-    said = r",\quad ".join(write_latex(relation) for relation in statement.relations)
+    relations = r",\quad ".join(write_latex(relation) for relation in statement.relations)
     conditions = (rf"\quad {_bracketed(relation)}" for relation in statement.conditions)
     assumed = (
         rf"\quad \left(\text{{if }} {write_latex(relation)}\right)"
         for relation in statement.assumptions
     )
     tags = (rf"\tag{{{tag}}}" for tag in statement.tags)
-    return "".join((said, *conditions, *assumed, *tags))
+    return "".join((relations, *conditions, *assumed, *tags))
 
 
 @write_latex.register
@@ -240,8 +240,9 @@ def _(cases: Cases) -> str:
 @write_latex.register
 def _(case: Case) -> str:
     words = [rf"\text{{{case.words}}}"] if case.words else []
-    said = [write_latex(condition) for condition in case.conditions] + words
-    return f"{write_latex(case.value)} & {', '.join(said)}" if said else write_latex(case.value)
+    remarks = [write_latex(condition) for condition in case.conditions] + words
+    value = write_latex(case.value)
+    return f"{value} & {', '.join(remarks)}" if remarks else value
 
 
 def _bracketed(piece: Piece) -> str:

@@ -67,19 +67,19 @@ def bind(statement: Statement, vocabulary: Vocabulary) -> Bound:
     pieces = list(walk(statement))
     signs = (True, False) if any(isinstance(p, tree.PlusMinus) for p in pieces) else (True,)
     per_time = any(isinstance(p, tree.Differential) and p.of == TIME for p in pieces)
-    readers = [_Binder(Evaluator(vocabulary, upper, per_time)) for upper in signs]
-    branches = tuple(tuple(reader.members(statement.relations)) for reader in readers)
-    first = readers[0]
+    binders = [_Binder(Evaluator(vocabulary, upper, per_time)) for upper in signs]
+    branches = tuple(tuple(binder.members(statement.relations)) for binder in binders)
+    first = binders[0]
     ranges: list[BoundRelation] = []
     values: list[BoundRelation] = []
     for relation in statement.conditions:
-        said = [tuple(reader.members([relation])) for reader in readers]
-        of_state = [r for r in said[0] if _is_of_state(r, vocabulary)]
-        if len(of_state) == len(said[0]) and all(r.sign not in EQUAL for r in of_state):
+        found = [tuple(binder.members([relation])) for binder in binders]
+        of_state = [r for r in found[0] if _is_of_state(r, vocabulary)]
+        if len(of_state) == len(found[0]) and all(r.sign not in EQUAL for r in of_state):
             ranges += of_state
         else:
             values += (r for r in of_state if r.sign in EQUAL)
-            branches = tuple((*one, *more) for one, more in zip(branches, said, strict=True))
+            branches = tuple((*one, *more) for one, more in zip(branches, found, strict=True))
     assumed = tuple(first.members(statement.assumptions))
     return Bound(branches, first.defined, (*assumed, *ranges), first.digits, tuple(values))
 
@@ -215,8 +215,8 @@ def _labelled(node: Node, words: str) -> Node:
 
 def _says_constant(node: Node) -> bool:
     words = {tree.Name: "letter", tree.Words: "text"}.get(type(node), "")
-    said = str(getattr(node, words, "")).strip(" .,") if words else ""
-    return said in ("constant", "const", "constant vector")
+    text = str(getattr(node, words, "")).strip(" .,") if words else ""
+    return text in ("constant", "const", "constant vector")
 
 
 def _inverse(node: Node) -> tree.Call | None:

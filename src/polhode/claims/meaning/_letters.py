@@ -89,7 +89,7 @@ def _motion(mechanics: Mechanics) -> Iterator[Entry]:
 def _about_points(quantity: str, mechanics: Mechanics) -> tuple[str, ...]:
     """The quantity about the centre of mass, and about every point that a pivot keeps at rest.
 
-    A particle has none about itself: that of a free one is about the origin.
+    That of a free particle is about the origin, since it has none about itself.
     """
     fixed = [e.name for e in mechanics.equations.kinetics.elements if _keeps_at_rest(e)]
     bodies = mechanics.equations.system.bodies

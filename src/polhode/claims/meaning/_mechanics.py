@@ -34,7 +34,7 @@ class EquationsKey:
 
 @dataclass(frozen=True, eq=False)
 class Mechanics:
-    """The quantities of one system; where no body is named, its first one is meant.
+    """The quantities of one system; of its first body unless another is named.
 
     A point is "cm" (of all bodies), "origin", the name of a body (its centre of mass) or of a
     contact or joint (the point of the body where it acts). Vectors are in inertial space, SI.
@@ -70,7 +70,7 @@ class Mechanics:
 
     @property
     def body(self) -> Body:
-        """The first body, which is meant where none is named."""
+        """The first body, which phrases mean unless they name another."""
         return self.equations.system.bodies[0]
 
     def _body(self, name: str) -> Body:
@@ -86,7 +86,7 @@ class Mechanics:
         return {"lab": self.body.axes.root, "body": self.body.fixed_axes or self.body.axes, **named}
 
     def frame(self, name: str = "") -> Frame:
-        """The frame with a name; the axes of the first body where none is named."""
+        """The frame with a name; without a name, the axes of the first body."""
         if not name:
             return self.body.axes
         if name not in self.frames:

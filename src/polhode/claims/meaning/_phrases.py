@@ -28,7 +28,7 @@ from polhode.claims.meaning._mechanics import Mechanics
 def quantity(mechanics: Mechanics, phrase: str) -> Meaning:
     """The quantity of a model that a phrase names; docs/claims-format.md lists all of them.
 
-    Raises `BindingError` for a phrase that names none, or something the system does not have.
+    Raises `BindingError` for any other phrase, and for quantities that the system does not have.
     """
     words = " ".join(phrase.split())
     for pattern, method in _PHRASES:
@@ -114,7 +114,7 @@ def _uniform_velocity(mechanics: Mechanics) -> Vector:
 
 
 def _fictitious(mechanics: Mechanics, kind: str, frame: str) -> Vector:
-    from polhode.analyse import fictitious_torque  # few texts speak of them
+    from polhode.analyse import fictitious_torque  # loaded only for the few texts that need it
 
     equations, turning = mechanics.equations, mechanics.frame(frame)
     torques = fictitious_torque(equations, mechanics.body, turning)
@@ -124,7 +124,7 @@ def _fictitious(mechanics: Mechanics, kind: str, frame: str) -> Vector:
 
 def _precession(mechanics: Mechanics, pace: str, coordinate: str) -> Expr:
     """The smaller or larger of two rates of steady motion, for quick spin, rad/s."""
-    from polhode.analyse import steady  # few texts speak of it
+    from polhode.analyse import steady  # loaded only for the few texts that need it
 
     rate = mechanics.scalars.get(f"{coordinate}_dot")
     if rate is None:

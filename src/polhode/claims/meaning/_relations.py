@@ -85,7 +85,7 @@ def components(member: int, left: Side, right: Side) -> tuple[ScalarRelation, ..
 
 
 def triad_of(left: Side, right: Side) -> Triad | None:
-    """The directions along which a relation between vectors is taken apart; none for scalars."""
+    """The directions along which a relation between vectors is resolved; None for scalars."""
     vectors = [side for side in (left, right) if isinstance(side, Vector)]
     return next((v.triad for v in vectors if not v.is_zero), vectors[-1].triad if vectors else None)
 

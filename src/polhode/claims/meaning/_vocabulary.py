@@ -52,7 +52,7 @@ class Vocabulary:
 
     Attributes:
         mechanics: of the system.
-        stated: what the text says its letters stand for; it overrides what is known otherwise.
+        stated: what the text says its letters stand for; this overrides all other meanings.
         positive: quantities that the text takes as positive.
         columns: name of the frame that components in a bracket are along.
         chosen: letters that the field uses for several quantities, with the one that is meant.
