@@ -7,7 +7,6 @@ from fractions import Fraction
 
 from polhode.algebra import Expr, Generator, Symbol, under_name
 from polhode.base import PURE, TIME, Dimension, PolhodeError
-from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import BoundClaim
 
 
@@ -17,7 +16,11 @@ def dimensions_at_odds(claim: BoundClaim) -> str:
         analysis = _DimensionalAnalysis(claim.equations.dimensions)
     except PolhodeError:
         return ""
-    odd = {c.member: found for c in claim.components() if (found := _dimensions(c, analysis))}
+    odd: dict[int, set[Dimension]] = {}
+    for component in claim.components():
+        found = {d for side in (component.left, component.right) for d in analysis.terms(side)}
+        if len(found) > 1:
+            odd[component.member] = found
     if not odd:
         return ""
     listed = (
@@ -25,13 +28,6 @@ def dimensions_at_odds(claim: BoundClaim) -> str:
         for member, found in odd.items()
     )
     return f"terms of different dimensions: {'; '.join(listed)}"
-
-
-def _dimensions(component: ScalarRelation, analysis: _DimensionalAnalysis) -> tuple[Dimension, ...]:
-    """The dimensions of a component's terms, where they are not all the same."""
-    every = [d for side in (component.left, component.right) for d in analysis.terms(side)]
-    found = tuple(dict.fromkeys(every))
-    return found if len(found) > 1 else ()
 
 
 class _DimensionalAnalysis:

@@ -92,11 +92,12 @@ def judged_in_every_reading(
         return fitting[0]
     first, *others = (next(w for w in fitting if w.verdict.answer is a) for a in answers)
     differing = [n for n in first.chosen if any(w.chosen[n] != first.chosen[n] for w in others)]
-    meant = "; ".join(
-        f"{w.verdict.answer.value} if {_meant(w, differing)}" for w in (first, *others)
-    )
-    letter = differing[0]
-    reason = f"{meant}; to choose, state the reading {_typed(letter, first.chosen[letter])}"
+    answered = []
+    for way in (first, *others):
+        meant = " and ".join(f"{_plain(letter)} is {way.chosen[letter]}" for letter in differing)
+        answered.append(f"{way.verdict.answer.value} if {meant}")
+    example = _typed(differing[0], first.chosen[differing[0]])
+    reason = f"{'; '.join(answered)}; to choose, state the reading {example}"
     return Verdict(Answer.AMBIGUOUS, first.verdict.context, reason=reason, option="read")
 
 
@@ -106,10 +107,6 @@ def with_readings(verdict: Verdict, vocabulary: Vocabulary, pieces: Iterable[Pie
     found = [r for r in every if verdict.answer is not Answer.AMBIGUOUS or len(r.phrases) == 1]
     read = (Read(name_latex(r.letter), r.phrase, _plain(r.letter)) for r in found)
     return replace(verdict, readings=tuple(read))
-
-
-def _meant(way: JudgedReading, letters: Iterable[Name]) -> str:
-    return " and ".join(f"{_plain(letter)} is {way.chosen[letter]}" for letter in letters)
 
 
 def _typed(letter: Name, phrase: str) -> str:

@@ -129,7 +129,12 @@ class Report(Shown):
 
         A line for each claim; below it what the text prints and how it was read, where they differ.
         """
-        rows = [line for part, found in self.by_part() for line in _section(part, found)]
+        rows: list[str] = []
+        for part, found in self.by_part():
+            rows.append(part.title or part.id)
+            rows += wrap(part.convention, _WIDE, initial_indent=_INDENT, subsequent_indent=_INDENT)
+            rows += [line for judged in found for line in _lines(judged)]
+            rows.append("")
         drawn = [f"  {consequence}" for consequence in self.consequences if consequence.feeds]
         if drawn:
             rows += ["", "What the failures feed:", *drawn]
@@ -182,15 +187,6 @@ def counted(judged: Sequence[Judged]) -> dict[str, int]:
 def tally(judged: Sequence[Judged]) -> str:
     """How many claims got each answer, in a line."""
     return ", ".join(f"{count} {name}" for name, count in counted(judged).items() if count)
-
-
-def _section(part: Part, found: Sequence[Judged]) -> Iterator[str]:
-    """The claims of a part under its title and its convention."""
-    yield part.title or part.id
-    yield from wrap(part.convention, _WIDE, initial_indent=_INDENT, subsequent_indent=_INDENT)
-    for judged in found:
-        yield from _lines(judged)
-    yield ""
 
 
 def _lines(judged: Judged) -> Iterator[str]:

@@ -168,8 +168,8 @@ class _Binder:
 
     def _sides(self, left: Node, right: Node) -> tuple[Side, Side]:
         if _says_constant(right):
-            changing = rate(self._evaluator.value(left))
-            return _side(changing), _side(zero_like(changing))
+            change = rate(self._evaluator.value(left))
+            return _side(change), _side(zero_like(change))
         for node, other in ((left, right), (right, left)):
             inverse = _inverse(node)
             if inverse is not None:

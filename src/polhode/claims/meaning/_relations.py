@@ -137,7 +137,16 @@ class PrintedRelation:
         """
         letter: dict[Node, Meaning] = {_LETTER: Expr.generator(_STRETCH)}
         vocabulary = self.evaluator.vocabulary.stating(letter)
-        return tuple(_terms(node, replace(self.evaluator, vocabulary=vocabulary)))
+        evaluator = replace(self.evaluator, vocabulary=vocabulary)
+        found: list[Term] = []
+        for leaf, argument in _leaves(node):
+            contribution = _contribution(node, leaf, evaluator)
+            if argument is None:
+                found.append(Term(contribution))
+            else:
+                own, among = evaluator.scalar(leaf), evaluator.scalar(argument)
+                found.append(Term(contribution, own, among))
+        return tuple(found)
 
     def factors(self, node: Node) -> tuple[tuple[Node, Meaning], ...]:
         """The factors of one of the sides with their values; a sum is its own."""
@@ -161,15 +170,6 @@ def _factors(node: Node) -> Iterator[Node]:
             yield from _factors(above)
         case _:
             yield node
-
-
-def _terms(node: Node, evaluator: Evaluator) -> Iterator[Term]:
-    for leaf, argument in _leaves(node):
-        contribution = _contribution(node, leaf, evaluator)
-        if argument is None:
-            yield Term(contribution)
-        else:
-            yield Term(contribution, evaluator.scalar(leaf), evaluator.scalar(argument))
 
 
 def _leaves(node: Node, argument: Node | None = None) -> Iterator[tuple[Node, Node | None]]:
