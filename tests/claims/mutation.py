@@ -18,7 +18,8 @@ from polhode.claims._check import judged_claim
 from polhode.claims._typed import with_start
 from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.latex import Statement, read_latex, write_latex
-from polhode.claims.meaning._components import Member, Side
+from polhode.claims.meaning._meaning import Side
+from polhode.claims.meaning._relations import BoundRelation
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import AnyState
 from polhode.derive import Equations, derive
@@ -199,7 +200,7 @@ def _is_original(original: Original, latex: str) -> bool:
     )
 
 
-def _same(one: Member, other: Member, states: AnyState) -> bool:
+def _same(one: BoundRelation, other: BoundRelation, states: AnyState) -> bool:
     """Whether the differences of both sides are in proportion, or else the sides themselves."""
     if one.sign != other.sign:
         return False
@@ -212,7 +213,7 @@ def _same(one: Member, other: Member, states: AnyState) -> bool:
     return not any(ours) and _in_proportion(*sides)
 
 
-def _difference(relation: Member) -> Side:
+def _difference(relation: BoundRelation) -> Side:
     left, right = relation.left, relation.right
     if isinstance(left, Vector) and isinstance(right, Expr):
         return left

@@ -20,7 +20,7 @@ from oracles import balls, disks, gyroscopes
 from polhode.algebra import Expr, Symbol
 from polhode.base import PolhodeError
 from polhode.claims.balance._newton_euler import constrained_motion
-from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import BoundClaim
 
 Values = dict[str, float]

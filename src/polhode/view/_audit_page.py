@@ -19,8 +19,8 @@ from polhode.claims import (
     Residual,
     Verdict,
     read_latex,
+    tally,
     tidied,
-    told,
     write_latex,
 )
 from polhode.view._markup import math_fonts
@@ -127,7 +127,7 @@ def _badge(answer: Answer) -> str:
 def _contents(report: Report) -> str:
     links = (
         f"<li><a href='#{escape(part.id)}'>{escape(part.title)}</a> "
-        f"<small>{told(found)}</small></li>"
+        f"<small>{tally(found)}</small></li>"
         for part, found in report.by_part()
     )
     return f"<nav aria-label='Parts'><ul>{''.join(links)}</ul></nav>"
@@ -263,7 +263,7 @@ def _consequences(report: Report) -> str:
     if not drawn:
         return ""
     rows = "".join(
-        f"<li><a href='#claim-{escape(c.failed)}'>({escape(c.failed)})</a> {escape(c.told)}</li>"
+        f"<li><a href='#claim-{escape(c.failed)}'>({escape(c.failed)})</a> {escape(c.summary)}</li>"
         for c in drawn
     )
     title = "<h2>What is drawn from claims that fail</h2>"

@@ -11,7 +11,7 @@ from polhode.base import PolhodeError
 from polhode.claims._verdict import Confirmation, Counterexample, Evidence, Residual
 from polhode.claims.balance._declared import declared, reaction_symbol
 from polhode.claims.balance._newton_euler import constrained_motion, true_motion
-from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain
 from polhode.claims.states._numeric import number
 from polhode.claims.states._physical import is_physical

@@ -10,7 +10,7 @@ from polhode.algebra import ONE, Expr
 from polhode.base import PolhodeError
 from polhode.claims._verdict import Answer, Evidence, Residual, Verdict
 from polhode.claims.contexts._counterexample import refutation
-from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import SENSE, STRICT, BoundClaim
 from polhode.claims.states._claim_domain import ClaimDomain
 from polhode.claims.states._elimination import solved

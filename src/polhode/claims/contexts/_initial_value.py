@@ -21,7 +21,7 @@ from polhode.claims._verdict import (
 from polhode.claims.contexts._initially import judged_initially
 from polhode.claims.contexts._judge import failures
 from polhode.claims.contexts._sampled_motion import TIME, Followed, SampledMotion, courses
-from polhode.claims.meaning._the import The
+from polhode.claims.meaning._mechanics import EquationsKey
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
 from polhode.claims.states._sample_points import SamplePoints, SymbolValues
@@ -85,7 +85,7 @@ def _whole(asked: BoundClaim) -> dict[Symbol, Expr]:
 
 def _holds_exactly(asked: BoundClaim, start: Mapping[Symbol, Expr]) -> bool:
     try:
-        kept = _conserved(The(asked.equations))
+        kept = _conserved(EquationsKey(asked.equations))
         fixed = [e - e.subs(start) for e in kept]
         relations = (*asked.relations, *(e for e in fixed if e))
         states = replace(asked.states(TrueMotion), relations=relations)
@@ -95,7 +95,7 @@ def _holds_exactly(asked: BoundClaim, start: Mapping[Symbol, Expr]) -> bool:
 
 
 @lru_cache(maxsize=16)
-def _conserved(the: The) -> tuple[Expr, ...]:
+def _conserved(the: EquationsKey) -> tuple[Expr, ...]:
     found = (i.expression for i in invariants(the.equations))
     return tuple(map(the.equations.kinetics.on_speeds, found))
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 from polhode.claims._verdict import Verdict
 from polhode.claims.contexts._inequality import judged_inequality
 from polhode.claims.contexts._judge import judged
-from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
 

@@ -12,7 +12,7 @@ from polhode.algebra import ONE
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.contexts._lagrangian import remark, says_the_same
-from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from polhode.algebra import Expr
 from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims.latex._tree import Name
-from polhode.claims.meaning._components import ScalarRelation
 from polhode.claims.meaning._mechanics import Mechanics
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import BoundClaim
 
 _LETTERS = ("cal L", "L")

@@ -15,7 +15,7 @@ from polhode.claims.contexts._counterexample import refutation
 from polhode.claims.contexts._remainder import Remainder
 from polhode.claims.contexts._roots_of_steady import steady_roots
 from polhode.claims.contexts._scaling import SMALLNESS, restored, scaled
-from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
 from polhode.claims.states._numeric import number

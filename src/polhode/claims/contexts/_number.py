@@ -5,7 +5,7 @@ from __future__ import annotations
 from polhode.algebra import ZERO, Expr
 from polhode.base import ParseError
 from polhode.claims._verdict import Answer, Residual, Verdict
-from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
 from polhode.claims.states._numeric import number

@@ -10,8 +10,8 @@ from polhode.algebra import Expr, Vector
 from polhode.base import NumericError
 from polhode.claims.contexts._scaling import leading_orders, scaled, stated_order, weights
 from polhode.claims.latex._tree import Node
-from polhode.claims.meaning._components import ScalarRelation, Side, triad_of
-from polhode.claims.meaning._printed_terms import PrintedRelation, Term
+from polhode.claims.meaning._meaning import Side
+from polhode.claims.meaning._relations import PrintedRelation, ScalarRelation, Term, triad_of
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
 from polhode.claims.states._claim_domain import ClaimDomain
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from polhode.algebra import ZERO, Expr, Symbol, sqrt
 from polhode.base import PolhodeError
-from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._steady_states import steady_states
 

@@ -11,8 +11,8 @@ import numpy as np
 
 from polhode.algebra import ZERO, Expr, Symbol, as_symbol, time
 from polhode.base import PolhodeError
-from polhode.claims.meaning._components import ScalarRelation
-from polhode.claims.meaning._the import The
+from polhode.claims.meaning._mechanics import EquationsKey
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import SENSE, BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
 from polhode.claims.states._numeric import Array, number
@@ -105,7 +105,7 @@ def courses(
         first = tuple((s, start[s]) for s in state)
         parameters = tuple((s, start[s]) for s in equations.parameters)
         try:
-            run = _followed(The(equations), parameters, first, duration)
+            run = _followed(EquationsKey(equations), parameters, first, duration)
         except PolhodeError:
             continue
         begun = 0.0 if clock is None else start[clock]
@@ -113,7 +113,9 @@ def courses(
 
 
 @lru_cache(maxsize=_KEPT)
-def _followed(the: The, parameters: Numbers, first: Numbers, duration: float) -> Trajectory:
+def _followed(
+    the: EquationsKey, parameters: Numbers, first: Numbers, duration: float
+) -> Trajectory:
     """One motion, which corrections of a claim are tried on as well."""
     given: dict[Name, float] = dict(parameters)
     start: dict[Name, float] = dict(first)

@@ -10,7 +10,7 @@ from polhode.algebra import ZERO, Expr, Symbol
 from polhode.analyse import reduced
 from polhode.claims._verdict import Answer, Residual, Verdict
 from polhode.claims.contexts._judge import Failure, failed, failures, judged
-from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
 from polhode.claims.states._steady_states import SteadyStates, steady_states

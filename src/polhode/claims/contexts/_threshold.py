@@ -13,8 +13,8 @@ from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.contexts._counterexample import example_where
 from polhode.claims.contexts._equivalence import Comparison, PrintedBound
 from polhode.claims.contexts._judge import failed, failures
-from polhode.claims.meaning._components import ScalarRelation
-from polhode.claims.meaning._the import The
+from polhode.claims.meaning._mechanics import EquationsKey
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import EQUALITY, SENSE, STRICT, BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain
 from polhode.claims.states._points import ExactPoint
@@ -120,12 +120,12 @@ def _is_even(symbol: Symbol, expression: Expr) -> bool:
 def exact_conditions(asked: BoundClaim) -> tuple[Exact, ...]:
     """Conditions of stability and of existence, for every family that obeys the restrictions."""
     given = tuple(asked.given.items())
-    return _conditions(The(asked.equations), given, asked.relations, asked.positive)
+    return _conditions(EquationsKey(asked.equations), given, asked.relations, asked.positive)
 
 
 @lru_cache(maxsize=16)
 def _conditions(
-    the: The,
+    the: EquationsKey,
     given: tuple[tuple[Symbol, Expr], ...],
     relations: tuple[Expr, ...],
     positive: tuple[Expr, ...],

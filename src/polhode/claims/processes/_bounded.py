@@ -11,7 +11,7 @@ from math import inf
 from polhode.base import ForkedWorker, NumericError, ParseError, Tell, can_part, within
 from polhode.claims._check import CheckRequest
 from polhode.claims._verdict import Verdict
-from polhode.claims.meaning._the import The
+from polhode.claims.meaning._mechanics import EquationsKey
 from polhode.derive import Equations, equations_only
 
 LONGEST = 60.0  # s of processor time
@@ -102,7 +102,7 @@ def _interruptible(
     return within(seconds, partial(enquiry.judged, equations), advice=_ADVICE, heard=heard)
 
 
-_sittings: dict[The, ForkedWorker[CheckRequest, Verdict]] = {}
+_sittings: dict[EquationsKey, ForkedWorker[CheckRequest, Verdict]] = {}
 if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_sittings.clear)  # they answer the process that began them
 
@@ -111,16 +111,16 @@ def _asked(
     enquiry: CheckRequest, equations: Equations, seconds: float, heard: Tell[Verdict]
 ) -> Verdict:
     """Ask the process that judges claims on these equations, which nobody else asks meanwhile."""
-    sitting = _sittings.pop(The(equations), None)
+    sitting = _sittings.pop(EquationsKey(equations), None)
     if sitting is None or not sitting.is_open:
         sitting = ForkedWorker(lambda asked, tell: asked.judged(equations, tell))
     try:
         return sitting.ask(enquiry, seconds, _ADVICE, heard)
     finally:
-        _keep(The(equations), sitting)
+        _keep(EquationsKey(equations), sitting)
 
 
-def _keep(the: The, sitting: ForkedWorker[CheckRequest, Verdict]) -> None:
+def _keep(the: EquationsKey, sitting: ForkedWorker[CheckRequest, Verdict]) -> None:
     """Keep it for the next claim, and few of its like."""
     if not sitting.is_open:
         return

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from polhode.algebra import Expr
 from polhode.claims.contexts._scaling import vanished
 from polhode.claims.latex._tree import Node, Statement
-from polhode.claims.meaning._components import Side
+from polhode.claims.meaning._meaning import Side
 from polhode.claims.repair._reading import RepairNotation
 from polhode.claims.states._bound_claim import BoundClaim
 

@@ -10,8 +10,8 @@ import numpy as np
 from polhode.algebra import Expr, Triad, Vector
 from polhode.base import NumericError, PolhodeError
 from polhode.claims.latex._tree import Node, Statement
-from polhode.claims.meaning._components import Member, Side, triad_of
-from polhode.claims.meaning._meaning import Tensor
+from polhode.claims.meaning._meaning import Side, Tensor
+from polhode.claims.meaning._relations import BoundRelation, triad_of
 from polhode.claims.repair._figures import Figure, carried, formed, is_arithmetic, scalar, together
 from polhode.claims.repair._links import Links
 from polhode.claims.repair._places import NodePosition
@@ -115,7 +115,7 @@ class NumericEvaluator:
         difference = one + -other
         if difference.rank == 0:
             return difference.array[None]
-        relation: Member = self._members[member]
+        relation: BoundRelation = self._members[member]
         triad = triad_of(relation.left, relation.right)
         if difference.rank != 1 or triad is None:
             raise NumericError("a member", expected="two scalars or two vectors")

@@ -7,7 +7,7 @@ from typing import Protocol
 
 from polhode.algebra import Expr
 from polhode.claims.latex._tree import Node, Statement
-from polhode.claims.meaning._components import Side
+from polhode.claims.meaning._meaning import Side
 from polhode.claims.states._bound_claim import BoundClaim
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from polhode.algebra import Expr, SymbolKind, Vector
 from polhode.claims.latex._tree import Cross, Derivative, Dots, Name, Node, Statement
-from polhode.claims.meaning._components import Side
+from polhode.claims.meaning._meaning import Side
 from polhode.claims.repair._edits import letters, relabelled, turned
 from polhode.claims.repair._figures import Figure, together
 from polhode.claims.repair._numeric_evaluator import UNKNOWN, NumericEvaluator

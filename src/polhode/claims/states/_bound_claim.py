@@ -9,8 +9,8 @@ from typing import TypeVar, cast
 
 from polhode.algebra import ZERO, Expr, Symbol
 from polhode.claims.latex._tree import Node
-from polhode.claims.meaning._components import Member, ScalarRelation, components
-from polhode.claims.meaning._the import The
+from polhode.claims.meaning._mechanics import EquationsKey
+from polhode.claims.meaning._relations import BoundRelation, ScalarRelation, components
 from polhode.claims.states._claim_domain import ClaimDomain
 from polhode.derive import Equations
 
@@ -44,7 +44,7 @@ class Small:
 @lru_cache(maxsize=_KEPT)
 def _states(
     kind: type[ClaimDomain],
-    the: The,
+    the: EquationsKey,
     given: tuple[tuple[Symbol, Expr], ...],
     relations: tuple[Expr, ...],
     positive: tuple[Expr, ...],
@@ -71,7 +71,7 @@ class BoundClaim:
         defined: letters that the claim defines itself; what defines them is no member.
     """
 
-    branches: tuple[tuple[Member, ...], ...]
+    branches: tuple[tuple[BoundRelation, ...], ...]
     equations: Equations
     given: Mapping[Symbol, Expr] = field(default_factory=dict)
     relations: tuple[Expr, ...] = ()
@@ -83,7 +83,7 @@ class BoundClaim:
     defined: tuple[Node, ...] = ()
 
     @property
-    def members(self) -> tuple[Member, ...]:
+    def members(self) -> tuple[BoundRelation, ...]:
         """The members, on the first branch."""
         return self.branches[0]
 
@@ -99,7 +99,9 @@ class BoundClaim:
 
     def states(self, kind: type[States]) -> States:
         """The states of a kind on which the claim is asked to hold."""
-        found = _states(kind, The(self.equations), self._given, self.relations, self.positive)
+        found = _states(
+            kind, EquationsKey(self.equations), self._given, self.relations, self.positive
+        )
         return cast(States, found)
 
     @property
@@ -115,15 +117,5 @@ class BoundClaim:
         return replace(self, branches=branches)
 
 
-@dataclass(frozen=True)
-class _Nothing:
-    """The relation 0 = 0, which keeps the place of a member that is judged elsewhere."""
-
-    left: Expr = ZERO
-    sign: str = "="
-    right: Expr = ZERO
-    is_alternative: bool = False
-    printed: None = None
-
-
-NOTHING = _Nothing()
+#: The relation 0 = 0, which keeps the place of a member that is judged elsewhere.
+NOTHING = BoundRelation(ZERO, "=", ZERO)

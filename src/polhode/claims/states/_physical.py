@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from polhode.algebra import Expr, Symbol
-from polhode.claims.meaning._the import The
+from polhode.claims.meaning._mechanics import EquationsKey
 from polhode.claims.states._claim_domain import ClaimDomain
 from polhode.claims.states._numeric import number
 
@@ -22,7 +22,7 @@ def is_physical(states: ClaimDomain, values: Mapping[Symbol, Any]) -> Any:
     What is declared positive is so, also where the circumstances determine it, and so is what the
     derivation took as positive; no moment of inertia exceeds the sum of the other two.
     """
-    above, not_below = _demands(The(states.equations))
+    above, not_below = _demands(EquationsKey(states.equations))
     with np.errstate(all="ignore"):
         met = [number(states.on(e), values) > 0 for e in (*states.signs, *above)]
         for larger, size in not_below:
@@ -33,13 +33,13 @@ def is_physical(states: ClaimDomain, values: Mapping[Symbol, Any]) -> Any:
 
 def demanded(states: ClaimDomain) -> frozenset[Symbol]:
     """The symbols whose numbers that takes."""
-    above, not_below = _demands(The(states.equations))
+    above, not_below = _demands(EquationsKey(states.equations))
     every = (*states.signs, *above, *(e for pair in not_below for e in pair))
     return frozenset(s for e in every for s in states.on(e).symbols())
 
 
 @lru_cache(maxsize=16)
-def _demands(the: The) -> tuple[tuple[Expr, ...], tuple[tuple[Expr, Expr], ...]]:
+def _demands(the: EquationsKey) -> tuple[tuple[Expr, ...], tuple[tuple[Expr, Expr], ...]]:
     """What has to be positive, and what must not be negative, each with its size."""
     equations = the.equations
     signed = {s for s in equations.parameters if s.positive}
@@ -49,7 +49,7 @@ def _demands(the: The) -> tuple[tuple[Expr, ...], tuple[tuple[Expr, Expr], ...]]
     return tuple(map(Expr.generator, ordered)), inertias
 
 
-def _of_inertias(the: The) -> Iterator[tuple[Expr, Expr]]:
+def _of_inertias(the: EquationsKey) -> Iterator[tuple[Expr, Expr]]:
     """Moments of inertia, and the sum of each two less the third; true along any axes."""
     for body in the.equations.system.bodies:
         moments = [body.inertia[i, i] for i in range(3)]

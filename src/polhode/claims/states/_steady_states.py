@@ -7,7 +7,7 @@ from functools import cached_property, lru_cache
 
 from polhode.algebra import ZERO, Expr, Symbol, eliminate
 from polhode.analyse import SteadyMotion, steady
-from polhode.claims.meaning._the import The
+from polhode.claims.meaning._mechanics import EquationsKey
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
 from polhode.derive import Equations
@@ -51,12 +51,12 @@ def steady_states(asked: BoundClaim) -> tuple[SteadyStates, ...]:
     about an upright axis.
     """
     given = tuple(asked.given.items())
-    return _families(The(asked.equations), given, asked.relations, asked.positive)
+    return _families(EquationsKey(asked.equations), given, asked.relations, asked.positive)
 
 
 @lru_cache(maxsize=_KEPT)
 def _families(
-    the: The,
+    the: EquationsKey,
     given: tuple[tuple[Symbol, Expr], ...],
     relations: tuple[Expr, ...],
     positive: tuple[Expr, ...],

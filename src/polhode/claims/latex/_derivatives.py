@@ -1,12 +1,10 @@
-"""d/dt and ∂/∂θ recognised in what is printed as a fraction."""
+"""Derivatives d/dt and ∂/∂θ recognised in fractions, and the variable of an integral in its dx."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from polhode.claims.latex._tree import (
-    NOWHERE,
     Derivative,
     Differential,
     Name,
@@ -14,19 +12,19 @@ from polhode.claims.latex._tree import (
     Node,
     Number,
     Power,
-    Product,
     Quotient,
     Span,
+    factors_of,
+    product,
 )
 
-SIGNS = {"d": "d", "partial": "∂", "Delta": "Δ", "delta": "δ"}  # letters that may be differentials
 _DERIVING = {"d": "d", "∂": "partial"}
 _ORDERS = tuple("123456789")
 
 
 @dataclass(frozen=True)
 class Operator(Node):
-    """A d/dt that still waits for what it acts on."""
+    """A d/dt without the quantity it acts on."""
 
     by: tuple[tuple[Node, int], ...]
     partial: bool
@@ -38,28 +36,12 @@ class Operator(Node):
         return of
 
 
-def product(factors: Sequence[Node], span: Span = NOWHERE) -> Node:
-    """Factors side by side; a single one is itself, none are one."""
-    if len(factors) == 1:
-        return factors[0]
-    return Product(tuple(factors), span=span) if factors else Number("1", span=span)
-
-
-def factors_of(node: Node) -> tuple[Node, ...]:
-    """The factors of a product; anything else is its own."""
-    return node.factors if isinstance(node, Product) else (node,)
-
-
-def awaits(node: Node) -> bool:
-    """Whether it ends with an operator that has nothing to act on yet."""
-    return isinstance(factors_of(node)[-1], Operator)
-
-
 def derivative(above: Node, below: Node, span: Span) -> Node | None:
-    """The derivative, or the operator, that a fraction prints; none if it is only a fraction."""
+    """The derivative, or the operator, that a fraction prints; None for a mere fraction."""
     if isinstance(above, Negative):
         inner = derivative(above.of, below, span)
-        return None if inner is None or awaits(inner) else replace(above, of=inner)
+        lacks_operand = inner is None or isinstance(factors_of(inner)[-1], Operator)
+        return None if inner is None or lacks_operand else replace(above, of=inner)
     denominators = [_denominator(factor) for factor in factors_of(below)]
     by = tuple((of, order) for _, of, order in denominators)
     signs = {sign for sign, _, _ in denominators}
@@ -69,7 +51,7 @@ def derivative(above: Node, below: Node, span: Span) -> Node | None:
 
 
 def measured(integrand: Node, span: Span) -> tuple[Node, Node] | None:
-    """The quantity under an integral and the variable it runs over; none without a differential."""
+    """The quantity under an integral and the variable it runs over; None without a differential."""
     factors = factors_of(integrand)
     for place, factor in enumerate(factors):
         found = _variable(factor)
@@ -114,7 +96,7 @@ def _differentiated(
 
 
 def _started(factor: Node, sign: str, order: int) -> tuple[Node, ...] | None:
-    """What a factor that begins a numerator leaves to differentiate; none if it begins none."""
+    """What is differentiated, if a factor begins a numerator: the x of dx; None for any other."""
     match factor:
         case Differential(of, printed) if printed == sign and order == 1:
             return (of,)
