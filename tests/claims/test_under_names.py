@@ -7,7 +7,7 @@ import pytest
 import polhode as ph
 from polhode.algebra import named, sin
 from polhode.claims.states._numeric import number
-from polhode.claims.states._points import points
+from polhode.claims.states._sample_points import points
 
 x, y, z, w = ph.symbols("x y z w", positive=True)
 theta = ph.coordinate("theta")

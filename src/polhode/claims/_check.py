@@ -163,7 +163,7 @@ def _read_twice(
     verdict: Verdict, asked: BoundClaim, statement: Statement, notation: Notation
 ) -> Verdict:
     """The verdict, unless a reader that shares nothing with the first one reads otherwise."""
-    from polhode.claims.contexts._read_anew import disputed  # NumPy, for what was bound alone
+    from polhode.claims.contexts._second_reading import disputed  # NumPy, for what was bound alone
 
     vocabulary = notation.vocabulary
     phrases = {r.letter: r.phrase for r in vocabulary.readings([statement])} | dict(

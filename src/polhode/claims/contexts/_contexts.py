@@ -8,7 +8,7 @@ from importlib import import_module
 
 from polhode.base import ParseError
 from polhode.claims._verdict import Answer, Verdict
-from polhode.claims.contexts._judge import judged_identity, judged_motion
+from polhode.claims.contexts._equations import judged_identity, judged_motion
 from polhode.claims.states._bound_claim import EQUALITY, MAGNITUDES, SENSE, BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
 

@@ -14,8 +14,7 @@ from polhode.claims.balance._newton_euler import constrained_motion, true_motion
 from polhode.claims.meaning._components import ScalarRelation
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain
 from polhode.claims.states._numeric import number
-from polhode.claims.states._physical import is_physical
-from polhode.claims.states._points import ExactPoint, points
+from polhode.claims.states._sample_points import ExactPoint, is_physical, points
 
 _TRIES = 300
 _ROUNDING = 1e-7

@@ -12,9 +12,8 @@ from polhode.base import NumericError, ParseError, PolhodeError
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.contexts._counterexample import refutation
-from polhode.claims.contexts._remainder import Remainder
-from polhode.claims.contexts._roots_of_steady import steady_roots
-from polhode.claims.contexts._scaling import SMALLNESS, restored, scaled
+from polhode.claims.contexts._remainder import SMALLNESS, Remainder, restored, scaled
+from polhode.claims.contexts._steady import steady_roots
 from polhode.claims.meaning._components import ScalarRelation
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion

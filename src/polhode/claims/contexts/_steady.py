@@ -6,10 +6,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
-from polhode.algebra import ZERO, Expr, Symbol
+from polhode.algebra import ZERO, Expr, Symbol, sqrt
 from polhode.analyse import reduced
+from polhode.base import PolhodeError
 from polhode.claims._verdict import Answer, Residual, Verdict
-from polhode.claims.contexts._judge import Failure, failed, failures, judged
+from polhode.claims.contexts._equations import Failure, failed, failures, judged
 from polhode.claims.meaning._components import ScalarRelation
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
@@ -127,3 +128,37 @@ def _covered(solved: list[list[Solved]], families: tuple[SteadyStates, ...]) -> 
 
 def _degree(relation: Expr, symbol: Symbol) -> int:
     return max((powers.get(symbol, 0) for powers, _ in relation.numerator.terms()), default=0)
+
+
+# The exact roots that a claim about a rate of steady motion is to be compared with.
+
+
+def steady_roots(asked: BoundClaim) -> Iterator[tuple[ScalarRelation, tuple[Expr, ...]]]:
+    """Members whose left side is a state variable, with the values it has in steady motion."""
+    try:
+        families = steady_states(asked)
+    except PolhodeError:
+        return
+    for component in asked.components():
+        quantity = component.left.symbol
+        for relation in (r for family in families for r in family.settled_relations):
+            if quantity is not None and quantity in relation.symbols():
+                roots = tuple(_roots(relation.numerator, quantity))
+                if roots:
+                    yield component, roots
+                    break
+
+
+def _roots(relation: Expr, quantity: Symbol) -> Iterator[Expr]:
+    """Both roots of a relation that is at most quadratic, in the form that has no pole."""
+    at_zero = {quantity: ZERO}
+    slope = relation.diff(quantity)
+    a, b, c = slope.diff(quantity) / 2, slope.subs(at_zero), relation.subs(at_zero)
+    if quantity in a.symbols():
+        return
+    if not a:
+        yield -c / b
+        return
+    root = sqrt(b * b - 4 * a * c)
+    for sign in (1, -1):
+        yield (-b + root * sign) / (2 * a)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -17,11 +17,22 @@ from polhode.claims.latex._tree import (
     Power,
     Product,
     Quotient,
+    Statement,
     Sum,
     walk,
 )
 from polhode.claims.repair._multiplier import Match
-from polhode.claims.repair._places import ONE, NodePosition, negated, over, raised, times
+from polhode.claims.repair._places import (
+    ONE,
+    NodePosition,
+    negated,
+    over,
+    places,
+    put,
+    raised,
+    tidied,
+    times,
+)
 
 _AXES = (("1", "2", "3"), ("x", "y", "z"), ("rho", "phi", "z"))
 _PAIRS = (("sin", "cos"), ("sinh", "cosh"), ("tan", "cot"), ("sech", "tanh"))
@@ -280,3 +291,54 @@ def relabelled(node: Node) -> Iterator[Node]:
 
 def _other_labels(label: str) -> Iterator[str]:
     return (other for axes in _AXES if label in axes for other in axes if other != label)
+
+
+# An angle taken from the wrong axis: its sine and cosine exchanged wherever they stand.
+
+_SIZE = 2.0  # of all changes together: one slip, but not a small one
+
+
+def exchanged(statement: Statement) -> Iterator[tuple[Edit, ...]]:
+    """For every angle of which both occur, the changes that exchange them."""
+    calls: dict[object, list[NodePosition]] = {}
+    for place in places(statement):
+        if isinstance(place.node, Call) and place.node.function in ("sin", "cos"):
+            calls.setdefault(place.node.argument, []).append(place)
+    for alike in calls.values():
+        functions = {place.node.function for place in alike if isinstance(place.node, Call)}
+        if len(functions) > 1:
+            others = [(place, turned(place.node)) for place in alike]
+            yield tuple(replaced(p, node, _SIZE / len(alike)) for p, node in others if node)
+
+
+# A corrected statement.
+
+_EQUALLY_SMALL = 0.15
+
+
+@dataclass(frozen=True)
+class Repaired:
+    """A corrected statement and the changes that were made."""
+
+    statement: Statement
+    changes: tuple[Edit, ...]
+
+    @property
+    def size(self) -> float:
+        """How much was changed."""
+        return sum(change.size for change in self.changes)
+
+    def with_changes(self, changes: Sequence[Edit]) -> Repaired:
+        """With more places changed."""
+        changed = self.statement
+        for edit in changes:
+            changed = put(changed, edit.path, edit.node)
+        return Repaired(changed, (*self.changes, *changes))
+
+
+def smallest(found: Sequence[Repaired]) -> tuple[Repaired, ...]:
+    """The smallest, and all others of about its size."""
+    ordered = sorted(found, key=lambda r: r.size)
+    limit = ordered[0].size + _EQUALLY_SMALL
+    kept = {tidied(r.statement): r for r in reversed(ordered) if r.size <= limit}
+    return tuple(reversed(kept.values()))

@@ -12,12 +12,10 @@ from polhode.algebra import Expr, SymbolKind, Vector
 from polhode.claims.latex._tree import Cross, Derivative, Dots, Name, Node, Statement
 from polhode.claims.meaning._components import Side
 from polhode.claims.repair._edits import letters, relabelled, turned
-from polhode.claims.repair._figures import Figure, together
-from polhode.claims.repair._numeric_evaluator import UNKNOWN, NumericEvaluator
+from polhode.claims.repair._multiplier import Products
+from polhode.claims.repair._numeric_evaluator import UNKNOWN, Figure, NumericEvaluator, together
 from polhode.claims.repair._places import NodePosition, places, put
-from polhode.claims.repair._products import Products
-from polhode.claims.repair._reading import RepairNotation
-from polhode.claims.repair._trials import Trials
+from polhode.claims.repair._trials import RepairNotation, Trials
 from polhode.claims.states._numeric import Array
 
 _CLOSE = 1e-7

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from itertools import product
+from itertools import combinations, product
 
 import numpy as np
 
@@ -14,25 +14,28 @@ from polhode.claims.latex._tree import (
     Call,
     Dots,
     Name,
+    Number,
     Piece,
     Power,
     Product,
     Quotient,
     Statement,
 )
-from polhode.claims.repair._edits import Edit, dotted, edits, emptied, replaced, replaced_by
-from polhode.claims.repair._figures import scalar
-from polhode.claims.repair._links import Links
-from polhode.claims.repair._missing import missing_terms
-from polhode.claims.repair._multiplier import Match, Response, simple_numbers
-from polhode.claims.repair._numeric_evaluator import UNKNOWN, NumericEvaluator
-from polhode.claims.repair._own_terms import fitted
-from polhode.claims.repair._places import NodePosition, places, put, tidied, times
-from polhode.claims.repair._reading import RepairNotation
+from polhode.claims.repair._edits import (
+    Edit,
+    Repaired,
+    dotted,
+    edits,
+    emptied,
+    replaced,
+    replaced_by,
+)
+from polhode.claims.repair._missing_terms import may_be_rewritten, missing_terms, rewritten
+from polhode.claims.repair._multiplier import Match, Response, simple_number, simple_numbers
+from polhode.claims.repair._numeric_evaluator import UNKNOWN, NumericEvaluator, scalar
+from polhode.claims.repair._places import Links, NodePosition, places, put, tidied, times
 from polhode.claims.repair._repair_context import RepairContext
-from polhode.claims.repair._repaired import Repaired
-from polhode.claims.repair._rewritten import may_be_rewritten, rewritten
-from polhode.claims.repair._trials import Trials, trials
+from polhode.claims.repair._trials import RepairNotation, Trials, trials
 from polhode.claims.states._numeric import Array
 
 Changing = Callable[[Array], Array]
@@ -263,3 +266,69 @@ class RepairSearch:
         others = [n for n in self._work.other_vectors if n != place.node]
         fitting = self._work.fitting(place, others, self._within(place, kept))
         yield from replaced_by(place, dict.fromkeys(fitting, True))
+
+
+# Several coefficients of a claim's own terms, fitted together.
+
+_INDEPENDENT = 1e-10
+_MOST_TOGETHER = 3
+_MOST_PLACES = 24
+
+
+def fitted(responses: Mapping[NodePosition, Response]) -> Iterator[tuple[Edit, ...]]:
+    """Sets of two or three changes of numbers or signs that together let a claim hold.
+
+    Args:
+        responses: how what must vanish changes with a factor put at each place.
+    """
+    places = [p for p in responses if p.is_term or isinstance(p.node, Number)]
+    slopes = {p: s.ravel() for p in places if (s := responses[p].slope()) is not None}
+    if not slopes:
+        return
+    tried = list(slopes)[:_MOST_PLACES]
+    rest = next(iter(responses.values())).before.ravel()
+    for together in range(2, _MOST_TOGETHER + 1):
+        found = False
+        for chosen, factors in _solutions(rest, np.array([slopes[p] for p in tried]), together):
+            where = [tried[i] for i in chosen]
+            if _apart(where):
+                found = True
+                yield from _written(where, factors)
+        if found:
+            return
+
+
+def _solutions(
+    rest: Array, slopes: Array, together: int
+) -> Iterator[tuple[tuple[int, ...], list[Match]]]:
+    """Which slopes, with which factors, bring the rest to nothing; all sets are tried at once."""
+    sets = list(combinations(range(len(slopes)), together))
+    if not sets or together > len(rest):
+        return
+    bases, triangles = np.linalg.qr(np.moveaxis(slopes[np.array(sets)], 1, 2))
+    shares = np.einsum("snk,n->sk", bases, -rest)
+    left = np.abs(np.einsum("snk,sk->sn", bases, shares) + rest).max(axis=1)
+    sizes = np.abs(np.diagonal(triangles, axis1=1, axis2=2))
+    apart = sizes.min(axis=1) > _INDEPENDENT * sizes.max(axis=1)
+    for i in np.flatnonzero(apart & (left <= _CLOSE * np.abs(rest).max())):
+        change = np.linalg.solve(triangles[i], shares[i])
+        numbers = [simple_number(np.array([1 + x])) for x in change]
+        factors = [Match(n) for n in numbers if n is not None and n != 1]
+        if len(factors) == together:
+            yield sets[i], factors
+
+
+def _apart(chosen: Sequence[NodePosition]) -> bool:
+    """Whether no place is inside another."""
+    return not any(
+        a.path[: len(b.path)] == b.path or b.path[: len(a.path)] == a.path
+        for a, b in combinations(chosen, 2)
+    )
+
+
+def _written(
+    chosen: Sequence[NodePosition], factors: Sequence[Match]
+) -> Iterator[tuple[Edit, ...]]:
+    options = [list(edits(p, match)) for p, match in zip(chosen, factors, strict=True)]
+    if all(options):
+        yield tuple(min(each, key=lambda edit: edit.size) for each in options)

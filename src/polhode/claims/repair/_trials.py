@@ -2,15 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
 
 from polhode.algebra import Expr
+from polhode.claims.contexts._remainder import vanished
 from polhode.claims.contexts._steady import solved_members
+from polhode.claims.latex._tree import Node, Statement
+from polhode.claims.meaning._components import Side
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
 from polhode.claims.states._sample_points import SamplePoints, bench
 from polhode.claims.states._steady_states import steady_states
+
+# What repair needs to know of how a statement is read.
+
+
+class RepairNotation(Protocol):
+    """What repair needs to know of how a statement is read."""
+
+    def asked(self, statement: Statement, extra: Mapping[str, Expr]) -> BoundClaim:
+        """The claim a statement makes; `extra` are further letters it may use."""
+        ...
+
+    def value(self, node: Node) -> Side:
+        """What one node stands for."""
+        ...
+
+    @property
+    def names(self) -> tuple[Node, ...]:
+        """Letters of the text, with their dots, that a correction may use."""
+        ...
+
+    @property
+    def vectors(self) -> tuple[Node, ...]:
+        """Letters that may stand for vectors, and that a correction may use."""
+        ...
+
 
 _CLOSE = 1e-7
 
@@ -88,3 +117,42 @@ _TRIALS: dict[str, Callable[[BoundClaim], Trials]] = {
 
 #: Contexts in which what is left can be fitted.
 FITTED = tuple(_TRIALS)
+
+
+# Claims to order zero read where what is small has vanished.
+
+
+@dataclass(frozen=True)
+class AtLimit:
+    """How statements are read at the limit itself.
+
+    Attributes:
+        reading: how they are read near it.
+        claim: whose small quantities vanish.
+    """
+
+    reading: RepairNotation
+    claim: BoundClaim
+
+    def asked(self, statement: Statement, extra: Mapping[str, Expr]) -> BoundClaim:
+        """The claim a statement makes there."""
+        near = self.reading.asked(statement, extra)
+        return replace(near, given={**near.given, **vanished(self.claim.small)}, small=())
+
+    def near(self, there: BoundClaim) -> BoundClaim:
+        """The same claim near the limit."""
+        return replace(there, given=self.claim.given, small=self.claim.small)
+
+    def value(self, node: Node) -> Side:
+        """What one node stands for."""
+        return self.reading.value(node)
+
+    @property
+    def names(self) -> tuple[Node, ...]:
+        """Letters that a correction may use."""
+        return self.reading.names
+
+    @property
+    def vectors(self) -> tuple[Node, ...]:
+        """Letters of vectors that a correction may use."""
+        return self.reading.vectors

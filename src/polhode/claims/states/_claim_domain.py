@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from math import prod
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import ONE, Expr, Symbol, factors, is_positive
 from polhode.base import NumericError
 from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.meaning._meaning import with_signs
-from polhode.claims.states._elimination import eliminated
-from polhode.claims.states._rates import on_constraints, on_motion
 from polhode.derive import Equations
 
 _KEPT = 1024
@@ -134,3 +133,115 @@ class TrueMotion(ClaimDomain):
         for _ in range(symbol.order):
             value = on_motion(self.equations.rate(value), self.equations)
         return value
+
+
+# Expressions on the states where given relations vanish.
+
+
+def eliminated(expression: Expr, relations: Sequence[Expr]) -> Expr:
+    """An expression with one quantity eliminated by each relation that is to vanish.
+
+    Each relation is solved for a quantity that it is linear in; a parameter where it can be, so
+    that nothing is lost but states where its factor vanishes.
+
+    Raises `NumericError` for a relation that is linear in nothing, and where what is positive by
+    declaration would vanish.
+    """
+    pending = list(relations)
+    sizes: dict[Symbol, Expr] = {}  # of what is positive by declaration
+    while pending:
+        relation = _essential(pending.pop(0))
+        if not relation:
+            continue
+        symbol, value = solved(relation)
+        expression = expression.subs({symbol: value})
+        pending = [other.subs({symbol: value}) for other in pending]
+        sizes = {s: size.subs({symbol: value}) for s, size in sizes.items()}
+        if symbol.positive:
+            sizes[symbol] = value
+        for vanished in (s for s, size in sizes.items() if not size):
+            raise NumericError(
+                f"conditions that were met only where {vanished.published} vanishes",
+                expected="conditions that some body meets",
+                advice="restrict angles and speeds one by one, such as theta = pi/2",
+            )
+    return expression
+
+
+def _essential(relation: Expr) -> Expr:
+    """The factors of a relation that can vanish, each once: a mass is no way to make it hold.
+
+    Raises `NumericError` where no factor can.
+    """
+    if not relation:
+        return relation
+    able = [f for f in factors(relation.numerator)[1] if not is_positive(f) and not is_positive(-f)]
+    if not able:
+        raise NumericError(
+            f"the condition {relation} = 0, which nothing meets",
+            expected="conditions that do not contradict one another or the model",
+        )
+    return prod(able, start=ONE).numerator
+
+
+def solved(relation: Expr) -> tuple[Symbol, Expr]:
+    """A symbol that a relation is linear in, and its value where the relation vanishes."""
+    candidates = sorted(relation.symbols(), key=lambda s: (s.kind.varies, s.published))
+    for symbol in candidates:
+        slope = relation.diff(symbol)
+        if slope and symbol not in slope.symbols():
+            rest = relation - slope * Expr.generator(symbol)
+            if symbol not in rest.symbols():
+                return symbol, -rest / slope
+    raise NumericError(
+        f"the relation {relation} = 0",
+        expected="one that is linear in some quantity",
+        advice="restrict an angle, such as theta = pi/2",
+    )
+
+
+# Rates of coordinates and speeds of any order, in terms of the independent ones.
+
+
+def on_constraints(expression: Expr, equations: Equations) -> Expr:
+    """With every rate that the constraints give put in terms of independent speeds and their rates.
+
+    Accelerations of the independent speeds stay as they are: they are not asked of the dynamics.
+    """
+    given = {s: e for s in expression.symbols() if (e := _given(s, equations)) is not None}
+    return expression.subs(given) if given else expression
+
+
+def on_motion(expression: Expr, equations: Equations) -> Expr:
+    """With the accelerations besides replaced by those of the true motion, whatever the order."""
+    settled = on_constraints(expression, equations)
+    accelerations = {
+        s: _true_rate(s, equations) for s in settled.symbols() if _is_acceleration(s, equations)
+    }
+    return settled.subs(accelerations) if accelerations else settled
+
+
+def _given(symbol: Symbol, equations: Equations) -> Expr | None:
+    base, motion = symbol.base(), equations.kinetics
+    rate = base.derivative()
+    if base in equations.dependent:
+        first, times = equations.dependent[base], symbol.order
+    elif symbol.order and rate in motion.kinematics and rate not in equations.speeds:
+        first, times = motion.kinematics[rate], symbol.order - 1
+    else:
+        return None
+    for _ in range(times):
+        first = on_constraints(first.chain(motion.rate), equations)
+    return first
+
+
+def _is_acceleration(symbol: Symbol, equations: Equations) -> bool:
+    return any(s.base() == symbol.base() and s.order < symbol.order for s in equations.speeds)
+
+
+def _true_rate(symbol: Symbol, equations: Equations) -> Expr:
+    speed = next(s for s in equations.speeds if s.base() == symbol.base())
+    value = equations.accelerations[speed.derivative()]
+    for _ in range(symbol.order - speed.order - 1):
+        value = equations.rate(value)
+    return value

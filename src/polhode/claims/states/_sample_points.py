@@ -4,20 +4,155 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from fractions import Fraction
+from functools import cached_property, lru_cache, partial, reduce
 from itertools import islice
+from math import atan
+from random import Random
+from typing import Any
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol, variables
-from polhode.base import PolhodeError
+from polhode.algebra import Expr, Generator, Symbol, SymbolKind, sqrt, under_name, variables
+from polhode.base import NumericError, PolhodeError
+from polhode.claims.meaning._the import The
 from polhode.claims.states._claim_domain import ClaimDomain
 from polhode.claims.states._numeric import Array, Rational, number, numbers, rationals
-from polhode.claims.states._points import points
+
+# States with simple exact numbers, at which expressions have exact values.
+
+_SIMPLE = [Fraction(n, d) for d in (1, 2, 3) for n in range(1, 8) if n % d or d == 1]
+_HALF_TANGENTS = [Fraction(n, d) for d in range(2, 8) for n in range(1, d) if d % n or n == 1]
+_PI = Symbol("pi")
+
+
+@dataclass(frozen=True)
+class ExactPoint:
+    """Exact values of symbols; angles by the tangent of their half, so that sines are rational.
+
+    Attributes:
+        numbers: value of every symbol that is no angle, SI.
+        half_tangents: of the symbols that sines and cosines are taken of.
+    """
+
+    numbers: Mapping[Symbol, Fraction]
+    half_tangents: Mapping[Symbol, Fraction]
+
+    def __call__(self, expression: Expr) -> Expr:
+        """The exact value of an expression: rational, or a root of rationals.
+
+        Raises `NumericError` where it has no exact value of that sort, and `ZeroDivisionError`.
+        """
+        return expression.recast({g: self._value(g) for g in expression.generators})
+
+    def _value(self, generator: Generator) -> Expr:
+        if isinstance(generator, Symbol):
+            return self._number(generator)
+        meaning = under_name(generator)
+        if meaning is not None:
+            return self(meaning)
+        partner = generator.partner() or _odd(generator)
+        if generator.depth and generator.partner() is None:
+            return sqrt(self(generator.arguments[0]))
+        angle, part = _angle(generator)
+        tangent = self.half_tangents.get(angle)
+        if partner is None or partner[1] > 0 or tangent is None:
+            raise _not_exact(generator)
+        cosine = Expr.of((1 - tangent**2) / (1 + tangent**2))
+        sine = Expr.of(2 * tangent / (1 + tangent**2))
+        if part == Fraction(1, 2):
+            sine, cosine = sqrt((1 - cosine) / 2), sqrt((1 + cosine) / 2)
+        elif part != 1:
+            raise _not_exact(generator)
+        return cosine if generator.partner() else sine
+
+    def _number(self, symbol: Symbol) -> Expr:
+        if symbol == _PI:
+            return Expr.generator(symbol)
+        if symbol not in self.numbers:
+            raise _not_exact(symbol)
+        return Expr.constant(self.numbers[symbol])
+
+    def floats(self) -> dict[Symbol, float]:
+        """All values as numbers, angles in radians."""
+        angles = {s: 2 * atan(tangent) for s, tangent in self.half_tangents.items()}
+        return {**{s: float(v) for s, v in self.numbers.items()}, **angles}
+
+    def described(self) -> dict[str, str]:
+        """All values as text under their published names."""
+        plain = {s.published: str(v) for s, v in self.numbers.items()}
+        angles = {s.published: f"2*atan({t})" for s, t in self.half_tangents.items()}
+        return dict(sorted({**plain, **angles}.items()))
+
+
+def points(expressions: Iterable[Expr], symbols: Iterable[Symbol], seed: int) -> ExactPoint:
+    """A point with simple values for all symbols, those under a sine or cosine being angles."""
+    random = Random(seed)
+    angles = {a for e in expressions for g in e.generators for a in _angles(g)}
+    wanted = sorted({*symbols} - {_PI}, key=lambda s: s.published)
+    draw = _draws(random, _SIMPLE)
+    tilt = _draws(random, _HALF_TANGENTS)
+    numbers = {s: draw(s) for s in wanted if s not in angles}
+    return ExactPoint(numbers, {s: tilt(s) for s in wanted if s in angles})
+
+
+def _draws(random: Random, pool: list[Fraction]) -> Callable[[Symbol], Fraction]:
+    left: list[Fraction] = []
+
+    def draw(symbol: Symbol) -> Fraction:
+        if not left:
+            left.extend(random.sample(pool, len(pool)))
+        value = left.pop()
+        free = symbol.kind is not SymbolKind.PARAMETER and not symbol.positive
+        return -value if free and symbol.order and random.random() < 1 / 3 else value
+
+    return draw
+
+
+@lru_cache(maxsize=1024)
+def _angles(generator: Generator) -> tuple[Symbol, ...]:
+    """Symbols that the generator takes a sine or cosine of, also under roots."""
+    meaning = under_name(generator)
+    if meaning is not None:
+        return tuple(dict.fromkeys(a for g in meaning.generators for a in _angles(g)))
+    odd = _odd(generator)
+    if odd is not None and odd[1] < 0:
+        angle = _angle(generator)[0]
+        return () if angle == _PI else (angle,)
+    inner = (g for argument in generator.arguments for g in argument.generators)
+    return tuple(a for g in inner for a in _angles(g))
+
+
+def _odd(generator: Generator) -> tuple[Generator, int] | None:
+    """The odd function and sign of the family of a sine or cosine."""
+    pairs = (g.partner() for g in generator.companions() if g.depth)
+    own = generator.partner()
+    found = own or next((pair for pair in pairs if pair and pair[0] == generator), None)
+    return found
+
+
+def _angle(generator: Generator) -> tuple[Symbol, Fraction]:
+    """Symbol and factor of the argument of a sine or cosine."""
+    argument = generator.arguments[0]
+    symbols = argument.symbols()
+    if len(symbols) != 1:
+        raise _not_exact(generator)
+    (symbol,) = symbols
+    factor = (argument / Expr.generator(symbol)).rational
+    if factor is None:
+        raise _not_exact(generator)
+    return symbol, factor
+
+
+def _not_exact(generator: Generator) -> NumericError:
+    return NumericError(
+        f"{Expr.generator(generator)} at a point of exact numbers",
+        expected="polynomials, roots, and sines and cosines of single angles",
+    )
+
 
 _STATES = 6
 _TRIES = 40
-_PI = Symbol("pi")
 
 
 class SymbolValues(dict[Symbol, float]):
@@ -117,3 +252,52 @@ def _is_real(state: SymbolValues, states: ClaimDomain, symbols: Iterable[Symbol]
         return False
     state.update(zip(ordered, settled.tolist(), strict=True))
     return bool(positive.all() and np.isfinite(settled).all())
+
+
+# What bodies that exist demand of numbers: positive parameters, inertias of some body.
+
+_ROUNDING = 1e-9
+
+
+def is_physical(states: ClaimDomain, values: Mapping[Symbol, Any]) -> Any:
+    """Whether bodies with these numbers can be; numbers may be arrays of one shape.
+
+    What is declared positive is so, also where the circumstances determine it, and so is what the
+    derivation took as positive; no moment of inertia exceeds the sum of the other two.
+    """
+    above, not_below = _demands(The(states.equations))
+    with np.errstate(all="ignore"):
+        met = [number(states.on(e), values) > 0 for e in (*states.signs, *above)]
+        for larger, size in not_below:
+            least = -_ROUNDING * np.abs(number(states.on(size), values))
+            met.append(number(states.on(larger), values) >= least)
+    return reduce(np.logical_and, met, np.bool_(True))
+
+
+def demanded(states: ClaimDomain) -> frozenset[Symbol]:
+    """The symbols whose numbers that takes."""
+    above, not_below = _demands(The(states.equations))
+    every = (*states.signs, *above, *(e for pair in not_below for e in pair))
+    return frozenset(s for e in every for s in states.on(e).symbols())
+
+
+@lru_cache(maxsize=16)
+def _demands(the: The) -> tuple[tuple[Expr, ...], tuple[tuple[Expr, Expr], ...]]:
+    """What has to be positive, and what must not be negative, each with its size."""
+    equations = the.equations
+    signed = {s for s in equations.parameters if s.positive}
+    inertias = tuple(_of_inertias(the))
+    signed |= {s for pair in inertias for e in pair for s in e.symbols() if s.positive}
+    ordered = sorted(signed, key=lambda s: s.published)
+    return tuple(map(Expr.generator, ordered)), inertias
+
+
+def _of_inertias(the: The) -> Iterator[tuple[Expr, Expr]]:
+    """Moments of inertia, and the sum of each two less the third; true along any axes."""
+    for body in the.equations.system.bodies:
+        moments = [body.inertia[i, i] for i in range(3)]
+        whole = moments[0] + moments[1] + moments[2]
+        for moment in moments:
+            if moment:
+                yield moment, whole
+                yield whole - 2 * moment, whole

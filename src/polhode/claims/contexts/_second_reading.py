@@ -16,6 +16,8 @@ from polhode.claims.latex._tree import Name, Node, PlusMinus, Statement, walk
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import AnyState, TrueMotion
 
+# What a second reader says of a claim that was judged: numbers from its letters on.
+
 _KINDS: dict[str, type[AnyState] | type[TrueMotion]] = {"identity": AnyState, "motion": TrueMotion}
 _APART = 1e-4  # relative; what is meant by another quantity differs by far more
 _ALIKE = 1e-9

@@ -8,13 +8,17 @@ from functools import partial
 from itertools import product
 from math import prod
 
-from polhode.algebra import ONE
+from polhode.algebra import ONE, Expr
+from polhode.claims._dimensions import dimensions_at_odds
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.balance._declared import reaction_symbol
-from polhode.claims.contexts._lagrangian import remark, says_the_same
+from polhode.claims.latex._tree import Name
 from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.meaning._mechanics import Mechanics
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
+
+# Whether relations hold on given states, member by member and component by component.
 
 
 @dataclass(frozen=True)
@@ -118,3 +122,42 @@ def _reason(found: Sequence[Failure]) -> str:
 def _place(component: ScalarRelation) -> str:
     member = f"member {component.member + 1}"
     return f"component {component.label} of {member}" if component.label else member
+
+
+# Lagrangians that differ and still are the same: by a constant, or by a total time derivative.
+
+_LETTERS = ("cal L", "L")
+
+
+def says_the_same(asked: BoundClaim, component: ScalarRelation) -> bool:
+    """Whether a text's Lagrangian has the equations of motion of the model's.
+
+    It has where the variation of the difference vanishes for every coordinate: Landau and
+    Lifshitz, Mechanics, § 2.
+    """
+    printed = asked.members[component.member].printed
+    if printed is None or not isinstance(printed.left, Name) or component.label:
+        return False
+    mechanics = Mechanics(asked.equations)
+    if printed.left.letter not in _LETTERS or component.left != mechanics.lagrangian():
+        return False
+    if dimensions_at_odds(asked.only([component.member])):
+        return False
+    rest = mechanics.in_rates(component.difference)
+    if not any(s.kind.varies for s in rest.symbols()):
+        return True
+    coordinates = mechanics.declared.coordinates
+    rates = {q.derivative() for q in coordinates}
+    known = {s for s in rest.symbols() if s.kind.varies} <= {*coordinates, *rates}
+    variations = (rest.diff(q.derivative()).dt() - rest.diff(q) for q in coordinates)
+    return known and not any(map(bool, variations))
+
+
+def remark(difference: Expr) -> str:
+    """What is said of such a difference."""
+    return (
+        f"the Lagrangians differ by {difference}, a total time derivative, which no equation of "
+        "motion contains"
+        if any(s.kind.varies for s in difference.symbols())
+        else f"the Lagrangians differ by {difference}, which no equation of motion contains"
+    )
