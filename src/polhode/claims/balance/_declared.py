@@ -1,4 +1,4 @@
-"""What a declaration says of places, turning, supports and loads, ready for numbers."""
+"""What a declaration says of positions, rotations, supports and loads, ready for numbers."""
 
 from __future__ import annotations
 
@@ -43,10 +43,12 @@ class Placement:
         return self._of_kind(SymbolKind.PARAMETER)
 
     def _of_kind(self, kind: SymbolKind) -> tuple[Symbol, ...]:
-        found = {s.base() for s in variables(self._said()) if s.kind is kind and s.name != "pi"}
+        found = {
+            s.base() for s in variables(self._expressions()) if s.kind is kind and s.name != "pi"
+        }
         return tuple(sorted(found, key=_name))
 
-    def _said(self) -> Iterator[Expr]:
+    def _expressions(self) -> Iterator[Expr]:
         """Every expression of the declaration."""
         root = self.system.root
         for body in self.system.bodies:
@@ -69,7 +71,7 @@ class Placement:
 
     @cached_property
     def actions(self) -> tuple[Action, ...]:
-        """What the loads do, velocities taken as they are declared."""
+        """What the loads do, from velocities as they are declared."""
         bodies = self.system.bodies
         velocities = {b: (self.places[b].dt(), b.angular_velocity) for b in bodies}
         return tuple(
@@ -135,5 +137,5 @@ def _name(symbol: Symbol) -> str:
 
 
 def reaction_symbol(name: str) -> Symbol:
-    """What stands for a reaction component in claims; unlike a parameter it varies."""
+    """The symbol of a reaction component in claims; unlike a parameter it varies."""
     return Symbol(name, SymbolKind.FUNCTION)

@@ -1,4 +1,4 @@
-"""Numbers that carry their first two time derivatives along."""
+"""Numbers with their first two time derivatives: automatic differentiation."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Array: TypeAlias = NDArray[np.float64]
 class Jet:
     """A quantity and its first and second rate; each an array over several trial motions.
 
-    Quantities known only with their first rate carry a second one that nothing may use.
+    Where only the first rate is known, the second one must not be used.
     """
 
     value: Array
@@ -33,7 +33,7 @@ class Jet:
 
     @property
     def is_constant(self) -> bool:
-        """Whether it was made as one."""
+        """Whether it was made as a constant, whatever its rates are."""
         return self.rate is _ZERO and self.second is _ZERO
 
     @property

@@ -1,9 +1,9 @@
-"""Both sides of a claim by numbers, from its letters on: a second reading that shares no first.
+"""Both sides of a claim by numbers, from its letters on: a reading independent of the first one.
 
-A state alone does not find out that a letter was misread. Here the LaTeX tree is read anew, with a
-table of letters and rules for signs and rates of its own: vectors are three numbers along the root
-frame, unit vectors rows of its matrices, rates are carried along as jets. What this table does not
-have is left unread; nothing is guessed.
+Checking a verdict at a state does not reveal that a letter was misread. So the LaTeX tree is read
+again here, with a table of letters and rules for signs and rates of its own: vectors are three
+numbers along the root frame, unit vectors rows of its matrices, and rates are carried along as
+jets. What is not in this table is left unread; nothing is guessed.
 """
 
 from __future__ import annotations
@@ -22,10 +22,9 @@ from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.balance._jets import JETS, Jet
 from polhode.claims.balance._trial import Jets, Trial, cross, dot
 from polhode.claims.latex import _tree as tree
-from polhode.model import Body, Pivot, Restraint, System
+from polhode.model import Body, Pivot, System
 
 _EQUAL = ("=", "≡")
-_CONSTANT = ("constant", "const")
 
 _sin, _cos = JETS.functions[Op.SIN], JETS.functions[Op.COS]
 _sinh, _cosh = JETS.functions[Op.SINH], JETS.functions[Op.COSH]
@@ -60,7 +59,7 @@ class Sides:
 
     @property
     def is_known(self) -> bool:
-        """Whether all are numbers; a second rate that nothing determines is none."""
+        """Whether all are numbers; a second rate that nothing determines is not."""
         return bool(np.all(np.isfinite([*self.left, *self.right])))
 
 
@@ -69,7 +68,7 @@ def read_members(
     system: System,
     numbers: Mapping[Symbol, float],
     trial: Trial,
-    told: Mapping[tree.Node, object],
+    defined: Mapping[tree.Node, object],
     points: Mapping[tree.Name, str],
 ) -> Iterator[Sides | None]:
     """The sides of every member of a statement that claims an equality; None where it is not read.
@@ -79,10 +78,11 @@ def read_members(
         system: the declaration.
         numbers: reactions, by symbol.
         trial: the motion of all bodies.
-        told: letters that the text defines, as expressions and vectors.
-        points: of moments that may be about several points, which is meant.
+        defined: letters that the text defines, as expressions and vectors.
+        points: the point that is meant, for moments that may be about several; empty for another
+            letter of which one of several meanings was chosen.
     """
-    reader = _SecondReader(system, numbers, trial, told, points)
+    reader = _SecondReader(system, numbers, trial, defined, points)
     for relation in statement.relations:
         pairs = zip(relation.sides, relation.signs, relation.sides[1:], strict=False)
         for left, sign, right in pairs:
@@ -95,11 +95,11 @@ class _SecondReader:
         system: System,
         numbers: Mapping[Symbol, float],
         trial: Trial,
-        told: Mapping[tree.Node, object],
+        defined: Mapping[tree.Node, object],
         points: Mapping[tree.Name, str],
     ) -> None:
         self._trial = trial
-        self._told = told
+        self._definitions = defined
         self._chosen = {name for name, point in points.items() if not point}
         self._letters = Letters(system, numbers, trial, points)
 
@@ -109,24 +109,16 @@ class _SecondReader:
         """The two sides by numbers."""
         try:
             one = self.value(left)
-            if _says_constant(right):
-                one = self._rate(one)
-                other: Any = Jet.of(0.0)
-            else:
-                other = self.value(right)
-            return Sides(*self._matched(one, other))
+            match right:
+                case tree.Name(letter=said) | tree.Words(text=said) if _is_constant(said):
+                    one, other = self._rate(one), Jet.of(0.0)
+                case _:
+                    other = self.value(right)
+            if isinstance(one, np.ndarray) != isinstance(other, np.ndarray):
+                one, other = _vector_of_zero(one), _vector_of_zero(other)
+            return Sides(_plain(one), _plain(other))
         except (UnreadError, KeyError, ZeroDivisionError):
             return None
-
-    def _matched(self, one: Any, other: Any) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        if isinstance(one, np.ndarray) != isinstance(other, np.ndarray):
-            one, other = (_vector_of_zero(side) for side in (one, other))
-        return self._plain(one), self._plain(other)
-
-    def _plain(self, side: Any) -> tuple[float, ...]:
-        if isinstance(side, Inertia):
-            raise UnreadError
-        return tuple(float(np.ravel(jet.value)[0]) for jet in np.atleast_1d(side))
 
     # -- pieces ---------------------------------------------------------------------------------
 
@@ -247,7 +239,7 @@ class _SecondReader:
     def _(self, node: tree.Name) -> Any:
         if node in self._chosen:  # one of several meanings that this table does not have
             raise UnreadError
-        for found in (self._defined, self._letters.scalar, self._letters.mechanical):
+        for found in (self._by_definition, self._letters.scalar, self._letters.mechanical):
             value = found(node)
             if value is not None:
                 return value
@@ -259,8 +251,8 @@ class _SecondReader:
             return self.value(tree.Name(node.letter, node.subscript, node.primes, "vector"))
         raise UnreadError
 
-    def _defined(self, name: tree.Name) -> Any:
-        meaning = self._told.get(name)
+    def _by_definition(self, name: tree.Name) -> Any:
+        meaning = self._definitions.get(name)
         if isinstance(meaning, Expr):
             return self._trial.scalar(meaning)
         if isinstance(meaning, Vector):
@@ -273,6 +265,12 @@ class _SecondReader:
         return self.value(tree.Name(label, decoration="hat"))
 
 
+def _plain(side: Any) -> tuple[float, ...]:
+    if isinstance(side, Inertia):
+        raise UnreadError
+    return tuple(float(np.ravel(jet.value)[0]) for jet in np.atleast_1d(side))
+
+
 def _vector_of_zero(side: Any) -> Any:
     """The number 0 as a vector; any other scalar beside a vector is not read."""
     if isinstance(side, np.ndarray):
@@ -282,16 +280,15 @@ def _vector_of_zero(side: Any) -> Any:
     raise UnreadError
 
 
-def _says_constant(node: tree.Node) -> bool:
-    said = {tree.Name: "letter", tree.Words: "text"}.get(type(node), "")
-    return bool(said) and str(getattr(node, said)).strip(" .,") in _CONSTANT
+def _is_constant(said: str) -> bool:
+    return said.strip(" .,") in ("constant", "const")
 
 
-# Quantities of a trial motion by the letters of a text, from a table of their own.
+# -- the table of letters -------------------------------------------------------------------------
 
 
 class UnreadError(Exception):
-    """A piece of LaTeX that this reader does not know; a first reader may."""
+    """A piece of LaTeX that this reader does not know, though the first one may."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -341,22 +338,32 @@ class Letters:
         return None
 
     def mechanical(self, name: tree.Name) -> Any:
+        """A unit vector, a vector of the motion or a kinetic energy; None for other letters."""
         if name.primes:
             return None
         if name.decoration == "hat" and not name.subscript:
-            return self._direction(name.letter)
+            # of the laboratory where it has the label, or else of the only body's own axes
+            for frame in (self._root, self._only_body.axes):
+                if name.letter in frame.labels:
+                    return self._trial.vector(frame[name.letter])
+            return None
         if name.decoration == "vector":
             return self._vector(name)
         if not name.decoration and name.letter == "T" and name.subscript in ("", "rot", "cm"):
-            return self._kinetic(name.subscript)
+            return self._kinetic_energy(name.subscript)
         return None
 
-    def _direction(self, label: str) -> Any:
-        """Of the laboratory where it has the label, or else of the only body's own axes."""
-        for frame in (self._root, self._only_body.axes):
-            if label in frame.labels:
-                return self._trial.vector(frame[label])
-        return None
+    def _kinetic_energy(self, part: str) -> Jet:
+        """Of rotation about the centres of mass, of translation, or both."""
+        trial, half = self._trial, Jet.of(0.5)
+        total = Jet.of(0.0)
+        for body, moving in trial.bodies.items():
+            if part != "cm":
+                total = total + half * dot(moving.angular, trial.angular_momentum(body))
+            if part != "rot":
+                speed = dot(moving.velocity, moving.velocity)
+                total = total + half * trial.scalar(body.mass) * speed
+        return total
 
     @property
     def _only_body(self) -> Body:
@@ -408,34 +415,15 @@ class Letters:
     def _force(self) -> Jets:
         """Of the only contact or joint, by the numbers of its components; without their rates."""
         forces = [r for r in self._trial.restraints if r.arm is not None]
-        if len({_letter(r) for r in forces}) != 1 or self._several_elements(forces):
-            raise UnreadError
-        return reduce(add, (self._share(r) for r in forces))
-
-    def _several_elements(self, forces: list[Restraint]) -> bool:
+        stems = {r.name.partition("_")[0] for r in forces}
         holding = [e for e in self._system.elements if any(r.body in e.bodies for r in forces)]
-        return len(holding) != 1
-
-    def _share(self, restraint: Restraint) -> Jets:
-        number = self._numbers[reaction_symbol(restraint.name)]
-        return self._trial.vector(restraint.direction) * _without_rates(number)
-
-    def _kinetic(self, kind: str) -> Jet:
-        trial, half = self._trial, Jet.of(0.5)
-        total = Jet.of(0.0)
-        for body, moving in trial.bodies.items():
-            if kind != "cm":
-                total = total + half * dot(moving.angular, trial.angular_momentum(body))
-            if kind != "rot":
-                speed = dot(moving.velocity, moving.velocity)
-                total = total + half * trial.scalar(body.mass) * speed
-        return total
+        if len(stems) != 1 or len(holding) != 1:
+            raise UnreadError
+        numbers = (self._numbers[reaction_symbol(r.name)] for r in forces)
+        shares = zip(forces, map(_without_rates, numbers), strict=True)
+        return reduce(add, (self._trial.vector(r.direction) * share for r, share in shares))
 
 
 def _without_rates(number: float) -> Jet:
     unknown = np.array(np.nan)
     return Jet(np.array(number), unknown, unknown)
-
-
-def _letter(restraint: Restraint) -> str:
-    return restraint.name.partition("_")[0]

@@ -60,7 +60,7 @@ class Trial:
         self._let_coordinates_move(state)
 
     def _let_coordinates_move(self, state: Mapping[Symbol, float]) -> None:
-        """Give every coordinate its two rates: first the first, then with it the second."""
+        """Give every coordinate its two rates; the second one needs the first ones of all."""
         known = self._known
         for q in known.coordinates:
             self._table[q] = Jet(self._nothing + state[q], self._nothing, self._nothing)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from importlib import import_module
 
@@ -50,7 +50,15 @@ def judge(asked: BoundClaim, context: str) -> Verdict:
     """
     if context not in CONTEXTS:
         raise ParseError(f"context {context!r}", expected=f"one of {', '.join(CONTEXTS)}")
-    _refuse_magnitudes(asked)
+    # ≫ and ≪ speak of a limit, and no state is large or small by itself.
+    for relation in asked.members:
+        if relation.sign in MAGNITUDES:
+            raise ParseError(
+                f"the sign {relation.sign}, which was read; no state decides what is much larger",
+                expected="= ≈ or an inequality",
+                advice="state what is small, and judge what follows from it in the context limit",
+                option="small",
+            )
     if context in _WHOLE:
         return _WHOLE[context](asked)
     found = list(_by_signs(asked, context))
@@ -69,18 +77,6 @@ def judge(asked: BoundClaim, context: str) -> Verdict:
     return replace(approximate or found[0], context=context, remarks=remarks)
 
 
-def _refuse_magnitudes(asked: BoundClaim) -> None:
-    """≫ and ≪ speak of a limit, and no state is large or small by itself."""
-    for relation in asked.members:
-        if relation.sign in MAGNITUDES:
-            raise ParseError(
-                f"the sign {relation.sign}, which was read; no state decides what is much larger",
-                expected="= ≈ or an inequality",
-                advice="state what is small, and judge what follows from it in the context limit",
-                option="small",
-            )
-
-
 def holds(asked: BoundClaim, context: str) -> bool:
     """Whether a claim holds, and no more."""
     return _TRIED[context](asked).holds if context in _TRIED else judge(asked, context).holds
@@ -96,40 +92,29 @@ def _by_signs(asked: BoundClaim, context: str) -> Iterator[Verdict]:
         raise ParseError(
             f"the sign {others[0]} in the context {context}", expected="= ≈ or an inequality"
         )
-    _refuse_scattered_choice(asked, [equal, close], [*bounds, *unequal])
-    if equal:
-        yield _EQUATIONS[context](asked.only(equal))
-    if close:
-        yield _close(asked.only(close), context)
-    if bounds or unequal:
-        yield from _compared(asked, context, bounds, unequal)
-
-
-def _refuse_scattered_choice(
-    asked: BoundClaim, together: Iterable[Collection[int]], compared: Collection[int]
-) -> None:
-    """± is one choice for the whole statement, so that what is judged apart must not share it."""
+    # ± is one choice for the whole statement, so that what is judged apart must not share it.
+    together = [equal, close]
     with_choice = {i for i in range(len(asked.members)) if asked.says_choice(i)}
     groups = [group for group in together if with_choice.intersection(group)]
-    if len(groups) > 1 or with_choice.intersection(compared):
+    if len(groups) > 1 or with_choice.intersection([*bounds, *unequal]):
         raise ParseError(
             "± in members of different signs, which was read",
             expected="one choice of ± in equations, all with = or all with ≈",
             advice="judge the upper and the lower sign one by one",
         )
+    if equal:
+        yield _EQUATIONS[context](asked.only(equal))
+    if close:
+        yield _close(asked.only(close), context)
+    if bounds or unequal:
+        from polhode.claims.contexts._inequality import judged_inequality, judged_unequal
 
-
-def _compared(
-    asked: BoundClaim, context: str, bounds: Collection[int], unequal: Collection[int]
-) -> Iterator[Verdict]:
-    from polhode.claims.contexts._inequality import judged_inequality, judged_unequal
-
-    for states in _states(asked, context):
-        for component in asked.components():
-            if component.member in bounds:
-                yield judged_inequality(asked, component, states)
-            if component.member in unequal:
-                yield judged_unequal(asked, component, states)
+        for states in _states(asked, context):
+            for component in asked.components():
+                if component.member in bounds:
+                    yield judged_inequality(asked, component, states)
+                if component.member in unequal:
+                    yield judged_unequal(asked, component, states)
 
 
 def _close(asked: BoundClaim, context: str) -> Verdict:

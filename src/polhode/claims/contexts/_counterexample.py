@@ -14,7 +14,7 @@ from polhode.claims.balance._newton_euler import constrained_motion, true_motion
 from polhode.claims.meaning._components import ScalarRelation
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain
 from polhode.claims.states._numeric import number
-from polhode.claims.states._sample_points import ExactPoint, is_physical, points
+from polhode.claims.states._sample_points import ExactPoint, exact_point, is_physical
 
 _TRIES = 300
 _ROUNDING = 1e-7
@@ -66,7 +66,13 @@ def example_where(
         try:
             if _is_allowed(point, states) and refutes(point):
                 left, right = (_at(point, side) for side in sides)
-                found = Counterexample(_described(point, states), left, right, residual)
+                # The state in full, with what the circumstances determine.
+                values = point.described()
+                for symbol in _state(states):
+                    image = states.of(symbol)
+                    if image != Expr.generator(symbol):
+                        values[symbol.published] = str(_at(point, image))
+                found = Counterexample(dict(sorted(values.items())), left, right, residual)
                 return found, _confirmed(point, component, states, found)
         except (PolhodeError, ArithmeticError, ValueError, KeyError):
             continue
@@ -94,7 +100,7 @@ def _drawn(sides: tuple[Expr, ...], states: ClaimDomain) -> Iterator[ExactPoint]
     used = [*sides, *states.settled_relations, *map(states.on, states.signs)]
     used += states.equations.accelerations.values()
     symbols = {s for e in used for s in e.symbols()} | _state(states)
-    return (points(used, symbols, seed) for seed in range(_TRIES))
+    return (exact_point(used, symbols, seed) for seed in range(_TRIES))
 
 
 def _state(states: ClaimDomain) -> set[Symbol]:
@@ -113,16 +119,6 @@ def _with_rates(function: Symbol) -> Iterator[Symbol]:
 def _is_allowed(point: ExactPoint, states: ClaimDomain) -> bool:
     """Whether it is a state of bodies that can be."""
     return bool(is_physical(states, point.floats()))
-
-
-def _described(point: ExactPoint, states: ClaimDomain) -> dict[str, str]:
-    """The state in full, with what the circumstances determine."""
-    values = point.described()
-    for symbol in _state(states):
-        image = states.of(symbol)
-        if image != Expr.generator(symbol):
-            values[symbol.published] = str(_at(point, image))
-    return dict(sorted(values.items()))
 
 
 def _confirmed(

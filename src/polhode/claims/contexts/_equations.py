@@ -88,10 +88,11 @@ def _failure(alike: Sequence[ScalarRelation], states: ClaimDomain) -> Failure | 
 
 def failed(found: Sequence[Failure], context: str) -> Verdict:
     """The verdict on a claim with these failures, refuted at a state."""
+    where = "; ".join(dict.fromkeys(_place(f.component) for f in found))
     return Refuted(
         Answer.FAILS,
         context,
-        _reason(found),
+        f"the sides differ in {where}",
         residuals=tuple(f.residual for f in found),
         remarks=tuple(_left_open(found[0])),
         evidence=partial(_evidence, found[0]),
@@ -112,11 +113,6 @@ def _evidence(worst: Failure) -> Evidence:
 
     whole = worst.residual.expression
     return refutation(worst.component, worst.residual, worst.states, nonzero=whole)
-
-
-def _reason(found: Sequence[Failure]) -> str:
-    where = "; ".join(dict.fromkeys(_place(f.component) for f in found))
-    return f"the sides differ in {where}"
 
 
 def _place(component: ScalarRelation) -> str:

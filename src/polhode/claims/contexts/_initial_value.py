@@ -42,7 +42,9 @@ def judged_launch(asked: BoundClaim) -> Verdict:
     integrating it for several choices of the parameters.
     """
     asked = _started(asked)
-    if _is_plain(asked) and _holds_exactly(asked, _whole(asked)):
+    # Whether it is an equation between states, said of the whole motion.
+    timeless = not any(TIME in c.difference.symbols() for c in asked.components())
+    if (timeless and _is_equation(asked)) and _holds_exactly(asked, _whole(asked)):
         return Verdict(Answer.HOLDS, "launch", reason="follows from the conserved quantities")
     return judged_along(asked)
 
@@ -61,12 +63,6 @@ def _is_equation(asked: BoundClaim) -> bool:
     """Whether it is an equation, said of the whole motion."""
     whole = not asked.when and not any(s.kind.varies for s in asked.given)
     return whole and all(relation.sign in EQUALITY for relation in asked.members)
-
-
-def _is_plain(asked: BoundClaim) -> bool:
-    """Whether it is an equation between states, said of the whole motion."""
-    timeless = not any(TIME in c.difference.symbols() for c in asked.components())
-    return timeless and _is_equation(asked)
 
 
 def _started(asked: BoundClaim) -> BoundClaim:
@@ -184,14 +180,12 @@ def judged_initially(asked: BoundClaim) -> Verdict:
     verdict = judged(asked.only(equal), [states], "launch")
     for component in (c for c in asked.components() if c.member not in equal):
         if verdict.holds:
-            verdict = judged_inequality(asked, _parting(component, states), states)
+            # The lowest rates of both sides by which they part from the start on.
+            rates = _rates(component, replace(states, given={}))
+            verdict = judged_inequality(
+                asked, next((c for c in rates if states.on(c.difference)), component), states
+            )
     return replace(verdict, context="launch")
-
-
-def _parting(component: ScalarRelation, states: TrueMotion) -> ScalarRelation:
-    """The lowest rates of both sides by which they part from the start on."""
-    rates = _rates(component, replace(states, given={}))
-    return next((c for c in rates if states.on(c.difference)), component)
 
 
 def _rates(component: ScalarRelation, running: TrueMotion) -> Iterator[ScalarRelation]:

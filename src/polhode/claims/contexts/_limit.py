@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import partial
 from math import inf, log
 
-from polhode.algebra import ONE, ZERO, Expr, Symbol
+from polhode.algebra import ONE, ZERO, Expr
 from polhode.base import NumericError, ParseError, PolhodeError
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.balance._declared import reaction_symbol
@@ -99,17 +99,13 @@ def _remainder(
 ) -> Remainder:
     first = component.left if root is None else root
     left, right = (scaled(states.on(side), asked.small) for side in (first, component.right))
-    return Remainder(component, states, left, right, _positive(asked), asked, root is not None)
-
-
-def _positive(asked: BoundClaim) -> tuple[Expr, ...]:
-    """What is taken as positive: what the text says is, and what is large."""
-    large = (Expr.generator(s) for small in asked.small for s in _below(small.quantity))
-    return (*asked.positive, *large)
-
-
-def _below(quantity: Expr) -> frozenset[Symbol]:
-    return quantity.denominator.symbols()
+    # What is taken as positive: what the text says is, and what is large.
+    large = (
+        Expr.generator(s) for small in asked.small for s in small.quantity.denominator.symbols()
+    )
+    return Remainder(
+        component, states, left, right, (*asked.positive, *large), asked, root is not None
+    )
 
 
 def _judged(asked: BoundClaim, remainders: Iterable[Remainder]) -> Verdict:
@@ -125,7 +121,14 @@ def _judged(asked: BoundClaim, remainders: Iterable[Remainder]) -> Verdict:
         if why := left.objection(order):
             return _failed(left, order, restored(term, asked.small), why)
         if order <= left.printed.left_aside:
-            return _untested(left, order)
+            return Verdict(
+                Answer.UNREAD,
+                "limit",
+                reason=f"it was read and is true up to order {order - 1}, but its left side has a term of "
+                f"order {left.printed.left_aside} that is neither met by the right side nor right by "
+                "itself; leave it out, or state the order of what is small",
+                order=order - 1,
+            )
         reached.append((order, term))
     if not reached:
         return Verdict(Answer.HOLDS, "limit")
@@ -137,17 +140,6 @@ def _judged(asked: BoundClaim, remainders: Iterable[Remainder]) -> Verdict:
         order=order - 1,
         dropped=restored(dropped, asked.small),
         remarks=tuple(_measured(seen)),
-    )
-
-
-def _untested(left: Remainder, order: int) -> Verdict:
-    return Verdict(
-        Answer.UNREAD,
-        "limit",
-        reason=f"it was read and is true up to order {order - 1}, but its left side has a term of "
-        f"order {left.printed.left_aside} that is neither met by the right side nor right by "
-        "itself; leave it out, or state the order of what is small",
-        order=order - 1,
     )
 
 
@@ -166,14 +158,10 @@ def _failed(left: Remainder, order: int, term: Expr, why: str) -> Verdict:
 
 def _evidence(left: Remainder, order: int, residual: Residual) -> Evidence:
     """A state at which the coefficients of that order differ."""
-    wrong = ScalarRelation(residual.member, residual.component, *_coefficients(left, order))
-    return refutation(wrong, residual, left.states)
-
-
-def _coefficients(left: Remainder, order: int) -> tuple[Expr, Expr]:
     sides = (left.series(side, order) for side in (left.left, left.right))
     first, second = (found.get(order, ZERO) for found in sides)
-    return first, second
+    wrong = ScalarRelation(residual.member, residual.component, *(first, second))
+    return refutation(wrong, residual, left.states)
 
 
 def _measured(remainders: Sequence[Remainder]) -> Iterator[str]:
@@ -182,18 +170,16 @@ def _measured(remainders: Sequence[Remainder]) -> Iterator[str]:
         difference = left.left - left.right
         if difference:
             try:
-                order = _slope(difference, left.states, next(iter(left.orders), _STEEPEST))
+                point = next(real_states(left.states, [difference.subs({SMALLNESS: ONE})]), None)
+                if point is None:
+                    raise NumericError("no state among those tried", expected="one that is real")
+                first = max(
+                    2, min(7, _DIGITS // max(next(iter(left.orders), _STEEPEST), 1))
+                )  # what is left stays above rounding
+                halvings = (first, first + 1)
+                sizes = [abs(number(difference, {**point, SMALLNESS: 2.0**-k})) for k in halvings]
+                order = log(sizes[0] / sizes[1], 2)
             except (PolhodeError, ArithmeticError, ValueError):
                 continue
             yield f"halving what is small makes the remainder fall as its power {order:.2f}"
             return
-
-
-def _slope(difference: Expr, states: ClaimDomain, expected: int) -> float:
-    point = next(real_states(states, [difference.subs({SMALLNESS: ONE})]), None)
-    if point is None:
-        raise NumericError("no state among those tried", expected="one that is real")
-    first = max(2, min(7, _DIGITS // max(expected, 1)))  # what is left stays above rounding
-    halvings = (first, first + 1)
-    sizes = [abs(number(difference, {**point, SMALLNESS: 2.0**-k})) for k in halvings]
-    return log(sizes[0] / sizes[1], 2)

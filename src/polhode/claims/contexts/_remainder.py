@@ -96,7 +96,10 @@ def _formed_of(quantity: Expr) -> tuple[Symbol, Expr]:
     target = Expr.generator(_TARGET)
     for symbol in sorted(quantity.symbols(), key=lambda s: (not s.kind.varies, s.published)):
         x = Expr.generator(symbol)
-        for form, value in ((quantity, target), (_reciprocal(quantity), ONE / target)):
+        for form, value in (
+            (quantity, target),
+            (ONE / quantity if quantity else ZERO, ONE / target),
+        ):
             slope = form.diff(symbol)
             if slope and symbol not in slope.symbols():
                 rest = form - slope * x
@@ -105,10 +108,6 @@ def _formed_of(quantity: Expr) -> tuple[Symbol, Expr]:
         f"{quantity} as a small quantity",
         expected="a symbol, a departure such as theta - pi/2, or one over a large symbol",
     )
-
-
-def _reciprocal(quantity: Expr) -> Expr:
-    return ONE / quantity if quantity else ZERO
 
 
 def leading_orders(

@@ -169,17 +169,19 @@ class Followed:
             case "sometimes":
                 return None if self._met(_CLOSE).any() else 0
             case "finally":
-                return None if self._settles else len(self.course.times) - 1
+                # Whether the relation comes to be met, nearly and for some time on end.
+                left, right = self.sides
+                near = np.logical_or(
+                    self._met(-_CLOSE), np.abs(left - right) <= _SETTLED * self._scale
+                )
+                return (
+                    None
+                    if bool(np.convolve(near, np.ones(_LASTING), "valid").max() >= _LASTING)
+                    else len(self.course.times) - 1
+                )
             case _:
                 wrong = np.logical_not(self._met(-_CLOSE))
         return int(np.argmax(wrong)) if wrong.any() else None
-
-    @property
-    def _settles(self) -> bool:
-        """Whether the relation comes to be met, nearly and for some time on end."""
-        left, right = self.sides
-        near = np.logical_or(self._met(-_CLOSE), np.abs(left - right) <= _SETTLED * self._scale)
-        return bool(np.convolve(near, np.ones(_LASTING), "valid").max() >= _LASTING)
 
 
 def _sampled(side: Expr, course: SampledMotion) -> Array:

@@ -121,13 +121,12 @@ def _covered(solved: list[list[Solved]], families: tuple[SteadyStates, ...]) -> 
     for members in zip(*solved, strict=True):
         values = dict.fromkeys(member.value for member in members)
         for relation in (r for family in families for r in family.settled_relations):
-            degree = _degree(relation, members[0].quantity)
+            symbol = members[0].quantity
+            degree = max(
+                (powers.get(symbol, 0) for powers, _ in relation.numerator.terms()), default=0
+            )
             if degree:
                 yield f"{min(len(values), degree)} of {degree} roots of {relation} = 0 are covered"
-
-
-def _degree(relation: Expr, symbol: Symbol) -> int:
-    return max((powers.get(symbol, 0) for powers, _ in relation.numerator.terms()), default=0)
 
 
 # The exact roots that a claim about a rate of steady motion is to be compared with.

@@ -22,7 +22,7 @@ from polhode.claims.meaning._the import The
 from polhode.claims.states._bound_claim import EQUALITY, SENSE, STRICT, BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain
 from polhode.claims.states._numeric import Array, number
-from polhode.claims.states._sample_points import ExactPoint, demanded, is_physical
+from polhode.claims.states._sample_points import ExactPoint, is_physical, physical_symbols
 from polhode.claims.states._steady_states import SteadyStates, steady_states
 
 _STABILITY, _EXISTENCE = "stability", "existence"
@@ -78,7 +78,13 @@ def judged_threshold(asked: BoundClaim) -> Verdict:
         return _met(claimed, proved, asked)
     if all(comparison.parting is not None for _, comparison in compared):
         return _refuted(claimed[0], *compared[0])
-    return _undecided(next(exact for exact, c in compared if c.parting is None))
+    exact = next(exact for exact, c in compared if c.parting is None)
+    return Verdict(
+        Answer.UNREAD,
+        "threshold",
+        reason=f"it was read, but whether it is equivalent to {exact} was neither proved nor "
+        "refuted",
+    )
 
 
 def _any(asked: BoundClaim) -> AnyState:
@@ -175,15 +181,6 @@ def _met(claimed: Sequence[ScalarRelation], exact: Exact, asked: BoundClaim) -> 
             "stability decides nothing; write < or >",
         )
     return Verdict(Answer.HOLDS, "threshold", reason=f"equivalent to {exact}")
-
-
-def _undecided(exact: Exact) -> Verdict:
-    return Verdict(
-        Answer.UNREAD,
-        "threshold",
-        reason=f"it was read, but whether it is equivalent to {exact} was neither proved nor "
-        "refuted",
-    )
 
 
 def _refuted(component: ScalarRelation, exact: Exact, comparison: Comparison) -> Verdict:
@@ -320,7 +317,7 @@ class Comparison:
     def symbols(self) -> tuple[Symbol, ...]:
         """All that takes a number."""
         sides = (side for bound in self.claimed for side in (bound.greater, bound.less))
-        found = {*variables([*sides, *self.conditions]), *demanded(self.states)} - {_PI}
+        found = {*variables([*sides, *self.conditions]), *physical_symbols(self.states)} - {_PI}
         return tuple(sorted(found, key=lambda s: s.published))
 
     @cached_property
@@ -365,17 +362,18 @@ class Comparison:
         if not symbol.positive and symbol not in self.sizes:
             way = np.concatenate((-way[::-1], way))
         every = [
-            self.agree({**_spread(start, way), symbol: way * factor})
+            self.agree(
+                {
+                    **{s: np.full(way.shape, value) for s, value in start.items()},
+                    symbol: way * factor,
+                }
+            )
             for factor in (1 - _BESIDE, 1.0, 1 + _BESIDE)
         ]
         parted = np.flatnonzero(np.all(np.array(every) == 0, axis=0))
         if not len(parted):
             return None
         return {**start, symbol: float(way[parted[len(parted) // 2]])}
-
-
-def _spread(start: Mapping[Symbol, float], way: Array) -> dict[Symbol, Array]:
-    return {s: np.full(way.shape, value) for s, value in start.items()}
 
 
 def _forms(bound: PrintedBound, signs: Sequence[Expr]) -> Iterator[Expr]:

@@ -64,7 +64,10 @@ class Edit:
 def edits(place: NodePosition, match: Match) -> Iterator[Edit]:
     """Ways to write that a place is to be multiplied by a matched factor."""
     if match.powers:
-        yield from _by_quantities(place, match)
+        if place.is_term:
+            yield from _inserted(place, match)
+        yield from _removed(place, match)
+        yield from _repowered(place, match)
     else:
         yield from _by_number(place, match.number)
 
@@ -78,7 +81,11 @@ def _by_number(place: NodePosition, number: Fraction) -> Iterator[Edit]:
         extra = 0.0 if value.denominator == 1 else 0.5
         what = "wrong power" if place.is_exponent else "wrong factor"
         yield Edit(what, place.path, number_node(value), 1.0 + extra)
-    elif place.is_term and number not in (0, 1) and not _has_number(node):
+    elif (
+        place.is_term
+        and number not in (0, 1)
+        and not any(isinstance(factor, Number) for factor in _factors(node))
+    ):
         changed = _scaled(node, abs(number))
         size = 1.2 if abs(number).denominator == 1 or abs(number).numerator == 1 else 1.6
         if number < 0:
@@ -96,10 +103,6 @@ def emptied(place: NodePosition) -> Iterator[Edit]:
         yield replaced(place, dotted(place.node), 1.0)
     if not is_letter and not is_said:
         yield Edit("extra term", place.path, Number("0"), 2.0 + len([*letters(place.node)]) / 20)
-
-
-def _has_number(node: Node) -> bool:
-    return any(isinstance(factor, Number) for factor in _factors(node))
 
 
 def _factors(node: Node) -> tuple[Node, ...]:
@@ -131,13 +134,6 @@ def _scaled(node: Node, number: Fraction) -> Node:
             return PlusMinus(_scaled(of, number), sign)
     above = times(Number(str(number.numerator)), node)
     return over(above, Number(str(number.denominator)))
-
-
-def _by_quantities(place: NodePosition, match: Match) -> Iterator[Edit]:
-    if place.is_term:
-        yield from _inserted(place, match)
-    yield from _removed(place, match)
-    yield from _repowered(place, match)
 
 
 def _inserted(place: NodePosition, match: Match) -> Iterator[Edit]:

@@ -116,7 +116,9 @@ def _along(
         yield from found
         if found:
             return
-    lost = _lost(work, place, direction, members)
+    # What is to be added, exactly, on the states of the claim.
+    term = UNKNOWN_TERM if direction is None else times(UNKNOWN_TERM, direction)
+    lost = solved(work, put(work.statement, place.path, added(place.node, term)), members)
     if lost is not None:
         yield from filter(adds, written(work, lost, tail))
 
@@ -125,14 +127,6 @@ def _takes_terms(place: NodePosition, inner: Collection[NodePosition]) -> bool:
     """Whether a term may be lost there: of a side, a sum, or where a factor could make it right."""
     inside = isinstance(place.parent, Derivative | Root | ComponentList | Cross | Dot)
     return place.is_side or inside or isinstance(place.node, Sum) or place in inner
-
-
-def _lost(
-    work: RepairContext, place: NodePosition, direction: Node | None, members: Sequence[int]
-) -> Expr | None:
-    """What is to be added, exactly, on the states of the claim."""
-    term = UNKNOWN_TERM if direction is None else times(UNKNOWN_TERM, direction)
-    return solved(work, put(work.statement, place.path, added(place.node, term)), members)
 
 
 # Whole vectors, their rates and products, that a formula lacks.
@@ -181,14 +175,10 @@ def rewritten(work: RepairContext, place: NodePosition, members: Sequence[int]) 
     if wanted:
         for node in plainly_written(work, wanted, tail):
             if not repeats(work, place, node):
-                size = 2.1 + _apart(place.node, node) / 20
+                # How many letters two expressions do not share.
+                one, other = _letters(place.node), _letters(node)
+                size = 2.1 + ((one - other).total() + (other - one).total()) / 20
                 yield Edit("wrong expression", place.path, _in_order(node, place.node), size)
-
-
-def _apart(old: Node, new: Node) -> int:
-    """How many letters two expressions do not share."""
-    one, other = _letters(old), _letters(new)
-    return (one - other).total() + (other - one).total()
 
 
 def _in_order(node: Node, old: Node) -> Node:
@@ -313,7 +303,12 @@ def _product(
         node = plain.get(factor)
         if node is None and -factor in plain:
             node, number = plain[-factor], number * (-1) ** (power % 2)
-        elif node is None and number < 0 and power % 2 and _subtracts(factor):
+        elif (
+            node is None
+            and number < 0
+            and power % 2
+            and any(coefficient < 0 for _, coefficient in factor.terms())
+        ):
             factor, number = -factor, -number
         node = node or _sum(factor, plain)
         if node is None:
@@ -337,10 +332,6 @@ def _sum(factor: Expr, plain: Mapping[Expr, Node]) -> Node | None:
     if isinstance(terms[0], Negative):
         terms.sort(key=lambda term: isinstance(term, Negative))
     return Sum(tuple(terms))
-
-
-def _subtracts(polynomial: Expr) -> bool:
-    return any(coefficient < 0 for _, coefficient in polynomial.terms())
 
 
 def _is_longer(polynomial: Expr, most: int) -> bool:

@@ -14,7 +14,7 @@ from polhode.algebra import Expr, Triad, Vector
 from polhode.base import NumericError, PolhodeError
 from polhode.claims.latex import _tree as tree
 from polhode.claims.latex._tree import Node, Piece, Statement
-from polhode.claims.meaning._components import Member, Side, triad_of
+from polhode.claims.meaning._components import Member, triad_of
 from polhode.claims.meaning._meaning import Tensor
 from polhode.claims.repair._places import Links, NodePosition
 from polhode.claims.repair._trials import RepairNotation
@@ -67,7 +67,19 @@ class NumericEvaluator:
                 return formed(node, [self.of(part) for part in node.parts])  # type: ignore[arg-type]
             except UNKNOWN:
                 pass
-        return self._figure(self._reading.value(node))
+        value = self._reading.value(node)
+        match value:
+            case Expr():
+                return scalar(self._bench.values([value])[0])
+            case Vector(components, triad):
+                along = self._bench.values(components)
+                return Figure(1, np.einsum("ijs,js->is", self._turn(triad), along)[:, None])
+            case Tensor(matrix, triad):
+                turn = self._turn(triad)
+                entries = self._bench.values([e for row in matrix.rows for e in row])
+                square = entries.reshape(3, 3, -1)
+                return Figure(2, np.einsum("iks,kls,jls->ijs", turn, square, turn)[:, :, None])
+        raise NumericError(f"{value}", expected="a scalar, a vector or a tensor")
 
     def rows(self, place: NodePosition, new: Figure, members: Sequence[int]) -> Array:
         """What is left of members with another quantity at a place: (rows, trials, states).
@@ -124,20 +136,6 @@ class NumericEvaluator:
         turn = self._turn(triad)
         return np.asarray(np.einsum("jis,jbs->ibs", turn, difference.array))
 
-    def _figure(self, value: Side | Tensor) -> Figure:
-        match value:
-            case Expr():
-                return scalar(self._bench.values([value])[0])
-            case Vector(components, triad):
-                along = self._bench.values(components)
-                return Figure(1, np.einsum("ijs,js->is", self._turn(triad), along)[:, None])
-            case Tensor(matrix, triad):
-                turn = self._turn(triad)
-                entries = self._bench.values([e for row in matrix.rows for e in row])
-                square = entries.reshape(3, 3, -1)
-                return Figure(2, np.einsum("iks,kls,jls->ijs", turn, square, turn)[:, :, None])
-        raise NumericError(f"{value}", expected="a scalar, a vector or a tensor")
-
     def _turn(self, triad: Triad) -> Array:
         """Turns components along a triad into those along that of all figures: (3, 3, states)."""
         if self._triad is None:
@@ -192,7 +190,8 @@ class Figure:
     def cross(self, other: Figure) -> Figure:
         """The vector product; of scalars, the product."""
         if self.rank == other.rank == 1:
-            return Figure(1, _crossed(self.array, other.array))
+            (a, b, c), (x, y, z) = self.array, other.array
+            return Figure(1, np.array([b * z - c * y, c * x - a * z, a * y - b * x]))
         return self * other
 
     def dot(self, other: Figure) -> Figure:
@@ -225,11 +224,6 @@ class Figure:
         if self.rank:
             raise _unlike("a function of")
         return Figure(0, function(self.array))
-
-
-def _crossed(one: Array, other: Array) -> Array:
-    (a, b, c), (x, y, z) = one, other
-    return np.array([b * z - c * y, c * x - a * z, a * y - b * x])
 
 
 def scalar(array: Array) -> Figure:

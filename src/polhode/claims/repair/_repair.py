@@ -180,15 +180,13 @@ def _changes(place: NodePosition, reading: RepairNotation) -> Iterator[Edit]:
     if isinstance(node, Call) and other is not None:
         yield replaced(place, other, 1.1)
     if _is_scalar_letter(node) and not isinstance(place.parent, Dots):
-        yield from (replaced(place, n, 1.3) for n in reading.names if _is_like(n, node))
+        yield from (
+            replaced(place, n, 1.3) for n in reading.names if (_is_scalar_letter(n) and n != node)
+        )
 
 
 def _is_scalar_letter(node: Node) -> bool:
     return isinstance(node, Dots) or (isinstance(node, Name) and not node.is_marked_vector)
-
-
-def _is_like(other: Node, node: Node) -> bool:
-    return _is_scalar_letter(other) and other != node
 
 
 def _possible(repair: Repaired, reading: RepairNotation) -> BoundClaim | None:
@@ -253,7 +251,11 @@ class _Drawn:
         try:
             return formed(node, [self.of(part) for part in inside])
         except UNKNOWN:
-            return self._letter(node)
+            if node not in self._letters:
+                rank = 1 if isinstance(self._reading.value(node), Vector) else 0
+                shape = (*(3,) * rank, 1, _TRIALS)
+                self._letters[node] = Figure(rank, self._random.uniform(0.5, 2.0, shape))
+            return self._letters[node]
 
     def is_like(self, one: Figure, node: Node) -> bool:
         """Whether a node has the same figure."""
@@ -262,10 +264,3 @@ class _Drawn:
         except UNKNOWN:
             return False
         return one.rank == other.rank and np.allclose(one.array, other.array, rtol=_CLOSE)
-
-    def _letter(self, node: Node) -> Figure:
-        if node not in self._letters:
-            rank = 1 if isinstance(self._reading.value(node), Vector) else 0
-            shape = (*(3,) * rank, 1, _TRIALS)
-            self._letters[node] = Figure(rank, self._random.uniform(0.5, 2.0, shape))
-        return self._letters[node]

@@ -218,14 +218,18 @@ class RepairSearch:
     ) -> Iterator[Edit]:
         node = place.node
         if isinstance(node, Name | Dots) and self._work.vocabulary.get(node, ZERO) is None:
-            yield from self._vectors(place, kept)
+            # Other vectors put in the place of one.
+            others = [n for n in self._work.other_vectors if n != place.node]
+            fitting = self._work.fitting(place, others, self._within(place, kept))
+            yield from replaced_by(place, dict.fromkeys(fitting, True))
         if response is not None:
             yield from self._scaled(place, response)
             if place.is_side and 0 in set(simple_numbers(response)):
-                yield from (e for e in emptied(place) if self._holds_with(e, kept))
-
-    def _holds_with(self, edit: Edit, kept: Collection[int]) -> bool:
-        return self._hold(self._repair.with_changes((edit,)).statement, kept)
+                yield from (
+                    e
+                    for e in emptied(place)
+                    if self._hold(self._repair.with_changes((e,)).statement, kept)
+                )
 
     def _scaled(self, place: NodePosition, response: Response) -> Iterator[Edit]:
         """What a place multiplied by a factor makes right."""
@@ -235,7 +239,13 @@ class RepairSearch:
         if factor is not None:
             for match in self._work.products.short(factor):
                 yield from edits(place, match)
-            yield from self._exchanged(place, factor)
+            # Other letters whose value is what the place would have to be.
+            known = dict(self._work.known)
+            if place.node in known:
+                wanted = factor * known[place.node]
+                close = np.abs(self._work.figures - wanted) <= _CLOSE * (1 + np.abs(wanted))
+                fitting = [self._work.known[i][0] for i in np.flatnonzero(close.all(axis=1))]
+                yield from replaced_by(place, dict.fromkeys(fitting, True))
 
     def _missing(
         self, place: NodePosition, kept: Collection[int], inner: Collection[NodePosition]
@@ -251,21 +261,6 @@ class RepairSearch:
         if not isinstance(place.parent, Product | Quotient | Power | Call):
             return False
         return response.multiplier is not None
-
-    def _exchanged(self, place: NodePosition, factor: Array) -> Iterator[Edit]:
-        """Other letters whose value is what the place would have to be."""
-        known = dict(self._work.known)
-        if place.node in known:
-            wanted = factor * known[place.node]
-            close = np.abs(self._work.figures - wanted) <= _CLOSE * (1 + np.abs(wanted))
-            fitting = [self._work.known[i][0] for i in np.flatnonzero(close.all(axis=1))]
-            yield from replaced_by(place, dict.fromkeys(fitting, True))
-
-    def _vectors(self, place: NodePosition, kept: Collection[int]) -> Iterator[Edit]:
-        """Other vectors put in the place of one."""
-        others = [n for n in self._work.other_vectors if n != place.node]
-        fitting = self._work.fitting(place, others, self._within(place, kept))
-        yield from replaced_by(place, dict.fromkeys(fitting, True))
 
 
 # Several coefficients of a claim's own terms, fitted together.
@@ -291,9 +286,16 @@ def fitted(responses: Mapping[NodePosition, Response]) -> Iterator[tuple[Edit, .
         found = False
         for chosen, factors in _solutions(rest, np.array([slopes[p] for p in tried]), together):
             where = [tried[i] for i in chosen]
-            if _apart(where):
+            # Whether no place is inside another.
+            apart = not any(
+                a.path[: len(b.path)] == b.path or b.path[: len(a.path)] == a.path
+                for a, b in combinations(where, 2)
+            )
+            if apart:
                 found = True
-                yield from _written(where, factors)
+                options = [list(edits(p, match)) for p, match in zip(where, factors, strict=True)]
+                if all(options):
+                    yield tuple(min(each, key=lambda edit: edit.size) for each in options)
         if found:
             return
 
@@ -316,19 +318,3 @@ def _solutions(
         factors = [Match(n) for n in numbers if n is not None and n != 1]
         if len(factors) == together:
             yield sets[i], factors
-
-
-def _apart(chosen: Sequence[NodePosition]) -> bool:
-    """Whether no place is inside another."""
-    return not any(
-        a.path[: len(b.path)] == b.path or b.path[: len(a.path)] == a.path
-        for a, b in combinations(chosen, 2)
-    )
-
-
-def _written(
-    chosen: Sequence[NodePosition], factors: Sequence[Match]
-) -> Iterator[tuple[Edit, ...]]:
-    options = [list(edits(p, match)) for p, match in zip(chosen, factors, strict=True)]
-    if all(options):
-        yield tuple(min(each, key=lambda edit: edit.size) for each in options)

@@ -13,7 +13,7 @@ from polhode.claims.latex._tree import Node, Statement
 from polhode.claims.meaning._components import Side
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
-from polhode.claims.states._sample_points import SamplePoints, bench
+from polhode.claims.states._sample_points import SamplePoints, sample_points
 from polhode.claims.states._steady_states import steady_states
 
 # What repair needs to know of how a statement is read.
@@ -72,7 +72,7 @@ def trials(asked: BoundClaim, context: str) -> Trials:
 
 
 def _on(states: ClaimDomain, asked: BoundClaim, residuals: Residuals) -> Trials:
-    return Trials(states, bench(states, [e for _, e in residuals(asked)]), residuals)
+    return Trials(states, sample_points(states, [e for _, e in residuals(asked)]), residuals)
 
 
 def _differences(asked: BoundClaim) -> list[tuple[int, Expr]]:

@@ -1,11 +1,11 @@
-"""Many states by numbers, at which to see quickly whether relations can hold."""
+"""States of a domain at which relations are tried: one with exact values, or many by numbers."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, lru_cache, partial, reduce
+from functools import cached_property, lru_cache, reduce
 from itertools import islice
 from math import atan
 from random import Random
@@ -17,13 +17,17 @@ from polhode.algebra import Expr, Generator, Symbol, SymbolKind, sqrt, under_nam
 from polhode.base import NumericError, PolhodeError
 from polhode.claims.meaning._the import The
 from polhode.claims.states._claim_domain import ClaimDomain
-from polhode.claims.states._numeric import Array, Rational, number, numbers, rationals
+from polhode.claims.states._numeric import Array, number, numbers, rationals
 
-# States with simple exact numbers, at which expressions have exact values.
+_STATES = 6
+_TRIES = 40
+_ROUNDING = 1e-9
+_PI = Symbol("pi")
+
+# -- one state with simple exact numbers ----------------------------------------------------------
 
 _SIMPLE = [Fraction(n, d) for d in (1, 2, 3) for n in range(1, 8) if n % d or d == 1]
 _HALF_TANGENTS = [Fraction(n, d) for d in range(2, 8) for n in range(1, d) if d % n or n == 1]
-_PI = Symbol("pi")
 
 
 @dataclass(frozen=True)
@@ -85,18 +89,18 @@ class ExactPoint:
         return dict(sorted({**plain, **angles}.items()))
 
 
-def points(expressions: Iterable[Expr], symbols: Iterable[Symbol], seed: int) -> ExactPoint:
+def exact_point(expressions: Iterable[Expr], symbols: Iterable[Symbol], seed: int) -> ExactPoint:
     """A point with simple values for all symbols, those under a sine or cosine being angles."""
     random = Random(seed)
     angles = {a for e in expressions for g in e.generators for a in _angles(g)}
     wanted = sorted({*symbols} - {_PI}, key=lambda s: s.published)
-    draw = _draws(random, _SIMPLE)
-    tilt = _draws(random, _HALF_TANGENTS)
-    numbers = {s: draw(s) for s in wanted if s not in angles}
-    return ExactPoint(numbers, {s: tilt(s) for s in wanted if s in angles})
+    draw, draw_tangent = _draws(random, _SIMPLE), _draws(random, _HALF_TANGENTS)
+    plain = {s: draw(s) for s in wanted if s not in angles}
+    return ExactPoint(plain, {s: draw_tangent(s) for s in wanted if s in angles})
 
 
 def _draws(random: Random, pool: list[Fraction]) -> Callable[[Symbol], Fraction]:
+    """Draws values from a pool without repetition as long as it lasts; some rates are negative."""
     left: list[Fraction] = []
 
     def draw(symbol: Symbol) -> Fraction:
@@ -127,8 +131,7 @@ def _odd(generator: Generator) -> tuple[Generator, int] | None:
     """The odd function and sign of the family of a sine or cosine."""
     pairs = (g.partner() for g in generator.companions() if g.depth)
     own = generator.partner()
-    found = own or next((pair for pair in pairs if pair and pair[0] == generator), None)
-    return found
+    return own or next((pair for pair in pairs if pair and pair[0] == generator), None)
 
 
 def _angle(generator: Generator) -> tuple[Symbol, Fraction]:
@@ -151,17 +154,16 @@ def _not_exact(generator: Generator) -> NumericError:
     )
 
 
-_STATES = 6
-_TRIES = 40
+# -- many states by numbers -----------------------------------------------------------------------
 
 
 class SymbolValues(dict[Symbol, float]):
-    """The number of every symbol at one state, found when first asked for.
+    """The number of every symbol at one state, found when it is first needed.
 
     Args:
-        free: of those that the circumstances leave open.
-        states: the circumstances.
-        seed: of the others that they leave open.
+        free: of the symbols that the domain leaves open.
+        states: the domain.
+        seed: of further symbols that it leaves open.
     """
 
     def __init__(self, free: Mapping[Symbol, float], states: ClaimDomain, seed: int) -> None:
@@ -172,15 +174,15 @@ class SymbolValues(dict[Symbol, float]):
 
     def __missing__(self, symbol: Symbol) -> float:
         image = self._states.of(symbol)
-        unheard = image.symbols() - self._free.keys() - {_PI}
-        self._free |= points((), unheard, self._seed + len(self._free)).floats()
+        unknown = image.symbols() - self._free.keys() - {_PI}
+        self._free |= exact_point((), unknown, self._seed + len(self._free)).floats()
         self[symbol] = number(image, self._free)
         return self[symbol]
 
 
 @dataclass(frozen=True, eq=False)
 class SamplePoints:
-    """Several states that circumstances allow.
+    """Several states of a domain, at which to see quickly whether relations can hold.
 
     Attributes:
         states: the number of every symbol, state by state.
@@ -188,62 +190,63 @@ class SamplePoints:
 
     states: tuple[SymbolValues, ...]
 
-    def values(self, expressions: Sequence[Expr]) -> Array:
-        """Values of expressions: (expressions, states); not a number where there is none."""
-        columns = self._columns(variables(expressions) - {_PI})
-        return numbers(expressions, columns, (self.size,))
-
     @property
     def size(self) -> int:
         """How many states there are."""
         return len(self.states)
 
+    def values(self, expressions: Sequence[Expr]) -> Array:
+        """Values of expressions: (expressions, states); not a number where there is none."""
+        columns = self._columns(variables(expressions) - {_PI})
+        return numbers(expressions, columns, (self.size,))
+
     def function(self, expressions: Sequence[Expr], unknown: Symbol) -> Callable[[Array], Array]:
         """Values of expressions as a function of one symbol that no state fixes, state by state."""
         columns = self._columns(variables(expressions) - {_PI, unknown})
-        shape = (self.size,)
-        found = rationals(expressions, unknown, columns, shape)
+        found = rationals(expressions, unknown, columns, (self.size,))
         if found is None:
             return lambda at: numbers(expressions, {**columns, unknown: at}, at.shape)
-        return partial(_evaluated, found)
+
+        def evaluated(at: Array) -> Array:
+            with np.errstate(all="ignore"):
+                return np.array([function(at) for function in found]).reshape(len(found), *at.shape)
+
+        return evaluated
 
     def _columns(self, symbols: Iterable[Symbol]) -> dict[Symbol, Array]:
-        return {symbol: self._column(symbol) for symbol in symbols}
-
-    def _column(self, symbol: Symbol) -> Array:
-        if symbol not in self._known:
-            self._known[symbol] = np.array([state[symbol] for state in self.states])
-        return self._known[symbol]
+        """The values of each symbol over the states."""
+        wanted = tuple(symbols)
+        for symbol in wanted:
+            if symbol not in self._known:
+                self._known[symbol] = np.array([state[symbol] for state in self.states])
+        return {symbol: self._known[symbol] for symbol in wanted}
 
     @cached_property
     def _known(self) -> dict[Symbol, Array]:
         return {}
 
 
-def _evaluated(found: Sequence[Rational], at: Array) -> Array:
-    with np.errstate(all="ignore"):
-        return np.array([function(at) for function in found]).reshape(len(found), *at.shape)
-
-
-def bench(states: ClaimDomain, expressions: Iterable[Expr]) -> SamplePoints:
-    """States with independent numbers for everything the circumstances leave open."""
+def sample_points(states: ClaimDomain, expressions: Iterable[Expr]) -> SamplePoints:
+    """States with independent numbers for everything the domain leaves open."""
     return SamplePoints(tuple(islice(real_states(states, expressions), _STATES)))
 
 
 def real_states(states: ClaimDomain, expressions: Iterable[Expr]) -> Iterator[SymbolValues]:
-    """One such state after another, as long as some of the first ones drawn are real."""
+    """Such states one after another, of the first ones drawn those where all values are real."""
     used = [states.on(e) for e in expressions]
     used += [*states.settled_relations, *states.signs]
     used += list(states.equations.accelerations.values())
     equations = states.equations
     symbols = {s for e in used for s in e.symbols()}
     symbols |= {*equations.coordinates, *equations.speeds, *equations.parameters}
-    seeds = range(1000, 1000 + _TRIES)
-    every = (SymbolValues(points(used, symbols, seed).floats(), states, seed) for seed in seeds)
-    return (found for found in every if _is_real(found, states, symbols))
+    for seed in range(1000, 1000 + _TRIES):
+        found = SymbolValues(exact_point(used, symbols, seed).floats(), states, seed)
+        if _is_real(found, states, symbols):
+            yield found
 
 
 def _is_real(state: SymbolValues, states: ClaimDomain, symbols: Iterable[Symbol]) -> bool:
+    """Whether all symbols are real at a state, and what is to be positive is; notes their values."""
     ordered = tuple(symbols)
     try:
         settled = numbers([states.of(s) for s in ordered], state, ())
@@ -254,16 +257,14 @@ def _is_real(state: SymbolValues, states: ClaimDomain, symbols: Iterable[Symbol]
     return bool(positive.all() and np.isfinite(settled).all())
 
 
-# What bodies that exist demand of numbers: positive parameters, inertias of some body.
-
-_ROUNDING = 1e-9
+# -- what real bodies demand: positive parameters, possible moments of inertia --------------------
 
 
 def is_physical(states: ClaimDomain, values: Mapping[Symbol, Any]) -> Any:
-    """Whether bodies with these numbers can be; numbers may be arrays of one shape.
+    """Whether there can be bodies with these numbers, which may be arrays of one shape.
 
-    What is declared positive is so, also where the circumstances determine it, and so is what the
-    derivation took as positive; no moment of inertia exceeds the sum of the other two.
+    What is declared or was derived as positive is positive, also where the domain determines it;
+    no moment of inertia exceeds the sum of the other two.
     """
     above, not_below = _demands(The(states.equations))
     with np.errstate(all="ignore"):
@@ -274,8 +275,8 @@ def is_physical(states: ClaimDomain, values: Mapping[Symbol, Any]) -> Any:
     return reduce(np.logical_and, met, np.bool_(True))
 
 
-def demanded(states: ClaimDomain) -> frozenset[Symbol]:
-    """The symbols whose numbers that takes."""
+def physical_symbols(states: ClaimDomain) -> frozenset[Symbol]:
+    """The symbols whose numbers decide whether bodies are physical."""
     above, not_below = _demands(The(states.equations))
     every = (*states.signs, *above, *(e for pair in not_below for e in pair))
     return frozenset(s for e in every for s in states.on(e).symbols())
@@ -283,21 +284,18 @@ def demanded(states: ClaimDomain) -> frozenset[Symbol]:
 
 @lru_cache(maxsize=16)
 def _demands(the: The) -> tuple[tuple[Expr, ...], tuple[tuple[Expr, Expr], ...]]:
-    """What has to be positive, and what must not be negative, each with its size."""
-    equations = the.equations
-    signed = {s for s in equations.parameters if s.positive}
-    inertias = tuple(_of_inertias(the))
-    signed |= {s for pair in inertias for e in pair for s in e.symbols() if s.positive}
-    ordered = sorted(signed, key=lambda s: s.published)
-    return tuple(map(Expr.generator, ordered)), inertias
+    """What has to be positive, and what must not be negative, each with its size.
 
-
-def _of_inertias(the: The) -> Iterator[tuple[Expr, Expr]]:
-    """Moments of inertia, and the sum of each two less the third; true along any axes."""
+    The latter are the moments of inertia and the sum of each two less the third, which hold along
+    any axes.
+    """
+    inertias: list[tuple[Expr, Expr]] = []
     for body in the.equations.system.bodies:
         moments = [body.inertia[i, i] for i in range(3)]
         whole = moments[0] + moments[1] + moments[2]
-        for moment in moments:
-            if moment:
-                yield moment, whole
-                yield whole - 2 * moment, whole
+        for moment in filter(None, moments):
+            inertias += [(moment, whole), (whole - 2 * moment, whole)]
+    signed = {s for s in the.equations.parameters if s.positive}
+    signed |= {s for pair in inertias for e in pair for s in e.symbols() if s.positive}
+    ordered = sorted(signed, key=lambda s: s.published)
+    return tuple(map(Expr.generator, ordered)), tuple(inertias)

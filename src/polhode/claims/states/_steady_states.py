@@ -1,4 +1,4 @@
-"""Steady motions as the states on which a claim is asked to hold."""
+"""Steady motions as domains of claims."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class SteadyStates(TrueMotion):
 
     @cached_property
     def is_at_rest(self) -> bool:
-        """Whether an angle stands still at a value of its own, whatever else the motion is."""
+        """Whether an angle stays at a value of its own, such as 0, however the rest moves."""
         if self.family is None or self.family.relations:
             return False
         essential = self.family.reduced.essential
