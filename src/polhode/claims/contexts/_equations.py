@@ -1,10 +1,9 @@
-"""Whether relations hold on given states, member by member and component by component."""
+"""Whether equations hold on given states, member by member and component by component."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import partial
 from itertools import product
 from math import prod
 
@@ -18,7 +17,30 @@ from polhode.claims.meaning._mechanics import Mechanics
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
 
-# Whether relations hold on given states, member by member and component by component.
+_LAGRANGIANS = ("cal L", "L")
+
+
+def judged_identity(claim: BoundClaim) -> Verdict:
+    """For all states obeying the constraints, accelerations free."""
+    return judged(claim, [claim.states(AnyState)], "identity")
+
+
+def judged_motion(claim: BoundClaim) -> Verdict:
+    """On every true motion."""
+    return judged(claim, [claim.states(TrueMotion)], "motion")
+
+
+def judged(claim: BoundClaim, domains: Sequence[ClaimDomain], context: str) -> Verdict:
+    """The verdict on equations: holds, or fails with evidence."""
+    found = list(failures(claim, domains))
+    equivalent = [
+        f for f in found if len(claim.branches) == 1 and _is_equivalent(claim, f.component)
+    ]
+    wrong = [f for f in found if f not in equivalent]
+    if wrong:
+        return failed(wrong, context)
+    remarks = dict.fromkeys(_difference_of_lagrangians(f.component) for f in equivalent)
+    return Verdict(Answer.HOLDS, context, remarks=tuple(remarks))
 
 
 @dataclass(frozen=True)
@@ -30,89 +52,67 @@ class Failure:
     residual: Residual
 
 
-def judged_identity(asked: BoundClaim) -> Verdict:
-    """For all states obeying the constraints, accelerations free."""
-    states = asked.states(AnyState)
-    return judged(asked, [states], "identity")
-
-
-def judged_motion(asked: BoundClaim) -> Verdict:
-    """On every true motion."""
-    states = asked.states(TrueMotion)
-    return judged(asked, [states], "motion")
-
-
-def judged(asked: BoundClaim, all_states: Sequence[ClaimDomain], context: str) -> Verdict:
-    """The verdict on equations: holds, or fails with evidence."""
-    found = list(failures(asked, all_states))
-    alike = [f for f in found if len(asked.branches) == 1 and says_the_same(asked, f.component)]
-    wrong = [f for f in found if f not in alike]
-    if wrong:
-        return failed(wrong, context)
-    said = dict.fromkeys(remark(f.component.difference) for f in alike)
-    return Verdict(Answer.HOLDS, context, remarks=tuple(said))
-
-
-def failures(asked: BoundClaim, all_states: Iterable[ClaimDomain]) -> Iterator[Failure]:
-    """Every component that does not vanish on every set of states.
+def failures(claim: BoundClaim, domains: Iterable[ClaimDomain]) -> Iterator[Failure]:
+    """Every component that does not vanish on every domain.
 
     ± is one choice for the whole statement: at every state all components vanish on one branch,
     which is so where each product of residuals, one of each branch, vanishes. A ± of which one
     sign is right everywhere and the other is not says too much.
     """
-    every = [asked.components(branch) for branch in range(len(asked.branches))]
+    branches = [claim.components(branch) for branch in range(len(claim.branches))]
     found: dict[ScalarRelation, Failure] = {}
-    idle: dict[int, list[Failure]] = {branch: [] for branch in range(len(every))}
-    for states in all_states:
-        wrong = [[c for c in branch if states.on(c.difference)] for branch in every]
-        for alike in sorted(product(*wrong), key=lambda picked: len({*map(_place, picked)})):
-            failure = _failure(alike, states)
+    single: list[list[Failure]] = [[] for _ in branches]  # of one branch each
+    for states in domains:
+        wrong = [[c for c in branch if states.on(c.difference)] for branch in branches]
+        for chosen in sorted(product(*wrong), key=lambda picked: len({*map(_place, picked)})):
+            failure = _failure(chosen, states)
             if failure is not None:
-                found.setdefault(alike[0], failure)
-        for branch, components in enumerate(wrong):
-            idle[branch] += [f for c in components if (f := _failure((c,), states)) is not None]
-    if not found and not all(idle.values()):
-        yield from next(filter(None, idle.values()), ())
+                found.setdefault(chosen[0], failure)
+        for failing, components in zip(single, wrong, strict=True):
+            failing += [f for c in components if (f := _failure((c,), states)) is not None]
+    if not found and not all(single):
+        yield from next(filter(None, single), ())
         return
-    yield from sorted(found.values(), key=lambda f: every[0].index(f.component))
+    yield from sorted(found.values(), key=lambda f: branches[0].index(f.component))
 
 
-def _failure(alike: Sequence[ScalarRelation], states: ClaimDomain) -> Failure | None:
-    """Of components, one of each branch: the states on which none of them vanishes."""
-    left = prod((states.on(component.difference) for component in alike), start=ONE)
-    first = alike[0]
-    if not left:
-        return None
-    return Failure(first, states, Residual(first.member, first.label, left))
+def _failure(chosen: Sequence[ScalarRelation], states: ClaimDomain) -> Failure | None:
+    """Of components, one of each branch: the failure where none of them vanishes."""
+    left = prod((states.on(component.difference) for component in chosen), start=ONE)
+    first = chosen[0]
+    return Failure(first, states, Residual(first.member, first.label, left)) if left else None
 
 
 def failed(found: Sequence[Failure], context: str) -> Verdict:
     """The verdict on a claim with these failures, refuted at a state."""
+    first = found[0]
     where = "; ".join(dict.fromkeys(_place(f.component) for f in found))
+
+    def evidence() -> Evidence:
+        from polhode.claims.contexts._counterexample import refutation  # NumPy, for failures only
+
+        whole = first.residual.expression
+        return refutation(first.component, first.residual, first.states, nonzero=whole)
+
     return Refuted(
         Answer.FAILS,
         context,
         f"the sides differ in {where}",
         residuals=tuple(f.residual for f in found),
-        remarks=tuple(_left_open(found[0])),
-        evidence=partial(_evidence, found[0]),
+        remarks=tuple(_undetermined_reactions(first)),
+        evidence=evidence,
     )
 
 
-def _left_open(failure: Failure) -> Iterator[str]:
-    """Which reactions that are spoken of no motion determines."""
+def _undetermined_reactions(failure: Failure) -> Iterator[str]:
     component, equations = failure.component, failure.states.equations
-    spoken = component.left.symbols() | component.right.symbols()
-    names = [name for name in equations.undetermined if reaction_symbol(name) in spoken]
+    used = component.left.symbols() | component.right.symbols()
+    names = [name for name in equations.undetermined if reaction_symbol(name) in used]
     if names:
-        yield f"Newton's laws leave {', '.join(names)} open: more holds the body than is needed"
-
-
-def _evidence(worst: Failure) -> Evidence:
-    from polhode.claims.contexts._counterexample import refutation  # numbers are for failures alone
-
-    whole = worst.residual.expression
-    return refutation(worst.component, worst.residual, worst.states, nonzero=whole)
+        yield (
+            f"Newton's laws do not determine {', '.join(names)}: "
+            "more supports hold the body than are needed"
+        )
 
 
 def _place(component: ScalarRelation) -> str:
@@ -120,27 +120,25 @@ def _place(component: ScalarRelation) -> str:
     return f"component {component.label} of {member}" if component.label else member
 
 
-# Lagrangians that differ and still are the same: by a constant, or by a total time derivative.
-
-_LETTERS = ("cal L", "L")
+# -- Lagrangians that differ by a constant or a total time derivative -----------------------------
 
 
-def says_the_same(asked: BoundClaim, component: ScalarRelation) -> bool:
+def _is_equivalent(claim: BoundClaim, component: ScalarRelation) -> bool:
     """Whether a text's Lagrangian has the equations of motion of the model's.
 
     It has where the variation of the difference vanishes for every coordinate: Landau and
     Lifshitz, Mechanics, § 2.
     """
-    printed = asked.members[component.member].printed
+    printed = claim.members[component.member].printed
     if printed is None or not isinstance(printed.left, Name) or component.label:
         return False
-    mechanics = Mechanics(asked.equations)
-    if printed.left.letter not in _LETTERS or component.left != mechanics.lagrangian():
+    mechanics = Mechanics(claim.equations)
+    if printed.left.letter not in _LAGRANGIANS or component.left != mechanics.lagrangian():
         return False
-    if dimensions_at_odds(asked.only([component.member])):
+    if dimensions_at_odds(claim.only([component.member])):
         return False
     rest = mechanics.in_rates(component.difference)
-    if not any(s.kind.varies for s in rest.symbols()):
+    if not _varies(rest):
         return True
     coordinates = mechanics.declared.coordinates
     rates = {q.derivative() for q in coordinates}
@@ -149,11 +147,11 @@ def says_the_same(asked: BoundClaim, component: ScalarRelation) -> bool:
     return known and not any(map(bool, variations))
 
 
-def remark(difference: Expr) -> str:
-    """What is said of such a difference."""
-    return (
-        f"the Lagrangians differ by {difference}, a total time derivative, which no equation of "
-        "motion contains"
-        if any(s.kind.varies for s in difference.symbols())
-        else f"the Lagrangians differ by {difference}, which no equation of motion contains"
-    )
+def _difference_of_lagrangians(component: ScalarRelation) -> str:
+    difference = component.difference
+    kind = ", a total time derivative," if _varies(difference) else ","
+    return f"the Lagrangians differ by {difference}{kind} which no equation of motion contains"
+
+
+def _varies(expression: Expr) -> bool:
+    return any(s.kind.varies for s in expression.symbols())

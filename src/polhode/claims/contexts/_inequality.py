@@ -1,4 +1,4 @@
-"""Inequalities that are to hold on all states of a context."""
+"""Inequalities that are to hold on all states of a context, and signs of expressions."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from polhode.claims.states._claim_domain import ClaimDomain, solved
 from polhode.claims.states._numeric import number
 
 
-def judged_inequality(asked: BoundClaim, component: ScalarRelation, states: ClaimDomain) -> Verdict:
+def judged_inequality(claim: BoundClaim, component: ScalarRelation, states: ClaimDomain) -> Verdict:
     """Proved from the signs of factors, or refuted at a state; otherwise undecided.
 
     A strict inequality is refuted by a state in which both sides are equal.
     """
-    sign = asked.members[component.member].sign
+    sign = claim.members[component.member].sign
     difference = states.on(component.difference)
     residual = Residual(component.member, component.label, difference)
     if _is_proved(difference, sign, states):
-        return Verdict(Answer.HOLDS, "", reason="seen from the signs of its factors")
+        return Verdict(Answer.HOLDS, "", reason="follows from the signs of the factors")
     example, second = _refuted(component, residual, states, sign)
     if example is None:
         return Verdict(
@@ -87,24 +87,24 @@ def _where_equal(difference: Expr, states: ClaimDomain) -> Iterator[ClaimDomain]
         yield replace(states, given={**states.given, symbol: value})
 
 
-def judged_unequal(asked: BoundClaim, component: ScalarRelation, states: ClaimDomain) -> Verdict:
-    """≠ holds where the difference has a sign; sometimes, where it does not vanish throughout."""
+def judged_unequal(claim: BoundClaim, component: ScalarRelation, states: ClaimDomain) -> Verdict:
+    """≠ holds where the difference has a sign; "sometimes", where it is not zero throughout."""
     difference = states.on(component.difference)
     residual = Residual(component.member, component.label, difference)
     if not difference:
         return Verdict(Answer.FAILS, "", reason="both sides are the same", residuals=(residual,))
-    if asked.when == "sometimes" or strict_sign(difference, states.signs):
+    if claim.when == "sometimes" or strict_sign(difference, states.signs):
         return Verdict(Answer.HOLDS, "", reason=f"they differ by {difference}")
     return Verdict(Answer.UNREAD, "", reason="it was read, but not decided", residuals=(residual,))
 
 
-# Signs of expressions, as far as they can be told.
+# -- signs of expressions, as far as they can be seen ---------------------------------------------
 
 
 def definite_sign(expression: Expr, assumed: Collection[Expr] = ()) -> int:
     """1 or -1 where an expression is seen to have that sign or to vanish; 0 where it may change."""
-    number, powers = factors(expression)
-    sign = 1 if number > 0 else -1
+    coefficient, powers = factors(expression)
+    sign = 1 if coefficient > 0 else -1
     for factor in (f for f, exponent in powers.items() if exponent % 2):
         if is_positive(-factor):
             sign = -sign

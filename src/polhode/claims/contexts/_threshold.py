@@ -1,4 +1,4 @@
-"""Inequalities that are to be equivalent to the exact condition of a system."""
+"""Inequalities that are to be equivalent to the exact condition of a system: `threshold`."""
 
 from __future__ import annotations
 
@@ -26,16 +26,110 @@ from polhode.claims.states._sample_points import ExactPoint, is_physical, physic
 from polhode.claims.states._steady_states import SteadyStates, steady_states
 
 _STABILITY, _EXISTENCE = "stability", "existence"
+_SAMPLES = 40
+_DRAWN = 4000
+_DECADES = 3.0
+_STEPS = 240
+_BESIDE = 1e-5
+_PI = Symbol("pi")
+
+
+def judged_threshold(claim: BoundClaim) -> Verdict:
+    """Whether inequalities are together equivalent to the exact condition.
+
+    The condition is that of linear stability of a family of steady motions, all parts of it
+    together, or that of its existence. Where it is even in a speed, the magnitude of that speed is
+    meant. Equivalence is proved from signs, or refuted by a physical state; where neither is
+    found, it stays open.
+    """
+    if any(map(claim.says_choice, range(len(claim.members)))):
+        raise ParseError("± in a threshold", expected="one sign, or a magnitude")
+    signs = [relation.sign for relation in claim.members]
+    equalities = [c for c in claim.components() if signs[c.member] in EQUALITY]
+    anywhere = claim.states(AnyState)
+    wrong = list(failures(claim.only({c.member for c in equalities}), [anywhere]))
+    if wrong:
+        return failed(wrong, "threshold")
+    claimed = [c for c in claim.components() if c not in equalities]
+    if others := [signs[c.member] for c in claimed if signs[c.member] not in SENSE]:
+        raise ParseError(
+            f"the sign {others[0]} in a threshold", expected="one of " + " ".join(SENSE)
+        )
+    if not claimed:
+        raise ParseError("no inequality", expected="one with < or > in the context threshold")
+    given = tuple(claim.given.items())
+    known = _conditions(The(claim.equations), given, claim.relations, claim.positive)
+    if not known:
+        raise ParseError(
+            "a threshold where nothing depends on the parameters",
+            expected="a steady motion that is stable or exists under a condition",
+            advice="restrict the claim to the motion that is meant",
+            option="given",
+        )
+    compared = [(exact, _comparison(claimed, exact, claim)) for exact in known]
+    proved = next((exact for exact, comparison in compared if comparison.is_proved), None)
+    if proved is not None:
+        return _equivalent(claimed, proved, claim)
+    undecided = next((exact for exact, c in compared if c.distinguishing_state is None), None)
+    if undecided is None:
+        return _refuted(claimed[0], *compared[0])
+    return Verdict(
+        Answer.UNREAD,
+        "threshold",
+        reason=f"it was read, but whether it is equivalent to {undecided} was neither proved nor "
+        "refuted",
+    )
+
+
+def _equivalent(
+    claimed: Sequence[ScalarRelation], exact: ExactCondition, claim: BoundClaim
+) -> Verdict:
+    """Holds, but perhaps for equality: linear stability leaves open what happens there."""
+    loose = [c for c in claimed if claim.members[c.member].sign not in STRICT]
+    if loose and exact.decides == _STABILITY:
+        return Verdict(
+            Answer.UNREAD,
+            "threshold",
+            reason=f"it was read and is equivalent to {exact}, but for equality, where linear "
+            "stability decides nothing; write < or >",
+        )
+    return Verdict(Answer.HOLDS, "threshold", reason=f"equivalent to {exact}")
+
+
+def _refuted(component: ScalarRelation, exact: ExactCondition, comparison: Comparison) -> Verdict:
+    residual = Residual(component.member, component.label, component.difference)
+
+    def evidence() -> Evidence:
+        """A motion that the inequality allows and the condition does not, or the reverse."""
+
+        def differs(point: ExactPoint) -> bool:
+            return bool(comparison.agree(point.floats()) == 0)
+
+        try:
+            return example_where(differs, component, residual, exact.states)
+        except PolhodeError:
+            return None, None
+
+    return Refuted(
+        Answer.FAILS,
+        "threshold",
+        reason=f"not equivalent to {exact}; some motions satisfy one and not the other",
+        residuals=(residual,),
+        evidence=evidence,
+    )
+
+
+# -- what the model demands -----------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
-class Exact:
+class ExactCondition:
     """What the model demands: expressions that have to be positive, all of them.
 
     Attributes:
         expressions: what has to be positive.
-        decides: what that decides.
-        states: where it is said.
+        decides: what depends on it.
+        states: where.
     """
 
     expressions: tuple[Expr, ...]
@@ -43,71 +137,70 @@ class Exact:
     states: ClaimDomain
 
     def __str__(self) -> str:
-        said = " and ".join(f"{e} > 0" for e in self.expressions)
-        return f"the condition{'s' * (len(self.expressions) > 1)} of {self.decides}, {said}"
+        parts = " and ".join(f"{e} > 0" for e in self.expressions)
+        return f"the condition{'s' * (len(self.expressions) > 1)} of {self.decides}, {parts}"
 
 
-def judged_threshold(asked: BoundClaim) -> Verdict:
-    """Whether inequalities are together equivalent to the exact condition.
-
-    The condition is that of linear stability of a family of steady motions, all parts of it
-    together, or that of its being possible. Where it is even in a speed, the magnitude of that
-    speed is meant. Equivalence is proved from signs, or refuted by a state of bodies that can be;
-    where neither is found, it stays open.
-    """
-    if any(map(asked.says_choice, range(len(asked.members)))):
-        raise ParseError("± in a threshold", expected="one sign, or a magnitude")
-    equalities = [c for c in asked.components() if asked.members[c.member].sign in EQUALITY]
-    wrong = list(failures(asked.only({c.member for c in equalities}), [_any(asked)]))
-    if wrong:
-        return failed(wrong, "threshold")
-    claimed = [_inequality(c, asked) for c in asked.components() if c not in equalities]
-    if not claimed:
-        raise ParseError("no inequality", expected="one with < or > in the context threshold")
-    known = exact_conditions(asked)
-    if not known:
-        raise ParseError(
-            "a threshold where nothing depends on the parameters",
-            expected="a steady motion that is stable or possible under a condition",
-            advice="restrict the claim to the motion that is meant",
-            option="given",
-        )
-    compared = [(exact, _compared(claimed, exact, asked)) for exact in known]
-    proved = next((exact for exact, comparison in compared if comparison.is_proved), None)
-    if proved is not None:
-        return _met(claimed, proved, asked)
-    if all(comparison.parting is not None for _, comparison in compared):
-        return _refuted(claimed[0], *compared[0])
-    exact = next(exact for exact, c in compared if c.parting is None)
-    return Verdict(
-        Answer.UNREAD,
-        "threshold",
-        reason=f"it was read, but whether it is equivalent to {exact} was neither proved nor "
-        "refuted",
+@lru_cache(maxsize=16)
+def _conditions(
+    the: The,
+    given: tuple[tuple[Symbol, Expr], ...],
+    relations: tuple[Expr, ...],
+    positive: tuple[Expr, ...],
+) -> tuple[ExactCondition, ...]:
+    """Conditions of stability and of existence, for every family that obeys the restrictions."""
+    claim = BoundClaim(((),), the.equations, dict(given), relations, positive=positive)
+    anywhere = claim.states(AnyState)
+    return tuple(
+        condition
+        for family in steady_states(claim)
+        for condition in (*_stability(family), *_existence(family, anywhere))
     )
 
 
-def _any(asked: BoundClaim) -> AnyState:
-    return asked.states(AnyState)
+def _stability(family: SteadyStates) -> Iterator[ExactCondition]:
+    if family.family is None:
+        return
+    try:
+        conditions = stability(family.family).conditions
+    except PolhodeError:
+        return
+    found = tuple(family.on(c.expression) for c in conditions if c.truth is Truth.OPEN)
+    if found:
+        yield ExactCondition(found, _STABILITY, family)
 
 
-def _inequality(component: ScalarRelation, asked: BoundClaim) -> ScalarRelation:
-    sign = asked.members[component.member].sign
-    if sign not in SENSE:
-        raise ParseError(f"the sign {sign} in a threshold", expected="one of " + " ".join(SENSE))
-    return component
+def _existence(family: SteadyStates, anywhere: AnyState) -> Iterator[ExactCondition]:
+    branches = family.family.branches if family.family is not None else ()
+    every = (c.expression.subs(dict(family.given)) for b in branches for c in b.exists)
+    found = tuple(dict.fromkeys(e for e in every if e.rational is None))
+    if found:
+        yield ExactCondition(found, _EXISTENCE, anywhere)
 
 
-def _compared(claimed: Sequence[ScalarRelation], exact: Exact, asked: BoundClaim) -> Comparison:
+# -- the two compared -----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class PrintedBound:
+    """One side greater than the other."""
+
+    greater: Expr
+    less: Expr
+
+
+def _comparison(
+    claimed: Sequence[ScalarRelation], exact: ExactCondition, claim: BoundClaim
+) -> Comparison:
     bounds = []
     for component in claimed:
         sides = [exact.states.on(side) for side in (component.left, component.right)]
-        upward = SENSE[asked.members[component.member].sign] > 0
+        upward = SENSE[claim.members[component.member].sign] > 0
         bounds.append(PrintedBound(*sides) if upward else PrintedBound(*reversed(sides)))
-    return Comparison(tuple(bounds), exact.expressions, exact.states, _sizes(bounds, exact))
+    return Comparison(tuple(bounds), exact.expressions, exact.states, _magnitudes(bounds, exact))
 
 
-def _sizes(bounds: Sequence[PrintedBound], exact: Exact) -> frozenset[Symbol]:
+def _magnitudes(bounds: Sequence[PrintedBound], exact: ExactCondition) -> frozenset[Symbol]:
     """Speeds in which the condition is even, though the text bounds them with their sign."""
     differences = [bound.greater - bound.less for bound in bounds]
     speeds = {
@@ -128,125 +221,27 @@ def _is_even(symbol: Symbol, expression: Expr) -> bool:
     return expression.subs({symbol: -Expr.generator(symbol)}) == expression
 
 
-def exact_conditions(asked: BoundClaim) -> tuple[Exact, ...]:
-    """Conditions of stability and of existence, for every family that obeys the restrictions."""
-    given = tuple(asked.given.items())
-    return _conditions(The(asked.equations), given, asked.relations, asked.positive)
-
-
-@lru_cache(maxsize=16)
-def _conditions(
-    the: The,
-    given: tuple[tuple[Symbol, Expr], ...],
-    relations: tuple[Expr, ...],
-    positive: tuple[Expr, ...],
-) -> tuple[Exact, ...]:
-    asked = BoundClaim(((),), the.equations, dict(given), relations, positive=positive)
-    anywhere = _any(asked)
-    return tuple(
-        e
-        for family in steady_states(asked)
-        for e in (*_stability(family), *_existence(family, anywhere))
-    )
-
-
-def _stability(family: SteadyStates) -> Iterator[Exact]:
-    if family.family is None:
-        return
-    try:
-        conditions = stability(family.family).conditions
-    except PolhodeError:
-        return
-    found = tuple(family.on(c.expression) for c in conditions if c.truth is Truth.OPEN)
-    if found:
-        yield Exact(found, _STABILITY, family)
-
-
-def _existence(family: SteadyStates, anywhere: AnyState) -> Iterator[Exact]:
-    branches = family.family.branches if family.family is not None else ()
-    every = (c.expression.subs(dict(family.given)) for b in branches for c in b.exists)
-    found = tuple(dict.fromkeys(e for e in every if e.rational is None))
-    if found:
-        yield Exact(found, _EXISTENCE, anywhere)
-
-
-def _met(claimed: Sequence[ScalarRelation], exact: Exact, asked: BoundClaim) -> Verdict:
-    """Equivalent, but perhaps for equality: linear stability leaves open what happens there."""
-    loose = [c for c in claimed if asked.members[c.member].sign not in STRICT]
-    if loose and exact.decides == _STABILITY:
-        return Verdict(
-            Answer.UNREAD,
-            "threshold",
-            reason=f"it was read and is equivalent to {exact}, but for equality, where linear "
-            "stability decides nothing; write < or >",
-        )
-    return Verdict(Answer.HOLDS, "threshold", reason=f"equivalent to {exact}")
-
-
-def _refuted(component: ScalarRelation, exact: Exact, comparison: Comparison) -> Verdict:
-    residual = Residual(component.member, component.label, component.difference)
-    return Refuted(
-        Answer.FAILS,
-        "threshold",
-        reason=f"not equivalent to {exact}; there are motions that one allows and the other not",
-        residuals=(residual,),
-        evidence=partial(_parted, component, residual, exact, comparison),
-    )
-
-
-def _parted(
-    component: ScalarRelation, residual: Residual, exact: Exact, comparison: Comparison
-) -> Evidence:
-    """A motion that the inequality allows and the condition does not, or the reverse."""
-
-    def parts(point: ExactPoint) -> bool:
-        return bool(comparison.agree(point.floats()) == 0)
-
-    try:
-        return example_where(parts, component, residual, exact.states)
-    except PolhodeError:
-        return None, None
-
-
-# Whether inequalities say the same as exact conditions: a proof, or a state that parts them.
-
-_SAMPLES = 40
-_DRAWN = 4000
-_DECADES = 3.0
-_STEPS = 240
-_BESIDE = 1e-5
-_PI = Symbol("pi")
-
-
-@dataclass(frozen=True)
-class PrintedBound:
-    """One side greater than the other."""
-
-    greater: Expr
-    less: Expr
-
-
 @dataclass(frozen=True)
 class Comparison:
-    """Inequalities of a text set against conditions of the model, all of them together.
+    """Inequalities of a text compared with conditions of the model, all of them together.
 
     Attributes:
         claimed: the inequalities, on the states.
         conditions: what has to be positive there.
-        states: where they are compared, of bodies that can be.
-        sizes: speeds in which the conditions are even: their magnitudes are meant.
+        states: where they are compared, of physical bodies.
+        magnitudes: speeds in which the conditions are even: their magnitudes are meant.
     """
 
     claimed: tuple[PrintedBound, ...]
     conditions: tuple[Expr, ...]
     states: ClaimDomain
-    sizes: frozenset[Symbol]
+    magnitudes: frozenset[Symbol]
 
     # -- proof ----------------------------------------------------------------------------------
 
     @cached_property
     def is_proved(self) -> bool:
-        """Whether each condition follows from the inequalities, and the reverse, by their signs."""
+        """Whether the conditions follow from the inequalities and the reverse, by signs."""
         given = [tuple(_forms(bound, self._signs)) for bound in self._claimed]
         if not all(given):
             return False
@@ -279,8 +274,8 @@ class Comparison:
 
     @cached_property
     def _positive(self) -> dict[Symbol, Expr]:
-        """Speeds of which the magnitude is meant, by letters for that."""
-        named = ((s, Symbol(f"{s.published}_size", positive=True)) for s in self.sizes)
+        """Speeds of which the magnitude is meant, as positive symbols."""
+        named = ((s, Symbol(f"{s.published}_size", positive=True)) for s in self.magnitudes)
         return {s: Expr.generator(size) for s, size in named}
 
     @cached_property
@@ -299,81 +294,75 @@ class Comparison:
     # -- refutation -----------------------------------------------------------------------------
 
     def agree(self, values: Mapping[Symbol, Array | float]) -> Array:
-        """1 where both are met or neither is, 0 where one is, nan where nothing can be said."""
+        """1 where both are met or neither is, 0 where only one is, nan for no physical state."""
         with np.errstate(all="ignore"):
             sides = [(number(b.greater, values), number(b.less, values)) for b in self.claimed]
-            exact = [number(c, values) for c in self.conditions]
+            conditions = [number(c, values) for c in self.conditions]
             allowed = np.asarray(is_physical(self.states, values))
-            for size in self.sizes:
-                allowed = allowed & (np.asarray(values[size]) > 0)
-            for value in (*(v for pair in sides for v in pair), *exact):
+            for speed in self.magnitudes:
+                allowed = allowed & (np.asarray(values[speed]) > 0)
+            for value in (*(v for pair in sides for v in pair), *conditions):
                 allowed = allowed & np.isfinite(value)
-            said = reduce(np.logical_and, (a > b for a, b in sides))
-            true = reduce(np.logical_and, (c > 0 for c in exact))
-        alike = np.asarray(said == true, dtype=float)
+            claimed = reduce(np.logical_and, (a > b for a, b in sides))
+            exactly = reduce(np.logical_and, (c > 0 for c in conditions))
+        alike = np.asarray(claimed == exactly, dtype=float)
         return np.asarray(np.where(allowed, alike, np.nan))
 
     @cached_property
-    def symbols(self) -> tuple[Symbol, ...]:
-        """All that takes a number."""
+    def _symbols(self) -> tuple[Symbol, ...]:
+        """All symbols that need a number."""
         sides = (side for bound in self.claimed for side in (bound.greater, bound.less))
         found = {*variables([*sides, *self.conditions]), *physical_symbols(self.states)} - {_PI}
         return tuple(sorted(found, key=lambda s: s.published))
 
     @cached_property
-    def parting(self) -> dict[Symbol, float] | None:
-        """Numbers of a state that one allows and the other does not; None where none is found."""
+    def distinguishing_state(self) -> dict[Symbol, float] | None:
+        """Numbers of a state that satisfies one and not the other; None where none is found."""
         for start in self._starts:
-            for symbol in self._spoken:
+            for symbol in self._compared_symbols:
                 found = self._beside(start, symbol)
                 if found is not None:
                     return found
         return None
 
-    @property
-    def was_tried(self) -> bool:
-        """Whether there was any state to compare them at."""
-        return bool(self._starts)
-
     @cached_property
-    def _spoken(self) -> tuple[Symbol, ...]:
+    def _compared_symbols(self) -> tuple[Symbol, ...]:
         sides = (side for bound in self.claimed for side in (bound.greater, bound.less))
         return tuple(sorted(variables([*sides, *self.conditions]) - {_PI}, key=lambda s: s.name))
 
     @cached_property
     def _starts(self) -> tuple[dict[Symbol, float], ...]:
-        """States of bodies that can be, of all sizes."""
+        """Physical states of all sizes."""
         random = np.random.default_rng(1)
-        drawn = {s: self._drawn(s, random) for s in self.symbols}
+        drawn = {s: self._drawn(s, random) for s in self._symbols}
         known = np.flatnonzero(np.isfinite(self.agree(drawn)))[:_SAMPLES]
         return tuple({s: float(values[i]) for s, values in drawn.items()} for i in known)
 
     def _drawn(self, symbol: Symbol, random: np.random.Generator) -> Array:
         size = np.asarray(10 ** random.uniform(-1, 1, _DRAWN))
-        if symbol.positive or symbol in self.sizes:
+        if symbol.positive or symbol in self.magnitudes:
             return size
         if symbol.kind is SymbolKind.COORDINATE and not symbol.order:
             return np.asarray(random.uniform(-pi, pi, _DRAWN))
         return np.asarray(size * random.choice([-1, 1], _DRAWN))
 
     def _beside(self, start: Mapping[Symbol, float], symbol: Symbol) -> dict[Symbol, float] | None:
-        """A parting state on the way through a start on which one number changes."""
-        way = start[symbol] * 10 ** np.linspace(-_DECADES, _DECADES, _STEPS)
-        if not symbol.positive and symbol not in self.sizes:
-            way = np.concatenate((-way[::-1], way))
-        every = [
-            self.agree(
-                {
-                    **{s: np.full(way.shape, value) for s, value in start.items()},
-                    symbol: way * factor,
-                }
-            )
+        """A state that satisfies only one, on a line through a start along which one number varies.
+
+        Its neighbours on the line must do so too, lest rounding at a boundary decide.
+        """
+        line = start[symbol] * 10 ** np.linspace(-_DECADES, _DECADES, _STEPS)
+        if not symbol.positive and symbol not in self.magnitudes:
+            line = np.concatenate((-line[::-1], line))
+        others = {s: np.full(line.shape, value) for s, value in start.items()}
+        agreed = [
+            self.agree({**others, symbol: line * factor})
             for factor in (1 - _BESIDE, 1.0, 1 + _BESIDE)
         ]
-        parted = np.flatnonzero(np.all(np.array(every) == 0, axis=0))
-        if not len(parted):
+        differing = np.flatnonzero(np.all(np.array(agreed) == 0, axis=0))
+        if not len(differing):
             return None
-        return {**start, symbol: float(way[parted[len(parted) // 2]])}
+        return {**start, symbol: float(line[differing[len(differing) // 2]])}
 
 
 def _forms(bound: PrintedBound, signs: Sequence[Expr]) -> Iterator[Expr]:

@@ -102,9 +102,9 @@ def _steady(asked: BoundClaim) -> Trials:
 
 
 def _launch(asked: BoundClaim) -> Trials:
-    from polhode.claims.contexts._initial_value import bench_along  # it needs the simulator
+    from polhode.claims.contexts._initial_value import sample_points_along  # it needs the simulator
 
-    states, bench = bench_along(asked)
+    states, bench = sample_points_along(asked)
     return Trials(states, bench, _differences)
 
 

@@ -246,7 +246,7 @@ def real_states(states: ClaimDomain, expressions: Iterable[Expr]) -> Iterator[Sy
 
 
 def _is_real(state: SymbolValues, states: ClaimDomain, symbols: Iterable[Symbol]) -> bool:
-    """Whether all symbols are real at a state, and what is to be positive is; notes their values."""
+    """Whether all is real at a state, and positive where it has to be; notes the values there."""
     ordered = tuple(symbols)
     try:
         settled = numbers([states.of(s) for s in ordered], state, ())
