@@ -7,7 +7,6 @@ from math import isclose
 from operator import ne
 
 from polhode.algebra import ONE, Expr, Symbol, under_name
-from polhode.base import PolhodeError
 from polhode.claims._verdict import Confirmation, Counterexample, Evidence, Residual
 from polhode.claims.balance._declared import declared, reaction_symbol
 from polhode.claims.balance._newton_euler import (
@@ -17,15 +16,12 @@ from polhode.claims.balance._newton_euler import (
 )
 from polhode.claims.meaning._components import ScalarRelation
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain
-from polhode.claims.states._numeric import number
+from polhode.claims.states._numeric import NO_VALUE, number
 from polhode.claims.states._sample_points import ExactPoint, exact_point, is_physical
 
 _TRIES = 300
 _ROUNDING = 1e-7
 _RATES = 4  # of a prescribed function that get numbers, the function itself among them
-
-#: What is raised where an expression has no value at a state.
-NO_VALUE = (PolhodeError, ArithmeticError, ValueError, KeyError)
 
 
 def refutation(

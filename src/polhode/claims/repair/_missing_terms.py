@@ -1,4 +1,8 @@
-"""Terms that a claim has lost, found from what is left of it exactly."""
+"""Terms that a claim has lost, and whole expressions that are wrong, in the letters of its text.
+
+What is needed at a place is found by numbers along known directions, or exactly: the claim is
+solved for an unknown that stands there, and the solution is written as products of letters.
+"""
 
 from __future__ import annotations
 
@@ -9,8 +13,7 @@ from itertools import islice
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol, Vector, factors
-from polhode.algebra import length as terms_of
+from polhode.algebra import Expr, Symbol, Vector, factors, length
 from polhode.base import PolhodeError
 from polhode.claims.latex._tree import (
     Call,
@@ -33,7 +36,7 @@ from polhode.claims.latex._tree import (
     walk,
 )
 from polhode.claims.repair._edits import Edit, bases, number_node, times_match
-from polhode.claims.repair._numeric_evaluator import UNKNOWN, scalar
+from polhode.claims.repair._numeric_evaluator import scalar
 from polhode.claims.repair._places import (
     ZERO,
     NodePosition,
@@ -44,119 +47,118 @@ from polhode.claims.repair._places import (
     raised,
     times,
 )
-from polhode.claims.repair._repair_context import RepairContext, StatementTerms
-
-# Terms that a claim has lost, found from what is left of it exactly.
+from polhode.claims.repair._repair_context import RepairContext, VectorTerms
+from polhode.claims.states._numeric import NO_VALUE
 
 _MOST_MATCHES = 5
+_MOST_VECTOR_MATCHES = 2
+_LARGEST_SIZE = 12
+_LONGEST_SUM = 4
+_LONGEST = 16
+_FACTOR = 4  # how much longer something may be than a short multiple of it
+
+#: Stands in a statement where something is to be found.
+_UNKNOWN_TERM = Name("missing")
+_UNKNOWN = Symbol("missing")
+
+
+# -- terms that are missing -----------------------------------------------------------------------
 
 
 def missing_terms(
-    work: RepairContext,
+    context: RepairContext,
     place: NodePosition,
     members: Sequence[int],
     inner: Collection[NodePosition],
 ) -> Iterator[Edit]:
-    """Terms to be added to a side, or to whatever can be a sum inside it."""
-    if not _takes_terms(place, inner):
+    """Terms to be added to a side, or to whatever can be a sum inside it.
+
+    Args:
+        context: the statement that fails.
+        place: where a term may be added.
+        members: of the claim, that are to hold with it.
+        inner: factors and the like that another value could make right.
+    """
+    inside = isinstance(place.parent, Derivative | Root | ComponentList | Cross | Dot)
+    if not (place.is_side or inside or isinstance(place.node, Sum) or place in inner):
         return
     deep = 0.05 if isinstance(place.parent, Node) else 0.0
-    for term in _terms(work, place, members):
+    for term in _terms(context, place, members):
         letters = {piece for piece in walk(term) if isinstance(piece, Node)}
-        if any(map(work.is_strange, letters)):  # it would only rewrite what is left over
+        if any(map(context.is_strange, letters)):  # it would only rewrite what is left over
             continue
-        size = 2.0 + deep + length(term) / 20
+        size = 2.0 + deep + _length(term) / 20
         yield Edit("missing term", place.path, added(place.node, term), size)
 
 
-def _takes_away(node: Node, term: Node) -> bool:
-    """Whether all that a term does is to put something else in the place of what is there."""
+def _terms(context: RepairContext, place: NodePosition, members: Sequence[int]) -> Iterator[Node]:
+    def adds(term: Node) -> bool:
+        return not _replaces(place.node, term) and not _repeats(context, place, term)
+
+    value = context.value(place.node)
+    if isinstance(value, Expr):
+        yield from _along(context, place, None, members, adds)
+    elif isinstance(value, Vector):
+        for direction in context.directions:
+            yield from _along(context, place, direction, members, adds)
+        yield from filter(adds, _multiples(context, place, members, context.vectors))
+        yield from filter(adds, _multiples(context, place, members, context.crossed))
+
+
+def _replaces(node: Node, term: Node) -> bool:
+    """Whether adding a term only puts something else in the place of what is there."""
     is_letter = isinstance(node, Name | Dots)
     return negated(node) in (term.terms if isinstance(term, Sum) else (term,)) or (
         is_letter and node in bases(term)
     )
 
 
-def _terms(work: RepairContext, place: NodePosition, members: Sequence[int]) -> Iterator[Node]:
-    def adds(term: Node) -> bool:
-        return not _takes_away(place.node, term) and not repeats(work, place, term)
-
-    value = work.value(place.node)
-    if isinstance(value, Expr):
-        yield from _along(work, place, None, members, adds)
-    elif isinstance(value, Vector):
-        for direction in work.directions:
-            yield from _along(work, place, direction, members, adds)
-        yield from filter(adds, vector_terms(work, place, members))
-
-
 def _along(
-    work: RepairContext,
+    context: RepairContext,
     place: NodePosition,
     direction: Node | None,
     members: Sequence[int],
     adds: Callable[[Node], bool],
 ) -> Iterator[Node]:
     """Terms along one direction, or scalar ones."""
+    evaluator = context.evaluator
+    ones = np.ones(context.trials.samples.size)
     tail = [] if direction is None else [direction]
     try:
-        unit = (
-            scalar(np.ones(work.tried.bench.size))
-            if direction is None
-            else work.tally.of(direction)
-        )
-        amount = work.tally.amounts(place, unit, members)[0]
-    except UNKNOWN:
+        unit = scalar(ones) if direction is None else evaluator.of(direction)
+        amount = evaluator.amounts(place, unit, members)[0]
+    except NO_VALUE:
         amount = None
     if amount is not None:
         if not np.isfinite(amount).all():
             return
-        matches = islice(work.products.equal_to(amount), _MOST_MATCHES)
+        matches = islice(context.products.equal_to(amount), _MOST_MATCHES)
         found = [t for match in matches if adds(t := times_match(match, *tail))]
         yield from found
         if found:
             return
-    # What is to be added, exactly, on the states of the claim.
-    term = UNKNOWN_TERM if direction is None else times(UNKNOWN_TERM, direction)
-    lost = solved(work, put(work.statement, place.path, added(place.node, term)), members)
+    unknown = added(place.node, times(_UNKNOWN_TERM, *tail))
+    lost = _solved(context, put(context.statement, place.path, unknown), members)
     if lost is not None:
-        yield from filter(adds, written(work, lost, tail))
-
-
-def _takes_terms(place: NodePosition, inner: Collection[NodePosition]) -> bool:
-    """Whether a term may be lost there: of a side, a sum, or where a factor could make it right."""
-    inside = isinstance(place.parent, Derivative | Root | ComponentList | Cross | Dot)
-    return place.is_side or inside or isinstance(place.node, Sum) or place in inner
-
-
-# Whole vectors, their rates and products, that a formula lacks.
-
-_MOST_MATCHES_of_vector_terms = 2
-
-
-def vector_terms(
-    work: RepairContext, place: NodePosition, members: Sequence[int]
-) -> Iterator[Node]:
-    """Multiples of vectors of the text, and of products of two, that make a formula right."""
-    yield from _multiples(work, place, members, work.vectors)
-    yield from _multiples(work, place, members, work.crossed)
+        yield from filter(adds, _written(context, lost, tail))
 
 
 def _multiples(
-    work: RepairContext, place: NodePosition, members: Sequence[int], terms: StatementTerms
+    context: RepairContext, place: NodePosition, members: Sequence[int], terms: VectorTerms
 ) -> Iterator[Node]:
+    """Multiples of vectors of the text, or of products of two, that make a formula right."""
     if not len(terms):
         return
     try:
-        amounts = work.tally.amounts(place, terms.figures, members)
-    except UNKNOWN:
+        amounts = context.evaluator.amounts(place, terms.values, members)
+    except NO_VALUE:
         return
     for i in np.flatnonzero(np.isfinite(amounts).all(axis=1)):
-        for match in islice(work.products.equal_to(amounts[i]), _MOST_MATCHES_of_vector_terms):
+        for match in islice(context.products.equal_to(amounts[i]), _MOST_VECTOR_MATCHES):
             yield times_match(match, terms[int(i)])
 
 
-# Whole terms and sums put in the place of wrong ones, found from what is left exactly.
+# -- terms and sums that are wrong as a whole -----------------------------------------------------
 
 
 def may_be_rewritten(place: NodePosition) -> bool:
@@ -165,20 +167,43 @@ def may_be_rewritten(place: NodePosition) -> bool:
     return (place.is_term or isinstance(place.node, Sum)) and not is_subject
 
 
-def rewritten(work: RepairContext, place: NodePosition, members: Sequence[int]) -> Iterator[Edit]:
-    """What would have to stand at a place, but for its vectors."""
-    tail = _tail(work, place.node)
+def rewritten(
+    context: RepairContext, place: NodePosition, members: Sequence[int]
+) -> Iterator[Edit]:
+    """What would have to stand at a place, with its vectors unchanged."""
+    tail = _tail(context, place.node)
     if tail is None:
         return
-    changed = put(work.statement, place.path, times(UNKNOWN_TERM, *tail))
-    wanted = solved(work, changed, members)
+    changed = put(context.statement, place.path, times(_UNKNOWN_TERM, *tail))
+    wanted = _solved(context, changed, members)
     if wanted:
-        for node in plainly_written(work, wanted, tail):
-            if not repeats(work, place, node):
-                # How many letters two expressions do not share.
+        for node in _plainly_written(context, wanted, tail):
+            if not _repeats(context, place, node):
                 one, other = _letters(place.node), _letters(node)
-                size = 2.1 + ((one - other).total() + (other - one).total()) / 20
-                yield Edit("wrong expression", place.path, _in_order(node, place.node), size)
+                unshared = (one - other).total() + (other - one).total()
+                ordered = _in_order(node, place.node)
+                yield Edit("wrong expression", place.path, ordered, 2.1 + unshared / 20)
+
+
+def _tail(context: RepairContext, node: Node) -> list[Node] | None:
+    """The vectors that scalars of a term multiply; None where that cannot be said."""
+    if isinstance(node, Negative):
+        return _tail(context, node.of)
+    if isinstance(context.value(node), Expr):
+        return []
+    vectors = node.factors if isinstance(node, Product) else (node,)
+    found = [n for n in vectors if isinstance(context.value(n), Vector)]
+    return found if len(found) == 1 and not isinstance(found[0], Sum) else None
+
+
+def _letters(node: Node) -> Counter[Node]:
+    """The letters and functions of an expression, as often as they are multiplied."""
+    match node:
+        case Power(base, Number(text)) if text.isdigit():
+            return Counter({letter: n * int(text) for letter, n in _letters(base).items()})
+        case Call() | Name() | Dots():
+            return Counter([node])
+    return sum((_letters(part) for part in node.parts if isinstance(part, Node)), Counter())
 
 
 def _in_order(node: Node, old: Node) -> Node:
@@ -202,46 +227,16 @@ def _base(node: Node) -> Node:
     return node.base if isinstance(node, Power) else node
 
 
-def _letters(node: Node) -> Counter[Node]:
-    """The letters and functions of an expression, as often as they are multiplied."""
-    match node:
-        case Power(base, Number(text)) if text.isdigit():
-            return Counter({letter: n * int(text) for letter, n in _letters(base).items()})
-        case Call() | Name() | Dots():
-            return Counter([node])
-    return sum((_letters(part) for part in node.parts if isinstance(part, Node)), Counter())
+# -- exact quantities, written in the letters of the text -----------------------------------------
 
 
-def _tail(work: RepairContext, node: Node) -> list[Node] | None:
-    """The vectors that scalars of a term multiply; None where that cannot be said."""
-    if isinstance(node, Negative):
-        return _tail(work, node.of)
-    if isinstance(work.value(node), Expr):
-        return []
-    vectors = node.factors if isinstance(node, Product) else (node,)
-    found = [n for n in vectors if isinstance(work.value(n), Vector)]
-    return found if len(found) == 1 and not isinstance(found[0], Sum) else None
-
-
-# Exact quantities that a formula needs at a place, written in the letters of its text.
-
-_UNKNOWN = Symbol("missing")
-_LARGEST_SIZE = 12
-_LONGEST_SUM = 4
-_MOST = 16
-_FACTOR = 4  # how much longer something may be than a short multiple of it
-
-#: Stands in a statement where something is to be found.
-UNKNOWN_TERM = Name("missing")
-
-
-def solved(work: RepairContext, changed: Statement, members: Sequence[int]) -> Expr | None:
+def _solved(context: RepairContext, changed: Statement, members: Sequence[int]) -> Expr | None:
     """What the unknown term of a changed statement has to be for some members to hold, exactly."""
     found = None
     try:
-        extra = {UNKNOWN_TERM.letter: Expr.generator(_UNKNOWN)}
-        for residual in work.left(changed, members, extra):
-            settled = work.tried.states.on(residual).numerator
+        extra = {_UNKNOWN_TERM.letter: Expr.generator(_UNKNOWN)}
+        for residual in context.vanishing(changed, members, extra):
+            settled = context.trials.states.on(residual).numerator
             slope = settled.diff(_UNKNOWN)
             if _UNKNOWN in slope.symbols():
                 return None
@@ -255,11 +250,11 @@ def solved(work: RepairContext, changed: Statement, members: Sequence[int]) -> E
     return found
 
 
-def length(node: Node) -> int:
+def _length(node: Node) -> int:
     """How much a term says: letters with their powers, and how they are put together."""
     match node:
         case Power(base, Number(text)) if text.isdigit():
-            return length(base) * int(text)
+            return _length(base) * int(text)
         case Name(decoration="hat"):
             return 0
         case Number("1"):
@@ -270,20 +265,23 @@ def length(node: Node) -> int:
     nested = 2 * isinstance(node, Sum)
     if isinstance(node, Quotient) and not isinstance(node.below, Number):
         nested = 4
-    return rate + nested + sum(length(part) for part in node.parts if isinstance(part, Node))
+    return rate + nested + sum(_length(part) for part in node.parts if isinstance(part, Node))
 
 
-def written(work: RepairContext, value: Expr, tail: Sequence[Node]) -> Iterator[Node]:
-    """A quantity times vectors in the letters of the text, at most one of them of the motion."""
-    yield from plainly_written(work, value, tail)
-    for node, moved in work.settled.items():
-        if moved and moved != work.vocabulary[node] and _are_about_as_long(value, moved):
-            yield from plainly_written(work, value / moved, [node, *tail])
+def _written(context: RepairContext, value: Expr, tail: Sequence[Node]) -> Iterator[Node]:
+    """A quantity times vectors in the letters of the text.
+
+    At most one of them is of a quantity that the motion determines, such as a reaction.
+    """
+    yield from _plainly_written(context, value, tail)
+    for node, moved in context.settled.items():
+        if moved and moved != context.vocabulary[node] and _are_about_as_long(value, moved):
+            yield from _plainly_written(context, value / moved, [node, *tail])
 
 
-def plainly_written(work: RepairContext, value: Expr, tail: Sequence[Node]) -> Iterator[Node]:
-    """The same in letters that are free on the states of the claim, if it is that simple."""
-    product = _product(value, work.plain)
+def _plainly_written(context: RepairContext, value: Expr, tail: Sequence[Node]) -> Iterator[Node]:
+    """The same in letters alone that are free on the states of the claim, if it is that simple."""
+    product = _product(value, context.spellings)
     if product is not None and len(product[1]) + len(product[2]) < _LARGEST_SIZE:
         number, above, below = product
         term = times(_fraction(abs(number), above, below), *tail)
@@ -294,7 +292,7 @@ def _product(
     expression: Expr, plain: Mapping[Expr, Node]
 ) -> tuple[Fraction, list[Node], list[Node]] | None:
     """An expression as a number times letters over letters, if it is that simple."""
-    if _is_longer(expression.numerator, _MOST) or _is_longer(expression.denominator, _MOST):
+    if _is_longer(expression.numerator, _LONGEST) or _is_longer(expression.denominator, _LONGEST):
         return None
     number, powers = factors(expression)
     above: list[Node] = []
@@ -341,7 +339,7 @@ def _is_longer(polynomial: Expr, most: int) -> bool:
 
 def _are_about_as_long(one: Expr, other: Expr) -> bool:
     """Whether one may be a short multiple of the other."""
-    shorter, longer = sorted((terms_of(one), terms_of(other)))
+    shorter, longer = sorted((length(one), length(other)))
     return longer <= _FACTOR * shorter
 
 
@@ -350,9 +348,9 @@ def _fraction(number: Fraction, above: Iterable[Node], below: Iterable[Node]) ->
     return over(top, times(number_node(Fraction(number.denominator)), *below))
 
 
-def repeats(work: RepairContext, place: NodePosition, node: Node) -> bool:
-    """Whether something new at a place brings in a whole side of the same chain, not a power."""
-    sides = work.statement.relations[place.relation].sides
+def _repeats(context: RepairContext, place: NodePosition, node: Node) -> bool:
+    """Whether something new at a place brings in a whole other side of the same chain."""
+    sides = context.statement.relations[place.relation].sides
     others = {side for i, side in enumerate(sides) if i != place.path[1]} - {ZERO}
     return _stands_in(node, others)
 

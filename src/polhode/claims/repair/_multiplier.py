@@ -1,4 +1,8 @@
-"""By what a place in a formula would have to be multiplied for the claim to hold."""
+"""By what a place in a formula would have to be multiplied for the claim to hold, in letters.
+
+The factor is found as one number per sample point, then matched with numbers and products of
+known letters that take the same values.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import combinations_with_replacement, compress
+from operator import attrgetter
 
 import numpy as np
 
@@ -21,6 +26,9 @@ _SETTLED = 1e-14
 _QUOTIENTS = (Fraction(n, d) for n in range(1, 5) for d in range(1, 5) if n != d)
 _TRIED = (Fraction(-1), Fraction(0), *dict.fromkeys(_QUOTIENTS))
 _PROBES = (1.0, 1.25, *map(float, _TRIED))
+_MOST_LETTERS = 40
+_MOST_TOGETHER = 3
+_POWERS = (1, -1, 2, -2)
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +47,7 @@ class Response:
     before: Array
 
     def __call__(self, factors: Array) -> Array:
-        """The changing rows, with arithmetic that may fail at a state."""
+        """The changing rows; not a number at states where arithmetic fails."""
         with np.errstate(all="ignore"):
             return self.changing(factors)
 
@@ -49,7 +57,7 @@ class Response:
         return self(np.outer(_PROBES, np.ones(self.states)))
 
     def among(self, kept: Sequence[int]) -> Response | None:
-        """The same with some of all rows alone; None where none of those changes."""
+        """The same for some of all rows only; None where none of those changes."""
         places = [k for k, row in enumerate(self.rows) if row in kept]
         if len(kept) == len(self.before):
             return self
@@ -67,7 +75,7 @@ class Response:
 
     @property
     def here(self) -> Array:
-        """The changing rows for a factor one: (rows, states)."""
+        """The changing rows for a factor of one: (rows, states)."""
         return np.asarray(self.probed[:, 0])
 
     @property
@@ -77,7 +85,7 @@ class Response:
 
     @property
     def is_faithful(self) -> bool:
-        """Whether a factor one changes nothing."""
+        """Whether a factor of one changes nothing, as it must."""
         known = self.before[list(self.rows)]
         if self.here.shape != known.shape:
             return False
@@ -85,7 +93,7 @@ class Response:
 
     @cached_property
     def change(self) -> Array | None:
-        """Change of the changing rows per unit of the factor, where that is the same for any."""
+        """Change of the changing rows per unit of the factor; None where it is not linear in it."""
         one, two, three = (self.probed[:, _PROBES.index(x)] for x in (1.0, 2.0, 3.0))
         change = two - one
         straight = np.abs(three - two - change) <= _CLOSE * (np.abs(one) + np.abs(three))
@@ -94,7 +102,7 @@ class Response:
         return np.asarray(change)
 
     def slope(self) -> Array | None:
-        """The same of all rows."""
+        """The same for all rows; None where it is not linear."""
         if self.change is None:
             return None
         whole = np.zeros_like(self.before)
@@ -139,7 +147,7 @@ class _Part(Response):
 
 
 def _by_secants(response: Response, row: int) -> Array:
-    """Where one row vanishes, as nearly as that can be found."""
+    """Where one row vanishes, state by state, as closely as the secant method finds it."""
     here, there = (response.probed[row, _PROBES.index(x)] for x in (1.0, 1.25))
     at, before = np.full(response.states, 1.0), np.full(response.states, 1.25)
     for _ in range(_STEPS):
@@ -157,7 +165,7 @@ def _by_secants(response: Response, row: int) -> Array:
 
 
 def simple_numbers(response: Response) -> Iterator[Fraction]:
-    """The simple factors at which all vanishes; what is not linear may have several."""
+    """The simple factors at which everything vanishes; there may be several if not linear."""
     size = np.abs(response.here).max(axis=1) + 1
     tried = response.probed[:, -len(_TRIED) :]
     vanishes = np.isfinite(tried) & (np.abs(tried) <= _CLOSE * size[:, None, None])
@@ -193,20 +201,16 @@ def simple_number(values: Array) -> Fraction | None:
     return number if close and abs(number.numerator) <= _LARGEST else None
 
 
-# Products of letters that equal a quantity at every state.
-
-_MOST_LETTERS = 40
-_MOST_TOGETHER = 3
-_POWERS = (1, -1, 2, -2)
+# -- products of letters that equal a quantity at every state --------------------------------------
 
 
 @dataclass(frozen=True, eq=False)
 class Products:
-    """Everything that can be formed of some letters, at the states of a bench.
+    """All products that can be formed of some letters, at sample points.
 
     Attributes:
         known: letters with their values: (states,).
-        upright: those that stand above a fraction line only.
+        upright: those that may stand above a fraction line only.
     """
 
     known: Sequence[tuple[Node, Array]]
@@ -217,7 +221,7 @@ class Products:
 
         Up to two letters may stand above or below; more of them, up to six, above only.
         """
-        yield from list(self.short(amount)) or sorted(self._long(amount), key=_size)
+        yield from list(self.short(amount)) or sorted(self._long(amount), key=attrgetter("size"))
 
     def short(self, amount: Array) -> Iterator[Match]:
         """Those of up to two letters alone, the simplest first."""
@@ -225,7 +229,9 @@ class Products:
         if number is not None:
             yield Match(number)
         elif self.known:
-            yield from sorted([*self._singles(amount), *self._pairs(amount)], key=_size)
+            yield from sorted(
+                [*self._singles(amount), *self._pairs(amount)], key=attrgetter("size")
+            )
 
     # -- one letter or two -----------------------------------------------------------------------
 
@@ -266,7 +272,10 @@ class Products:
     # -- more of them ----------------------------------------------------------------------------
 
     def _long(self, amount: Array) -> Iterator[Match]:
-        """Met in the middle: what a few letters leave must be the product of a few others."""
+        """Meet in the middle: what a few letters leave must be the product of a few others.
+
+        Of the logarithms, so that products are sums; up to a constant factor, found at the end.
+        """
         if len(amount) < _MOST_TOGETHER or not amount.all() or not self.known:
             return
         few = self._few
@@ -278,16 +287,19 @@ class Products:
                 yield Match(number, tuple(counted.items()))
 
     @cached_property
-    def _few(self) -> _Few:
+    def _few(self) -> _FewLetters:
         different = list({v.tobytes(): (n, v) for n, v in reversed(self.known)}.values())[::-1]
         kept = different[:_MOST_LETTERS]
-        # a product of nothing stands first, so that shorter ones are among them
+        # the empty product stands first, so that shorter ones are among them
         values = np.array([np.ones_like(kept[0][1]), *(v for _, v in kept)])
-        return _Few([kept[0][0], *(n for n, _ in kept)], values)
+        return _FewLetters([kept[0][0], *(n for n, _ in kept)], values)
 
 
-class _Few:
-    """Products of a few letters by the logarithms of their values, in an order to find them by."""
+class _FewLetters:
+    """Products of a few letters by the logarithms of their values, sorted by a random projection.
+
+    Equal products have equal projections, so that candidates are found by bisection.
+    """
 
     def __init__(self, nodes: Sequence[Node], values: Array) -> None:
         self.nodes, self.values = nodes, values
@@ -300,7 +312,7 @@ class _Few:
         self._sorted = self._keys[self._order]
 
     def pairs(self, wanted: Array) -> Iterator[tuple[int, int]]:
-        """Two of them, the first one first, whose logarithms make up a sum."""
+        """Pairs of them whose logarithms add up to a sum, the first one before the other."""
         keys = wanted @ self._weights - self._keys
         first = np.searchsorted(self._sorted, keys - _CLOSE)
         last = np.searchsorted(self._sorted, keys + _CLOSE)
@@ -322,9 +334,6 @@ def _simple(amount: Array, table: Array) -> Iterator[tuple[tuple[int, int], Frac
             yield (int(i), int(j)), number
 
 
-def _size(match: Match) -> int:
-    return match.size
-
-
 def _without_number(logs: Array) -> Array:
+    """Logarithms relative to those at the first state, so that a constant factor drops out."""
     return np.asarray(logs[..., 1:] - logs[..., :1])

@@ -1,4 +1,4 @@
-"""Places in a formula, and the formula with something else put there."""
+"""Places in a formula, the members they belong to, and the formula with a change there."""
 
 from __future__ import annotations
 
@@ -24,6 +24,14 @@ from polhode.claims.latex._tree import (
     walk,
 )
 from polhode.claims.states._bound_claim import BoundClaim
+
+ONE = Number("1")
+ZERO = Number("0")
+
+#: Relation of a statement, and number of a side in it.
+Side = tuple[int, int]
+
+_LEFT = 0.02  # size of changing the earlier side: slips are likelier in what is derived from it
 
 
 @dataclass(frozen=True)
@@ -57,7 +65,7 @@ class NodePosition:
 
     @property
     def is_exponent(self) -> bool:
-        """Whether it says to which power something is raised."""
+        """Whether it is the exponent of a power."""
         return isinstance(self.parent, Power) and self.path[-1] == 1
 
     @property
@@ -86,17 +94,15 @@ def put(statement: Statement, path: tuple[int, ...], node: Node) -> Statement:
 
 
 def _changer(path: tuple[int, ...], node: Node) -> Callable[[Piece], Piece]:
-    """Changes the part that the first step of the path leads to; it is shown all in order."""
+    """Changes the part that the first step of the path leads to; parts come in their order."""
     position = count()
 
     def change(part: Piece) -> Piece:
         if next(position) != path[0]:
             return part
-        return (
-            replace(node, span=part.span)
-            if len(path) == 1
-            else mapped(part, _changer(path[1:], node))
-        )
+        if len(path) == 1:
+            return replace(node, span=part.span)
+        return mapped(part, _changer(path[1:], node))
 
     return change
 
@@ -144,7 +150,7 @@ def tidied(piece: Piece) -> Piece:
 
 
 def over(above: Node, below: Node) -> Node:
-    """A quotient, none where nothing is below."""
+    """A quotient; what is above alone where nothing is below."""
     return above if below == ONE else Quotient(above, below)
 
 
@@ -161,30 +167,21 @@ def added(node: Node, term: Node) -> Node:
     return term if terms == (ZERO,) else Sum((*terms, term))
 
 
-ONE = Number("1")
-ZERO = Number("0")
+# -- sides and members ----------------------------------------------------------------------------
 
 
-# Which members of a claim a place in it is part of.
-
-#: Relation of a statement, and number of a side in it.
-Side = tuple[int, int]
-
-_LEFT = 0.02  # an author rather errs in what he derives than in what he sets out from
-
-
-class Links:
-    """The members of one statement by the sides they relate.
+class MemberSides:
+    """Which sides of a statement each member of its claim relates, and the reverse.
 
     Args:
-        statement: read.
-        asked: the claim it makes.
+        statement: the statement, as parsed.
+        claim: the claim it makes.
     """
 
-    def __init__(self, statement: Statement, asked: BoundClaim) -> None:
+    def __init__(self, statement: Statement, claim: BoundClaim) -> None:
         self._statement = statement
-        self._defined = asked.defined
-        self._every = frozenset(range(len(asked.members)))
+        self._defined = claim.defined
+        self._every = frozenset(range(len(claim.members)))
 
     @cached_property
     def _pairs(self) -> list[Side]:

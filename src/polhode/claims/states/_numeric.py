@@ -11,11 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polhode.algebra import Expr, Generator, Symbol, under_name
+from polhode.base import PolhodeError
 
 Array: TypeAlias = NDArray[np.float64]
 
 _FUNCTIONS = {name: getattr(np, name) for name in ("sin", "cos", "sinh", "cosh", "exp", "sqrt")}
 _PI = Symbol("pi")
+
+#: What is raised where an expression or a formula has no value at a state.
+NO_VALUE = (PolhodeError, ArithmeticError, ValueError, KeyError)
 
 
 def number(expression: Expr, values: Mapping[Symbol, Any]) -> Any:

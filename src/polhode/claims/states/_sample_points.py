@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 
 from polhode.algebra import Expr, Generator, Symbol, SymbolKind, sqrt, under_name, variables
-from polhode.base import NumericError, PolhodeError
+from polhode.base import NumericError
 from polhode.claims.meaning._the import The
 from polhode.claims.states._claim_domain import ClaimDomain
-from polhode.claims.states._numeric import Array, number, numbers, rationals
+from polhode.claims.states._numeric import NO_VALUE, Array, number, numbers, rationals
 
 _STATES = 6
 _TRIES = 40
@@ -251,7 +251,7 @@ def _is_real(state: SymbolValues, states: ClaimDomain, symbols: Iterable[Symbol]
     try:
         settled = numbers([states.of(s) for s in ordered], state, ())
         positive = numbers([states.on(e) for e in states.signs], state, ()) > 0
-    except (PolhodeError, ArithmeticError, ValueError, KeyError):
+    except NO_VALUE:
         return False
     state.update(zip(ordered, settled.tolist(), strict=True))
     return bool(positive.all() and np.isfinite(settled).all())
