@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -87,8 +87,12 @@ def declared(system: System) -> Placement:
     places, elements = _placed(system)
     rates = {_only(q): rate for b in system.bodies for q, rate in b.rates.items()}
     rates |= {_only(q): rate for e in elements for q, rate in e.rates().items()}
-    mentioned = variables(_mentioned(system, places))
-    coordinates = {s.base() for s in mentioned if s.kind is SymbolKind.COORDINATE} | rates.keys()
+    geometry: list[Expr] = []
+    for body in system.bodies:
+        geometry += [*places[body].components, *body.angular_velocity.components]
+        geometry += [frame.angle for frame in body.axes.lineage]
+    found = {s.base() for s in variables(geometry) if s.kind is SymbolKind.COORDINATE}
+    coordinates = found | rates.keys()
     bare = {q.derivative() for q in coordinates if q not in rates}
     free = {
         s.base() for rate in rates.values() for s in rate.symbols() if s.kind is SymbolKind.SPEED
@@ -118,13 +122,6 @@ def _placed(system: System) -> tuple[dict[Body, Vector], tuple[Element, ...]]:
             places |= flight.centre(places)
             elements = (*elements, flight)
     return places, elements
-
-
-def _mentioned(system: System, places: Mapping[Body, Vector]) -> Iterator[Expr]:
-    for body in system.bodies:
-        yield from places[body].components
-        yield from body.angular_velocity.components
-        yield from (frame.angle for frame in body.axes.lineage)
 
 
 def _only(expression: Expr) -> Symbol:

@@ -108,17 +108,13 @@ def _minus_sine(x: Array) -> Any:
     return -np.sin(x)
 
 
-def _minus_cosine(x: Array) -> Any:
-    return -np.cos(x)
-
-
 #: How programs are run on jets.
 JETS = Arithmetic(
     lambda number: float(Fraction(number)),
     np.pi,
     {
         Op.SIN: _function(np.sin, np.cos, _minus_sine),
-        Op.COS: _function(np.cos, _minus_sine, _minus_cosine),
+        Op.COS: _function(np.cos, _minus_sine, lambda x: -np.cos(x)),
         Op.EXP: _function(np.exp, np.exp, np.exp),
         Op.SINH: _function(np.sinh, np.cosh, np.sinh),
         Op.COSH: _function(np.cosh, np.sinh, np.cosh),

@@ -110,7 +110,7 @@ class _SecondReader:
         try:
             one = self.value(left)
             match right:
-                case tree.Name(letter=said) | tree.Words(text=said) if _is_constant(said):
+                case tree.Name(letter=text) | tree.Words(text=text) if _says_constant(text):
                     one, other = self._rate(one), Jet.of(0.0)
                 case _:
                     other = self.value(right)
@@ -280,8 +280,8 @@ def _vector_of_zero(side: Any) -> Any:
     raise UnreadError
 
 
-def _is_constant(said: str) -> bool:
-    return said.strip(" .,") in ("constant", "const")
+def _says_constant(text: str) -> bool:
+    return text.strip(" .,") in ("constant", "const")
 
 
 # -- the table of letters -------------------------------------------------------------------------
@@ -387,30 +387,26 @@ class Letters:
                 momenta = (m.velocity * trial.scalar(b.mass) for b, m in trial.bodies.items())
                 return reduce(add, momenta)
             case "L", _:
-                return self._angular_momentum(self._point(name))
+                return self._angular_momentum(name)
             case "F", "":
                 return self._force()
             case "I", "" | "cm":
                 return Inertia(self._only_body)
         return None
 
-    def _point(self, name: tree.Name) -> Jets:
-        """About which point: the centre of mass, or where a pivot holds the body."""
-        said = self._points.get(name, "cm" if name.subscript in ("", "cm") else name.subscript)
-        centre = self._trial.place(self._only_body)
-        if said == "cm":
-            return centre
-        pivots = [e for e in self._system.elements if isinstance(e, Pivot)]
-        meant = [e for e in pivots if e.name == said or (said == "p" and len(pivots) == 1)]
-        if len(meant) != 1:
-            raise UnreadError
-        return centre + self._trial.vector(meant[0].at)
-
-    def _angular_momentum(self, point: Jets) -> Jets:
+    def _angular_momentum(self, name: tree.Name) -> Jets:
+        """About the centre of mass, or about the point where a pivot holds the body."""
         trial, body = self._trial, self._only_body
-        lever = trial.place(body) - point
+        said = self._points.get(name, "cm" if name.subscript in ("", "cm") else name.subscript)
+        centre = point = trial.place(body)
+        if said != "cm":
+            pivots = [e for e in self._system.elements if isinstance(e, Pivot)]
+            meant = [e for e in pivots if e.name == said or (said == "p" and len(pivots) == 1)]
+            if len(meant) != 1:
+                raise UnreadError
+            point = centre + trial.vector(meant[0].at)
         momentum = trial.bodies[body].velocity * trial.scalar(body.mass)
-        return trial.angular_momentum(body) + cross(lever, momentum)
+        return trial.angular_momentum(body) + cross(centre - point, momentum)
 
     def _force(self) -> Jets:
         """Of the only contact or joint, by the numbers of its components; without their rates."""

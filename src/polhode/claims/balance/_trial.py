@@ -131,11 +131,11 @@ class Trial:
     @cached_property
     def bodies(self) -> dict[Body, BodyMotion]:
         """How every body moves."""
-        return {body: self._moving(body) for body in self._known.system.bodies}
-
-    def _moving(self, body: Body) -> BodyMotion:
-        velocity = self.inertial_rate(self.vector(self._known.places[body]))
-        return BodyMotion(velocity, self.vector(body.angular_velocity))
+        found = {}
+        for body in self._known.system.bodies:
+            velocity = self.inertial_rate(self.place(body))
+            found[body] = BodyMotion(velocity, self.vector(body.angular_velocity))
+        return found
 
     def acceleration(self, body: Body) -> Jets:
         """Of its centre of mass, in inertial space, m/s²."""

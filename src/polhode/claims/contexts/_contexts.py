@@ -102,8 +102,9 @@ def _by_signs(claim: BoundClaim, context: str) -> Iterator[Verdict]:
         )
     if equal:
         yield _EQUATIONS[context](claim.only(equal))
-    if close:
-        yield _judged_close(claim.only(close), context)
+    if close:  # ≈ may be exact; otherwise only what is small says how close it is
+        exact = _EQUATIONS[context](claim.only(close))
+        yield exact if exact.holds or not claim.small else _judged_limit(claim.only(close))
     if not compared:
         return
     from polhode.claims.contexts._inequality import judged_inequality, judged_unequal  # loads NumPy
@@ -113,12 +114,6 @@ def _by_signs(claim: BoundClaim, context: str) -> Iterator[Verdict]:
             if component.member in compared:
                 unequal = signs[component.member] == "≠"
                 yield (judged_unequal if unequal else judged_inequality)(claim, component, states)
-
-
-def _judged_close(claim: BoundClaim, context: str) -> Verdict:
-    """≈ may be exact; otherwise how close it is can only be said of something small."""
-    exact = _EQUATIONS[context](claim)
-    return exact if exact.holds or not claim.small else _judged_limit(claim)
 
 
 def _domains(claim: BoundClaim, context: str) -> tuple[ClaimDomain, ...]:

@@ -86,33 +86,29 @@ def _failure(chosen: Sequence[ScalarRelation], states: ClaimDomain) -> Failure |
 def failed(found: Sequence[Failure], context: str) -> Verdict:
     """The verdict on a claim with these failures, refuted at a state."""
     first = found[0]
+    component, equations = first.component, first.states.equations
     where = "; ".join(dict.fromkeys(_place(f.component) for f in found))
+    used = component.left.symbols() | component.right.symbols()
+    undetermined = [name for name in equations.undetermined if reaction_symbol(name) in used]
+    remarks: tuple[str, ...] = ()
+    if undetermined:
+        names = ", ".join(undetermined)
+        remarks = (f"Newton's laws do not determine {names}: there are more supports than needed",)
 
     def evidence() -> Evidence:
         from polhode.claims.contexts._counterexample import refutation  # NumPy, for failures only
 
         whole = first.residual.expression
-        return refutation(first.component, first.residual, first.states, nonzero=whole)
+        return refutation(component, first.residual, first.states, nonzero=whole)
 
     return Refuted(
         Answer.FAILS,
         context,
         f"the sides differ in {where}",
         residuals=tuple(f.residual for f in found),
-        remarks=tuple(_undetermined_reactions(first)),
+        remarks=remarks,
         evidence=evidence,
     )
-
-
-def _undetermined_reactions(failure: Failure) -> Iterator[str]:
-    component, equations = failure.component, failure.states.equations
-    used = component.left.symbols() | component.right.symbols()
-    names = [name for name in equations.undetermined if reaction_symbol(name) in used]
-    if names:
-        yield (
-            f"Newton's laws do not determine {', '.join(names)}: "
-            "more supports hold the body than are needed"
-        )
 
 
 def _place(component: ScalarRelation) -> str:

@@ -24,7 +24,8 @@ def judged_inequality(claim: BoundClaim, component: ScalarRelation, states: Clai
     sign = claim.members[component.member].sign
     difference = states.on(component.difference)
     residual = Residual(component.member, component.label, difference)
-    if _is_proved(difference, sign, states):
+    seen = strict_sign if sign in STRICT else definite_sign
+    if seen(difference, states.signs) == SENSE[sign] if difference else sign not in STRICT:
         return Verdict(Answer.HOLDS, "", reason="follows from the signs of the factors")
     example, second = _refuted(component, residual, states, sign)
     if example is None:
@@ -45,13 +46,6 @@ def judged_inequality(claim: BoundClaim, component: ScalarRelation, states: Clai
         counterexample=example,
         confirmation=second,
     )
-
-
-def _is_proved(difference: Expr, sign: str, states: ClaimDomain) -> bool:
-    if not difference:
-        return sign not in STRICT
-    found = strict_sign if sign in STRICT else definite_sign
-    return found(difference, states.signs) == SENSE[sign]
 
 
 def _refuted(

@@ -43,16 +43,11 @@ def weights(small: Sequence[Small]) -> tuple[int, ...]:
     Those kept to a higher order are larger: with θ to the third order and Ω to the first, a
     product such as θ²Ω is left out. What is kept to order zero is smaller than all that is kept.
     """
-    whole = stated_order(small) or 0
-    return tuple(_weight(each.order, whole) for each in small)
-
-
-def _weight(order: int | None, whole: int) -> int:
+    whole = stated_order(small)
     if not whole:
-        return 1
-    if order is None:
-        return whole
-    return whole // order if order else whole + 1
+        return (1,) * len(small)
+    orders = (1 if each.order is None else each.order for each in small)
+    return tuple(whole // order if order else whole + 1 for order in orders)
 
 
 def stated_order(small: Sequence[Small]) -> int | None:

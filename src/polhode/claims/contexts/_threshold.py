@@ -197,11 +197,6 @@ def _comparison(
         sides = [exact.states.on(side) for side in (component.left, component.right)]
         upward = SENSE[claim.members[component.member].sign] > 0
         bounds.append(PrintedBound(*sides) if upward else PrintedBound(*reversed(sides)))
-    return Comparison(tuple(bounds), exact.expressions, exact.states, _magnitudes(bounds, exact))
-
-
-def _magnitudes(bounds: Sequence[PrintedBound], exact: ExactCondition) -> frozenset[Symbol]:
-    """Speeds in which the condition is even, though the text bounds them with their sign."""
     differences = [bound.greater - bound.less for bound in bounds]
     speeds = {
         s
@@ -209,12 +204,14 @@ def _magnitudes(bounds: Sequence[PrintedBound], exact: ExactCondition) -> frozen
         for s in e.symbols()
         if s.kind.varies and not s.positive and (s.order or s.kind is SymbolKind.SPEED)
     }
-    return frozenset(
+    # those in which the condition is even, though the text bounds them with their sign
+    magnitudes = frozenset(
         s
         for s in speeds
         if all(map(partial(_is_even, s), exact.expressions))
         and not all(map(partial(_is_even, s), differences))
     )
+    return Comparison(tuple(bounds), exact.expressions, exact.states, magnitudes)
 
 
 def _is_even(symbol: Symbol, expression: Expr) -> bool:
@@ -242,14 +239,15 @@ class Comparison:
     @cached_property
     def is_proved(self) -> bool:
         """Whether the conditions follow from the inequalities and the reverse, by signs."""
-        given = [tuple(_forms(bound, self._signs)) for bound in self._claimed]
-        if not all(given):
-            return False
-        return any(self._is_proved(forms) for forms in product(*given))
-
-    def _is_proved(self, forms: Sequence[Expr]) -> bool:
-        claims = all(self._follows(c, forms) for c in self._conditions)
-        return claims and all(self._follows(f, self._conditions) for f in forms)
+        sized = self._positive
+        claimed = (PrintedBound(b.greater.subs(sized), b.less.subs(sized)) for b in self.claimed)
+        conditions = tuple(c.subs(sized) for c in self.conditions)
+        given = [tuple(_forms(bound, self._signs)) for bound in claimed]
+        return any(
+            all(self._follows(condition, forms) for condition in conditions)
+            and all(self._follows(form, conditions) for form in forms)
+            for forms in product(*given)
+        )
 
     def _follows(self, wanted: Expr, known: Sequence[Expr]) -> bool:
         """Whether something is positive where others are."""
@@ -279,15 +277,6 @@ class Comparison:
         return {s: Expr.generator(size) for s, size in named}
 
     @cached_property
-    def _claimed(self) -> tuple[PrintedBound, ...]:
-        sized = self._positive
-        return tuple(PrintedBound(b.greater.subs(sized), b.less.subs(sized)) for b in self.claimed)
-
-    @cached_property
-    def _conditions(self) -> tuple[Expr, ...]:
-        return tuple(c.subs(self._positive) for c in self.conditions)
-
-    @cached_property
     def _signs(self) -> tuple[Expr, ...]:
         return tuple(e.subs(self._positive) for e in self.states.signs)
 
@@ -309,32 +298,26 @@ class Comparison:
         return np.asarray(np.where(allowed, alike, np.nan))
 
     @cached_property
-    def _symbols(self) -> tuple[Symbol, ...]:
-        """All symbols that need a number."""
+    def _variables(self) -> frozenset[Symbol]:
         sides = (side for bound in self.claimed for side in (bound.greater, bound.less))
-        found = {*variables([*sides, *self.conditions]), *physical_symbols(self.states)} - {_PI}
-        return tuple(sorted(found, key=lambda s: s.published))
+        return frozenset(variables([*sides, *self.conditions])) - {_PI}
 
     @cached_property
     def distinguishing_state(self) -> dict[Symbol, float] | None:
         """Numbers of a state that satisfies one and not the other; None where none is found."""
         for start in self._starts:
-            for symbol in self._compared_symbols:
+            for symbol in sorted(self._variables, key=lambda s: s.name):
                 found = self._beside(start, symbol)
                 if found is not None:
                     return found
         return None
 
     @cached_property
-    def _compared_symbols(self) -> tuple[Symbol, ...]:
-        sides = (side for bound in self.claimed for side in (bound.greater, bound.less))
-        return tuple(sorted(variables([*sides, *self.conditions]) - {_PI}, key=lambda s: s.name))
-
-    @cached_property
     def _starts(self) -> tuple[dict[Symbol, float], ...]:
         """Physical states of all sizes."""
         random = np.random.default_rng(1)
-        drawn = {s: self._drawn(s, random) for s in self._symbols}
+        needed = (self._variables | physical_symbols(self.states)) - {_PI}
+        drawn = {s: self._drawn(s, random) for s in sorted(needed, key=lambda s: s.published)}
         known = np.flatnonzero(np.isfinite(self.agree(drawn)))[:_SAMPLES]
         return tuple({s: float(values[i]) for s, values in drawn.items()} for i in known)
 

@@ -102,8 +102,11 @@ def edits(place: NodePosition, match: Match) -> Iterator[Edit]:
     if place.is_term:
         yield from _inserted(place, match)
     if match.number == 1 and len(match.powers) == 1:
-        yield from _removed(place, *match.powers[0])
-        yield from _repowered(place, *match.powers[0])
+        (node, power), *_ = match.powers
+        inside = isinstance(place.parent, Product | Quotient | Negative | PlusMinus)
+        if inside and power == -1 and node == place.node:
+            yield Edit("extra factor", place.path, ONE, 1.0)
+        yield from _repowered(place, node, power)
 
 
 def _by_number(place: NodePosition, number: Fraction) -> Iterator[Edit]:
@@ -162,13 +165,6 @@ def _inserted(place: NodePosition, match: Match) -> Iterator[Edit]:
     if isinstance(place.node, Negative) != bool(sign):
         node = Negative(node)
     yield Edit("missing factor", place.path, node, 0.3 + match.size + sign)
-
-
-def _removed(place: NodePosition, node: Node, power: int) -> Iterator[Edit]:
-    """A factor that is not to be there: its reciprocal is what the place is multiplied by."""
-    inside = isinstance(place.parent, Product | Quotient | Negative | PlusMinus)
-    if inside and power == -1 and node == place.node:
-        yield Edit("extra factor", place.path, ONE, 1.0)
 
 
 def _repowered(place: NodePosition, node: Node, power: int) -> Iterator[Edit]:

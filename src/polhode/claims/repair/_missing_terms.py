@@ -275,7 +275,10 @@ def _written(context: RepairContext, value: Expr, tail: Sequence[Node]) -> Itera
     """
     yield from _plainly_written(context, value, tail)
     for node, moved in context.settled.items():
-        if moved and moved != context.vocabulary[node] and _are_about_as_long(value, moved):
+        if not moved or moved == context.vocabulary[node]:
+            continue
+        shorter, longer = sorted((length(value), length(moved)))
+        if longer <= _FACTOR * shorter:  # else neither is a short multiple of the other
             yield from _plainly_written(context, value / moved, [node, *tail])
 
 
@@ -335,12 +338,6 @@ def _sum(factor: Expr, plain: Mapping[Expr, Node]) -> Node | None:
 def _is_longer(polynomial: Expr, most: int) -> bool:
     """Whether it has more than so many terms."""
     return any(islice(polynomial.terms(), most, None))
-
-
-def _are_about_as_long(one: Expr, other: Expr) -> bool:
-    """Whether one may be a short multiple of the other."""
-    shorter, longer = sorted((length(one), length(other)))
-    return longer <= _FACTOR * shorter
 
 
 def _fraction(number: Fraction, above: Iterable[Node], below: Iterable[Node]) -> Node:

@@ -107,7 +107,9 @@ class NumericEvaluator:
 
         Raises `NumericError` where what is left is not linear in what is added.
         """
-        there, axes = self.of(place.node), _axes(terms.rank)
+        there, size = self.of(place.node), 3**terms.rank
+        shape = (*(3,) * terms.rank, 1, 1)
+        axes = [NumericTensor(terms.rank, unit.reshape(shape)) for unit in np.eye(size)]
         tried = [there, *(there + axis for axis in axes), there + axes[0] + axes[0]]
         rest, *steps, twice = np.moveaxis(self.rows(place, stacked(tried), members), 1, 0)
         slopes = np.array([step - rest for step in steps])
@@ -145,13 +147,6 @@ class NumericEvaluator:
             entries = [matrix[i, j] for i, j in product(range(3), range(3))]
             self._turns[key] = self._samples.values(entries).reshape(3, 3, -1)
         return self._turns[key]
-
-
-def _axes(rank: int) -> list[NumericTensor]:
-    """The unit scalar, or unit vectors."""
-    size = 3**rank
-    shape = (*(3,) * rank, 1, 1)
-    return [NumericTensor(rank, np.eye(size)[i].reshape(shape)) for i in range(size)]
 
 
 # -- quantities by numbers, and what nodes make of them --------------------------------------------

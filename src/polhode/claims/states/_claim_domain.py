@@ -119,15 +119,13 @@ class TrueMotion(ClaimDomain):
     """All states with the accelerations and reactions of the motion."""
 
     def _settled(self, expression: Expr) -> Expr:
-        forces = {s for s in expression.symbols() if s.base() in self._reactions}
-        return on_motion(expression.subs({s: self._force(s) for s in forces}), self.equations)
-
-    def _force(self, symbol: Symbol) -> Expr:
-        """A reaction component on the motion, or one of its rates."""
-        value = on_motion(self._reactions[symbol.base()], self.equations)
-        for _ in range(symbol.order):
-            value = on_motion(self.equations.rate(value), self.equations)
-        return value
+        forces: dict[Symbol, Expr] = {}
+        for symbol in (s for s in expression.symbols() if s.base() in self._reactions):
+            value = on_motion(self._reactions[symbol.base()], self.equations)
+            for _ in range(symbol.order):
+                value = on_motion(self.equations.rate(value), self.equations)
+            forces[symbol] = value
+        return on_motion(expression.subs(forces), self.equations)
 
 
 # -- rates of any order, in terms of the independent ones -----------------------------------------

@@ -10,7 +10,6 @@ from polhode.analyse import SteadyMotion, steady
 from polhode.claims.meaning._the import The
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
-from polhode.derive import Equations
 
 _KEPT = 64
 _PI = Symbol("pi")
@@ -61,13 +60,11 @@ def _families(
     relations: tuple[Expr, ...],
     positive: tuple[Expr, ...],
 ) -> tuple[SteadyStates, ...]:
-    return tuple(
-        SteadyStates(the.equations, dict(given), (*family.relations, *relations), positive, family)
-        for family in steady(the.equations, dict(given))
-        if not _is_singular(the.equations, family)
-    )
-
-
-def _is_singular(equations: Equations, family: SteadyMotion) -> bool:
-    rows = [[entry.subs(family.fixed) for entry in row] for row in equations.mass.rows]
-    return bool(rows) and bool(eliminate(rows, [ZERO] * len(rows)).free)
+    found = []
+    for family in steady(the.equations, dict(given)):
+        rows = [[entry.subs(family.fixed) for entry in row] for row in the.equations.mass.rows]
+        is_singular = bool(rows) and bool(eliminate(rows, [ZERO] * len(rows)).free)
+        if not is_singular:
+            vanishing = (*family.relations, *relations)
+            found.append(SteadyStates(the.equations, dict(given), vanishing, positive, family))
+    return tuple(found)
