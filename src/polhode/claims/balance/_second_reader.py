@@ -397,11 +397,17 @@ class Letters:
     def _angular_momentum(self, name: tree.Name) -> Jets:
         """About the centre of mass, or about the point where a pivot holds the body."""
         trial, body = self._trial, self._only_body
-        said = self._points.get(name, "cm" if name.subscript in ("", "cm") else name.subscript)
+        point_name = self._points.get(
+            name, "cm" if name.subscript in ("", "cm") else name.subscript
+        )
         centre = point = trial.place(body)
-        if said != "cm":
+        if point_name != "cm":
             pivots = [e for e in self._system.elements if isinstance(e, Pivot)]
-            meant = [e for e in pivots if e.name == said or (said == "p" and len(pivots) == 1)]
+            meant = [
+                e
+                for e in pivots
+                if e.name == point_name or (point_name == "p" and len(pivots) == 1)
+            ]
             if len(meant) != 1:
                 raise UnreadError
             point = centre + trial.vector(meant[0].at)

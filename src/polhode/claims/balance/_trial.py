@@ -65,17 +65,14 @@ class Trial:
         for q in known.coordinates:
             self._table[q] = Jet(self._nothing + state[q], self._nothing, self._nothing)
         for _ in range(2):
-            for q, rate in self._rates().items():
+            rates = {
+                q: self._table[q.derivative()] for q in known.coordinates if q not in known.rates
+            }
+            rates |= zip(known.rates, self.scalars(known.rates.values()), strict=True)
+            for q, rate in rates.items():
                 first, second = self._wide(rate.value), self._wide(rate.rate)
                 self._table[q] = Jet(self._nothing + state[q], first, second)
                 self._table[q.derivative()] = Jet(first, second, _UNKNOWN)
-
-    def _rates(self) -> dict[Symbol, Jet]:
-        declared = self._known.rates
-        bare = {
-            q: self._table[q.derivative()] for q in self._known.coordinates if q not in declared
-        }
-        return bare | dict(zip(declared, self.scalars(declared.values()), strict=True))
 
     def _wide(self, array: Array) -> Array:
         return self._nothing + array

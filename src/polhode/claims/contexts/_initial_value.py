@@ -79,7 +79,7 @@ def _started(claim: BoundClaim) -> BoundClaim:
 
 
 def _is_equation(claim: BoundClaim) -> bool:
-    """Whether all members are equations, said of the whole motion."""
+    """Whether all members are equations that are to hold along the whole motion."""
     whole = not claim.when and not any(s.kind.varies for s in claim.given)
     return whole and all(relation.sign in EQUALITY for relation in claim.members)
 
@@ -138,11 +138,16 @@ def _lowest_rates(component: ScalarRelation, states: TrueMotion) -> ScalarRelati
 
 def _judged_by_numbers(claim: BoundClaim, event: Mapping[Symbol, Expr]) -> Verdict:
     """All along several motions, or when something happens."""
+    running = replace(claim, relations=()).states(TrueMotion)
+    duration = _LONG if event or claim.when == "finally" else _SHORT
+    found = (motion.at(event) for motion in _motions(claim, running, duration))
     relation = None
-    for relation in _along_motions(claim, event):
-        sample = relation.exception(claim.when)
-        if sample is not None:
-            return _refuted(relation, sample, claim)
+    for motion in islice(filter(None, found), _MOTIONS):
+        for component in claim.components():
+            relation = SampledRelation.along(motion, component, claim, running)
+            sample = relation.exception(claim.when)
+            if sample is not None:
+                return _refuted(relation, sample, claim)
     if relation is None:
         raise NumericError(
             "a start from which no motion could be integrated",
@@ -150,15 +155,6 @@ def _judged_by_numbers(claim: BoundClaim, event: Mapping[Symbol, Expr]) -> Verdi
         )
     reason = f"by numerical integration of {_MOTIONS} motions"
     return Verdict(Answer.HOLDS, "launch", reason=reason)
-
-
-def _along_motions(claim: BoundClaim, event: Mapping[Symbol, Expr]) -> Iterator[SampledRelation]:
-    running = replace(claim, relations=()).states(TrueMotion)
-    duration = _LONG if event or claim.when == "finally" else _SHORT
-    found = (motion.at(event) for motion in _motions(claim, running, duration))
-    for motion in islice(filter(None, found), _MOTIONS):
-        for component in claim.components():
-            yield SampledRelation.along(motion, component, claim, running)
 
 
 def _motions(claim: BoundClaim, running: TrueMotion, duration: float) -> Iterator[SampledMotion]:
@@ -171,11 +167,11 @@ def _motions(claim: BoundClaim, running: TrueMotion, duration: float) -> Iterato
 def sample_points_along(claim: BoundClaim) -> tuple[TrueMotion, SamplePoints]:
     """States at some moments of several motions from the start, to try an equation at.
 
-    Raises `NumericError` for what is no equation, or not said of the whole motion.
+    Raises `NumericError` unless all members are equations along the whole motion.
     """
     claim = _started(claim)
     if not _is_equation(claim):
-        raise NumericError("a statement on moments", expected="an equation along a motion")
+        raise NumericError("a statement on single moments", expected="an equation along a motion")
     running = replace(claim, relations=()).states(TrueMotion)
     motions = islice(_motions(claim, running, _SHORT), _MOTIONS)
     moments = (motion.state(part) for motion in motions for part in _PARTS)
@@ -208,26 +204,23 @@ def _integrated_anew(relation: SampledRelation, sample: int) -> Confirmation | N
 
     Loosely at first, which is quick: agreement to several digits is no coincidence.
     """
-    loose, tight = _TOLERANCES
-    found = _integrated_within(loose, relation, sample)
-    return found if found is None or found.agrees else _integrated_within(tight, relation, sample)
-
-
-def _integrated_within(
-    tolerance: float, relation: SampledRelation, sample: int
-) -> Confirmation | None:
     motion, component = relation.motion, relation.component
     since = float(motion.times[sample])
-    try:
-        state = moved(motion.run.equations.system, motion.start, since, tolerance)
-    except (PolhodeError, ArithmeticError, KeyError):
-        return None
-    numbers = {**motion.start, **state, TIME: since + motion.begin}
-    left, right = (float(number(side, numbers)) for side in (component.left, component.right))
     expected = [float(side[sample]) for side in relation.sides]
     scale = max(*map(abs, expected), 1e-12)
-    agrees = all(
-        isclose(one, other, rel_tol=_ROUNDING, abs_tol=_ROUNDING * scale)
-        for one, other in zip((left, right), expected, strict=True)
-    )
-    return Confirmation({"t": since + motion.begin}, left, right, agrees)
+    found = None
+    for tolerance in _TOLERANCES:
+        try:
+            state = moved(motion.run.equations.system, motion.start, since, tolerance)
+        except (PolhodeError, ArithmeticError, KeyError):
+            return None
+        numbers = {**motion.start, **state, TIME: since + motion.begin}
+        left, right = (float(number(side, numbers)) for side in (component.left, component.right))
+        agrees = all(
+            isclose(one, other, rel_tol=_ROUNDING, abs_tol=_ROUNDING * scale)
+            for one, other in zip((left, right), expected, strict=True)
+        )
+        found = Confirmation({"t": since + motion.begin}, left, right, agrees)
+        if agrees:
+            break
+    return found

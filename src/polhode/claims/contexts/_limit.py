@@ -42,13 +42,11 @@ def judged_limit(claim: BoundClaim) -> Verdict:
     if others := [r.sign for r in claim.members if r.sign not in (*EQUALITY, "≈")]:
         raise ParseError(f"the sign {others[0]} in the context limit", expected="= or ≈")
     verdicts = [_of_branch(replace(claim, branches=(branch,))) for branch in claim.branches]
-    return min(verdicts, key=_standing)
-
-
-def _standing(verdict: Verdict) -> tuple[int, float]:
-    """Failures before what is open, and that before what is true to lower and to higher order."""
-    places = (Answer.FAILS, Answer.UNREAD, Answer.APPROXIMATE, Answer.HOLDS)
-    return places.index(verdict.answer), inf if verdict.order is None else verdict.order
+    # failures before what is open, then what is true to the lowest order
+    answers = (Answer.FAILS, Answer.UNREAD, Answer.APPROXIMATE, Answer.HOLDS)
+    return min(
+        verdicts, key=lambda v: (answers.index(v.answer), inf if v.order is None else v.order)
+    )
 
 
 def _of_branch(claim: BoundClaim) -> Verdict:

@@ -220,8 +220,8 @@ class Remainder:
     @cached_property
     def stated(self) -> int:
         """The order to which the claim is to be true: as stated, or else the leading one."""
-        said = stated_order(self.claim.small)
-        return self._leading if said is None else said
+        order = stated_order(self.claim.small)
+        return self._leading if order is None else order
 
     @cached_property
     def _leading(self) -> int:

@@ -357,17 +357,13 @@ def _forms(bound: PrintedBound, signs: Sequence[Expr]) -> Iterator[Expr]:
     above, below = bound.greater, bound.less
     if above != below:
         yield above - below
-    senses = {_sense(side, signs) for side in (above, below) if side}
+    try:
+        senses = {definite_sign(side, signs) for side in (above, below) if side}
+    except PolhodeError:
+        return
     squares = above * above - below * below
     if squares and len(senses) == 1 and senses != {0}:
         yield squares * senses.pop()
-
-
-def _sense(side: Expr, signs: Sequence[Expr]) -> int:
-    try:
-        return definite_sign(side, signs)
-    except PolhodeError:
-        return 0
 
 
 def _monomials(polynomial: Expr) -> Iterator[Expr]:

@@ -186,7 +186,7 @@ def rewritten(
 
 
 def _tail(context: RepairContext, node: Node) -> list[Node] | None:
-    """The vectors that scalars of a term multiply; None where that cannot be said."""
+    """The vectors that scalars of a term multiply; None where there is not exactly one."""
     if isinstance(node, Negative):
         return _tail(context, node.of)
     if isinstance(context.value(node), Expr):

@@ -248,9 +248,7 @@ class _RandomValues:
         try:
             return combined(node, [self.of(part) for part in inside])
         except NO_VALUE:
-            return self._letter(node)
-
-    def _letter(self, node: Node) -> NumericTensor:
+            pass
         if node not in self._letters:
             rank = 1 if isinstance(self._notation.value(node), Vector) else 0
             shape = (*(3,) * rank, 1, _TRIALS)

@@ -50,8 +50,12 @@ class ExactPoint:
         return expression.recast({g: self._value(g) for g in expression.generators})
 
     def _value(self, generator: Generator) -> Expr:
+        if generator == _PI:
+            return Expr.generator(generator)
         if isinstance(generator, Symbol):
-            return self._number(generator)
+            if generator not in self.numbers:
+                raise _not_exact(generator)
+            return Expr.constant(self.numbers[generator])
         meaning = under_name(generator)
         if meaning is not None:
             return self(meaning)
@@ -69,13 +73,6 @@ class ExactPoint:
         elif part != 1:
             raise _not_exact(generator)
         return cosine if generator.partner() else sine
-
-    def _number(self, symbol: Symbol) -> Expr:
-        if symbol == _PI:
-            return Expr.generator(symbol)
-        if symbol not in self.numbers:
-            raise _not_exact(symbol)
-        return Expr.constant(self.numbers[symbol])
 
     def floats(self) -> dict[Symbol, float]:
         """All values as numbers, angles in radians."""

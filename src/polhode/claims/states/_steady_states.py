@@ -43,14 +43,14 @@ class SteadyStates(TrueMotion):
         return dict.fromkeys(self.equations.acceleration_symbols, ZERO)
 
 
-def steady_states(asked: BoundClaim) -> tuple[SteadyStates, ...]:
+def steady_states(claim: BoundClaim) -> tuple[SteadyStates, ...]:
     """Every family of steady motions that obeys the claim's own restrictions.
 
     Families where the coordinates are singular are left out: a rate of precession means nothing
     about an upright axis.
     """
-    given = tuple(asked.given.items())
-    return _families(The(asked.equations), given, asked.relations, asked.positive)
+    given = tuple(claim.given.items())
+    return _families(The(claim.equations), given, claim.relations, claim.positive)
 
 
 @lru_cache(maxsize=_KEPT)
