@@ -19,9 +19,9 @@ from polhode.claims.balance._jets import Array
 from polhode.claims.balance._trial import Trial
 from polhode.model import Body, Restraint, System
 
-_TOLERANCE = 1e-8
-_TINY = 1e-12
-_FINE = 1e-13
+_TOLERANCE = 1e-8  # relative; to which constraints and supports must agree
+_TINY = 1e-12  # rows below this are zero and are not scaled
+_FINE = 1e-13  # tolerance of motions that are differentiated
 _STEP = 0.02  # s
 
 Numbers = dict[Symbol, float]

@@ -19,8 +19,8 @@ from polhode.claims.states._claim_domain import AnyState, ClaimDomain
 from polhode.claims.states._numeric import NO_VALUE, number
 from polhode.claims.states._sample_points import ExactPoint, exact_point, is_physical
 
-_TRIES = 300
-_ROUNDING = 1e-7
+_TRIES = 300  # states drawn, of which few may be physical
+_ROUNDING = 1e-7  # relative; of the linear solve at a state, where wrong sides differ by far more
 _RATES = 4  # of a prescribed function that get numbers, the function itself among them
 
 

@@ -35,12 +35,12 @@ from polhode.claims.states._claim_domain import TrueMotion
 from polhode.claims.states._numeric import number
 from polhode.claims.states._sample_points import SamplePoints, SymbolValues
 
-_MOTIONS = 3
-_SHORT, _LONG = 6.0, 24.0
+_MOTIONS = 3  # with different parameters, lest one agrees by chance
+_SHORT, _LONG = 6.0, 24.0  # s; the longer where something has yet to happen
 _PARTS = (0.2, 0.7)  # of a motion at which a correction is tried
-_HIGHEST_RATE = 4
-_TOLERANCES = (1e-6, 1e-9)
-_ROUNDING = 1e-5
+_HIGHEST_RATE = 4  # of both sides, by which they are compared just after the start
+_TOLERANCES = (1e-6, 1e-9)  # of the second integration
+_ROUNDING = 1e-5  # relative; between the two integrations
 #: The letter of texts for the time at which a motion starts.
 _CLOCK = Symbol("t_0")
 

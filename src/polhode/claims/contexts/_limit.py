@@ -20,7 +20,7 @@ from polhode.claims.states._numeric import number
 from polhode.claims.states._sample_points import real_states
 
 _DIGITS = 30  # binary ones that a remainder may lose to rounding
-_STEEPEST = 15
+_STEEPEST = 15  # order assumed for a remainder beyond all that is expanded
 
 
 def judged_limit(claim: BoundClaim) -> Verdict:

@@ -19,10 +19,10 @@ from polhode.claims.states._claim_domain import ClaimDomain
 #: Scales everything small.
 SMALLNESS = Symbol("smallness", positive=True)
 
-_HIGHEST_RATE = 3
-_HIGHEST = 6
+_HIGHEST_RATE = 3  # rates of a small quantity are as small, up to this order
+_HIGHEST = 6  # order up to which a remainder is expanded, or further for printed terms
 _LIMIT = 12  # order beyond which nothing is expanded
-_LOWEST = -4
+_LOWEST = -4  # the highest pole that is expanded
 _TARGET = Symbol("departure")
 
 # -- small quantities scaled together, and series in the smallness --------------------------------

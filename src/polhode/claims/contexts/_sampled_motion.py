@@ -25,11 +25,11 @@ Numbers: TypeAlias = tuple[tuple[Symbol, float], ...]
 TIME = as_symbol(time)
 
 _SAMPLES = 400
-_CLOSE = 1e-6
-_SETTLED = 1e-3
+_CLOSE = 1e-6  # relative; well above the error of the integration
+_SETTLED = 1e-3  # relative; how near a relation must come for "finally"
 _LASTING = _SAMPLES // 20
-_NARROWED = 8
-_PARTS = 64
+_NARROWED = 8  # times that the interval of an event is narrowed
+_PARTS = 64  # samples of such an interval
 _KEPT = 16
 
 

@@ -18,7 +18,7 @@ from polhode.claims.states._claim_domain import AnyState, TrueMotion
 
 _KINDS: dict[str, type[AnyState] | type[TrueMotion]] = {"identity": AnyState, "motion": TrueMotion}
 _APART = 1e-4  # relative; what is meant by another quantity differs by far more
-_ALIKE = 1e-9
+_ALIKE = 1e-9  # relative; rounding of a reading by numbers
 _STATES = 3  # at which a claim that fails may not agree: a mass may happen to be 1
 
 

@@ -26,11 +26,11 @@ from polhode.claims.states._sample_points import ExactPoint, is_physical, physic
 from polhode.claims.states._steady_states import SteadyStates, steady_states
 
 _STABILITY, _EXISTENCE = "stability", "existence"
-_SAMPLES = 40
-_DRAWN = 4000
-_DECADES = 3.0
+_SAMPLES = 40  # physical states from which a distinguishing one is looked for
+_DRAWN = 4000  # states drawn, physical or not
+_DECADES = 3.0  # to either side of a state, over which one number varies
 _STEPS = 240
-_BESIDE = 1e-5
+_BESIDE = 1e-5  # relative; neighbours that must distinguish too, lest rounding does
 _PI = Symbol("pi")
 
 

@@ -38,7 +38,7 @@ _AXES = (("1", "2", "3"), ("x", "y", "z"), ("rho", "phi", "z"))
 _PAIRS = (("sin", "cos"), ("sinh", "cosh"), ("tan", "cot"), ("sech", "tanh"))
 _OTHER = {one: other for pair in _PAIRS for one, other in (pair, pair[::-1])}
 _EXCHANGE = 2.0  # size of exchanging sine and cosine throughout: one slip, but not a small one
-_EQUALLY_SMALL = 0.15
+_EQUALLY_SMALL = 0.15  # difference in size up to which corrections are proposed together
 
 
 @dataclass(frozen=True)

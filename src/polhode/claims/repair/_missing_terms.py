@@ -52,9 +52,9 @@ from polhode.claims.states._numeric import NO_VALUE
 
 _MOST_MATCHES = 5
 _MOST_VECTOR_MATCHES = 2
-_LARGEST_SIZE = 12
-_LONGEST_SUM = 4
-_LONGEST = 16
+_LARGEST_SIZE = 12  # factors of a term
+_LONGEST_SUM = 4  # terms of a sum of letters
+_LONGEST = 16  # terms of what is factored
 _FACTOR = 4  # how much longer something may be than a short multiple of it
 
 #: Stands in a statement where something is to be found.
@@ -93,7 +93,11 @@ def missing_terms(
 
 def _terms(context: RepairContext, place: NodePosition, members: Sequence[int]) -> Iterator[Node]:
     def adds(term: Node) -> bool:
-        return not _replaces(place.node, term) and not _repeats(context, place, term)
+        """Whether a term does more than put something else in the place of what is there."""
+        parts = term.terms if isinstance(term, Sum) else (term,)
+        is_letter = isinstance(place.node, Name | Dots)
+        cancels = negated(place.node) in parts or (is_letter and place.node in bases(term))
+        return not cancels and not _repeats(context, place, term)
 
     value = context.value(place.node)
     if isinstance(value, Expr):
@@ -103,14 +107,6 @@ def _terms(context: RepairContext, place: NodePosition, members: Sequence[int]) 
             yield from _along(context, place, direction, members, adds)
         yield from filter(adds, _multiples(context, place, members, context.vectors))
         yield from filter(adds, _multiples(context, place, members, context.crossed))
-
-
-def _replaces(node: Node, term: Node) -> bool:
-    """Whether adding a term only puts something else in the place of what is there."""
-    is_letter = isinstance(node, Name | Dots)
-    return negated(node) in (term.terms if isinstance(term, Sum) else (term,)) or (
-        is_letter and node in bases(term)
-    )
 
 
 def _along(

@@ -19,10 +19,10 @@ import numpy as np
 from polhode.claims.latex._tree import Node
 from polhode.claims.states._numeric import Array
 
-_CLOSE = 1e-8
-_STEPS = 25
-_LARGEST = 60
-_SETTLED = 1e-14
+_CLOSE = 1e-8  # relative; values in doubles at sample points
+_STEPS = 25  # of the secant method
+_LARGEST = 60  # numerator or denominator of a simple number
+_SETTLED = 1e-14  # relative step at which the secant method ends
 _QUOTIENTS = (Fraction(n, d) for n in range(1, 5) for d in range(1, 5) if n != d)
 _TRIED = (Fraction(-1), Fraction(0), *dict.fromkeys(_QUOTIENTS))
 _PROBES = (1.0, 1.25, *map(float, _TRIED))

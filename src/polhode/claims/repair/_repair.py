@@ -39,10 +39,10 @@ Holds = Callable[[BoundClaim], bool]
 #: Contexts in which there is no residual that could be fitted.
 JUDGED_WHOLE = ("threshold", "limit", "number")
 
-_MOST_EDITS = 4
-_MOST_TRIED = 40
+_MOST_EDITS = 4  # rounds in which some members are corrected
+_MOST_TRIED = 40  # exact judgements of a claim that is judged as a whole
 _NUMBERS = (Fraction(-1), Fraction(2), Fraction(1, 2), Fraction(4), Fraction(1, 4))
-_TRIALS = 3
+_TRIALS = 3  # random values of each letter
 _CLOSE = 1e-9
 
 

@@ -47,8 +47,8 @@ ENOUGH = (1.9, 2.15, 99.0)
 _FACTOR = Symbol("multiplier")
 _LETTER = "multiplier"
 
-_CLOSE = 1e-8
-_INDEPENDENT = 1e-10
+_CLOSE = 1e-8  # relative; values in doubles at sample points
+_INDEPENDENT = 1e-10  # ratio of pivots below which slopes are dependent
 _MOST_CANDIDATES = 12
 _MOST_INNER = 8
 _MOST_COMPONENTS = 3

@@ -14,7 +14,7 @@ from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.meaning._meaning import with_signs
 from polhode.derive import Equations
 
-_KEPT = 1024
+_KEPT = 1024  # expressions
 
 
 @dataclass(frozen=True)

@@ -19,9 +19,9 @@ from polhode.claims.meaning._the import The
 from polhode.claims.states._claim_domain import ClaimDomain
 from polhode.claims.states._numeric import NO_VALUE, Array, number, numbers, rationals
 
-_STATES = 6
+_STATES = 6  # enough for no wrong correction to hold at all of them by chance
 _TRIES = 40
-_ROUNDING = 1e-9
+_ROUNDING = 1e-9  # relative; moments of inertia of thin bodies only just obey their inequality
 _PI = Symbol("pi")
 
 # -- one state with simple exact numbers ----------------------------------------------------------
