@@ -199,7 +199,7 @@ class _PublishedClaim:
 
     def _read_twice(self, verdict: Verdict, claim: BoundClaim, notation: Notation) -> Verdict:
         """The verdict, unless a reader that shares nothing with the first one reads otherwise."""
-        from polhode.claims.contexts._read_anew import (
+        from polhode.claims.contexts._second_reading import (
             disputed,
         )  # NumPy, needed only for claims that could be bound
 

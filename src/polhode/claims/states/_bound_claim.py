@@ -49,7 +49,7 @@ def _states(
     relations: tuple[Expr, ...],
     positive: tuple[Expr, ...],
 ) -> ClaimDomain:
-    """The states, kept with all that was found out about them."""
+    """The states; kept, for it takes time to find what expressions are on them."""
     return kind(the.equations, dict(given), relations, positive)
 
 
@@ -68,7 +68,7 @@ class BoundClaim:
         start: for claims on a motion, values at its start.
         when: for statements on a motion, how often they hold: always, never, sometimes,
             initially, finally.
-        defined: letters that the claim defines itself; what defines them is no member.
+        defined: letters that the claim defines itself; their definitions are no members.
     """
 
     branches: tuple[tuple[BoundRelation, ...], ...]
@@ -88,7 +88,7 @@ class BoundClaim:
         return self.branches[0]
 
     def components(self, branch: int = 0) -> tuple[ScalarRelation, ...]:
-        """All members of a branch as scalar relations."""
+        """All members of a branch, component by component."""
         numbered = enumerate(self.branches[branch])
         return tuple(c for i, r in numbered for c in components(i, r.left, r.right))
 
@@ -99,14 +99,9 @@ class BoundClaim:
 
     def states(self, kind: type[States]) -> States:
         """The states of a kind on which the claim is asked to hold."""
-        found = _states(
-            kind, EquationsKey(self.equations), self._given, self.relations, self.positive
-        )
+        given = tuple(self.given.items())
+        found = _states(kind, EquationsKey(self.equations), given, self.relations, self.positive)
         return cast(States, found)
-
-    @property
-    def _given(self) -> tuple[tuple[Symbol, Expr], ...]:
-        return tuple(self.given.items())
 
     def only(self, members: Collection[int]) -> BoundClaim:
         """The claim that some of the members make; the others are left in place, as 0 = 0."""

@@ -1,4 +1,4 @@
-"""What a second reader says of a claim that was judged: numbers from its letters on."""
+"""A second reading of a claim that was judged: numbers from its letters on."""
 
 from __future__ import annotations
 
@@ -18,54 +18,54 @@ from polhode.claims.states._claim_domain import AnyState, TrueMotion
 
 _KINDS: dict[str, type[AnyState] | type[TrueMotion]] = {"identity": AnyState, "motion": TrueMotion}
 _APART = 1e-4  # relative; what is meant by another quantity differs by far more
-_ALIKE = 1e-9
+_ALIKE = 1e-9  # relative; rounding of a reading by numbers
 _STATES = 3  # at which a claim that fails may not agree: a mass may happen to be 1
 
 
 def disputed(
     answer: Answer,
-    asked: BoundClaim,
+    claim: BoundClaim,
     context: str,
     statement: Statement,
-    told: Mapping[Node, object],
+    defined: Mapping[Node, object],
     points: Mapping[Name, str],
 ) -> str:
     """Why a second reader does not agree with a verdict; empty where it does, or cannot read.
 
     Args:
         answer: of the verdict.
-        asked: the claim, bound.
+        claim: the claim, bound.
         context: where it is to hold.
         statement: the claim, as LaTeX was parsed.
-        told: letters that the text defines.
-        points: of moments that may be about several points, which was taken; empty for other
-            letters of which one of several meanings was chosen.
+        defined: letters that the text defines.
+        points: the point that was taken, for moments that may be about several; empty for another
+            letter of which one of several meanings was chosen.
     """
     if context not in _KINDS or any(isinstance(p, PlusMinus) for p in walk(statement)):
         return ""
-    states = asked.states(_KINDS[context])
-    sides = [e for c in asked.components() for e in (c.left, c.right)]
-    system = asked.equations.system
+    states = claim.states(_KINDS[context])
+    sides = [e for c in claim.components() for e in (c.left, c.right)]
+    system = claim.equations.system
     count = 1 if answer is Answer.HOLDS else _STATES
     agreed: list[Sides] = []
     try:
         for numbers in islice(drawn_numbers(sides, states), count):
             trial = trial_of(system, numbers)
             with np.errstate(all="ignore"):
-                found = list(read_members(statement, system, numbers, trial, told, points))
+                found = list(read_members(statement, system, numbers, trial, defined, points))
             known = [s for s in found if s is not None and s.is_known]
             if answer is Answer.HOLDS:
-                return _told([s for s in known if s.differ_by > _APART], "they differ")
+                return _described([s for s in known if s.differ_by > _APART], "they differ")
             if len(known) < len(found) or any(s.differ_by > _ALIKE for s in known):
                 return ""
             agreed += known
     except (PolhodeError, ArithmeticError, KeyError, np.linalg.LinAlgError):
         return ""
-    return _told(agreed, "they agree, as at other states")
+    return _described(agreed, "they agree, as at other states")
 
 
-def _told(sides: list[Sides], what: str) -> str:
+def _described(sides: list[Sides], what: str) -> str:
     if not sides:
         return ""
     left, right = (", ".join(f"{x:.9g}" for x in side) for side in (sides[0].left, sides[0].right))
-    return f"a second reading of the letters finds at one state {left} and {right}: {what}"
+    return f"a second reading of the letters gives {left} and {right} at one state: {what}"
