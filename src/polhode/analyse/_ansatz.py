@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from itertools import chain, combinations_with_replacement
 from math import prod
 from typing import Any
@@ -31,7 +30,7 @@ from polhode.algebra import (
     time,
     variables,
 )
-from polhode.analyse._points import points
+from polhode.analyse._finite_field import points
 from polhode.analyse._reduced import reduced
 from polhode.base import NumericError
 from polhode.derive import Equations
@@ -127,7 +126,10 @@ def _terms(equations: Equations, essential: tuple[Symbol, ...], ansatz: Ansatz) 
         _products([place(Expr.generator(q)) for q in lengths], ansatz.lengths and 1)
     )
     found[place(time)] = None
-    used = _generators(equations)
+    # Symbols outside functions, and functions, that occur in the accelerations.
+    entries = [e for row in equations.mass.rows for e in row]
+    entries += [*equations.forcing, *equations.kinematics.values()]
+    used = list(dict.fromkeys(g for e in entries for g in e.generators))
     places = [place(Expr.generator(q)) for q in essential if q in used]
     outside = _products(places, ansatz.lengths)
     pairs = (_joined(u, x) for x in outside for u in swift)
@@ -139,13 +141,6 @@ def _terms(equations: Equations, essential: tuple[Symbol, ...], ansatz: Ansatz) 
         found |= dict.fromkeys(_joined(s, x) for s in shares for x in _products(places, 1))
     found.pop((), None)
     return AnsatzTerms(tuple(factors), tuple(found))
-
-
-def _generators(equations: Equations) -> list[Generator]:
-    """Symbols outside functions, and functions, that occur in the accelerations."""
-    entries = [e for row in equations.mass.rows for e in row]
-    entries += [*equations.forcing, *equations.kinematics.values()]
-    return list(dict.fromkeys(g for e in entries for g in e.generators))
 
 
 def _varies(generator: Generator, essential: tuple[Symbol, ...]) -> bool:
@@ -238,7 +233,10 @@ def _coefficients(rates: Sequence[Expr]) -> Row | None:
         for powers, number in scaled.terms():
             key = frozenset((g, p) for g, p in powers.items() if not _is_constant(g))
             constant = {g: p for g, p in powers.items() if _is_constant(g)}
-            table[key][column] = table[key][column] + _term(constant, number)
+            result = Expr.constant(number)
+            for generator, power in constant.items():
+                result = result * Expr.generator(generator) ** power
+            table[key][column] = table[key][column] + result
     outcome = eliminate(list(table.values()), [ZERO] * len(table), [0] * len(rates))
     if len(outcome.free) != 1:
         return None
@@ -248,10 +246,3 @@ def _coefficients(rates: Sequence[Expr]) -> Row | None:
     for value in values:
         scale = scale * (value * scale).denominator
     return tuple(value * scale for value in values)
-
-
-def _term(powers: dict[Generator, int], number: Fraction) -> Expr:
-    result = Expr.constant(number)
-    for generator, power in powers.items():
-        result = result * Expr.generator(generator) ** power
-    return result

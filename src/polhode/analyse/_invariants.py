@@ -1,18 +1,141 @@
-"""First integrals: named ones tried first, then whatever a stated ansatz contains."""
+"""First integrals: energy, momenta and speeds first, then a search within a stated ansatz.
+
+The named momenta are taken about a stated point and along a stated direction. They are named as
+claims read them: `L_pivot_z` is printed as L with the subscripts pivot and z.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import Expr, Symbol, Vector, dot
 from polhode.analyse._ansatz import Ansatz, is_searched, search
-from polhode.analyse._independence import Independent
+from polhode.analyse._finite_field import Independent
 from polhode.analyse._linear_integrals import LinearIntegrals, linear_integrals
-from polhode.analyse._momenta import momenta
 from polhode.analyse._reduced import refuse_parts
+from polhode.analyse._symmetry import symmetry_axes
 from polhode.base import NumericError, Shown, look_up
 from polhode.derive import Equations, equations_only
+from polhode.model import Body, Contact, Element, Frame, Gravity, Pivot
+
+
+@dataclass(frozen=True)
+class Momentum:
+    """A component of a momentum.
+
+    Attributes:
+        name: published; empty where no letter says what it is.
+        expression: in coordinates and speeds.
+        meaning: in words.
+    """
+
+    name: str
+    expression: Expr
+    meaning: str
+
+
+def momenta(equations: Equations) -> Iterator[Momentum]:
+    """Momenta of every body about its centre and its axes, of all about points, and Jellett's."""
+    bodies = equations.system.bodies
+    for body in bodies:
+        yield from _about_own_axes(equations, body)
+    for body in bodies:
+        yield from _about_own_centre(equations, body)
+    for place in _places(equations):
+        yield from _about(equations, place)
+    for place in _places(equations):
+        angular = equations.angular_momentum(place.position)
+        square = dot(angular.components, angular.components)
+        yield Momentum("", square, f"square of the angular momentum about {place.words}")
+    root = equations.system.root
+    for label in root.labels:
+        along = equations.linear_momentum.dot(root[label])
+        yield Momentum(f"P_total_{label}", along, f"linear momentum along {label}")
+    for contact in equations.system.elements:
+        if isinstance(contact, Contact):
+            body = contact.body
+            meaning = f"Jellett's: spin of {body.name} along its line to where it touches"
+            yield Momentum(f"J{body.tag}", -_spin(equations, body).dot(contact.arm), meaning)
+
+
+def _about_own_axes(equations: Equations, body: Body) -> Iterator[Momentum]:
+    spin = _spin(equations, body)
+    letter = _letter(equations)
+    for label in body.axes.labels:
+        meaning = f"angular momentum of {body.name} about its axis {label}"
+        yield Momentum(f"{letter}_{label}{body.tag}", spin.dot(body.axes[label]), meaning)
+    for axis in symmetry_axes(body):
+        meaning = f"angular momentum of {body.name} about its axis of symmetry"
+        yield Momentum("", spin.dot(axis), meaning)
+
+
+def _about_own_centre(equations: Equations, body: Body) -> Iterator[Momentum]:
+    spin, letter = _spin(equations, body), _letter(equations)
+    for name, words, direction in _directions(equations, body.axes):
+        meaning = f"angular momentum of {body.name} about its centre of mass along {words}"
+        yield Momentum(name and f"{letter}_{name}{body.tag}", spin.dot(direction), meaning)
+
+
+def _letter(equations: Equations) -> str:
+    """L_cm is that of the whole system about one centre: of a single body's spin alone."""
+    return "L_cm" if len(equations.system.bodies) == 1 else "S"
+
+
+@dataclass(frozen=True)
+class _Place:
+    name: str
+    words: str
+    position: Vector
+
+
+def _about(equations: Equations, place: _Place) -> Iterator[Momentum]:
+    angular = equations.angular_momentum(place.position)
+    for name, words, direction in _directions(equations, equations.system.bodies[0].axes):
+        meaning = f"angular momentum about {place.words} along {words}"
+        yield Momentum(name and f"L_{place.name}_{name}", angular.dot(direction), meaning)
+
+
+def _places(equations: Equations) -> Iterator[_Place]:
+    """Where contacts and joints act, and the origin."""
+    kinetics = equations.kinetics
+    taken: set[str] = set()
+    for element in kinetics.elements:
+        restraints = [r for r in kinetics.restraints[element.name] if not r.is_couple]
+        name = _label(element, taken)
+        first = restraints[0] if restraints else None
+        if first is not None and first.arm is not None and name:
+            taken.add(name)
+            touching = isinstance(element, Contact)
+            words = f"the point of contact at {element.name}" if touching else element.name
+            yield _Place(name, words, kinetics.places[first.body] + first.arm)
+    yield _Place("O", "the origin", equations.system.root.zero)
+
+
+def _label(element: Element, taken: set[str]) -> str:
+    """Its name if that can stand below a letter, else what texts call the first of its kind."""
+    if element.name.isalnum():
+        return element.name
+    kinds = ((Contact, "contact"), (Pivot, "pivot"))
+    label = next((word for kind, word in kinds if isinstance(element, kind)), "")
+    return "" if label in taken else label
+
+
+def _directions(equations: Equations, axes: Frame) -> Iterator[tuple[str, str, Vector]]:
+    """Name, words and unit vector of directions at rest; nameless where a letter means another."""
+    root = equations.system.root
+    moving: Sequence[str] = () if axes == root else axes.labels
+    for label in reversed(root.labels):
+        yield ("" if label in moving else label), label, root[label]
+    for load in equations.system.loads:
+        if isinstance(load, Gravity) and load.up is not None:
+            yield "", "the vertical", load.up
+
+
+def _spin(equations: Equations, body: Body) -> Vector:
+    """Angular momentum about the centre of mass."""
+    angular_velocity = equations.kinetics.velocities[body][1]
+    return Vector(body.inertia.times(angular_velocity.components), angular_velocity.triad)
 
 
 @dataclass(frozen=True)
@@ -105,12 +228,28 @@ def invariants(equations: Equations, ansatz: Ansatz | None = None) -> Invariants
     refuse_parts(equations)
     chosen = ansatz or Ansatz()
     found: list[Invariant] = []
-    independent = Independent(_state(equations))
+    # What integrals may vary with; time itself is none of it.
+    driven = [
+        rate
+        for f in equations.functions
+        for rate in (f, f.derivative(), f.derivative().derivative())
+    ]
+    independent = Independent([*equations.coordinates, *equations.speeds, *driven])
     for candidate in (*_named(equations), *_searched(equations, chosen)):
         constant = not equations.rate(candidate.expression)
         if constant and independent.takes(candidate.expression):
             found.append(candidate)
-    numbered = _numbered(found)
+    taken: set[str] = set()
+    result = []
+    for invariant in found:
+        name = invariant.name
+        number = 1
+        while not name or name in taken:
+            name = f"C_{number}" if not invariant.name else f"{invariant.name}_{number}"
+            number += 1
+        taken.add(name)
+        result.append(Invariant(name, invariant.expression, invariant.meaning))
+    numbered = tuple(result)
     beyond = chosen.describe() if is_searched(equations) else "nothing else in driven equations"
     searched = f"energy, momenta and speeds; {beyond}"
     return Invariants(numbered, searched, _linear(equations, numbered))
@@ -127,16 +266,6 @@ def _linear(equations: Equations, found: Iterable[Invariant]) -> LinearIntegrals
     return linear
 
 
-def _state(equations: Equations) -> list[Symbol]:
-    """What integrals may vary with; time itself is none of it."""
-    driven = [
-        rate
-        for f in equations.functions
-        for rate in (f, f.derivative(), f.derivative().derivative())
-    ]
-    return [*equations.coordinates, *equations.speeds, *driven]
-
-
 def _named(equations: Equations) -> Iterator[Invariant]:
     yield Invariant("E", equations.energy, "energy")
     for speed in equations.speeds:
@@ -149,17 +278,3 @@ def _named(equations: Equations) -> Iterator[Invariant]:
 def _searched(equations: Equations, ansatz: Ansatz) -> Iterator[Invariant]:
     for expression in search(equations, ansatz):
         yield Invariant("", expression, "found within the ansatz")
-
-
-def _numbered(found: list[Invariant]) -> tuple[Invariant, ...]:
-    taken: set[str] = set()
-    result = []
-    for invariant in found:
-        name = invariant.name
-        number = 1
-        while not name or name in taken:
-            name = f"C_{number}" if not invariant.name else f"{invariant.name}_{number}"
-            number += 1
-        taken.add(name)
-        result.append(Invariant(name, invariant.expression, invariant.meaning))
-    return tuple(result)

@@ -56,10 +56,7 @@ class Stability(Shown):
     @property
     def is_even(self) -> bool:
         """Whether exponents come in pairs ±, as where nothing dissipates."""
-        return not any(self._holds_not(c) for c in self.oscillating[1::2])
-
-    def _holds_not(self, coefficient: Expr) -> bool:
-        return not vanishes(coefficient, self.family)
+        return not any((not vanishes(c, self.family)) for c in self.oscillating[1::2])
 
     @cached_property
     def conditions(self) -> tuple[Condition, ...]:
@@ -144,7 +141,9 @@ def stability(family: SteadyMotion, at: Mapping[Any, Given] | None = None) -> St
     given = values_given(family.reduced.equations, at)
     if not given:
         return _about(family)
-    there = _about(_narrowed(family, given))
+    fixed = {s: v.subs(given) for s, v in family.fixed.items()} | dict(given)
+    relations = tuple(r for e in family.relations if (r := e.subs(given)))
+    there = _about(SteadyMotion(family.reduced, fixed, relations))
     if not there.drifts or there.neutral < 2:
         return there
     with suppress(NumericError):  # without the values the relations may not be linear
@@ -170,12 +169,6 @@ def _about(family: SteadyMotion) -> Stability:
     frozen = [[_on(entry, family) for entry in row] for row in right]
     rank = len(eliminate(frozen, [ZERO] * len(frozen)).solved)
     return Stability(family, polynomial, neutral, len(left) - rank)
-
-
-def _narrowed(family: SteadyMotion, given: Mapping[Symbol, Expr]) -> SteadyMotion:
-    fixed = {s: v.subs(given) for s, v in family.fixed.items()} | dict(given)
-    relations = tuple(r for e in family.relations if (r := e.subs(given)))
-    return SteadyMotion(family.reduced, fixed, relations)
 
 
 def _linearised(family: SteadyMotion) -> tuple[tuple[Row, ...], tuple[Row, ...]]:

@@ -8,7 +8,8 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import Expr, Symbol, SymbolKind
+from polhode.analyse._reduced import reduced
 from polhode.analyse.closed import (
     _coin,
     _free_attitude,
@@ -22,9 +23,68 @@ from polhode.analyse.closed import (
 from polhode.analyse.closed._exact_data import Data, exact_data
 from polhode.analyse.closed._reals import Array, Digits, DoubleReals, Reals
 from polhode.analyse.closed._solution import ExactSolution, Solvable
-from polhode.analyse.closed._uniform import SteadySolution, Uniform, is_steady, uniform
 from polhode.base import ConstraintError, NumericError, Shown
 from polhode.derive import Equations, equations_only
+
+# Quantities that are constant or grow uniformly: ignorable angles, spins, steady motions.
+
+
+@dataclass(frozen=True)
+class Uniform:
+    """Quantities that change at constant rates.
+
+    Attributes:
+        values: (at t = 0, rate) of each by published name.
+    """
+
+    values: dict[str, tuple[Any, Any]]
+
+    def at(self, reals: Reals, times: Array) -> dict[str, Array]:
+        """Values at times, s."""
+        return {
+            name: reals.number(value) + reals.number(rate) * times
+            for name, (value, rate) in self.values.items()
+        }
+
+
+@dataclass(frozen=True)
+class SteadySolution(ExactSolution):
+    """A motion on which nothing happens but uniform turning."""
+
+    kind = "steady motion"
+    period = None
+
+    @property
+    def figures(self) -> dict[str, Any]:
+        """None."""
+        return {}
+
+    def at(self, reals: Reals, times: Array) -> dict[str, Array]:
+        """Nothing besides what is uniform."""
+        return {}
+
+
+def is_steady(equations: Equations, data: Data) -> bool:
+    """Whether every speed and every coordinate that matters is constant from this start on."""
+    system = reduced(equations)
+    rates = (*system.rates, *equations.accelerations.values())
+    return not any(data.number(rate) for rate in rates)
+
+
+def uniform(equations: Equations, data: Data, steady: bool) -> Uniform:
+    """What changes uniformly on every motion, or on one that is steady."""
+    still = [s for s in equations.speeds if not equations.accelerations[s.derivative()]]
+    if steady:
+        still = [*reduced(equations).essential, *equations.speeds]
+    zero = data.context.zero
+    values = {s.published: (data.number(Expr.generator(s)), zero) for s in still}
+    for q in equations.coordinates:
+        rate = equations.kinematics[q.derivative()]
+        is_constant = all(s.kind is SymbolKind.PARAMETER or s in still for s in rate.symbols())
+        if is_constant:
+            values[q.published] = (data.number(Expr.generator(q)), data.number(rate))
+    return Uniform(values)
+
 
 #: Digits of a double, with one to round by.
 _DOUBLE = 17
@@ -177,7 +237,7 @@ def recognise(equations: Equations) -> Solvable:
 
     Raises `NumericError` where none is known.
     """
-    if _is_autonomous(equations) and _has_accelerations(equations):
+    if (not equations.functions) and _has_accelerations(equations):
         for family in _FAMILIES:
             found = family(equations)
             if found is not None and _gives_all(found, equations):
@@ -190,10 +250,6 @@ def recognise(equations: Equations) -> Solvable:
         ),
         advice="simulate it",
     )
-
-
-def _is_autonomous(equations: Equations) -> bool:
-    return not equations.functions
 
 
 def _has_accelerations(equations: Equations) -> bool:
@@ -233,18 +289,14 @@ def closed_form(
     family = recognise(equations)
     data = exact_data(equations, parameters, start, digits or _DOUBLE)
     for sign in equations.assumed_positive:
-        _check_side(data, sign)
+        value = data.number(sign)
+        if value <= 0:
+            raise ConstraintError(
+                f"{sign} = {float(value):g} at the start",
+                expected="a positive value: the equations were derived for that side",
+                advice="start on the other side, by symmetry",
+            )
     family.check(data)
     steady = is_steady(equations, data)
     solution = SteadySolution() if steady else family.solve(data)
     return ClosedForm(family, data, solution, uniform(equations, data, steady), digits)
-
-
-def _check_side(data: Data, sign: Expr) -> None:
-    value = data.number(sign)
-    if value <= 0:
-        raise ConstraintError(
-            f"{sign} = {float(value):g} at the start",
-            expected="a positive value: the equations were derived for that side",
-            advice="start on the other side, by symmetry",
-        )

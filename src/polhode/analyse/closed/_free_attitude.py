@@ -8,12 +8,11 @@ from functools import cached_property
 from typing import Any
 
 from polhode.algebra import Expr, Matrix, Row, Symbol, Vector
-from polhode.analyse.closed._chart import Chart, Placed, scalar
+from polhode.analyse.closed._attitude import Attitude, Attitudes, Chart, Placed, Turned, scalar
 from polhode.analyse.closed._exact_data import Data
 from polhode.analyse.closed._free_body import FreeBody, FreeRotation
 from polhode.analyse.closed._reals import Array, Digits, Reals
 from polhode.analyse.closed._solution import ExactSolution, Solvable, is_constant
-from polhode.analyse.closed._turned import Attitude, Attitudes, Turned
 from polhode.derive import Equations
 from polhode.model import Body
 

@@ -13,8 +13,8 @@ from itertools import combinations
 from typing import Any
 
 from polhode.algebra import ZERO, Expr, Symbol
+from polhode.analyse.closed._elliptic import EllipticPhase
 from polhode.analyse.closed._exact_data import Data
-from polhode.analyse.closed._phase import EllipticPhase
 from polhode.analyse.closed._reals import Array, Reals
 from polhode.analyse.closed._solution import ExactSolution, Solvable, is_constant
 from polhode.derive import Equations
@@ -204,7 +204,7 @@ class FreeRotation(ExactSolution):
         lean = reals.sqrt(sum(along[i] ** 2 for i in others))
         out = [-along[lead] * along[i] / lean for i in range(3)]
         out[lead] = lean
-        side = _cross(along, out)
+        side = [along[i - 2] * out[i - 1] - along[i - 1] * out[i - 2] for i in range(3)]
         cos, sin = reals.cos(turned), reals.sin(turned)
         first = [cos * o - sin * s for o, s in zip(out, side, strict=True)]
         second = [sin * o + cos * s for o, s in zip(out, side, strict=True)]
@@ -251,7 +251,3 @@ def _signs(order: tuple[int, ...], ascending: bool, omega: Three, m1: Any) -> Th
     third = 1 if omega[order[2]] > 0 else -1
     right_handed = order in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
     return first, first * third * (1 if right_handed == ascending else -1), third
-
-
-def _cross(a: list[Array], b: list[Array]) -> list[Array]:
-    return [a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3)]

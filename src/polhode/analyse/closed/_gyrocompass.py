@@ -10,8 +10,7 @@ from polhode.algebra import ZERO, Expr, Symbol, cos, sin
 from polhode.analyse.closed._exact_data import Data
 from polhode.analyse.closed._reals import Array, Reals
 from polhode.analyse.closed._solution import ExactSolution, Solvable, is_constant, rates
-from polhode.analyse.closed._swing_solution import SwingSolution
-from polhode.analyse.closed._swing_start import SHIFTS, Swinging, swinging
+from polhode.analyse.closed._swing import SHIFTS, Swinging, SwingSolution, swinging
 from polhode.derive import Equations
 
 
@@ -50,7 +49,10 @@ class Gyrocompass(Solvable):
 
     @property
     def parts(self) -> dict[str, Expr]:
-        return {"A": self._restoring, "B": self.second - self.drag * self.gain}
+        return {
+            "A": (-(self.push + self.drag * self._whole_spin)),
+            "B": self.second - self.drag * self.gain,
+        }
 
     @property
     def state(self) -> tuple[Symbol, ...]:
@@ -66,10 +68,6 @@ class Gyrocompass(Solvable):
     @property
     def _theta(self) -> Expr:
         return Expr.generator(self.angle) + self.shift
-
-    @property
-    def _restoring(self) -> Expr:
-        return -(self.push + self.drag * self._whole_spin)
 
     @property
     def first_order(self) -> Expr:

@@ -8,8 +8,7 @@ from typing import Any
 from polhode.algebra import ZERO, Expr, Symbol, sin
 from polhode.analyse.closed._exact_data import Data
 from polhode.analyse.closed._solution import ExactSolution, Solvable, is_constant, rates
-from polhode.analyse.closed._swing_solution import SwingSolution
-from polhode.analyse.closed._swing_start import SHIFTS, swinging
+from polhode.analyse.closed._swing import SHIFTS, SwingSolution, swinging
 from polhode.derive import Equations
 
 

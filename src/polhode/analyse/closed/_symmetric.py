@@ -18,15 +18,21 @@ from typing import Any
 
 from polhode.algebra import ONE, ZERO, Expr, Row, Symbol, dot, principal_root, solve
 from polhode.analyse._symmetry import symmetry_axes
+from polhode.analyse.closed._attitude import (
+    Attitude,
+    Attitudes,
+    Chart,
+    Placed,
+    Turned,
+    cross,
+    scalar,
+)
 from polhode.analyse.closed._axle import Names
-from polhode.analyse.closed._chart import Chart, Placed, cross, scalar
 from polhode.analyse.closed._coin import Balance, SpinningCoin, Wobble
 from polhode.analyse.closed._exact_data import Data
-from polhode.analyse.closed._heavy_top import HeavyTop
-from polhode.analyse.closed._nutation import Integrals, Release, nutation
+from polhode.analyse.closed._heavy_top import HeavyTop, Integrals, Release, nutation
 from polhode.analyse.closed._reals import Array, DoubleReals, Reals
 from polhode.analyse.closed._solution import ExactSolution, Solvable, is_constant
-from polhode.analyse.closed._turned import Attitude, Attitudes, Turned
 from polhode.base import NumericError
 from polhode.derive import Equations
 from polhode.model import Gravity

@@ -1,9 +1,10 @@
-"""Evaluation at random points of a prime field, with every algebraic relation intact.
+"""Evaluation at random points of a prime field: identities and independence without expansion.
 
-sin x → 2h/(1 + h²) and cos x → (1 - h²)/(1 + h²) with a random h stand in for the sine and cosine,
-and a square root is one of the field: other points than those of space, but all that identities
-ask for. What vanishes at random points of a large field vanishes identically, but for an accident
-of one in millions.
+sin x → 2h/(1 + h²) and cos x → (1 - h²)/(1 + h²) with a random h stand in for sine and cosine, and
+square roots are taken within the field. These are not points of real space, but every algebraic
+relation holds at them. An expression that vanishes at random points of a large field vanishes
+identically, with a probability of error of the order of its degree over 2³¹ (J. T. Schwartz,
+1980; R. Zippel, 1979).
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from itertools import islice
 from random import Random
 from typing import Any
 
-from flint import fmpq, fmpz
+from flint import fmpq, fmpz, nmod_mat
 
 from polhode.algebra import Expr, Generator, Symbol
 from polhode.base import NumericError
@@ -133,7 +134,9 @@ def points(
     Raises `NumericError` where no such points are found.
     """
     random, changing = Random(seed), frozenset(varying)
-    for prime in islice(_primes(), _FIELDS):
+    for prime in islice(
+        (n for n in range(_LARGEST, 3, -4) if fmpz(n).is_probable_prime()), _FIELDS
+    ):
         found = list(islice(_regular(Field(prime, random, changing), expressions), count))
         if len(found) == count:
             return found
@@ -153,5 +156,26 @@ def _regular(among: Field, expressions: Sequence[Expr]) -> Iterator[SamplePoint]
         misses += 1
 
 
-def _primes() -> Iterator[int]:
-    return (n for n in range(_LARGEST, 3, -4) if fmpz(n).is_probable_prime())
+_SEED = 20261121
+
+
+class Independent:
+    """A growing set of functions of the state none of which is a function of the others.
+
+    Decided at one random point: rank can only be lost there by a rare accident.
+    """
+
+    def __init__(self, state: Iterable[Symbol]) -> None:
+        self._state = tuple(state)
+        self._gradients: list[list[Expr]] = []
+
+    def takes(self, expression: Expr) -> bool:
+        """Add an expression if it is independent of those taken before."""
+        gradients = [*self._gradients, [expression.diff(symbol) for symbol in self._state]]
+        entries = [entry for gradient in gradients for entry in gradient]
+        (point,) = points(entries, self._state, 1, _SEED)
+        table = nmod_mat(len(gradients), len(self._state), point.all(entries), point.field.prime)
+        if table.rank() < len(gradients):
+            return False
+        self._gradients = gradients
+        return True
