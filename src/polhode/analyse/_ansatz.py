@@ -1,8 +1,8 @@
 """Search for integrals polynomial in the speeds, with trigonometric coefficients.
 
-The unknown coefficients solve a linear system. Its solutions are first found at random rational
-parameters and points, which shows the few monomials that matter; with those the system is solved
-exactly, parameters and all.
+The unknown coefficients solve a linear system. It is first solved at random parameters and states
+in a prime field, which shows the few monomials that matter; for those it is solved exactly, with
+the parameters as symbols.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain, combinations_with_replacement
 from math import prod
-from typing import Any
 
 from flint import nmod_mat
 
@@ -35,7 +34,7 @@ from polhode.analyse._reduced import reduced
 from polhode.base import NumericError
 from polhode.derive import Equations
 
-#: Points beyond the number of unknowns, so that no accident passes for an integral.
+#: Points beyond the number of unknowns, so that no coincidence passes for an integral.
 _SPARE, _SEED = 4, 7
 
 
@@ -111,6 +110,7 @@ def is_searched(equations: Equations) -> bool:
 
 
 def _terms(equations: Equations, essential: tuple[Symbol, ...], ansatz: Ansatz) -> AnsatzTerms:
+    """The monomials of an ansatz for these equations."""
     factors: dict[Expr, int] = {}
 
     def place(factor: Expr) -> Monomial:
@@ -135,19 +135,17 @@ def _terms(equations: Equations, essential: tuple[Symbol, ...], ansatz: Ansatz) 
     pairs = (_joined(u, x) for x in outside for u in swift)
     found |= dict.fromkeys(m for m in pairs if len(m) <= ansatz.together)
     if ansatz.lengths:
-        roots = [Expr.generator(g) for g in used if _varies(g, essential)]
+        roots = []
+        for generator in used:
+            is_root = bool(generator.depth) and generator.partner() is None
+            symbols = {s for s in generator.symbols() if s.kind.varies}
+            if is_root and symbols and symbols <= set(essential):
+                roots.append(Expr.generator(generator))
         found |= dict.fromkeys(map(place, roots))
         shares = [place(1 / root) for root in roots]
         found |= dict.fromkeys(_joined(s, x) for s in shares for x in _products(places, 1))
     found.pop((), None)
     return AnsatzTerms(tuple(factors), tuple(found))
-
-
-def _varies(generator: Generator, essential: tuple[Symbol, ...]) -> bool:
-    """Whether it is a square root of coordinates."""
-    is_root = bool(generator.depth) and generator.partner() is None
-    symbols = {s for s in generator.symbols() if s.kind.varies}
-    return is_root and bool(symbols) and symbols <= set(essential)
 
 
 def _joined(*monomials: Monomial) -> Monomial:
@@ -179,7 +177,11 @@ def _is_angle(equations: Equations, coordinate: Symbol) -> bool:
 
 
 def _supports(equations: Equations, terms: AnsatzTerms) -> Iterator[list[int]]:
-    """Positions of the monomials in each independent solution, at random parameters."""
+    """Positions of the monomials in each independent solution, at random parameters.
+
+    One row of a table over a prime field for every random state: the rates of all monomials there.
+    Combinations of the columns that vanish in all rows are integrals at these parameters.
+    """
     import numpy as np
 
     rates = [equations.rate(factor) for factor in terms.factors]
@@ -195,24 +197,17 @@ def _supports(equations: Equations, terms: AnsatzTerms) -> Iterator[list[int]]:
     for point in sample:
         values = np.array([*point.all(terms.factors), 1])[table]
         changes = np.array([*point.all(rates), 0])[table]
-        rows.extend(_sum_rule(values, changes, prime).tolist())
+        product, change = np.ones(width, dtype=np.int64), np.zeros(width, dtype=np.int64)
+        for value, factor_change in zip(values.T, changes.T, strict=True):  # the product rule
+            change = (change * value % prime + product * factor_change % prime) % prime
+            product = product * value % prime
+        rows.extend(change.tolist())
     echelon, rank = nmod_mat(len(sample), width, rows, prime).rref()
     columns = range(width)
     pivots = [next(j for j in columns if int(echelon[i, j])) for i in range(rank)]
     for free in (j for j in columns if j not in pivots):
         used = [pivots[i] for i in range(rank) if int(echelon[i, free])]
         yield sorted([*used, free])
-
-
-def _sum_rule(values: Any, changes: Any, prime: int) -> Any:
-    """Rates of products, of the values and rates of their factors in columns, modulo a prime."""
-    import numpy as np
-
-    product, rate = np.ones(len(values), dtype=np.int64), np.zeros(len(values), dtype=np.int64)
-    for value, change in zip(values.T, changes.T, strict=True):
-        rate = (rate * value % prime + product * change % prime) % prime
-        product = product * value % prime
-    return rate
 
 
 def _is_constant(generator: Generator) -> bool:
