@@ -12,7 +12,6 @@ from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.analyse._reduced import reduced
 from polhode.analyse.closed import (
     _coin,
-    _free_attitude,
     _free_body,
     _gyrocompass,
     _heavy_top,
@@ -102,7 +101,7 @@ _FAMILIES: tuple[Callable[[Equations], Solvable | None], ...] = (
     _gyrocompass.recognise,
     _marble.recognise,
     _symmetric.recognise,
-    _free_attitude.recognise,
+    _free_body.recognise_in_any_angles,
 )
 
 

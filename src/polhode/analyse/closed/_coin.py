@@ -227,23 +227,23 @@ class SpinningCoin(Solvable):
         energy = swing + (phi_dot * s) ** 2 + 2 * self.weight * s
         fall = s * c * phi_dot**2 - beta * phi_dot * s - self.weight * c
         constants = (energy, alpha - beta, alpha + beta, self.weight, self.lift, axle.n)
-        balance = Balance(data.context, *map(data.number, constants))
+        balance = CoinIntegrals(data.context, *map(data.number, constants))
         start = data.number(theta)
         whole = 2 * data.context.pi * data.context.nint(start / (2 * data.context.pi) - 0.25)
         rates = (data.number(theta_dot), data.number(fall))
         libration = balance.libration(start - whole, *rates, data.digits)
         angles = (data.number(phi), data.number(Expr.generator(axle.psi) if axle.psi else ZERO))
-        return Wobble(libration, balance, whole, angles, axle.names)
+        return CoinNutation(libration, balance, whole, angles, axle.names)
 
 
 @dataclass(frozen=True)
-class Balance:
+class CoinIntegrals:
     """Constants of the motion.
 
     Attributes:
         energy: twice the energy over the moment about a diameter, less that of the spin, 1/s².
-        lean: α - β, momenta about the vertical and the axis over that moment, 1/s.
-        slant: α + β.
+        minus: α - β, momenta about the vertical and the axis over that moment, 1/s.
+        plus: α + β.
         weight: γ.
         lift: ε.
         spin: n.
@@ -251,15 +251,15 @@ class Balance:
 
     context: Any
     energy: Any
-    lean: Any
-    slant: Any
+    minus: Any
+    plus: Any
     weight: Any
     lift: Any
     spin: Any
 
     def azimuth_rate(self, sin: Any, cos: Any) -> Any:
         """φ̇, also for arrays of any numbers where the constants are such."""
-        return (self.lean * (1 + cos) + self.slant * (1 - cos)) / (2 * sin * sin)
+        return (self.minus * (1 + cos) + self.plus * (1 - cos)) / (2 * sin * sin)
 
     def square(self, theta: Any) -> Any:
         """θ̇²."""
@@ -287,7 +287,7 @@ class Balance:
             (below if nearest < tangent else above).append(nearest)
         else:
             (below if fall > 0 else above).append(nearest)
-        if not above or not below or (self.lean == 0 and max(below) == 0):
+        if not above or not below or (self.minus == 0 and max(below) == 0):
             falls_flat = NumericError(
                 "a coin that falls flat on the table",
                 expected="a start with both momenta, about the vertical and the axis, so that it "
@@ -303,7 +303,7 @@ class Balance:
 
     def _turning_tangents(self) -> list[Any]:
         """tan θ/2 where θ̇ = 0, and 0 where the coin can fall flat to θ = 0."""
-        context, a, b = self.context, self.lean, self.slant
+        context, a, b = self.context, self.minus, self.plus
         sextic = [
             -(b**2),
             context.zero,
@@ -322,7 +322,7 @@ class Balance:
 
 
 @dataclass(frozen=True)
-class Wobble(ExactSolution):
+class CoinNutation(ExactSolution):
     """The coin nodding between two angles while it turns.
 
     Attributes:
@@ -334,7 +334,7 @@ class Wobble(ExactSolution):
     """
 
     libration: Libration
-    balance: Balance
+    balance: CoinIntegrals
     whole: Any
     start: tuple[Any, Any]
     names: Names
@@ -362,12 +362,12 @@ class Wobble(ExactSolution):
         names = self.names
         angle, rate, (turned, spun) = self.libration.at(reals, times)
         sine, cosine = reals.sin(angle), reals.cos(angle)
-        lean, slant = reals.number(self.balance.lean), reals.number(self.balance.slant)
+        minus, plus = reals.number(self.balance.minus), reals.number(self.balance.plus)
         found = {
             names.theta: reals.number(self.whole) + angle,
             names.theta_rate: rate,
             names.phi: reals.number(self.start[0]) + turned,
-            names.phi_rate: (lean * (1 + cosine) + slant * (1 - cosine)) / (2 * sine * sine),
+            names.phi_rate: (minus * (1 + cosine) + plus * (1 - cosine)) / (2 * sine * sine),
         }
         spins = {names.psi: reals.number(self.start[1]) + spun} if names.psi else {}
         return found | spins
