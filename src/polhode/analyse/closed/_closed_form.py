@@ -48,7 +48,7 @@ class Uniform:
 
 @dataclass(frozen=True)
 class SteadySolution(ExactSolution):
-    """A motion on which nothing happens but uniform turning."""
+    """A motion in which nothing changes but angles, uniformly."""
 
     kind = "steady motion"
     period = None
@@ -59,12 +59,12 @@ class SteadySolution(ExactSolution):
         return {}
 
     def at(self, reals: Reals, times: Array) -> dict[str, Array]:
-        """Nothing besides what is uniform."""
+        """Nothing: all of it is in `Uniform`."""
         return {}
 
 
 def is_steady(equations: Equations, data: Data) -> bool:
-    """Whether every speed and every coordinate that matters is constant from this start on."""
+    """Whether every speed and every essential coordinate is constant from this start on."""
     system = reduced(equations)
     rates = (*system.rates, *equations.accelerations.values())
     return not any(data.number(rate) for rate in rates)
@@ -79,18 +79,17 @@ def uniform(equations: Equations, data: Data, steady: bool) -> Uniform:
     values = {s.published: (data.number(Expr.generator(s)), zero) for s in still}
     for q in equations.coordinates:
         rate = equations.kinematics[q.derivative()]
-        is_constant = all(s.kind is SymbolKind.PARAMETER or s in still for s in rate.symbols())
-        if is_constant:
+        if all(s.kind is SymbolKind.PARAMETER or s in still for s in rate.symbols()):
             values[q.published] = (data.number(Expr.generator(q)), data.number(rate))
     return Uniform(values)
 
 
-#: Digits of a double, with one to round by.
+#: Digits of a double, with one for rounding.
 _DOUBLE = 17
-#: Digits beyond those wanted of the relative change by which a sensitivity is found: so small
-#: that it is small beside what tells a motion from the separatrix, too.
+#: Sensitivities are difference quotients, whose relative step has so many digits more than wanted:
+#: it must be small also compared with the distance to a separatrix.
 _FINER = 30
-#: Points of a period from which it is found again.
+#: Points of a period at which the sensitivity to the state is determined.
 _STOPS = 8
 
 _FAMILIES: tuple[Callable[[Equations], Solvable | None], ...] = (
@@ -113,7 +112,7 @@ class ClosedForm(Shown):
         family: the equations as recognised.
         data: exact values of parameters and start.
         solution: its constants, to more digits than are wanted.
-        uniform: what besides changes uniformly.
+        uniform: the other quantities, which change uniformly.
         digits: of the values given; None for doubles.
     """
 
@@ -162,7 +161,7 @@ class ClosedForm(Shown):
         return self.solution.at(reals, times) | self.uniform.at(reals, times)
 
     def besides(self, times: Any) -> dict[str, Array]:
-        """What is none of the system's own quantities, at times, s: a free body's attitude."""
+        """Further quantities at times, s, such as the attitude of a free body."""
         reals = self._reals
         return self.solution.besides(reals, reals.array(times))
 
@@ -182,7 +181,7 @@ class ClosedForm(Shown):
 
     @property
     def figures(self) -> dict[str, Any]:
-        """Numbers that sum the motion up, by name, in SI units."""
+        """Characteristic numbers of the motion, by name, in SI units."""
         return {name: self._reals.number(v) for name, v in self.solution.figures.items()}
 
     @cached_property
@@ -198,10 +197,10 @@ class ClosedForm(Shown):
 
     @cached_property
     def stepwise_conditioning(self) -> float | None:
-        """The same for errors of the state made on the way, as a numerical integration makes them.
+        """The same for errors of the state made on the way, as numerical integration makes them.
 
-        Near a separatrix it is far greater: what tells the motion from the separatrix is least
-        where the motion is fastest. Looked at in eight places of a period.
+        The largest of eight points of a period. Near a separatrix it is far greater, since the
+        distance to the separatrix is smallest relative to the state where the motion is fastest.
         """
         period = self.solution.period
         if period is None:
@@ -218,13 +217,12 @@ class ClosedForm(Shown):
         period = self.family.solve(data).period
         if period is None:
             return None
-        given = (s for s in symbols if data.values[s])
-        return max((self._relative_change(data, s, period) for s in given), default=0.0)
-
-    def _relative_change(self, data: Data, symbol: Symbol, period: Any) -> float:
-        change = Fraction(1, 10 ** (data.digits + _FINER))
-        moved = self.family.solve(data.changed({symbol: data.values[symbol] * (1 + change)})).period
-        return float("inf") if moved is None else float(abs(moved / period - 1) / change)
+        change, largest = Fraction(1, 10 ** (data.digits + _FINER)), 0.0
+        for symbol, value in ((s, data.values[s]) for s in symbols if data.values[s]):
+            moved = self.family.solve(data.changed({symbol: value * (1 + change)})).period
+            relative = float("inf") if moved is None else float(abs(moved / period - 1) / change)
+            largest = max(largest, relative)
+        return largest
 
     @cached_property
     def _reals(self) -> Reals:
@@ -236,10 +234,15 @@ def recognise(equations: Equations) -> Solvable:
 
     Raises `NumericError` where none is known.
     """
-    if (not equations.functions) and _has_accelerations(equations):
-        for family in _FAMILIES:
-            found = family(equations)
-            if found is not None and _gives_all(found, equations):
+    try:
+        is_solved = not equations.functions and bool(equations.accelerations)
+    except NumericError:  # too many coupled speeds
+        is_solved = False
+    for family in _FAMILIES if is_solved else ():
+        found = family(equations)
+        if found is not None:
+            others = (s for s in equations.speeds if s not in found.state)
+            if not any(equations.accelerations[s.derivative()] for s in others):
                 return found
     raise NumericError(
         f"{equations.system.name} has no closed form that is known here",
@@ -249,19 +252,6 @@ def recognise(equations: Equations) -> Solvable:
         ),
         advice="simulate it",
     )
-
-
-def _has_accelerations(equations: Equations) -> bool:
-    """Whether they can be solved for: not so for many coupled speeds."""
-    try:
-        return bool(equations.accelerations)
-    except NumericError:
-        return False
-
-
-def _gives_all(family: Solvable, equations: Equations) -> bool:
-    others = (s for s in equations.speeds if s not in family.state)
-    return not any(equations.accelerations[s.derivative()] for s in others)
 
 
 def closed_form(

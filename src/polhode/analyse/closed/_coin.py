@@ -22,16 +22,16 @@ from polhode.analyse.closed._solution import ExactSolution, Solvable, is_constan
 from polhode.base import NumericError
 from polhode.derive import Equations
 
-#: Nodes at first and at most.
+#: Fewest and most nodes.
 _FEWEST, _MOST = 64, 2048
 
 
 class FourierSeries(NamedTuple):
-    """s = M + Σ b_k sin kM, and φ = drift · t + Σ c_k sin kM for angles carried along.
+    """s = M + Σ b_k sin kM, and φ = drift · t + Σ c_k sin kM for every angle that follows q.
 
     Attributes:
         lags: b₁, b₂, …
-        swings: c₁, c₂, … of each angle
+        swings: c₁, c₂, … of each angle.
         start: M at t = 0.
     """
 
@@ -41,7 +41,7 @@ class FourierSeries(NamedTuple):
 
 
 class _Nodes(NamedTuple):
-    """Midpoints of s, and there ds/dt upside down and the rates of the angles carried along."""
+    """Midpoints of s, and there dt/ds and the rates of the angles that follow q."""
 
     s: list[Any]
     delay: list[Any]
@@ -60,27 +60,27 @@ class Libration:
         context: of the constants.
         ends: least and greatest q.
         square: F(q).
-        carried: rates of angles carried along, as a function of q.
+        angle_rates: rates of the angles that follow q.
         start: s at t = 0.
-        digits: that the period is wanted to.
+        digits: decimal digits wanted of the period.
     """
 
     context: Any
     ends: tuple[Any, Any]
     square: Callable[[Any], Any]
-    carried: Callable[[Any], tuple[Any, ...]]
+    angle_rates: Callable[[Any], tuple[Any, ...]]
     start: Any
     digits: int
     _series: dict[Reals, FourierSeries] = field(default_factory=dict, repr=False)
 
     @property
     def period(self) -> Any:
-        """s."""
+        """Of the libration, s."""
         return 2 * self.context.pi * self._nodes.mean_delay
 
     @cached_property
     def drifts(self) -> tuple[Any, ...]:
-        """Mean rates of the angles carried along, 1/s."""
+        """Mean rates of the angles that follow q, 1/s."""
         nodes = self._nodes
         return tuple(
             sum(rate * delay for rate, delay in zip(rates, nodes.delay, strict=True))
@@ -89,7 +89,7 @@ class Libration:
         )
 
     def at(self, reals: Reals, times: Array) -> tuple[Array, Array, list[Array]]:
-        """q, q̇ and the angles carried along, which are 0 at t = 0."""
+        """q, q̇ and the angles that follow q, which are 0 at t = 0."""
         if reals not in self._series:
             self._series[reals] = self._expanded(reals)
         lags, swings, start = self._series[reals]
@@ -97,32 +97,27 @@ class Libration:
         turns = reals.turns(times, 1 / self.period, 0)
         M = turns.fraction * reals.number(2 * self.context.pi) + start
         s = M + _sines(reals, lags, M)
-        # The derivative of the series of sines.
         terms = enumerate(zip(lags, reals.harmonics(M), strict=False), 1)
-        s_rate = reals.number(frequency) * (
-            1 + sum((k * b * cos for k, (b, (_, cos)) in terms), start=0 * M)
-        )
+        slope = 1 + sum((k * b * cos for k, (b, (_, cos)) in terms), start=0 * M)  # ds/dM
+        s_rate = reals.number(frequency) * slope
         low, high = (reals.number(end) for end in self.ends)
         half = (high - low) / 2
-        carried = [
+        angles = [
             reals.number(drift) * times + _sines(reals, swing, M) - _sines(reals, swing, start)
             for drift, swing in zip(self.drifts, swings, strict=True)
         ]
         return (
             (low + high) / 2 - half * reals.cos(s),
             half * reals.sin(s) * s_rate,
-            carried,
+            angles,
         )
 
     @cached_property
     def _nodes(self) -> _Nodes:
-        """As many as the period needs."""
+        """As many as the period needs: doubled until it no longer changes."""
         coarse = self._at_nodes(_FEWEST)
-        counts = [2 * _FEWEST]
-        while counts[-1] < _MOST:
-            counts.append(2 * counts[-1])
-        for count in counts:
-            fine = self._at_nodes(count)
+        while len(coarse.s) < _MOST:
+            fine = self._at_nodes(2 * len(coarse.s))
             change = abs(fine.mean_delay / coarse.mean_delay - 1)
             if change < self.context.mpf(10) ** -(self.digits + 2):
                 return fine
@@ -138,7 +133,7 @@ class Libration:
             half * context.sin(angle) / context.sqrt(self.square(place))
             for angle, place in zip(s, q, strict=True)
         ]
-        return _Nodes(s, delay, [self.carried(place) for place in q])
+        return _Nodes(s, delay, [self.angle_rates(place) for place in q])
 
     def _expanded(self, reals: Reals) -> FourierSeries:
         nodes = self._nodes
@@ -227,13 +222,13 @@ class SpinningCoin(Solvable):
         energy = swing + (phi_dot * s) ** 2 + 2 * self.weight * s
         fall = s * c * phi_dot**2 - beta * phi_dot * s - self.weight * c
         constants = (energy, alpha - beta, alpha + beta, self.weight, self.lift, axle.n)
-        balance = CoinIntegrals(data.context, *map(data.number, constants))
+        integrals = CoinIntegrals(data.context, *map(data.number, constants))
         start = data.number(theta)
         whole = 2 * data.context.pi * data.context.nint(start / (2 * data.context.pi) - 0.25)
         rates = (data.number(theta_dot), data.number(fall))
-        libration = balance.libration(start - whole, *rates, data.digits)
+        libration = integrals.libration(start - whole, *rates, data.digits)
         angles = (data.number(phi), data.number(Expr.generator(axle.psi) if axle.psi else ZERO))
-        return CoinNutation(libration, balance, whole, angles, axle.names)
+        return CoinNutation(libration, integrals, whole, angles, axle.names)
 
 
 @dataclass(frozen=True)
@@ -258,7 +253,7 @@ class CoinIntegrals:
     spin: Any
 
     def azimuth_rate(self, sin: Any, cos: Any) -> Any:
-        """φ̇, also for arrays of any numbers where the constants are such."""
+        """φ̇; elementwise where the constants and arguments are arrays."""
         return (self.minus * (1 + cos) + self.plus * (1 - cos)) / (2 * sin * sin)
 
     def square(self, theta: Any) -> Any:
@@ -267,7 +262,7 @@ class CoinIntegrals:
         turning = (self.azimuth_rate(sin, cos) * sin) ** 2
         return (self.energy - turning - 2 * self.weight * sin) / (1 + self.lift * cos**2)
 
-    def carried(self, theta: Any) -> tuple[Any, Any]:
+    def angle_rates(self, theta: Any) -> tuple[Any, Any]:
         """φ̇ and ψ̇."""
         sin, cos = self.context.sin(theta), self.context.cos(theta)
         rate = self.azimuth_rate(sin, cos)
@@ -288,18 +283,17 @@ class CoinIntegrals:
         else:
             (below if fall > 0 else above).append(nearest)
         if not above or not below or (self.minus == 0 and max(below) == 0):
-            falls_flat = NumericError(
+            raise NumericError(
                 "a coin that falls flat on the table",
                 expected="a start with both momenta, about the vertical and the axis, so that it "
                 "rises again",
                 advice="simulate it up to the impact",
             )
-            raise falls_flat
         low, high = (2 * context.atan(x) for x in (max(below), min(above)))
         cosine = (low + high - 2 * theta) / (high - low)
         start = context.acos(max(-1, min(1, cosine)))
         start = -start if theta_dot < 0 else start
-        return Libration(context, (low, high), self.square, self.carried, start, digits)
+        return Libration(context, (low, high), self.square, self.angle_rates, start, digits)
 
     def _turning_tangents(self) -> list[Any]:
         """tan θ/2 where θ̇ = 0, and 0 where the coin can fall flat to θ = 0."""
@@ -327,14 +321,14 @@ class CoinNutation(ExactSolution):
 
     Attributes:
         libration: of θ in (0, π), carrying φ and ψ.
-        balance: constants of the motion.
+        integrals: constants of the motion.
         whole: turns of θ at the start, rad.
         start: φ and ψ at t = 0.
         names: of angles and rates.
     """
 
     libration: Libration
-    balance: CoinIntegrals
+    integrals: CoinIntegrals
     whole: Any
     start: tuple[Any, Any]
     names: Names
@@ -362,7 +356,7 @@ class CoinNutation(ExactSolution):
         names = self.names
         angle, rate, (turned, spun) = self.libration.at(reals, times)
         sine, cosine = reals.sin(angle), reals.cos(angle)
-        minus, plus = reals.number(self.balance.minus), reals.number(self.balance.plus)
+        minus, plus = reals.number(self.integrals.minus), reals.number(self.integrals.plus)
         found = {
             names.theta: reals.number(self.whole) + angle,
             names.theta_rate: rate,
@@ -375,19 +369,17 @@ class CoinNutation(ExactSolution):
 
 def recognise(equations: Equations) -> SpinningCoin | None:
     """The equations as those of a disk on a smooth table, in Euler's angles."""
-    found = (_read(equations, axle) for axle in axles(equations))
-    return next((coin for coin in found if coin), None)
-
-
-def _read(equations: Equations, axle: Axle) -> SpinningCoin | None:
-    theta, theta_dot, turning = map(Expr.generator, (axle.theta, axle.theta_rate, axle.phi_rate))
-    s, c = sin(theta), cos(theta)
-    swing = equations.accelerations[axle.theta_rate.derivative()]
-    squared = swing.diff(axle.phi_rate).diff(axle.phi_rate)
-    if not squared:
-        return None
-    inertia = 2 * s * c / squared
-    lift = (inertia - 1) / c**2
-    pull = s * c * (lift * theta_dot**2 + turning**2) - axle.ratio * axle.n * turning * s
-    weight = (pull - inertia * swing) / c
-    return SpinningCoin(axle, lift, weight) if is_constant(lift) and is_constant(weight) else None
+    for axle in axles(equations):
+        theta, rate, turning = map(Expr.generator, (axle.theta, axle.theta_rate, axle.phi_rate))
+        s, c = sin(theta), cos(theta)
+        swing = equations.accelerations[axle.theta_rate.derivative()]
+        squared = swing.diff(axle.phi_rate).diff(axle.phi_rate)
+        if not squared:
+            continue
+        inertia = 2 * s * c / squared
+        lift = (inertia - 1) / c**2
+        pull = s * c * (lift * rate**2 + turning**2) - axle.ratio * axle.n * turning * s
+        weight = (pull - inertia * swing) / c
+        if is_constant(lift) and is_constant(weight):
+            return SpinningCoin(axle, lift, weight)
+    return None

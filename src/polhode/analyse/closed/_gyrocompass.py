@@ -81,7 +81,7 @@ class Gyrocompass(Solvable):
         approximate = None
         if data.number(self.first_order):
             approximate = swinging(data, self.first_order, ZERO, theta, rate).shifted(shift)
-        return Seeking(
+        return GyrocompassSwing(
             self.angle,
             self.rate,
             swinging(data, A, B, theta, rate).shifted(shift),
@@ -95,7 +95,7 @@ class Gyrocompass(Solvable):
 
 
 @dataclass(frozen=True)
-class Seeking(SwingSolution):
+class GyrocompassSwing(SwingSolution):
     """The axle swinging about the north.
 
     Attributes:
@@ -149,10 +149,10 @@ def recognise(equations: Equations) -> Gyrocompass | None:
     for rate, *others in permutations(moving):
         if rate in angles:
             spin = others[0] if others else None
-            readings = (_read(equations, angles[rate], rate, spin, shift) for shift in SHIFTS)
-            found = next((compass for compass in readings if compass), None)
-            if found is not None:
-                return found
+            for shift in SHIFTS:
+                found = _read(equations, angles[rate], rate, spin, shift)
+                if found is not None:
+                    return found
     return None
 
 

@@ -45,7 +45,7 @@ class Integrals:
 
 
 @dataclass(frozen=True)
-class Release:
+class InitialAngles:
     """Angles and rates at t = 0, and what they are called."""
 
     theta: Any
@@ -64,7 +64,7 @@ class Nutation(ExactSolution):
         phase: u.
         above: v where cn² is 1, and where sn² is.
         below: 1 - v at the same.
-        leans: momenta 2 v(1 - v) φ̇ where v, and where 1 - v, is zero: α - β and α + β, 1/s.
+        momenta: 2 v(1 - v) φ̇ where v, and where 1 - v, is zero: α - β and α + β, 1/s.
         inverted: whether v is z.
         beta: momentum about the axle, 1/s.
         pattern: "waves", "loops" or "cusps".
@@ -75,11 +75,11 @@ class Nutation(ExactSolution):
     phase: EllipticPhase
     above: Pair
     below: Pair
-    leans: Pair
+    momenta: Pair
     inverted: bool
     beta: Any
     pattern: str
-    release: Release
+    release: InitialAngles
 
     @property
     def kind(self) -> str:
@@ -93,22 +93,28 @@ class Nutation(ExactSolution):
     @property
     def figures(self) -> dict[str, Any]:
         """Turning angles (rad), extremes of φ̇ (rad/s), turn of φ in one nutation (rad)."""
-        least, greatest = sorted(self._angle(i) for i in (0, 1))
+        context, ends = self.context, list(zip(self.above, self.below, strict=True))
+        halves = [context.atan2(context.sqrt(v), context.sqrt(w)) for v, w in ends]
+        angles = (context.pi - 2 * h if self.inverted else 2 * h for h in halves)
+        least, greatest = sorted(angles)
         # φ̇ at both turning angles, and where it is stationary in between.
-        ends = list(zip(self.above, self.below, strict=True))
-        product = self.leans[0] * self.leans[1]
+        product = self.momenta[0] * self.momenta[1]
         if product > 0:
             # φ̇ is stationary where the two terms change alike: v/(1 - v) = √(α - β)/√(α + β).
-            ratio = self.context.sqrt(self.leans[0] / self.leans[1])
+            ratio = context.sqrt(self.momenta[0] / self.momenta[1])
             inner = (ratio / (1 + ratio), 1 / (1 + ratio))
             low, high = sorted(self.above)
             ends += [inner] if low < inner[0] < high else []
         rates = [
-            sum(lean / (4 * v) for lean, v in zip(self.leans, end, strict=True) if lean)
+            sum(
+                momentum / (4 * v)
+                for momentum, v in zip(self.momenta, end, strict=True)
+                if momentum
+            )
             for end in ends
         ]
         if self.pattern == "cusps":
-            rates[rates.index(min(rates, key=abs))] = self.context.zero
+            rates[rates.index(min(rates, key=abs))] = context.zero
         found = {
             "m_1": self.phase.m1,
             "theta_1": least,
@@ -119,7 +125,9 @@ class Nutation(ExactSolution):
         if self.period is None:
             return found
         turn = sum(
-            lean / (4 * v[0]) * self.phase.third_kind_half(v[1] / v[0]) for lean, v in self._poles
+            momentum / (4 * v[0]) * self.phase.third_kind_half(v[1] / v[0])
+            for momentum, v in zip(self.momenta, (self.above, self.below), strict=True)
+            if momentum
         )
         return {
             **found,
@@ -135,21 +143,21 @@ class Nutation(ExactSolution):
             reals.number(v[0]) * cn2 + reals.number(v[1]) * sn2 for v in (self.above, self.below)
         )
         rate = reals.number(2 * (self.above[1] - self.above[0]) * self.phase.rate)
-        lean_rate = rate * point.sn * point.cn * point.dn / reals.sqrt(above * below)
+        angle_rate = rate * point.sn * point.cn * point.dn / reals.sqrt(above * below)
         angle = 2 * reals.atan2(reals.sqrt(above), reals.sqrt(below))
-        # ∫ φ̇ dt, by its two terms, rad.
+        # The two terms of ∫ φ̇ dt, rad.
         turns = [
-            reals.number(lean / (4 * v[0])) * self.phase.third_kind(reals, times, v[1] / v[0])
-            if lean
+            reals.number(momentum / (4 * v[0])) * self.phase.third_kind(reals, times, v[1] / v[0])
+            if momentum
             else 0 * times
-            for lean, v in zip(self.leans, (self.above, self.below), strict=True)
+            for momentum, v in zip(self.momenta, (self.above, self.below), strict=True)
         ]
         found = {
-            **self._placed(reals, angle, lean_rate),
+            **self._placed(reals, angle, angle_rate),
             names.phi: reals.number(self.release.phi) + turns[0] + turns[1],
             names.phi_rate: sum(
-                reals.number(lean / 4) / v
-                for lean, v in zip(self.leans, (above, below), strict=True)
+                reals.number(momentum / 4) / v
+                for momentum, v in zip(self.momenta, (above, below), strict=True)
             ),
         }
         if names.psi:
@@ -170,20 +178,8 @@ class Nutation(ExactSolution):
             names.theta_rate: side * flip * rate,
         }
 
-    @property
-    def _poles(self) -> list[tuple[Any, Pair]]:
-        """Both terms of φ̇, less those that are zero."""
-        terms = zip(self.leans, (self.above, self.below), strict=True)
-        return [(lean, v) for lean, v in terms if lean]
 
-    def _angle(self, end: int) -> Any:
-        half = self.context.atan2(
-            self.context.sqrt(self.above[end]), self.context.sqrt(self.below[end])
-        )
-        return self.context.pi - 2 * half if self.inverted else 2 * half
-
-
-def nutation(data: Data, integrals: Integrals, release: Release) -> Nutation:
+def nutation(data: Data, integrals: Integrals, release: InitialAngles) -> Nutation:
     """The nutation from a start that is not steady.
 
     Raises `NumericError` where the axle passes exactly through the vertical.
@@ -192,34 +188,46 @@ def nutation(data: Data, integrals: Integrals, release: Release) -> Nutation:
     inverted = data.number(i.weight) < 0
     sign = -1 if inverted else 1
     weight, beta = sign * data.number(i.weight), sign * data.number(i.beta)
-    leans = (data.number(i.alpha - sign * i.beta), data.number(i.alpha + sign * i.beta))
+    momenta = (data.number(i.alpha - sign * i.beta), data.number(i.alpha + sign * i.beta))
     levels = (data.number(i.energy - sign * i.weight), data.number(i.energy + sign * i.weight))
-    above = _roots(context, levels[0], 2 * weight, leans[0], 2 * beta)
-    below = _roots(context, levels[1], -2 * weight, leans[1], -2 * beta)
+    above = _roots(context, levels[0], 2 * weight, momenta[0], 2 * beta)
+    below = _roots(context, levels[1], -2 * weight, momenta[1], -2 * beta)
     (low, high), (high_below, low_below) = above[-2:], below[:2]
     rate, m1 = context.sqrt(levels[0] + beta**2) / 2, context.one
     if weight:
         rate = context.sqrt(weight * (high - above[0]) / 2)
         m1 = (low - above[0]) / (high - above[0])
     if high_below == 0 or (low == 0 and m1):
-        raise _through_the_vertical(release)
-    momenta = [lean + 2 * beta * v for lean, v in ((leans[0], low), (leans[0], high))]
+        raise NumericError(
+            f"an axle that passes through the vertical, where {release.names.phi} jumps",
+            expected=f"a start from which {release.names.theta} stays away from 0 and pi",
+            advice=(
+                "keep it in a vertical plane, give it a little more or less momentum, or ask for "
+                "more digits if it does stay away"
+            ),
+        )
+    at_ends = [momentum + 2 * beta * v for momentum, v in ((momenta[0], low), (momenta[0], high))]
     return Nutation(
         context,
         _phase(context, release, inverted, rate, (high, low), m1),
         (high, low),
         (high_below, low_below),
-        leans,
+        momenta,
         inverted,
         data.number(i.beta),
-        _pattern(data, integrals, momenta[0] * momenta[1]),
+        _pattern(data, integrals, at_ends[0] * at_ends[1]),
         release,
     )
 
 
-def _roots(context: Any, level: Any, slope: Any, lean: Any, gain: Any) -> list[Any]:
-    """The roots of 4v(1 - v)(level + slope v) - (lean + gain v)², ascending; all are real."""
-    cubic = [-(lean**2), 4 * level - 2 * lean * gain, 4 * (slope - level) - gain**2, -4 * slope]
+def _roots(context: Any, level: Any, slope: Any, momentum: Any, gain: Any) -> list[Any]:
+    """The roots of 4v(1 - v)(level + slope v) - (momentum + gain v)², ascending; all are real."""
+    cubic = [
+        -(momentum**2),
+        4 * level - 2 * momentum * gain,
+        4 * (slope - level) - gain**2,
+        -4 * slope,
+    ]
     zeros = next(n for n, coefficient in enumerate(cubic) if coefficient)
     rest = cubic[zeros:] if slope else cubic[zeros:-1]
     found = context.polyroots(rest[::-1], maxsteps=500, extraprec=context.prec)
@@ -227,14 +235,14 @@ def _roots(context: Any, level: Any, slope: Any, lean: Any, gain: Any) -> list[A
 
 
 def _phase(
-    context: Any, release: Release, inverted: bool, rate: Any, ends: Pair, m1: Any
+    context: Any, release: InitialAngles, inverted: bool, rate: Any, ends: Pair, m1: Any
 ) -> EllipticPhase:
     sine, cosine = context.sin(release.theta / 2), context.cos(release.theta / 2)
     v = cosine**2 if inverted else sine**2
     v_rate = sine * cosine * release.theta_dot * (-1 if inverted else 1)
     high, low = ends
     dn = context.sqrt(m1 + (1 - m1) * (v - low) / (high - low))
-    # cn² near its extremes says little of u: twice the amplitude is taken instead.
+    # Near its extremes cn² determines u badly: sine and cosine of twice the amplitude do not.
     twice_sine = -2 * v_rate / (rate * dn)
     amplitude = context.atan2(twice_sine, 2 * (2 * v - high - low)) / 2
     return EllipticPhase.through(context, rate, context.sin(amplitude), context.cos(amplitude), m1)
@@ -247,18 +255,6 @@ def _pattern(data: Data, integrals: Integrals, product: Any) -> str:
     if at_rest and abs(data.number(alpha)) < abs(data.number(beta)):
         return "cusps"
     return "loops" if product < 0 else "waves"
-
-
-def _through_the_vertical(release: Release) -> NumericError:
-    names = release.names
-    return NumericError(
-        f"an axle that passes through the vertical, where {names.phi} jumps",
-        expected=f"a start from which {names.theta} stays away from 0 and pi",
-        advice=(
-            "keep it in a vertical plane, give it a little more or less momentum, or ask for more "
-            "digits if it does stay away"
-        ),
-    )
 
 
 @dataclass(frozen=True)
@@ -294,7 +290,7 @@ class HeavyTop(Solvable):
             raise NumericError(
                 f"a sleeping top: {theta} at the vertical at the start, where "
                 f"{self.axle.names.phi} is not defined",
-                expected="an axle that leans",
+                expected="an axle that momenta",
                 advice=(
                     "it sleeps as it is, a steady motion without a period; "
                     "use other angles (Cardan's) for motions through the vertical"
@@ -309,7 +305,7 @@ class HeavyTop(Solvable):
         beta = axle.ratio * axle.n
         alpha = phi_dot * sin(theta) ** 2 + beta * cos(theta)
         energy = theta_dot**2 + (phi_dot * sin(theta)) ** 2 + 2 * self.weight * cos(theta)
-        release = Release(
+        release = InitialAngles(
             theta=data.number(theta),
             theta_dot=data.number(theta_dot),
             phi=data.number(phi),

@@ -49,11 +49,11 @@ class Pendulum(Solvable):
         lowest = data.context.pi if data.number(self.strength) > 0 else data.context.zero
         shift = data.number(self.shift)
         motion = swinging(data, -self.strength, ZERO, theta, rate).shifted(shift)
-        return Fall(self.angle, self.rate, motion, lowest - shift)
+        return PendulumSwing(self.angle, self.rate, motion, lowest - shift)
 
 
 @dataclass(frozen=True)
-class Fall(SwingSolution):
+class PendulumSwing(SwingSolution):
     """A fall from the start, and the swing or the turning over that it is part of.
 
     Attributes:

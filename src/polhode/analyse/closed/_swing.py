@@ -24,7 +24,7 @@ from polhode.base import NumericError
 
 
 class SwingQuotient(NamedTuple):
-    """x = p/q, the derivatives of p and q by u, and what atan2(p, q) has forgotten of ϑ/2."""
+    """x = p/q, the derivatives of p and q by u, and the turns of ϑ/2 that atan2(p, q) omits."""
 
     p: Array
     q: Array
@@ -34,10 +34,53 @@ class SwingQuotient(NamedTuple):
 
 
 class Half(NamedTuple):
-    """sin ϑ/2 and cos ϑ/2, in whose ratio no angle is singular."""
+    """sin ϑ/2 and cos ϑ/2, of which one at least is not zero."""
 
     sin: Any
     cos: Any
+
+    def x_rate(self, rate: Any) -> Any:
+        """ẋ, from ϑ̇."""
+        return rate / (2 * self.cos**2)
+
+
+@dataclass(frozen=True)
+class SwingLevels:
+    """Coefficients of 2ẋ² = top x⁴ + 2 middle x² + bottom, and the root of the discriminant.
+
+    `root` is None where the discriminant is negative.
+    """
+
+    context: Any
+    top: Any
+    middle: Any
+    bottom: Any
+    root: Any
+
+    @classmethod
+    def of(cls, data: Data, A: Expr, B: Expr, energy: Expr) -> SwingLevels:
+        """The levels of a motion."""
+        discriminant = data.number(2 * energy * B + B * B + A * A)
+        return cls(
+            data.context,
+            data.number(energy - A),
+            data.number(energy + B),
+            data.number(energy + A),
+            data.context.sqrt(discriminant) if discriminant >= 0 else None,
+        )
+
+    def mirrored(self) -> SwingLevels:
+        """For 1/x instead of x."""
+        return SwingLevels(self.context, self.bottom, self.middle, self.top, self.root)
+
+    @property
+    def has_two_wells(self) -> bool:
+        """Whether a barrier higher than the energy separates wells at ϑ = 0 and ϑ = π."""
+        return self.root is not None and self.top >= 0 and self.middle < 0
+
+    def phase(self, rate: Any, sn: Any, cn: Any, m1: Any) -> EllipticPhase:
+        """The phase with these values at the start."""
+        return EllipticPhase.through(self.context, rate, sn, cn, m1)
 
 
 @dataclass(frozen=True)
@@ -91,6 +134,11 @@ class Swing(ABC):
         """Greatest |ϑ|; None where it turns over."""
         return 2 * self.phase.context.atan2(self.p, self.q)
 
+    @classmethod
+    @abstractmethod
+    def from_start(cls, levels: SwingLevels, half: Half, rate: Any) -> Swing:
+        """The motion through ϑ/2 with this sine and cosine, and this ϑ̇."""
+
     @abstractmethod
     def _fraction(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
         """x at a point of the phase."""
@@ -112,6 +160,21 @@ class Swing(ABC):
 class Across(Swing):
     """x = (p/q) cn u: to and fro across ϑ = 0."""
 
+    @classmethod
+    def from_start(cls, levels: SwingLevels, half: Half, rate: Any) -> Swing:
+        sqrt = levels.context.sqrt
+        # Of the two forms of the greatest x², the one in which nothing cancels.
+        if levels.middle > 0:
+            p2, q2 = levels.root + levels.middle, -levels.top
+            m1 = -levels.top * levels.bottom / (2 * levels.root * p2)
+        else:
+            p2, q2 = levels.bottom, levels.root - levels.middle
+            m1 = q2 / (2 * levels.root)
+        p, q = sqrt(p2), sqrt(q2)
+        w, cn = sqrt(levels.root), half.sin * q / (half.cos * p)
+        dn = sqrt(m1 + (1 - m1) * cn**2)
+        return cls(levels.phase(w, -half.x_rate(rate) * q / (p * w * dn), cn, m1), p, q)
+
     def _fraction(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
         return SwingQuotient(p * point.cn, q, -p * point.sn * point.dn, 0)
 
@@ -122,7 +185,17 @@ class Across(Swing):
 
 
 class AcrossWell(Swing):
-    """x = (p/q) sn u: the same where ϑ = π is a well too."""
+    """x = (p/q) sn u: across ϑ = 0 where ϑ = π is a well too."""
+
+    @classmethod
+    def from_start(cls, levels: SwingLevels, half: Half, rate: Any) -> Swing:
+        sqrt = levels.context.sqrt
+        widest = levels.root - levels.middle
+        p, q, w = sqrt(levels.bottom), sqrt(widest), sqrt(widest / 2)
+        m1 = 2 * levels.root / widest
+        sn = half.sin * q / (half.cos * p)
+        cn = half.x_rate(rate) * q / (p * w * sqrt(1 - (1 - m1) * sn**2))
+        return cls(levels.phase(w, sn, cn, m1), p, q)
 
     def _fraction(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
         return SwingQuotient(p * point.sn, q, p * point.cn * point.dn, 0)
@@ -141,6 +214,21 @@ class Beside(Swing):
     @property
     def period(self) -> Any:
         return self.phase.half_period
+
+    @classmethod
+    def from_start(cls, levels: SwingLevels, half: Half, rate: Any) -> Swing:
+        sqrt = levels.context.sqrt
+        widest = levels.root + levels.middle
+        p, q, w = sqrt(widest), sqrt(-levels.top), sqrt(widest / 2)
+        m1 = levels.bottom * levels.top / widest**2
+        x = half.sin / half.cos
+        side = 1 if x > 0 else -1
+        # Near its extremes dn determines u badly: sine and cosine of twice the amplitude do not.
+        twice_sine = -2 * side * half.x_rate(rate) * q / (p * w * (1 - m1))
+        twice_cosine = (2 * (x * q / p) ** 2 - 1 - m1) / (1 - m1)
+        amplitude = levels.context.atan2(twice_sine, twice_cosine) / 2
+        sn, cn = levels.context.sin(amplitude), levels.context.cos(amplitude)
+        return cls(levels.phase(w, sn, cn, m1), p, q, side)
 
     def _fraction(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
         m = reals.number(1 - self.phase.m1)
@@ -166,6 +254,21 @@ class Over(Swing):
     def period(self) -> Any:
         return self.phase.half_period
 
+    @classmethod
+    def from_start(cls, levels: SwingLevels, half: Half, rate: Any) -> Swing:
+        sqrt, sign = levels.context.sqrt, 1 if rate > 0 else -1
+        steepest = levels.root + levels.middle
+        if steepest == 0:
+            raise NumericError(
+                "a motion towards an equilibrium on the verge of stability",
+                expected="one whose approach is exponential, or none",
+                advice="change the start a little, or simulate it",
+            )
+        p, q = sqrt(levels.bottom), sqrt(steepest)
+        m1 = levels.top * levels.bottom / steepest**2
+        phase = levels.phase(sqrt(steepest / 2), sign * half.sin * q, half.cos * p, m1)
+        return cls(phase, p, q, sign)
+
     def _fraction(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
         flip = 1 - 2 * (point.halves % 2)
         sn, cn = flip * point.sn, flip * point.cn
@@ -184,6 +287,16 @@ class OverWell(Swing):
     style = "turning over"
     turning = None
 
+    @classmethod
+    def from_start(cls, levels: SwingLevels, half: Half, rate: Any) -> Swing:
+        sqrt, sign = levels.context.sqrt, 1 if rate > 0 else -1
+        mean = sqrt(levels.top * levels.bottom)
+        p, q = sqrt(levels.bottom), sqrt(mean)
+        s, c = sign * half.sin * q, half.cos * p
+        m1 = (1 + levels.middle / mean) / 2
+        phase = levels.phase(sqrt(2 * mean), 2 * s * c, c * c - s * s, m1)
+        return cls(phase, p, q, sign)
+
     def _fraction(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
         pi, odd = reals.number(self.phase.context.pi), point.halves % 2
         flip = 1 - 2 * odd
@@ -200,9 +313,9 @@ class OverWell(Swing):
         yield self._argument(2 * s * c, c * c - s * s)
 
 
-# Which case a start belongs to, its constants, and its phase from angle and velocity.
+# Which case a start belongs to.
 
-#: From where angles may be counted: that of a swing from its equilibria, or from across them.
+#: What may be added to a coordinate to give θ: it is counted from an equilibrium, or across it.
 SHIFTS = (ZERO, pi / 2)
 
 
@@ -212,7 +325,7 @@ class Swinging:
 
     Attributes:
         swing: of ϑ.
-        origin: where θ is when ϑ is 0: the equilibrium or its like, rad.
+        origin: θ where ϑ is 0: an equilibrium, rad.
     """
 
     swing: Swing
@@ -228,7 +341,7 @@ class Swinging:
         return self.swing.first_arrival(angle - self.origin)
 
     def shifted(self, shift: Any) -> Swinging:
-        """The same of a coordinate that is less by `shift`."""
+        """The same motion, in a coordinate that is less by `shift`."""
         return replace(self, origin=self.origin - shift) if shift else self
 
     @property
@@ -248,133 +361,25 @@ def swinging(data: Data, A: Expr, B: Expr, theta: Expr, rate: Expr) -> Swinging:
         A, half = -A, Half(-half.cos, half.sin)
     c = -cos(theta) if turned else cos(theta)
     energy = rate**2 / 2 - A * c - B * sin(theta) ** 2 / 2
-    levels = _Levels.of(data, A, B, energy)
-    if levels.in_further_well(half):
+    levels = SwingLevels.of(data, A, B, energy)
+    if levels.has_two_wells and levels.top * half.sin**4 > levels.bottom * half.cos**4:
+        # It swings about ϑ = π, in spite of a well at 0.
         turned, levels, half = not turned, levels.mirrored(), Half(-half.cos, half.sin)
-    swing = levels.swing(half, data.number(rate))
-    return Swinging(swing, _origin(data, swing, start, turned))
-
-
-def _origin(data: Data, swing: Swing, start: Any, turned: bool) -> Any:
-    context = data.context
+    case: type[Swing]
+    if levels.has_two_wells:
+        case = AcrossWell
+    elif levels.root is None:
+        case = OverWell
+    elif levels.top >= 0:
+        case = Over
+    else:
+        case = Across if levels.bottom > 0 else Beside
+    swing = case.from_start(levels, half, data.number(rate))
+    context, reals = data.context, Digits(data.context)
     reference = context.pi if turned else 0
-    reals = Digits(context)
     angle, _ = swing.at(reals, reals.array(0))
-    return reference + 2 * context.pi * context.nint((start - reference - angle) / (2 * context.pi))
-
-
-@dataclass(frozen=True)
-class _Levels:
-    """Coefficients of 2ẋ² = top x⁴ + 2 middle x² + bottom, and the root of the discriminant.
-
-    `root` is None where the discriminant is negative.
-    """
-
-    context: Any
-    top: Any
-    middle: Any
-    bottom: Any
-    root: Any
-
-    @classmethod
-    def of(cls, data: Data, A: Expr, B: Expr, energy: Expr) -> _Levels:
-        discriminant = data.number(2 * energy * B + B * B + A * A)
-        return cls(
-            data.context,
-            data.number(energy - A),
-            data.number(energy + B),
-            data.number(energy + A),
-            data.context.sqrt(discriminant) if discriminant >= 0 else None,
-        )
-
-    def mirrored(self) -> _Levels:
-        """For 1/x instead of x."""
-        return _Levels(self.context, self.bottom, self.middle, self.top, self.root)
-
-    @property
-    def _has_two_wells(self) -> bool:
-        return self.root is not None and self.top >= 0 and self.middle < 0
-
-    def in_further_well(self, half: Half) -> bool:
-        """Whether the motion swings about ϑ = π in spite of a well at 0."""
-        return self._has_two_wells and self.top * half.sin**4 > self.bottom * half.cos**4
-
-    def swing(self, half: Half, rate: Any) -> Swing:
-        """The case, and its phase at the start."""
-        if self._has_two_wells:
-            return self._across_well(half, rate)
-        if self.root is None:
-            return self._over_well(half, rate)
-        if self.top >= 0:
-            return self._over(half, rate)
-        if self.bottom > 0:
-            sqrt = self.context.sqrt
-            # Of the two forms of the greatest x² that one is taken in which nothing cancels.
-            if self.middle > 0:
-                p2, q2 = self.root + self.middle, -self.top
-                m1 = -self.top * self.bottom / (2 * self.root * p2)
-            else:
-                p2, q2 = self.bottom, self.root - self.middle
-                m1 = q2 / (2 * self.root)
-            p, q = sqrt(p2), sqrt(q2)
-            w, cn = sqrt(self.root), half.sin * q / (half.cos * p)
-            dn = sqrt(m1 + (1 - m1) * cn**2)
-            return Across(self._phase(w, -self._speed(half, rate) * q / (p * w * dn), cn, m1), p, q)
-        return self._beside(half, rate)
-
-    def _across_well(self, half: Half, rate: Any) -> Swing:
-        sqrt = self.context.sqrt
-        widest = self.root - self.middle
-        p, q, w = sqrt(self.bottom), sqrt(widest), sqrt(widest / 2)
-        m1 = 2 * self.root / widest
-        sn = half.sin * q / (half.cos * p)
-        cn = self._speed(half, rate) * q / (p * w * sqrt(1 - (1 - m1) * sn**2))
-        return AcrossWell(self._phase(w, sn, cn, m1), p, q)
-
-    def _beside(self, half: Half, rate: Any) -> Swing:
-        sqrt = self.context.sqrt
-        widest = self.root + self.middle
-        p, q, w = sqrt(widest), sqrt(-self.top), sqrt(widest / 2)
-        m1 = self.bottom * self.top / widest**2
-        x = half.sin / half.cos
-        side = 1 if x > 0 else -1
-        # dn near its extremes says little of u: twice the amplitude is taken instead.
-        twice_sine = -2 * side * self._speed(half, rate) * q / (p * w * (1 - m1))
-        twice_cosine = (2 * (x * q / p) ** 2 - 1 - m1) / (1 - m1)
-        amplitude = self.context.atan2(twice_sine, twice_cosine) / 2
-        sn, cn = self.context.sin(amplitude), self.context.cos(amplitude)
-        return Beside(self._phase(w, sn, cn, m1), p, q, side)
-
-    def _over(self, half: Half, rate: Any) -> Swing:
-        sqrt, sign = self.context.sqrt, 1 if rate > 0 else -1
-        steepest = self.root + self.middle
-        if steepest == 0:
-            raise NumericError(
-                "a motion towards an equilibrium on the verge of stability",
-                expected="one whose approach is exponential, or none",
-                advice="change the start a little, or simulate it",
-            )
-        p, q = sqrt(self.bottom), sqrt(steepest)
-        m1 = self.top * self.bottom / steepest**2
-        phase = self._phase(sqrt(steepest / 2), sign * half.sin * q, half.cos * p, m1)
-        return Over(phase, p, q, sign)
-
-    def _over_well(self, half: Half, rate: Any) -> Swing:
-        sqrt, sign = self.context.sqrt, 1 if rate > 0 else -1
-        mean = sqrt(self.top * self.bottom)
-        p, q = sqrt(self.bottom), sqrt(mean)
-        s, c = sign * half.sin * q, half.cos * p
-        m1 = (1 + self.middle / mean) / 2
-        phase = self._phase(sqrt(2 * mean), 2 * s * c, c * c - s * s, m1)
-        return OverWell(phase, p, q, sign)
-
-    def _phase(self, rate: Any, sn: Any, cn: Any, m1: Any) -> EllipticPhase:
-        return EllipticPhase.through(self.context, rate, sn, cn, m1)
-
-    @staticmethod
-    def _speed(half: Half, rate: Any) -> Any:
-        """ẋ, from ϑ̇."""
-        return rate / (2 * half.cos**2)
+    turns = context.nint((start - reference - angle) / (2 * context.pi))
+    return Swinging(swing, reference + 2 * context.pi * turns)
 
 
 @dataclass(frozen=True)

@@ -32,7 +32,7 @@ from polhode.analyse.closed._attitude import (
 from polhode.analyse.closed._axle import Names
 from polhode.analyse.closed._coin import CoinIntegrals, CoinNutation, SpinningCoin
 from polhode.analyse.closed._exact_data import Data
-from polhode.analyse.closed._heavy_top import HeavyTop, Integrals, Release, nutation
+from polhode.analyse.closed._heavy_top import HeavyTop, InitialAngles, Integrals, nutation
 from polhode.analyse.closed._reals import Array, DoubleReals, Reals
 from polhode.analyse.closed._solution import ExactSolution, Solvable, is_constant
 from polhode.base import NumericError
@@ -88,7 +88,7 @@ class Axis:
         """ė²."""
         return dot(self.e_rate, self.e_rate)
 
-    def release(self, data: Data) -> Release:
+    def release(self, data: Data) -> InitialAngles:
         """Euler's angles at the start, φ and ψ counted from there.
 
         Raises `NumericError` for an axis along the vertical, where φ is not defined.
@@ -101,7 +101,7 @@ class Axis:
                 advice="lean it a little at the start, or simulate it",
             )
         sine = data.context.sqrt(sine2)
-        return Release(
+        return InitialAngles(
             theta=data.context.atan2(sine, data.number(self.cosine)),
             theta_dot=-data.number(self.cosine_rate) / sine,
             phi=data.context.zero,
