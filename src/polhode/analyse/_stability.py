@@ -158,11 +158,21 @@ def stability(family: SteadyMotion, at: Mapping[Any, Given] | None = None) -> St
 
 
 def _linearised_about(family: SteadyMotion) -> Stability:
+    """The characteristic polynomial det(λ B - A), its roots at zero, and their eigenvectors."""
     left, right = _matrices(family)
     size = range(len(left))
     exponent = Expr.generator(_EXPONENT)
     matrix = tuple(tuple(exponent * left[i][j] - right[i][j] for j in size) for i in size)
-    polynomial = _coefficients(_determinant(matrix), len(left))
+    determinant = _determinant(matrix)
+    coefficients, scale = [ZERO] * (len(left) + 1), ONE / determinant.denominator
+    for powers, number in determinant.terms():
+        term = Expr.constant(number)
+        for generator, power in powers.items():
+            if generator != _EXPONENT:
+                term = term * Expr.generator(generator) ** power
+        degree = powers.get(_EXPONENT, 0)
+        coefficients[degree] = coefficients[degree] + term * scale
+    polynomial = tuple(coefficients)
     if vanishes(polynomial[-1], family):
         raise NumericError(
             f"stability of {family} of {family.reduced.equations.system.name}",
@@ -260,19 +270,6 @@ def _determinant(matrix: Sequence[Row]) -> Expr:
         return total
 
     return minor(tuple(range(len(matrix))))
-
-
-def _coefficients(polynomial: Expr, degree: int) -> Row:
-    found = [ZERO] * (degree + 1)
-    scale = ONE / polynomial.denominator
-    for powers, number in polynomial.terms():
-        term = Expr.constant(number)
-        for generator, power in powers.items():
-            if generator != _EXPONENT:
-                term = term * Expr.generator(generator) ** power
-        place = powers.get(_EXPONENT, 0)
-        found[place] = found[place] + term * scale
-    return tuple(found)
 
 
 def _undamped(coefficients: Row) -> tuple[Expr, ...]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from typing import Any, NamedTuple
 
 from polhode.algebra import (
@@ -206,28 +206,18 @@ class NumericChart:
             values = (np.asarray(v, dtype=float) for v in found)
         else:
             context = self.data.context
-            function = program.function(Arithmetic.of(context, partial(_ratio, context)))
+            exact = Arithmetic.of(context, lambda q: context.mpf(q.numerator) / q.denominator)
+            function = program.function(exact)
             places = zip(*(v.ravel() for v in lanes), strict=True)
             rows = [function(*place, *numbers) for place in places]
-            values = (_objects(c).reshape(lanes[0].shape) for c in zip(*rows, strict=True))
+            columns = (np.array(c, dtype=object) for c in zip(*rows, strict=True))
+            values = (c.reshape(lanes[0].shape) for c in columns)
         return {s.published: v for s, v in zip(self.chart.speeds, values, strict=True)}
 
     @property
     def initial_angles(self) -> list[Any]:
         """The angles at t = 0."""
         return [self.data.number(Expr.generator(q)) for q in self.chart.angles]
-
-
-def _objects(values: Sequence[Any]) -> Array:
-    import numpy as np
-
-    made = np.empty(len(values), dtype=object)
-    made[:] = values
-    return made
-
-
-def _ratio(context: Any, number: Any) -> Any:
-    return context.mpf(number.numerator) / number.denominator
 
 
 def scalar(a: Vec, b: Vec) -> Any:

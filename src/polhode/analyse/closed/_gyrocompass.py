@@ -142,32 +142,23 @@ class GyrocompassSwing(SwingSolution):
 
 def recognise(equations: Equations) -> Gyrocompass | None:
     """The equations as those of a swing that exchanges spin with a rotor, or has none."""
-    angles = rates(equations)
-    moving = [s for s in equations.speeds if equations.accelerations[s.derivative()]]
+    angles, accelerations = rates(equations), equations.accelerations
+    moving = [s for s in equations.speeds if accelerations[s.derivative()]]
     if len(moving) not in (1, 2):
         return None
     for rate, *others in permutations(moving):
-        if rate in angles:
-            spin = others[0] if others else None
-            for shift in SHIFTS:
-                found = _read(equations, angles[rate], rate, spin, shift)
-                if found is not None:
-                    return found
-    return None
-
-
-def _read(
-    equations: Equations, angle: Symbol, rate: Symbol, spin: Symbol | None, shift: Expr
-) -> Gyrocompass | None:
-    theta, velocity = Expr.generator(angle) + shift, Expr.generator(rate)
-    pull = equations.accelerations[rate.derivative()] / sin(theta)
-    drag = gain = ZERO
-    if spin is not None:
-        drag = pull.diff(spin)
-        gain = equations.accelerations[spin.derivative()] / (velocity * sin(theta))
-        pull = pull - drag * Expr.generator(spin)
-    second = -pull.diff(angle) / sin(theta)
-    push = pull - second * cos(theta)
-    if all(map(is_constant, (push, second, drag, gain))):
-        return Gyrocompass(angle, rate, spin, push, second, drag, gain, shift)
+        if rate not in angles:
+            continue
+        angle, spin = angles[rate], others[0] if others else None
+        for shift in SHIFTS:
+            theta, drag, gain = Expr.generator(angle) + shift, ZERO, ZERO
+            pull = accelerations[rate.derivative()] / sin(theta)
+            if spin is not None:
+                drag = pull.diff(spin)
+                gain = accelerations[spin.derivative()] / (Expr.generator(rate) * sin(theta))
+                pull = pull - drag * Expr.generator(spin)
+            second = -pull.diff(angle) / sin(theta)
+            push = pull - second * cos(theta)
+            if all(map(is_constant, (push, second, drag, gain))):
+                return Gyrocompass(angle, rate, spin, push, second, drag, gain, shift)
     return None
