@@ -84,7 +84,7 @@ class AnsatzTerms:
     monomials: tuple[Monomial, ...]
 
     def expression(self, monomial: Monomial) -> Expr:
-        """A monomial written out."""
+        """A monomial as an expression."""
         return prod((self.factors[i] for i in monomial), start=ONE)
 
 
@@ -126,7 +126,7 @@ def _terms(equations: Equations, essential: tuple[Symbol, ...], ansatz: Ansatz) 
         _products([place(Expr.generator(q)) for q in lengths], ansatz.lengths and 1)
     )
     found[place(time)] = None
-    # Symbols outside functions, and functions, that occur in the accelerations.
+    # Symbols and functions that occur in the equations of motion.
     entries = [e for row in equations.mass.rows for e in row]
     entries += [*equations.forcing, *equations.kinematics.values()]
     used = list(dict.fromkeys(g for e in entries for g in e.generators))

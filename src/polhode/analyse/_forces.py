@@ -134,7 +134,7 @@ def contact_forces(equations: Equations, name: str) -> ContactForces:
     element = equations.system.element(name)
     if not isinstance(element, Contact):
         raise DeclarationError(
-            f"friction needed at {name!r}, which is no contact",
+            f"friction needed at {name!r}, which is not a contact",
             expected="a Rolling, Smooth or Coulomb contact",
         )
     force = equations.reactions[name].force

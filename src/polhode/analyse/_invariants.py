@@ -50,7 +50,7 @@ class Invariants(Shown):
         found: independent of one another.
         ansatz: what was searched, in words; nothing outside it is excluded.
         linear: a linear equation whose constants of integration are integrals too, where
-            not all of them were found: they are no elementary functions, or outside the ansatz.
+            not all of them were found: they are not elementary, or outside the ansatz.
     """
 
     found: tuple[Invariant, ...]
@@ -200,7 +200,7 @@ def _places(equations: Equations) -> Iterator[_Place]:
     for element in kinetics.elements:
         restraints = [r for r in kinetics.restraints[element.name] if not r.is_couple]
         name = element.name
-        if not name.isalnum():  # it cannot stand below a letter: what texts call the first one
+        if not name.isalnum():  # no subscript: take what texts call the first of its kind
             kinds = ((Contact, "contact"), (Pivot, "pivot"))
             word = next((word for kind, word in kinds if isinstance(element, kind)), "")
             name = "" if word in taken else word
@@ -214,7 +214,7 @@ def _places(equations: Equations) -> Iterator[_Place]:
 
 
 def _directions(equations: Equations, axes: Frame) -> Iterator[tuple[str, str, Vector]]:
-    """Name, words and unit vector of directions at rest; nameless where a letter means another."""
+    """Name, words and unit vector of directions at rest; no name where the letter is ambiguous."""
     root = equations.system.root
     moving: Sequence[str] = () if axes == root else axes.labels
     for label in reversed(root.labels):

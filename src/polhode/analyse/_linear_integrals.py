@@ -1,4 +1,4 @@
-"""Integrals that are no elementary functions: speeds that obey a linear equation in an angle.
+"""Integrals that are not elementary functions: speeds that obey a linear equation in an angle.
 
 For a disk or any solid of revolution that rolls on a plane, the rates of steering and spinning
 change only as the tilt does: du/dt = (dθ/dt) A(θ) u, so that u as a function of θ alone solves
@@ -50,7 +50,7 @@ class LinearIntegrals(Shown):
 
     @cached_property
     def slopes(self) -> tuple[Expr, ...]:
-        """A u: what each speed gains with the angle."""
+        """A u: the rate of change of each speed with the angle."""
         speeds = [Expr.generator(s) for s in self.speeds]
         return tuple(
             sum((entry * u for entry, u in zip(row, speeds, strict=True)), ZERO)
@@ -58,7 +58,7 @@ class LinearIntegrals(Shown):
         )
 
     def known(self, integrals: Iterable[Expr]) -> int:
-        """How many of the integrals given are of u and θ alone."""
+        """How many of some integrals depend on u and θ alone."""
         own = {self.angle, *self.speeds}
         varying = ({s for s in i.symbols() if s.kind.varies} for i in integrals)
         return sum(bool(symbols) and symbols <= own for symbols in varying)
@@ -74,7 +74,7 @@ class LinearIntegrals(Shown):
         return compile_program(entries, (self.angle, *self._parameters)).function()
 
     def values(self, parameters: Mapping[str, float], state: Mapping[str, Any], at: float) -> Any:
-        """The integrals: what the speeds are when the angle passes `at`, rad/s.
+        """The integrals: the speeds at the moment when the angle is `at`, rad/s.
 
         Args:
             parameters: by published name, SI.
@@ -119,13 +119,13 @@ def linear_integrals(equations: Equations) -> LinearIntegrals | None:
     for angle in system.essential:
         rate = angle.derivative()
         if rate in system.speeds:
-            found = _closed(equations, angle, rate)
+            found = _closed_set(equations, angle, rate)
             if found is not None:
                 return found
     return None
 
 
-def _closed(equations: Equations, angle: Symbol, rate: Symbol) -> LinearIntegrals | None:
+def _closed_set(equations: Equations, angle: Symbol, rate: Symbol) -> LinearIntegrals | None:
     """The largest set of speeds whose slopes are linear in the set itself."""
     slopes = {
         speed: equations.accelerations[speed.derivative()] / Expr.generator(rate)

@@ -14,7 +14,7 @@ class Reduced:
     """Essential coordinates and speeds, closed under the equations of motion.
 
     Attributes:
-        equations: the whole.
+        equations: of the whole system.
         essential: coordinates that the accelerations depend on, directly or through one another.
         speeds: all independent speeds.
         rates: of the essential coordinates.
@@ -66,5 +66,5 @@ def refuse_parts(equations: Equations) -> None:
         raise NumericError(
             f"equations of {equations.system.name!r} in named parts",
             expected="equations in closed form, short enough to be written out",
-            advice="see how a motion at numbers behaves with linearise, or simulate",
+            advice="linearise about a motion at given numbers, or simulate",
         )

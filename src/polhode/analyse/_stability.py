@@ -31,8 +31,8 @@ class Stability(Shown):
         family: the steady motion.
         polynomial: coefficients of the characteristic polynomial, lowest power first.
         neutral: multiplicity of the exponent zero.
-        directions: independent departures that neither grow nor oscillate; along the family
-            itself and its parameters. Fewer than `neutral` of them means steady drift.
+        directions: number of independent departures that neither grow nor oscillate: along the
+            family itself and its parameters. Fewer than `neutral` means steady drift.
         is_marginal: whether the values given bring to zero exponents that are not zero all along
             the family, with departures that grow in proportion to time: exactly the threshold.
     """
@@ -60,7 +60,7 @@ class Stability(Shown):
 
     @cached_property
     def conditions(self) -> tuple[Condition, ...]:
-        """All of them together are linear stability; what holds anyway is left out."""
+        """Together equivalent to linear stability; those that always hold are left out."""
         if self.is_marginal:
             return (Condition(-ONE),)
         demanded = (
@@ -208,7 +208,7 @@ def _matrices(family: SteadyMotion) -> tuple[tuple[Row, ...], tuple[Row, ...]]:
 
 
 def _condition(expression: Expr, family: SteadyMotion, assumed: Collection[Expr]) -> Condition:
-    """The condition that it is positive, as it stands or with a relation of the family used."""
+    """The condition that it is positive, as it stands or by a relation of the family."""
     plain = expression.subs(family.fixed)
     condition = positive(plain, assumed)
     for relation in family.relations:

@@ -35,9 +35,8 @@ class Touch:
 
     Attributes:
         contact: as declared.
-        reserve: how far the place is on this side of the support's edge, m.
-        room: how far it is from that edge on the side whose surface it touches, m; zero where
-            there is no edge.
+        reserve: distance to the support's edge, m, positive on the support; zero without an edge.
+        room: the same, positive on the side of the edge whose surface is touched.
         gap: height of the lowest point of the body above the support, m.
         closing: its rate, m/s.
         slip: velocity of that point along the support, m/s.
@@ -131,8 +130,8 @@ class Mode:
         name: rolling, sliding, frictionless, flight; with several contacts that of each.
         phases: of every contact.
         equations: exact, on the speeds that the mode leaves independent.
-        touches: what is known of every contact, in terms of this mode's coordinates and speeds.
-        guards: what must stay positive while the mode lasts.
+        touches: gaps and slips of all contacts, in terms of this mode's coordinates and speeds.
+        guards: expressions that stay positive while the mode lasts.
         lifted: coordinates and speeds of the mode in which nothing touches, in terms of this
             one's.
     """

@@ -1,7 +1,7 @@
 """Where constraints become forces: Newton's and Euler's equations of every body, with reactions.
 
 A restraint prescribes one component of relative velocity; a rolling contact has three, such as the
-problem set's eqs. (29) and (43). `derive._constraints` takes the velocity from it. Here the same
+problem set's eqs. (29) and (43). `derive._constraints` eliminates speeds with it. Here the same
 restraint supplies an unknown reaction along the same direction: a `ReactionColumn`, as F in
 eqs. (34), (35) and (44). The balance of every body is
 

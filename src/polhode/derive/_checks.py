@@ -10,7 +10,7 @@ from polhode.base import DeclarationError, NumericError
 from polhode.derive._balance import Wrench
 from polhode.derive._equations import Equations
 from polhode.derive._motion import Kinematics
-from polhode.derive._unconstrained import is_moved
+from polhode.derive._unconstrained import depends_on_motion
 from polhode.model import Body
 
 
@@ -74,7 +74,7 @@ def refuse_unbalanced(equations: Equations) -> None:
     motion = equations.kinetics
     works: dict[str, list[Symbol]] = {}
     for name, restraints in motion.restraints.items():
-        for restraint in (r for r in restraints if is_moved(r.velocity)):
+        for restraint in (r for r in restraints if depends_on_motion(r.velocity)):
             moved, along = motion.resolve(restraint.velocity), restraint.direction
             if speeds := [s for s in motion.speeds if _slope(moved, s).dot(along)]:
                 works[name] = speeds
@@ -96,7 +96,7 @@ def _is_balanced(equations: Equations) -> bool:
         moved = [
             (column, equations.kinetics.resolve(column.restraint.velocity))
             for column in equations.lines
-            if is_moved(column.restraint.velocity)
+            if depends_on_motion(column.restraint.velocity)
         ]
         for speed in equations.speeds:
             works = (

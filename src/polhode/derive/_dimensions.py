@@ -68,7 +68,7 @@ def _terms(use: Use) -> Iterator[_Term]:
 
 
 def _dimensional(powers: Mapping[Generator, int]) -> _Term:
-    """Powers of symbols in a monomial; a root counts as half of the first term under it."""
+    """Powers of symbols in a monomial; a root counts as half the powers of its first term."""
     found: dict[Generator, Fraction] = {}
     dimension = PURE
     for generator, power in powers.items():
@@ -159,7 +159,7 @@ def uses_of(
     energies: Mapping[str, Expr],
     reactions: Mapping[str, tuple[Expr, Dimension]],
 ) -> Iterator[Use]:
-    """Every role that a system gives to expressions, the most telling first."""
+    """Every role that a system gives to expressions, the most informative in errors first."""
     yield Use("time", time, TIME)
     for body in motion.system.bodies:
         yield Use(f"mass of {body.name}", body.mass, MASS)

@@ -23,7 +23,7 @@ from polhode.algebra import (
 from polhode.base import ConstraintError, DeclarationError
 from polhode.derive._constraints import dependent_speeds, elimination_ranks, relative_velocity
 from polhode.derive._form import IN_PARTS, Form
-from polhode.derive._unconstrained import Unconstrained, refuse_second_spins, refuse_unanswered
+from polhode.derive._unconstrained import Unconstrained, refuse_second_spins, refuse_unfelt_forces
 from polhode.model import Body, Element, Restraint, System
 
 
@@ -135,7 +135,7 @@ def motion_of(system: System, form: Form) -> Kinematics:
         raw[body] = velocity, angular
     unconstrained = Unconstrained(system, elements, places, restraints, raw, rates, speeds)
     refuse_second_spins(unconstrained)
-    refuse_unanswered(unconstrained)
+    refuse_unfelt_forces(unconstrained)
     ranks = elimination_ranks(bare, rotations, translations, system.independent)
     dependent = dependent_speeds(prescribed, raw, rates, ranks, form)
     independent = tuple(s for s in speeds if s not in dependent)

@@ -32,18 +32,20 @@ class Unconstrained:
     rates: Mapping[Symbol, Expr]
     speeds: tuple[Symbol, ...]
 
-    def moving(self, velocity: Vector, direction: Vector) -> list[Symbol]:
-        """The speeds on which the component of a place's velocity along a direction depends."""
-        if not is_moved(velocity):
+    def speeds_along(self, velocity: Vector, direction: Vector) -> list[Symbol]:
+        """The speeds on which the velocity of a place depends along a direction."""
+        if not depends_on_motion(velocity):
             return []
         along = velocity.dot(direction).subs(self.rates)
         slopes, _ = linear_parts(along, self.speeds)
         return [speed for speed, slope in zip(self.speeds, slopes, strict=True) if slope]
 
-    def gaining(self, velocity: Vector) -> list[Symbol]:
-        """The speeds on which a place's velocity depends in any direction."""
+    def speeds_of(self, velocity: Vector) -> list[Symbol]:
+        """The speeds on which the velocity of a place depends."""
         return [
-            s for s in self.speeds if is_moved(velocity) and not self.slope(velocity, s).is_zero
+            s
+            for s in self.speeds
+            if depends_on_motion(velocity) and not self.slope(velocity, s).is_zero
         ]
 
     def slope(self, velocity: Vector, speed: Symbol) -> Vector:
@@ -51,7 +53,7 @@ class Unconstrained:
         given = (c.subs(self.rates) for c in velocity.components)
         return Vector(tuple(c.diff(Expr.generator(speed)) for c in given), velocity.triad)
 
-    def movers(self, speeds: Iterable[Symbol]) -> list[Body]:
+    def bodies_moved(self, speeds: Iterable[Symbol]) -> list[Body]:
         """The bodies that move, or turn against inertia, with one of these speeds."""
         wanted, found = set(speeds), []
         for body in self.system.bodies:
@@ -77,7 +79,7 @@ class Unconstrained:
             found.update(more)
 
 
-def is_moved(velocity: Vector) -> bool:
+def depends_on_motion(velocity: Vector) -> bool:
     """Whether a velocity depends on how the system moves, and not on places and time alone."""
     return any(
         s.kind is SymbolKind.SPEED or (s.kind is SymbolKind.COORDINATE and s.order > 0)
@@ -92,7 +94,7 @@ def is_moved(velocity: Vector) -> bool:
 # motion would come out right, but their balance would lack that force.
 
 
-def refuse_unanswered(motion: Unconstrained) -> None:
+def refuse_unfelt_forces(motion: Unconstrained) -> None:
     """Refuse supports and loads whose place moves with bodies that do not feel the force there.
 
     Raises:
@@ -100,26 +102,26 @@ def refuse_unanswered(motion: Unconstrained) -> None:
     """
     for element in motion.elements:
         for restraint in motion.restraints[element.name]:
-            moving = motion.moving(restraint.velocity, restraint.direction)
+            moving = motion.speeds_along(restraint.velocity, restraint.direction)
             held = motion.carried(restraint.body, restraint.other) if moving else set()
-            others = [b for b in motion.movers(moving) if b not in held]
-            _refuse_movers(element.name, moving, others)
+            others = [b for b in motion.bodies_moved(moving) if b not in held]
+            _refuse_unfelt(element.name, moving, others)
         for friction in element.friction(motion.places):
             for _, direction in friction.directions:
-                moving = motion.moving(friction.normal.velocity, direction)
+                moving = motion.speeds_along(friction.normal.velocity, direction)
                 if moving:
-                    _refuse_movers(element.name, moving, motion.movers(moving))
+                    _refuse_unfelt(element.name, moving, motion.bodies_moved(moving))
     for load in motion.system.loads:
         for push in load.on_places(motion.places, motion.velocities):
-            moving = motion.gaining(push.velocity)
+            moving = motion.speeds_of(push.velocity)
             held = motion.carried(*load.bodies)
-            others = [b for b in motion.movers(moving) if b not in held]
+            others = [b for b in motion.bodies_moved(moving) if b not in held]
             works = [s for s in moving if motion.slope(push.velocity, s).dot(push.force)]
-            _refuse_movers(load.name, moving, others or motion.movers(works))
+            _refuse_unfelt(load.name, moving, others or motion.bodies_moved(works))
 
 
-def _refuse_movers(name: str, moving: Iterable[Symbol], movers: Iterable[Body]) -> None:
-    bodies = ", ".join(body.name for body in movers)
+def _refuse_unfelt(name: str, moving: Iterable[Symbol], unfeeling: Iterable[Body]) -> None:
+    bodies = ", ".join(body.name for body in unfeeling)
     if bodies:
         speeds = ", ".join(s.published for s in dict.fromkeys(moving))
         raise DeclarationError(
@@ -154,9 +156,9 @@ def refuse_second_spins(motion: Unconstrained) -> None:
 
 
 def _is_idle(motion: Unconstrained, body: Body, angle: Symbol) -> bool:
-    """Whether a coordinate does no more to the system than the spin of a body does."""
+    """Whether a coordinate moves the system no differently than the spin of a body does."""
     rate = angle.derivative()
-    if rate not in motion.speeds or set(motion.movers([rate])) - {body}:
+    if rate not in motion.speeds or set(motion.bodies_moved([rate])) - {body}:
         return False
     held = (r.velocity for group in motion.restraints.values() for r in group)
     if any(rate in variables(velocity.components) for velocity in held):

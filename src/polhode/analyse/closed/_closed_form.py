@@ -55,7 +55,7 @@ class SteadySolution(ExactSolution):
 
     @property
     def figures(self) -> dict[str, Any]:
-        """None."""
+        """No characteristic numbers."""
         return {}
 
     def at(self, reals: Reals, times: Array) -> dict[str, Array]:

@@ -1,7 +1,7 @@
 """Jacobi's functions and Legendre's integrals by the complementary parameter m₁ = 1 - k².
 
-Given m₁ itself nothing is lost as the modulus k approaches 1: near a separatrix m₁ is what is known
-exactly, and 1 - m₁ has forgotten it. At m₁ = 0 the functions are tanh and sech.
+With m₁ itself nothing is lost as the modulus k approaches 1: near a separatrix m₁ is what is known
+exactly, and 1 - m₁ has lost its digits. At m₁ = 0 the functions are tanh and sech.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from polhode.analyse.closed._reals import Array, Reals
 
-#: Moves sn off its zero, where the recurrence divides by it, by less than anything can tell.
+#: Shifts u off zero, where the recurrence divides by sin u, by far less than rounding.
 _NUDGE = 1e-100
 
 
@@ -130,7 +130,7 @@ class EllipticPhase:
         return (grown - before) / reals.number(self.rate)
 
     def third_kind_half(self, n1: Any) -> Any:
-        """What `third_kind` grows by in a half-period, s."""
+        """Increment of `third_kind` in a half-period, s."""
         return 2 * third_kind_complete(self.context, n1, self.m1) / self.rate
 
     def _since_zero(self, reals: Reals, point: PhasePoint, n1: Any) -> Array:

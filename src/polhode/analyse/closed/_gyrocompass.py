@@ -1,4 +1,4 @@
-"""A gyrocompass, free or driven by a motor: exact in Ω, and beside it the first order."""
+"""A gyrocompass, free or driven by a motor: exact in Ω, with the first-order motion beside it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Gyrocompass(Solvable):
     Attributes:
         angle: θ, of the axle from the north.
         rate: θ̇, a speed of the equations.
-        spin: ω, relative to the Earth; None where a motor keeps it.
+        spin: ω, relative to the Earth; None where a motor keeps it constant.
         push: p, 1/s².
         second: q, 1/s², of the second order in Ω.
         drag: r, 1/s.

@@ -68,7 +68,7 @@ class Nutation(ExactSolution):
         inverted: whether v is z.
         beta: momentum about the axle, 1/s.
         pattern: "waves", "loops" or "cusps".
-        release: the start.
+        start: angles and rates at t = 0.
     """
 
     context: Any
@@ -79,7 +79,7 @@ class Nutation(ExactSolution):
     inverted: bool
     beta: Any
     pattern: str
-    release: InitialAngles
+    start: InitialAngles
 
     @property
     def kind(self) -> str:
@@ -136,7 +136,7 @@ class Nutation(ExactSolution):
         }
 
     def at(self, reals: Reals, times: Array) -> dict[str, Array]:
-        names = self.release.names
+        names = self.start.names
         point = self.phase.at(reals, times)
         cn2, sn2 = point.cn * point.cn, point.sn * point.sn
         above, below = (
@@ -154,7 +154,7 @@ class Nutation(ExactSolution):
         ]
         found = {
             **self._placed(reals, angle, angle_rate),
-            names.phi: reals.number(self.release.phi) + turns[0] + turns[1],
+            names.phi: reals.number(self.start.phi) + turns[0] + turns[1],
             names.phi_rate: sum(
                 reals.number(momentum / 4) / v
                 for momentum, v in zip(self.momenta, (above, below), strict=True)
@@ -162,13 +162,13 @@ class Nutation(ExactSolution):
         }
         if names.psi:
             y_turn, z_turn = turns[::-1] if self.inverted else turns
-            steady = reals.number(self.release.spin - self.beta) * times
-            found[names.psi] = reals.number(self.release.psi) + steady - y_turn + z_turn
+            steady = reals.number(self.start.spin - self.beta) * times
+            found[names.psi] = reals.number(self.start.psi) + steady - y_turn + z_turn
         return found
 
     def _placed(self, reals: Reals, angle: Array, rate: Array) -> dict[str, Array]:
         """θ and θ̇ on the side of the vertical, and in the turn, where θ started."""
-        names, context, start = self.release.names, self.context, self.release.theta
+        names, context, start = self.start.names, self.context, self.start.theta
         side = 1 if context.sin(start) > 0 else -1
         flip = -1 if self.inverted else 1
         base = context.pi if self.inverted else context.zero
@@ -179,7 +179,7 @@ class Nutation(ExactSolution):
         }
 
 
-def nutation(data: Data, integrals: Integrals, release: InitialAngles) -> Nutation:
+def nutation(data: Data, integrals: Integrals, start: InitialAngles) -> Nutation:
     """The nutation from a start that is not steady.
 
     Raises `NumericError` where the axle passes exactly through the vertical.
@@ -199,8 +199,8 @@ def nutation(data: Data, integrals: Integrals, release: InitialAngles) -> Nutati
         m1 = (low - above[0]) / (high - above[0])
     if high_below == 0 or (low == 0 and m1):
         raise NumericError(
-            f"an axle that passes through the vertical, where {release.names.phi} jumps",
-            expected=f"a start from which {release.names.theta} stays away from 0 and pi",
+            f"an axle that passes through the vertical, where {start.names.phi} jumps",
+            expected=f"a start from which {start.names.theta} stays away from 0 and pi",
             advice=(
                 "keep it in a vertical plane, give it a little more or less momentum, or ask for "
                 "more digits if it does stay away"
@@ -209,14 +209,14 @@ def nutation(data: Data, integrals: Integrals, release: InitialAngles) -> Nutati
     at_ends = [momentum + 2 * beta * v for momentum, v in ((momenta[0], low), (momenta[0], high))]
     return Nutation(
         context,
-        _phase(context, release, inverted, rate, (high, low), m1),
+        _phase(context, start, inverted, rate, (high, low), m1),
         (high, low),
         (high_below, low_below),
         momenta,
         inverted,
         data.number(i.beta),
         _pattern(data, integrals, at_ends[0] * at_ends[1]),
-        release,
+        start,
     )
 
 
@@ -235,11 +235,11 @@ def _roots(context: Any, level: Any, slope: Any, momentum: Any, gain: Any) -> li
 
 
 def _phase(
-    context: Any, release: InitialAngles, inverted: bool, rate: Any, ends: Pair, m1: Any
+    context: Any, start: InitialAngles, inverted: bool, rate: Any, ends: Pair, m1: Any
 ) -> EllipticPhase:
-    sine, cosine = context.sin(release.theta / 2), context.cos(release.theta / 2)
+    sine, cosine = context.sin(start.theta / 2), context.cos(start.theta / 2)
     v = cosine**2 if inverted else sine**2
-    v_rate = sine * cosine * release.theta_dot * (-1 if inverted else 1)
+    v_rate = sine * cosine * start.theta_dot * (-1 if inverted else 1)
     high, low = ends
     dn = context.sqrt(m1 + (1 - m1) * (v - low) / (high - low))
     # Near its extremes cn² determines u badly: sine and cosine of twice the amplitude do not.
@@ -290,7 +290,7 @@ class HeavyTop(Solvable):
             raise NumericError(
                 f"a sleeping top: {theta} at the vertical at the start, where "
                 f"{self.axle.names.phi} is not defined",
-                expected="an axle that momenta",
+                expected="an axle that leans",
                 advice=(
                     "it sleeps as it is, a steady motion without a period; "
                     "use other angles (Cardan's) for motions through the vertical"
@@ -305,7 +305,7 @@ class HeavyTop(Solvable):
         beta = axle.ratio * axle.n
         alpha = phi_dot * sin(theta) ** 2 + beta * cos(theta)
         energy = theta_dot**2 + (phi_dot * sin(theta)) ** 2 + 2 * self.weight * cos(theta)
-        release = InitialAngles(
+        start = InitialAngles(
             theta=data.number(theta),
             theta_dot=data.number(theta_dot),
             phi=data.number(phi),
@@ -313,7 +313,7 @@ class HeavyTop(Solvable):
             spin=data.number(axle.n),
             names=axle.names,
         )
-        return nutation(data, Integrals(alpha, beta, energy, 2 * self.weight), release)
+        return nutation(data, Integrals(alpha, beta, energy, 2 * self.weight), start)
 
 
 def recognise(equations: Equations) -> HeavyTop | None:

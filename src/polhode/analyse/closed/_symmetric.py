@@ -84,11 +84,11 @@ class Axis:
         return dot(_cross(self.e, self.e_rate), self.u) + self.beta * self.cosine
 
     @property
-    def swiftness(self) -> Expr:
+    def squared_rate(self) -> Expr:
         """ė²."""
         return dot(self.e_rate, self.e_rate)
 
-    def release(self, data: Data) -> InitialAngles:
+    def initial_angles(self, data: Data) -> InitialAngles:
         """Euler's angles at the start, φ and ψ counted from there.
 
         Raises `NumericError` for an axis along the vertical, where φ is not defined.
@@ -187,9 +187,9 @@ class TopInAnyAngles(SymmetricFamily):
 
     def euler_angles(self, data: Data) -> ExactSolution:
         axis = self.axis
-        energy = axis.swiftness + 2 * self.weight * axis.cosine
+        energy = axis.squared_rate + 2 * self.weight * axis.cosine
         integrals = Integrals(axis.alpha, axis.beta, energy, 2 * self.weight)
-        return nutation(data, integrals, axis.release(data))
+        return nutation(data, integrals, axis.initial_angles(data))
 
 
 @dataclass(frozen=True)
@@ -212,16 +212,16 @@ class CoinInAnyAngles(SymmetricFamily):
         return {r"\epsilon": self.lift, r"\kappa": self.axis.ratio, r"\gamma": self.weight}
 
     def euler_angles(self, data: Data) -> ExactSolution:
-        axis, release = self.axis, self.axis.release(data)
+        axis, start = self.axis, self.axis.initial_angles(data)
         minus, plus = (data.number(axis.alpha + sign * axis.beta) for sign in (-1, 1))
         weight, lift, spin = map(data.number, (self.weight, self.lift, axis.n))
-        s, c = data.context.sin(release.theta), data.number(axis.cosine)
-        rate = release.theta_dot
+        s, c = data.context.sin(start.theta), data.number(axis.cosine)
+        rate = start.theta_dot
         turning = (data.number(axis.alpha) - data.number(axis.beta) * c) / s**2
         energy = (1 + lift * c**2) * rate**2 + (turning * s) ** 2 + 2 * weight * s
         fall = s * c * turning**2 - data.number(axis.beta) * turning * s - weight * c
         integrals = CoinIntegrals(data.context, energy, minus, plus, weight, lift, spin)
-        libration = integrals.libration(release.theta, rate, fall, data.digits)
+        libration = integrals.libration(start.theta, rate, fall, data.digits)
         zero = data.context.zero
         return CoinNutation(libration, integrals, zero, (zero, zero), _NAMES)
 
@@ -289,7 +289,7 @@ def recognise(equations: Equations) -> Solvable | None:
     for axis in axes(equations):
         if not axis.cosine_rate:
             continue
-        gain = equations.rate(axis.swiftness)
+        gain = equations.rate(axis.squared_rate)
         weight = -gain / (2 * axis.cosine_rate)
         if is_constant(weight):
             return TopInAnyAngles(axis.chart, axis, weight)
