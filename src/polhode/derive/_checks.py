@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from itertools import pairwise
 
-from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, Vector, variables
+from polhode.algebra import ZERO, Symbol, SymbolKind, variables
 from polhode.base import DeclarationError, NumericError
 from polhode.derive._balance import Wrench
+from polhode.derive._constraints import partial_velocity
 from polhode.derive._equations import Equations
 from polhode.derive._motion import Kinematics
 from polhode.derive._unconstrained import depends_on_motion
@@ -76,7 +77,7 @@ def refuse_unbalanced(equations: Equations) -> None:
     for name, restraints in motion.restraints.items():
         for restraint in (r for r in restraints if depends_on_motion(r.velocity)):
             moved, along = motion.resolve(restraint.velocity), restraint.direction
-            if speeds := [s for s in motion.speeds if _slope(moved, s).dot(along)]:
+            if speeds := [s for s in motion.speeds if partial_velocity(moved, s).dot(along)]:
                 works[name] = speeds
     if works and not _is_balanced(equations):
         name, speeds = next(iter(works.items()))
@@ -100,16 +101,11 @@ def _is_balanced(equations: Equations) -> bool:
         ]
         for speed in equations.speeds:
             works = (
-                equations.components[column.name] * _slope(velocity, speed).dot(column.direction)
-                for column, velocity in moved
+                equations.components[c.name] * partial_velocity(v, speed).dot(c.direction)
+                for c, v in moved
             )
             if equations.on_shell(sum(works, ZERO)):
                 return False
     except NumericError:  # accelerations not solved for: it cannot be decided
         return False
     return True
-
-
-def _slope(vector: Vector, speed: Symbol) -> Vector:
-    by = Expr.generator(speed)
-    return Vector(tuple(c.diff(by) for c in vector.components), vector.triad)

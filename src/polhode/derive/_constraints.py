@@ -57,6 +57,11 @@ def elimination_ranks(
     return ranks | dict.fromkeys(independent, 4)
 
 
+def partial_velocity(velocity: Vector, speed: Symbol) -> Vector:
+    """Change of a velocity, linear or angular, per unit of a speed (Kane and Levinson)."""
+    return Vector(tuple(c.diff(speed) for c in velocity.components), velocity.triad)
+
+
 def relative_velocity(
     restraint: Restraint, velocities: Velocities, form: Form, speeds: Speeds
 ) -> Vector:

@@ -11,7 +11,6 @@ from polhode.algebra import (
     OutgrownError,
     Row,
     Symbol,
-    Vector,
     linear_parts,
     total,
 )
@@ -22,6 +21,7 @@ from polhode.derive._checks import (
     refuse_unbalanced,
     refuse_unknown_coordinates,
 )
+from polhode.derive._constraints import partial_velocity
 from polhode.derive._equations import Equations
 from polhode.derive._form import CLOSED, IN_PARTS, Form
 from polhode.derive._motion import Kinematics, motion_of
@@ -53,7 +53,7 @@ def derive(system: System) -> Equations:
 
 
 def _derived(system: System, form: Form) -> Equations:
-    """Kinematics, required wrenches and reaction columns, then one equation per free speed.
+    """Kinematics, required wrenches and reaction columns, then one row per independent speed.
 
     The row of speed u is Σ ∂v/∂u · (m dv/dt - F) + ∂ω/∂u · (dL/dt - τ) over the bodies: Kane's
     equations with partial velocities ∂v/∂u and ∂ω/∂u (Kane and Levinson, Dynamics: Theory and
@@ -89,9 +89,7 @@ def _derived(system: System, form: Form) -> Equations:
 
 def _power(motion: Kinematics, body: Body, wrench: Wrench, speed: Symbol) -> Expr:
     """Power of a wrench on a body that moves with one unit of a speed alone."""
-    velocity, angular = (
-        Vector(tuple(c.diff(speed) for c in v.components), v.triad) for v in motion.velocities[body]
-    )
+    velocity, angular = (partial_velocity(v, speed) for v in motion.velocities[body])
     return velocity.dot(wrench.force) + angular.dot(wrench.couple)
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from polhode.algebra import Expr, Symbol, SymbolKind, Vector, linear_parts, variables
 from polhode.base import DeclarationError
+from polhode.derive._constraints import partial_velocity
 from polhode.model import Body, Element, Places, Restraint, System, Velocities
 
 
@@ -49,9 +50,9 @@ class Unconstrained:
         ]
 
     def slope(self, velocity: Vector, speed: Symbol) -> Vector:
-        """Change of a velocity per unit of a speed: a partial velocity."""
-        given = (c.subs(self.rates) for c in velocity.components)
-        return Vector(tuple(c.diff(Expr.generator(speed)) for c in given), velocity.triad)
+        """The partial velocity of a place, with its rates in terms of the speeds."""
+        given = tuple(c.subs(self.rates) for c in velocity.components)
+        return partial_velocity(Vector(given, velocity.triad), speed)
 
     def bodies_moved(self, speeds: Iterable[Symbol]) -> list[Body]:
         """The bodies that move, or turn against inertia, with one of these speeds."""
