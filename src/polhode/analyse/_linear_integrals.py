@@ -18,6 +18,7 @@ from polhode.algebra import (
     Compiled,
     Expr,
     Matrix,
+    Row,
     Symbol,
     compile_program,
     linear_parts,
@@ -133,23 +134,19 @@ def _closed_set(equations: Equations, angle: Symbol, rate: Symbol) -> LinearInte
         if speed != rate
     }
     kept = tuple(slopes)
-    while kept:
-        rows = {s: _row(slopes[s], kept, angle) for s in kept}
-        good = tuple(s for s, row in rows.items() if row is not None)
-        if good == kept:
+    while True:
+        rows: dict[Symbol, Row] = {}
+        for speed in kept:
+            try:
+                row, rest = linear_parts(slopes[speed], kept)
+            except NumericError:  # not a polynomial in these speeds
+                continue
+            varying = {s for entry in row for s in entry.symbols() if s.kind.varies}
+            if not rest and varying <= {angle}:
+                rows[speed] = row
+        if len(rows) == len(kept):
             break
-        kept = good
-    moving = [s for s in kept if slopes[s]]
-    if not moving:
+        kept = tuple(rows)
+    if not any(slopes[speed] for speed in kept):
         return None
-    matrix = Matrix(tuple(row for s in kept if (row := rows[s]) is not None))
-    return LinearIntegrals(angle, kept, matrix)
-
-
-def _row(slope: Expr, speeds: tuple[Symbol, ...], angle: Symbol) -> tuple[Expr, ...] | None:
-    try:
-        row, rest = linear_parts(slope, speeds)
-    except NumericError:
-        return None
-    varying = {s for entry in row for s in entry.symbols() if s.kind.varies}
-    return None if rest or varying - {angle} else row
+    return LinearIntegrals(angle, kept, Matrix(tuple(rows.values())))

@@ -47,8 +47,12 @@ def jacobi(reals: Reals, u: Array, m1: Any) -> tuple[Array, Array, Array]:
         decay = reals.exp(-abs(u))
         sech = 2 * decay / (1 + decay * decay)
         return reals.tanh(u), sech, sech
-    means = _means(reals, m1)
-    limit = sum(means[-1]) / 2
+    mean, root = reals.number(1), reals.sqrt(reals.number(m1))
+    means = [(mean, root)]
+    while abs(mean - root) > mean * reals.sqrt(reals.eps):  # until the next would agree
+        mean, root = (mean + root) / 2, reals.sqrt(mean * root)
+        means.append((mean, root))
+    limit = (mean + root) / 2
     u = limit * (u + _NUDGE)
     sine = reals.sin(u)
     a = reals.cos(u) / sine
@@ -59,16 +63,6 @@ def jacobi(reals: Reals, u: Array, m1: Any) -> tuple[Array, Array, Array]:
         a = c / mean
     sn = abs(sine) / sine / reals.sqrt(c * c + 1)
     return sn, c * sn, dn
-
-
-def _means(reals: Reals, m1: Any) -> list[tuple[Any, Any]]:
-    """Arithmetic and geometric means of 1 and √m₁, until the next would agree."""
-    a, b = reals.number(1), reals.sqrt(reals.number(m1))
-    pairs = [(a, b)]
-    while abs(a - b) > a * reals.sqrt(reals.eps):
-        a, b = (a + b) / 2, reals.sqrt(a * b)
-        pairs.append((a, b))
-    return pairs
 
 
 class PhasePoint(NamedTuple):

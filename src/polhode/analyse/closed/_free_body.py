@@ -112,7 +112,7 @@ class FreeRotation(ExactSolution):
         order = tuple(sorted(range(3), key=lambda i: moments[i]))
         if data.number(_excess(inertia, rates, order[1])) < 0:
             order = order[::-1]
-        first, second, _ = order
+        first, second, third = order
         A, B, C = (moments[i] for i in order)
         of_a, of_b, of_c = (data.number(_excess(inertia, rates, i)) for i in order)
         sqrt = data.context.sqrt
@@ -120,7 +120,13 @@ class FreeRotation(ExactSolution):
         m1 = (C - A) * of_b / ((C - B) * of_a)
         sizes = (sqrt(of_c / (A * (A - C))), sqrt(of_c / (B * (B - C))), sqrt(of_a / (C * (C - A))))
         omega = tuple(map(data.number, rates))
-        signs = _signs(order, C > A, omega, m1)
+        # Signs of ω along A, B, C where cn, sn and dn are positive. That of A may be chosen, except
+        # on a separatrix, where cn never changes sign; that of B follows from the handedness of the
+        # axes A, B, C.
+        a_sign = -1 if m1 == 0 and omega[first] < 0 else 1
+        c_sign = 1 if omega[third] > 0 else -1
+        is_cyclic = order in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
+        signs = (a_sign, a_sign * c_sign * (1 if is_cyclic == (C > A) else -1), c_sign)
         amplitudes = tuple(sign * size for sign, size in zip(signs, sizes, strict=True))
         sn, cn = omega[second] / amplitudes[1], omega[first] / amplitudes[0]
         return cls(
@@ -221,17 +227,6 @@ class FreeRotation(ExactSolution):
         first = [cos * o - sin * s for o, s in zip(out, side, strict=True)]
         second = [sin * o + cos * s for o, s in zip(out, side, strict=True)]
         return first, second, along
-
-
-def _signs(order: tuple[int, ...], ascending: bool, omega: Three, m1: Any) -> Three:
-    """Of ω along the axes A, B, C where cn, sn and dn are positive.
-
-    That of A may be chosen, but for a separatrix, on which cn never changes sign.
-    """
-    first = -1 if m1 == 0 and omega[order[0]] < 0 else 1
-    third = 1 if omega[order[2]] > 0 else -1
-    right_handed = order in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
-    return first, first * third * (1 if right_handed == ascending else -1), third
 
 
 @dataclass(frozen=True)
