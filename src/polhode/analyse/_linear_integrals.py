@@ -96,6 +96,7 @@ class LinearIntegrals(Shown):
         here = float(state[self.angle.published])
         if here == at:
             return start
+        # Tolerances close to the rounding of doubles.
         done = solve_ivp(slope, (here, at), start, method="DOP853", rtol=1e-13, atol=1e-14)
         if not done.success:
             raise NumericError(

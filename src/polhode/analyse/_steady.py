@@ -168,7 +168,11 @@ def _check_values(equations: Equations, given: Values) -> None:
 def _families(
     rows: list[Expr], system: Reduced
 ) -> Iterator[tuple[dict[Symbol, Expr], tuple[Expr, ...]]]:
-    """Branch over the factors of the shortest condition that is not met yet."""
+    """Branch over the factors of the shortest condition that is not met yet.
+
+    A factor that gives a speed or an angle is substituted into the other conditions; any other
+    factor is kept as a relation.
+    """
     pending = [row.numerator for row in rows if row]
     if not pending:
         yield {}, ()

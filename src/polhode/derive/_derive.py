@@ -94,7 +94,10 @@ def _power(motion: Kinematics, body: Body, wrench: Wrench, speed: Symbol) -> Exp
 
 
 def _mirrored(rows: Sequence[Row]) -> Matrix:
-    """The mass matrix, with equal entries across the diagonal written alike."""
+    """The mass matrix, with equal entries across the diagonal written alike.
+
+    Equal entries may come out written differently; alike, they make `mass == mass.T` hold.
+    """
 
     def entry(i: int, j: int) -> Expr:
         above, below = rows[min(i, j)][max(i, j)], rows[max(i, j)][min(i, j)]

@@ -162,7 +162,7 @@ class Libration:
         swings = [[(wave * weight).sum() for wave in waves] for weight in weights]
         smallest = max(16 * reals.eps, reals.number(self.context.mpf(10) ** -(self.digits + 2)))
         if max(map(abs, lags[-count // 16 :])) > smallest:
-            return None
+            return None  # the tail has not decayed
         kept = max((k for k in orders if abs(lags[k - 1]) > smallest / 256), default=1)
         start = reals.array(reals.number(self.start))
         kept_swings = tuple(swing[:kept] for swing in swings)
@@ -275,6 +275,7 @@ class CoinIntegrals:
         """
         context = self.context
         tangent, roots = context.tan(theta / 2), self._turning_tangents()
+        # Where the start is a turning point itself, θ̈ says on which side of it the motion goes on.
         nearest = min(roots, key=lambda x: abs(x - tangent))
         below = [x for x in roots if x < tangent and x != nearest]
         above = [x for x in roots if x > tangent and x != nearest]
@@ -310,7 +311,7 @@ class CoinIntegrals:
         sextic = sextic[:-2] if a == 0 else sextic
         first = next(i for i, coefficient in enumerate(sextic) if coefficient)
         found = context.polyroots(sextic[first:], maxsteps=500, extraprec=context.prec)
-        small = context.sqrt(context.eps)
+        small = context.sqrt(context.eps)  # roots close to one another lose half the digits
         real = [context.re(x) for x in found if abs(context.im(x)) < small * abs(x)]
         return [x for x in real if x > 0] + ([context.zero] if a == 0 else [])
 

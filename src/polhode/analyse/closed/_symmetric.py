@@ -245,7 +245,7 @@ class SymmetricAttitude(AttitudeSolution):
         found = self.solution.at(DoubleReals(), moments)
         rates = np.abs(found["theta_dot"]) + np.abs(found["phi_dot"])
         fastest = float(np.max(rates)) + abs(float(self.placed.data.number(self.axis.n)))
-        return min(period / 64, 0.25 / max(fastest, 1e-300))
+        return min(period / 64, 0.25 / max(fastest, 1e-300))  # a quarter of a radian at most
 
     @cached_property
     def _initial_triad(self) -> tuple[list[Any], list[Any], list[Any]]:
