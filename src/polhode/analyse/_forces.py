@@ -63,22 +63,22 @@ def fictitious_force(
 def fictitious_torque(equations: Equations, body: Body, frame: Frame) -> Fictitious:
     """The same integrated over the body, about its centre of mass.
 
-    With J = ∫ r r dm: centrifugal -Ω × IΩ, Coriolis -2 JΩ × ω', Euler -I Ω̇, where ω' is the
-    rotation of the body relative to the frame.
+    With J = ∫ r r dm = ½ tr(I) - I: centrifugal -Ω × IΩ, Coriolis -2 JΩ × ω', Euler -I Ω̇, where
+    ω' is the rotation of the body relative to the frame.
     """
     equations_only(equations, "a fictitious torque")
     turning, change = _turning(equations, frame)
     axes = body.axes
     spin = equations.kinetics.velocities[body][1] - turning
-    trace = (body.inertia[0, 0] + body.inertia[1, 1] + body.inertia[2, 2]) / 2
-    size = range(3)
-    spread = Matrix.of(
-        [[(trace if i == j else Expr.of(0)) - body.inertia[i, j] for j in size] for i in size]
+    inertia, size = body.inertia, range(3)
+    half_trace = (inertia[0, 0] + inertia[1, 1] + inertia[2, 2]) / 2
+    second_moments = Matrix.of(
+        [[(half_trace if i == j else Expr.of(0)) - inertia[i, j] for j in size] for i in size]
     )
     about = turning.express(axes)
-    centrifugal = -about.cross(_times(body.inertia, about, axes))
-    coriolis = _times(spread, about, axes).cross(spin.express(axes)) * -2
-    euler = -_times(body.inertia, change.express(axes), axes)
+    centrifugal = -about.cross(_times(inertia, about, axes))
+    coriolis = _times(second_moments, about, axes).cross(spin.express(axes)) * -2
+    euler = -_times(inertia, change.express(axes), axes)
     return Fictitious(centrifugal, coriolis, euler, axes.zero)
 
 
@@ -121,7 +121,7 @@ class ContactForces(Shown):
 
     @property
     def friction_needed(self) -> Expr:
-        """The coefficient of friction below which it would slip."""
+        """The smallest coefficient of friction with which it does not slip."""
         return self.tangential / self.normal
 
 

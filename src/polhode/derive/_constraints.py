@@ -29,12 +29,16 @@ def elimination_ranks(
 ) -> dict[Symbol, int]:
     """In what order the constraints eliminate speeds: low ranks first.
 
-    A text describes a disk by its rotation and eliminates the velocity of its centre (problem set,
-    eq. (33)), but describes a ball by the velocity of its centre and eliminates its rotation (eqs.
-    (45) to (47)): any axes serve for a ball, so that its angular velocity says nothing of its
-    attitude. Rates of coordinates are kept longer than both, since they read more easily than
-    quasi-velocities. Speeds declared independent go last. Within a rank the elimination takes the
-    simplest pivot, so that no expression grows without need.
+        0  velocities of centres of mass
+        1  angular velocities
+        2  velocities of centres of mass of balls
+        3  rates of coordinates, such as those of angles
+        4  speeds declared independent
+
+    That is how a text eliminates: it describes a disk by its rotation and eliminates the velocity
+    of its centre (problem set, eq. (33)), but a ball, whose attitude does not matter, by the
+    velocity of its centre (eqs. (45) to (47)). Within a rank the simplest pivot is taken, so that
+    no expression grows without need.
 
     Args:
         rates: speeds that are rates of coordinates.

@@ -50,7 +50,7 @@ class Gyrocompass(Solvable):
     @property
     def parts(self) -> dict[str, Expr]:
         return {
-            "A": (-(self.push + self.drag * self._whole_spin)),
+            "A": -(self.push + self.drag * self._whole_spin),
             "B": self.second - self.drag * self.gain,
         }
 

@@ -54,7 +54,7 @@ class Pendulum(Solvable):
 
 @dataclass(frozen=True)
 class PendulumSwing(SwingSolution):
-    """A fall from the start, and the swing or the turning over that it is part of.
+    """The swing or the turning over of a pendulum, with the times of its first passages.
 
     Attributes:
         lowest: θ at the lowest point, rad.

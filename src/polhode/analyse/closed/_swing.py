@@ -115,7 +115,7 @@ class Swing(ABC):
     def at(self, reals: Reals, times: Array) -> tuple[Array, Array]:
         """ϑ, continuous, and ϑ̇ (1/s) at times, s."""
         p, q = reals.number(self.p), reals.number(self.q)
-        x = self._fraction(reals, self.phase.at(reals, times), p, q)
+        x = self.quotient(reals, self.phase.at(reals, times), p, q)
         slope = (x.p_slope * x.q - x.p * x.q_slope) / (x.p * x.p + x.q * x.q)
         angle = reals.atan2(x.p, x.q) + x.turned
         return 2 * angle, 2 * reals.number(self.phase.rate) * slope
@@ -124,7 +124,7 @@ class Swing(ABC):
         """First time from 0 on at which ϑ is `angle` up to whole turns, s; None if never."""
         context = self.phase.context
         half = Half(context.sin(angle / 2), context.cos(angle / 2))
-        waits = [(u - self.phase.start) / self.phase.rate for u in self._arguments(half)]
+        waits = [(u - self.phase.start) / self.phase.rate for u in self.arguments(half)]
         if self.period is not None:
             waits = [wait % self.period for wait in waits]
         return min((wait for wait in waits if wait >= 0), default=None)
@@ -140,11 +140,11 @@ class Swing(ABC):
         """The motion through ϑ/2 with this sine and cosine, and this ϑ̇."""
 
     @abstractmethod
-    def _fraction(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
+    def quotient(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
         """x at a point of the phase."""
 
     @abstractmethod
-    def _arguments(self, half: Half) -> Iterator[Any]:
+    def arguments(self, half: Half) -> Iterator[Any]:
         """Arguments u of a period at which ϑ/2 has this sine and cosine."""
 
     def _argument(self, sn: Any, cn: Any) -> Any:
@@ -175,10 +175,10 @@ class Across(Swing):
         dn = sqrt(m1 + (1 - m1) * cn**2)
         return cls(levels.phase(w, -half.x_rate(rate) * q / (p * w * dn), cn, m1), p, q)
 
-    def _fraction(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
+    def quotient(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
         return SwingQuotient(p * point.cn, q, -p * point.sn * point.dn, 0)
 
-    def _arguments(self, half: Half) -> Iterator[Any]:
+    def arguments(self, half: Half) -> Iterator[Any]:
         if half.cos:
             cn = half.sin * self.q / (half.cos * self.p)
             yield from (self._argument(sn, cn) for sn in self._roots(1 - cn**2))
@@ -197,10 +197,10 @@ class AcrossWell(Swing):
         cn = half.x_rate(rate) * q / (p * w * sqrt(1 - (1 - m1) * sn**2))
         return cls(levels.phase(w, sn, cn, m1), p, q)
 
-    def _fraction(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
+    def quotient(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
         return SwingQuotient(p * point.sn, q, p * point.cn * point.dn, 0)
 
-    def _arguments(self, half: Half) -> Iterator[Any]:
+    def arguments(self, half: Half) -> Iterator[Any]:
         if half.cos:
             sn = half.sin * self.q / (half.cos * self.p)
             yield from (self._argument(sn, cn) for cn in self._roots(1 - sn**2))
@@ -230,13 +230,13 @@ class Beside(Swing):
         sn, cn = levels.context.sin(amplitude), levels.context.cos(amplitude)
         return cls(levels.phase(w, sn, cn, m1), p, q, side)
 
-    def _fraction(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
+    def quotient(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
         m = reals.number(1 - self.phase.m1)
         return SwingQuotient(
             self.sign * p * point.dn, q, -self.sign * p * m * point.sn * point.cn, 0
         )
 
-    def _arguments(self, half: Half) -> Iterator[Any]:
+    def arguments(self, half: Half) -> Iterator[Any]:
         m1, m = self.phase.m1, 1 - self.phase.m1
         if half.cos and self.sign * half.sin / half.cos > 0:
             dn2 = (half.sin * self.q / (half.cos * self.p)) ** 2
@@ -269,7 +269,7 @@ class Over(Swing):
         phase = levels.phase(sqrt(steepest / 2), sign * half.sin * q, half.cos * p, m1)
         return cls(phase, p, q, sign)
 
-    def _fraction(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
+    def quotient(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
         flip = 1 - 2 * (point.halves % 2)
         sn, cn = flip * point.sn, flip * point.cn
         turned = self.sign * reals.number(self.phase.context.pi) * point.halves
@@ -277,7 +277,7 @@ class Over(Swing):
             self.sign * p * sn, q * cn, self.sign * p * cn * point.dn, -q * sn * point.dn, turned
         )
 
-    def _arguments(self, half: Half) -> Iterator[Any]:
+    def arguments(self, half: Half) -> Iterator[Any]:
         yield self._argument(self.sign * half.sin * self.q, half.cos * self.p)
 
 
@@ -297,7 +297,7 @@ class OverWell(Swing):
         phase = levels.phase(sqrt(2 * mean), 2 * s * c, c * c - s * s, m1)
         return cls(phase, p, q, sign)
 
-    def _fraction(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
+    def quotient(self, reals: Reals, point: PhasePoint, p: Any, q: Any) -> SwingQuotient:
         pi, odd = reals.number(self.phase.context.pi), point.halves % 2
         flip = 1 - 2 * odd
         half = (reals.atan2(flip * point.sn, flip * point.cn) + odd * pi) / 2
@@ -308,7 +308,7 @@ class OverWell(Swing):
             self.sign * p * sin, q * cos, self.sign * p * cos * slope, -q * sin * slope, turned
         )
 
-    def _arguments(self, half: Half) -> Iterator[Any]:
+    def arguments(self, half: Half) -> Iterator[Any]:
         s, c = self.sign * half.sin * self.q, half.cos * self.p
         yield self._argument(2 * s * c, c * c - s * s)
 
