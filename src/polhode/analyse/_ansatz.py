@@ -119,9 +119,9 @@ def _terms(equations: Equations, essential: tuple[Symbol, ...], ansatz: Ansatz) 
     angles = [q for q in essential if _is_angle(equations, q)]
     lengths = [q for q in equations.coordinates if not _is_angle(equations, q)]
     speeds = [place(Expr.generator(u)) for u in equations.speeds]
-    waves = [_joined(*map(place, w)) for w in _waves(angles, ansatz.trigonometric)]
-    swift = _products(speeds, ansatz.speeds)
-    found = dict.fromkeys(_joined(u, w) for u in swift for w in waves)
+    in_angles = [_joined(*map(place, w)) for w in _sines(angles, ansatz.trigonometric)]
+    in_speeds = _products(speeds, ansatz.speeds)
+    found = dict.fromkeys(_joined(u, w) for u in in_speeds for w in in_angles)
     found |= dict.fromkeys(
         _products([place(Expr.generator(q)) for q in lengths], ansatz.lengths and 1)
     )
@@ -130,9 +130,8 @@ def _terms(equations: Equations, essential: tuple[Symbol, ...], ansatz: Ansatz) 
     entries = [e for row in equations.mass.rows for e in row]
     entries += [*equations.forcing, *equations.kinematics.values()]
     used = list(dict.fromkeys(g for e in entries for g in e.generators))
-    places = [place(Expr.generator(q)) for q in essential if q in used]
-    outside = _products(places, ansatz.lengths)
-    pairs = (_joined(u, x) for x in outside for u in swift)
+    plain = [place(Expr.generator(q)) for q in essential if q in used]
+    pairs = (_joined(u, x) for x in _products(plain, ansatz.lengths) for u in in_speeds)
     found |= dict.fromkeys(m for m in pairs if len(m) <= ansatz.together)
     if ansatz.lengths:
         roots = []
@@ -142,8 +141,8 @@ def _terms(equations: Equations, essential: tuple[Symbol, ...], ansatz: Ansatz) 
             if is_root and symbols and symbols <= set(essential):
                 roots.append(Expr.generator(generator))
         found |= dict.fromkeys(map(place, roots))
-        shares = [place(1 / root) for root in roots]
-        found |= dict.fromkeys(_joined(s, x) for s in shares for x in _products(places, 1))
+        inverse = [place(1 / root) for root in roots]
+        found |= dict.fromkeys(_joined(r, x) for r in inverse for x in _products(plain, 1))
     found.pop((), None)
     return AnsatzTerms(tuple(factors), tuple(found))
 
@@ -152,19 +151,19 @@ def _joined(*monomials: Monomial) -> Monomial:
     return tuple(sorted(chain.from_iterable(monomials)))
 
 
-def _waves(angles: Sequence[Symbol], degree: int) -> list[list[Expr]]:
+def _sines(angles: Sequence[Symbol], degree: int) -> list[list[Expr]]:
     """Products of sines and cosines, by their factors; cos² is left out, being 1 - sin²."""
     found: dict[int, list[list[Expr]]] = {0: [[]]}
     for angle in angles:
         s, c = sin(Expr.generator(angle)), cos(Expr.generator(angle))
         own = [(j + i, [s] * j + [c] * i) for i in (0, 1) for j in range(degree + 1 - i)]
         wider: dict[int, list[list[Expr]]] = {}
-        for power, waves in found.items():
-            for extra, wave in own:
+        for power, products in found.items():
+            for extra, factors in own:
                 if power + extra <= degree:
-                    wider.setdefault(power + extra, []).extend(w + wave for w in waves)
+                    wider.setdefault(power + extra, []).extend(p + factors for p in products)
         found = wider
-    return [wave for waves in found.values() for wave in waves]
+    return [product for products in found.values() for product in products]
 
 
 def _products(factors: Sequence[Monomial], degree: int) -> list[Monomial]:
