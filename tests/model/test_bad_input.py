@@ -310,7 +310,7 @@ REFUSALS: dict[str, Refusal] = {
             ).dimensions
         ),
         UNIT,
-        ("bare number as mass of bar", "a symbol", "kg", "give its value where it is run"),
+        ("bare number as mass of bar", "a symbol", "kg", "give its value at run time"),
     ),
     # -- constraints
     "two motors at odds": (

@@ -1,15 +1,17 @@
-"""Coordinates and speeds of a body from its attitude, whatever rotations its angles stand for.
+"""Coordinates and speeds of a body from its attitude, whatever sequence of angles describes it.
 
-R = Rot(m₁, q₁) Rot(m₂, q₂) Rot(m₃, q₃) K with m₂ across m₁ and m₃ (P. Davenport 1973): every usual
-sequence of angles is of this form, also with signs turned and constant rotations in between.
+R = Rot(m₁, q₁) Rot(m₂, q₂) Rot(m₃, q₃) K with m₂ perpendicular to m₁ and m₃ (P. Davenport, 1973):
+every usual sequence of angles has this form, also with reversed signs and constant rotations in
+between.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from abc import abstractmethod
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
-from typing import Any
+from functools import cached_property
+from typing import Any, NamedTuple
 
 from polhode.algebra import (
     ONE,
@@ -31,6 +33,7 @@ from polhode.algebra import (
 )
 from polhode.analyse.closed._exact_data import Data
 from polhode.analyse.closed._reals import Array, DoubleReals, Reals
+from polhode.analyse.closed._solution import ExactSolution, Solvable
 from polhode.base import NumericError
 from polhode.derive import Equations
 from polhode.model import Body
@@ -42,14 +45,14 @@ _W = tuple(Symbol(f"turning along {label}") for label in "xyz")
 
 @dataclass(frozen=True)
 class Chart:
-    """The angles that say how a body lies.
+    """The angles that describe the attitude of a body.
 
     Attributes:
-        body: it.
-        angles: three coordinates, or two of a body whose turn about its axis is of no account.
+        body: the body.
+        angles: three coordinates, or two of a body whose turn about its axis does not matter.
         axes: m₁, m₂ and m₃, or the body's axis at q = 0 in place of the last.
         constant: K.
-        speeds: the body's own.
+        speeds: those that its angular velocity depends on.
         solved: the speeds in terms of the angles and the angular velocity along the root's axes.
     """
 
@@ -62,7 +65,7 @@ class Chart:
 
     @classmethod
     def of(cls, equations: Equations, body: Body, axis: Row) -> Chart | None:
-        """The chart of a body, with an axis along its own; None where it is of another form."""
+        """The chart of a body, with an axis along its own; None for angles of another form."""
         fixed = body.fixed_axes
         turns = _turns(body)
         if fixed is None or turns is None:
@@ -109,6 +112,7 @@ def _turns(body: Body) -> tuple[tuple[Symbol, ...], tuple[Row, ...], Matrix] | N
 def _solved(
     equations: Equations, body: Body, axis: Row, count: int
 ) -> tuple[tuple[Symbol, ...], Row] | None:
+    """Speeds of a body, as many as its angles, in terms of its angular velocity."""
     turning = equations.kinetics.velocities[body][1].express(body.axes).components
     speeds = tuple(s for s in equations.speeds if s in variables(turning))
     given = body.axes.root.rotation_to(body.axes).times([Expr.generator(s) for s in _W])
@@ -131,8 +135,8 @@ def _across(vector: Row, axis: Row) -> Row:
 
 
 @dataclass(frozen=True)
-class Placed:
-    """A chart at numbers.
+class NumericChart:
+    """A chart with numbers for all that does not vary.
 
     Attributes:
         chart: the chart.
@@ -143,7 +147,7 @@ class Placed:
     data: Data
 
     @cached_property
-    def start(self) -> list[list[Any]]:
+    def initial_attitude(self) -> list[list[Any]]:
         """The attitude at t = 0."""
         return [[self.data.number(entry) for entry in row] for row in self.chart.attitude.rows]
 
@@ -161,8 +165,8 @@ class Placed:
 
     @cached_property
     def _side(self) -> int:
-        """Sign of sin(λ - q₂), which no motion changes that keeps off the singular position."""
-        return 1 if self.data.context.sin(self._lag - self.begun[1]) > 0 else -1
+        """Sign of sin(λ - q₂), constant on motions that avoid the singular position."""
+        return 1 if self.data.context.sin(self._lag - self.initial_angles[1]) > 0 else -1
 
     def angles(self, reals: Reals, attitude: Sequence[Vec], axis: Vec) -> list[Array]:
         """Angles, but for whole turns, at which the attitude and the body's axis are these."""
@@ -180,6 +184,7 @@ class Placed:
         return [first, second, third]
 
     def _two(self, reals: Reals, image: Vec) -> list[Array]:
+        """The first two angles, which place the image of m₃."""
         m1, m2, beside, _ = (list(map(reals.number, v)) for v in self._directions)
         along, sideways, ahead = (scalar(image, v) for v in (m1, m2, beside))
         lean = self._side * reals.atan2(reals.sqrt(sideways**2 + ahead**2), along)
@@ -188,54 +193,42 @@ class Placed:
 
     def speeds(self, reals: Reals, angles: Sequence[Array], turning: Vec) -> dict[str, Array]:
         """Speeds at these angles and this angular velocity along the root's axes."""
+        import numpy as np
+
         known = (*self.chart.angles, *_W)
         constants = sorted(variables(self.chart.solved) - set(known), key=lambda s: s.published)
         program = compile_program(self.chart.solved, (*known, *constants))
         numbers = [self.data.number(Expr.generator(s)) for s in constants]
-        values = _evaluated(reals, self.data, program, [*angles, *turning], numbers)
+        values: Iterable[Array]
+        lanes = np.broadcast_arrays(*angles, *turning)
+        if isinstance(reals, DoubleReals):
+            found = program.function(arrays())(*lanes, *map(float, numbers))
+            values = (np.asarray(v, dtype=float) for v in found)
+        else:
+            context = self.data.context
+            exact = Arithmetic.of(context, lambda q: context.mpf(q.numerator) / q.denominator)
+            function = program.function(exact)
+            places = zip(*(v.ravel() for v in lanes), strict=True)
+            rows = [function(*place, *numbers) for place in places]
+            columns = (np.array(c, dtype=object) for c in zip(*rows, strict=True))
+            values = (c.reshape(lanes[0].shape) for c in columns)
         return {s.published: v for s, v in zip(self.chart.speeds, values, strict=True)}
 
     @property
-    def begun(self) -> list[Any]:
+    def initial_angles(self) -> list[Any]:
         """The angles at t = 0."""
         return [self.data.number(Expr.generator(q)) for q in self.chart.angles]
-
-
-def _evaluated(
-    reals: Reals, data: Data, program: Any, varying: Sequence[Array], constants: Sequence[Any]
-) -> list[Array]:
-    import numpy as np
-
-    if isinstance(reals, DoubleReals):
-        given = (*np.broadcast_arrays(*varying), *map(float, constants))
-        return [np.asarray(v, dtype=float) for v in program.function(arrays())(*given)]
-    context = data.context
-    make = partial(_ratio, context)
-    function = program.function(Arithmetic.of(context, make))
-    lanes = np.broadcast_arrays(*varying)
-    shape = lanes[0].shape
-    found = [
-        function(*place, *constants) for place in zip(*(v.ravel() for v in lanes), strict=True)
-    ]
-    columns = zip(*found, strict=True)
-    return [_objects(column).reshape(shape) for column in columns]
-
-
-def _objects(values: Sequence[Any]) -> Array:
-    import numpy as np
-
-    made = np.empty(len(values), dtype=object)
-    made[:] = values
-    return made
-
-
-def _ratio(context: Any, number: Any) -> Any:
-    return context.mpf(number.numerator) / number.denominator
 
 
 def scalar(a: Vec, b: Vec) -> Any:
     """Scalar product."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def product(a: Sequence[Vec], b: Sequence[Vec]) -> list[list[Any]]:
+    """Product of two 3 × 3 matrices."""
+    size = range(3)
+    return [[sum(a[i][k] * b[k][j] for k in size) for j in size] for i in size]
 
 
 def cross(a: Vec, b: Vec) -> list[Any]:
@@ -250,3 +243,136 @@ def _rotated(reals: Reals, axis: Vec, angle: Array, vector: Vec) -> list[Array]:
     return [
         c * v + s * b + (1 - c) * along * a for v, b, a in zip(vector, beside, axis, strict=True)
     ]
+
+
+_REFINEMENTS = 6  # how often steps are halved where an angle changes too far in one
+_MOST = 400_000  # steps
+_FAR = 1.5  # rad in a step; np.unwrap misses a turn beyond π
+
+
+class Attitude(NamedTuple):
+    """How a body lies and turns, along the root's axes.
+
+    Attributes:
+        rows: matrix from components along axes fixed in the body.
+        axis: of symmetry, or any axis of the body.
+        turning: angular velocity, 1/s.
+    """
+
+    rows: Sequence[Vec]
+    axis: Vec
+    turning: Vec
+
+
+@dataclass(frozen=True)
+class AttitudeFamily(Solvable):
+    """A family whose motion is the attitude of a body, in whatever angles it is described.
+
+    Attributes:
+        chart: the angles.
+    """
+
+    chart: Chart
+
+    @property
+    def state(self) -> tuple[Symbol, ...]:
+        return (*self.chart.angles, *self.chart.speeds)
+
+
+@dataclass(frozen=True)
+class AttitudeSolution(ExactSolution):
+    """The attitude of a body at all times, in the coordinates and speeds of its chart.
+
+    Attributes:
+        placed: the chart, at numbers.
+        solution: the motion in quantities of its own, such as Euler's angles from the vertical.
+    """
+
+    placed: NumericChart
+    solution: ExactSolution
+
+    @abstractmethod
+    def attitude(self, reals: Reals, times: Array) -> Attitude:
+        """At times, s."""
+
+    @property
+    @abstractmethod
+    def step(self) -> float:
+        """Time in which nothing turns far, s."""
+
+    @property
+    def kind(self) -> str:
+        return self.solution.kind
+
+    @property
+    def period(self) -> Any:
+        return self.solution.period
+
+    @property
+    def figures(self) -> dict[str, Any]:
+        return self.solution.figures
+
+    def besides(self, reals: Reals, times: Array) -> dict[str, Array]:
+        return self.solution.besides(reals, times)
+
+    def at(self, reals: Reals, times: Array) -> dict[str, Array]:
+        found = self.attitude(reals, times)
+        angles = self.placed.angles(reals, found.rows, found.axis)
+        circle = reals.number(2 * self.placed.data.context.pi)
+        turns = self._whole_turns(times, angles)
+        whole = [a + circle * n for a, n in zip(angles, turns, strict=True)]
+        names = (q.published for q in self.placed.chart.angles)
+        speeds = self.placed.speeds(reals, angles, found.turning)
+        return {**dict(zip(names, whole, strict=True)), **speeds}
+
+    def _whole_turns(self, times: Array, angles: Sequence[Array]) -> list[Array]:
+        """Whole turns to be added to angles at times, counted from the start on.
+
+        An attitude says nothing of them: the angles are followed in doubles along a grid, which is
+        refined until none of them changes by more than a safe part of half a turn in one step.
+        """
+        import numpy as np
+
+        moments = np.asarray(times, dtype=float)
+        first, last = min(0.0, float(np.min(moments))), max(0.0, float(np.max(moments)))
+        step = self.step
+        for _ in range(_REFINEMENTS):
+            count = int((last - first) / step) + 2
+            if count > _MOST:
+                raise NumericError(
+                    f"angles whose turns are counted over {count} steps",
+                    expected=f"at most {_MOST}",
+                    advice="ask for times nearer to the start, or use Euler's angles from the "
+                    "vertical",
+                )
+            even = np.linspace(first, last, count)
+            grid = np.unique(np.concatenate([even, moments.ravel(), [0.0]]))
+            paths = self._paths(grid)
+            if max(float(np.max(np.abs(np.diff(p)), initial=0.0)) for p in paths) < _FAR:
+                break
+            step = step / 2
+        else:
+            raise NumericError(
+                "a motion that comes close to a position where its angles are singular",
+                expected="angles that change steadily, so that their turns can be counted",
+                advice="describe the attitude by other angles",
+            )
+        places = np.searchsorted(grid, moments)
+        return [
+            np.rint((p[places] - np.asarray(a, dtype=float)) / (2 * np.pi)).astype(int)
+            for p, a in zip(paths, angles, strict=True)
+        ]
+
+    def _paths(self, grid: Array) -> list[Array]:
+        """The angles along a grid, without jumps, and with their given values at the start."""
+        import numpy as np
+
+        doubles = DoubleReals()
+        found = self.attitude(doubles, grid)
+        angles = self.placed.angles(doubles, found.rows, found.axis)
+        start, paths = int(np.searchsorted(grid, 0.0)), []
+        for angle, initial in zip(angles, self.placed.initial_angles, strict=True):
+            path = np.unwrap(np.broadcast_to(angle, grid.shape))
+            turns = np.rint((float(initial) - path[start]) / (2 * np.pi))
+            paths.append(path + 2 * np.pi * turns)
+        return paths

@@ -1,13 +1,13 @@
-"""Fictitious forces in a turning frame: on one element of mass, and their torque on a body."""
+"""Fictitious forces in a turning frame, and the forces that a contact needs."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from polhode.algebra import Expr, Matrix, Vector
-from polhode.base import Shown
+from polhode.algebra import ZERO, Expr, Matrix, Vector, sqrt
+from polhode.base import DeclarationError, Shown
 from polhode.derive import Equations, equations_only
-from polhode.model import Body, Frame
+from polhode.model import Body, Contact, Frame
 
 
 @dataclass(frozen=True)
@@ -63,18 +63,22 @@ def fictitious_force(
 def fictitious_torque(equations: Equations, body: Body, frame: Frame) -> Fictitious:
     """The same integrated over the body, about its centre of mass.
 
-    With J = ∫ r r dm: centrifugal -Ω × IΩ, Coriolis -2 JΩ × ω', Euler -I Ω̇, where ω' is the
-    rotation of the body relative to the frame.
+    With J = ∫ r r dm = ½ tr(I) - I: centrifugal -Ω × IΩ, Coriolis -2 JΩ × ω', Euler -I Ω̇, where
+    ω' is the rotation of the body relative to the frame.
     """
     equations_only(equations, "a fictitious torque")
     turning, change = _turning(equations, frame)
     axes = body.axes
     spin = equations.kinetics.velocities[body][1] - turning
-    spread = _second_moments(body.inertia)
+    inertia, size = body.inertia, range(3)
+    half_trace = (inertia[0, 0] + inertia[1, 1] + inertia[2, 2]) / 2
+    second_moments = Matrix.of(
+        [[(half_trace if i == j else Expr.of(0)) - inertia[i, j] for j in size] for i in size]
+    )
     about = turning.express(axes)
-    centrifugal = -about.cross(_times(body.inertia, about, axes))
-    coriolis = _times(spread, about, axes).cross(spin.express(axes)) * -2
-    euler = -_times(body.inertia, change.express(axes), axes)
+    centrifugal = -about.cross(_times(inertia, about, axes))
+    coriolis = _times(second_moments, about, axes).cross(spin.express(axes)) * -2
+    euler = -_times(inertia, change.express(axes), axes)
     return Fictitious(centrifugal, coriolis, euler, axes.zero)
 
 
@@ -96,13 +100,45 @@ def _turning(equations: Equations, frame: Frame) -> tuple[Vector, Vector]:
     return turning, equations.kinetics.derivative(turning)
 
 
-def _second_moments(inertia: Matrix) -> Matrix:
-    trace = (inertia[0, 0] + inertia[1, 1] + inertia[2, 2]) / 2
-    size = range(3)
-    return Matrix.of(
-        [[(trace if i == j else Expr.of(0)) - inertia[i, j] for j in size] for i in size]
-    )
-
-
 def _times(matrix: Matrix, vector: Vector, axes: Frame) -> Vector:
     return Vector(matrix.times(vector.express(axes).components), axes)
+
+
+# Contact forces: how much friction rolling needs, and where the contact opens.
+
+
+@dataclass(frozen=True)
+class ContactForces(Shown):
+    """Forces at a contact along true motions.
+
+    Attributes:
+        normal: pressing the surfaces together, N; the contact opens where it vanishes.
+        tangential: magnitude of the friction force, N.
+    """
+
+    normal: Expr
+    tangential: Expr
+
+    @property
+    def friction_needed(self) -> Expr:
+        """The smallest coefficient of friction with which it does not slip."""
+        return self.tangential / self.normal
+
+
+def contact_forces(equations: Equations, name: str) -> ContactForces:
+    """Normal and friction force of a contact, in terms of coordinates and speeds.
+
+    Raises `DeclarationError` for a joint, which holds on both sides.
+    """
+    equations_only(equations, "contact forces")
+    element = equations.system.element(name)
+    if not isinstance(element, Contact):
+        raise DeclarationError(
+            f"friction needed at {name!r}, which is not a contact",
+            expected="a Rolling, Smooth or Coulomb contact",
+        )
+    force = equations.reactions[name].force
+    support = element.on
+    along = [equations.on_shell(force.dot(support.axes[label])) for label in support.tangents]
+    squared = sum((component * component for component in along), ZERO)
+    return ContactForces(equations.on_shell(force.dot(support.up)), sqrt(squared))

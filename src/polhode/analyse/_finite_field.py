@@ -1,9 +1,10 @@
-"""Evaluation at random points of a prime field, with every algebraic relation intact.
+"""Evaluation at random points of a prime field: identities and independence without expansion.
 
-sin x → 2h/(1 + h²) and cos x → (1 - h²)/(1 + h²) with a random h stand in for the sine and cosine,
-and a square root is one of the field: other points than those of space, but all that identities
-ask for. What vanishes at random points of a large field vanishes identically, but for an accident
-of one in millions.
+sin x → 2h/(1 + h²) and cos x → (1 - h²)/(1 + h²) with a random h stand in for sine and cosine, and
+square roots are taken within the field. These are not points of real space, but every algebraic
+relation holds at them. An expression that vanishes at random points of a large field vanishes
+identically, with a probability of error of the order of its degree over 2³¹ (J. T. Schwartz,
+1980; R. Zippel, 1979).
 """
 
 from __future__ import annotations
@@ -12,15 +13,16 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
 from random import Random
-from typing import Any
 
-from flint import fmpq, fmpz
+from flint import fmpq, fmpz, nmod_mat
 
 from polhode.algebra import Expr, Generator, Symbol
 from polhode.base import NumericError
 
 #: Primes p = 3 mod 4 from here downwards: in their fields d^((p + 1)/4) is a root of a square d.
+#: Products of two residues fit into 64 bits.
 _LARGEST = 2**31 - 1
+#: How many fields are tried, each until so many points in a row have no value.
 _FIELDS = 4000
 _MISSES = 64
 
@@ -31,13 +33,13 @@ class _NoValueError(Exception):
 
 @dataclass(frozen=True)
 class Field:
-    """Numbers modulo a prime, with one value for all that does not vary.
+    """Numbers modulo a prime, with one value for everything that does not vary.
 
     Attributes:
-        prime: what they are counted modulo.
-        random: where values come from.
+        prime: the modulus.
+        random: source of the values.
         varying: symbols with another value at every point.
-        fixed: values of the others, and of what the functions of these alone are made of.
+        fixed: values of the others and of the functions of these alone.
     """
 
     prime: int
@@ -60,7 +62,7 @@ class Field:
 
 
 class SamplePoint:
-    """A random value for every symbol, and what generators are there."""
+    """A random value for every symbol, and the values of generators that follow from them."""
 
     def __init__(self, among: Field) -> None:
         self.field = among
@@ -72,10 +74,15 @@ class SamplePoint:
         """The value of an expression."""
         ring = expression.ring
         if ring not in self._in_ring:
-            self._in_ring[ring] = [self._value(generator) for generator in ring.generators]
-        values = self._in_ring[ring]
-        above, below = (self._residue(part(*values)) for part in (expression.num, expression.den))
-        return above * self.field.inverse(below) % self.field.prime
+            for generator in ring.generators:
+                if generator not in self._values:
+                    self._values[generator] = self._value(generator)
+            self._in_ring[ring] = [self._values[generator] for generator in ring.generators]
+        values, residues = self._in_ring[ring], []
+        for part in (expression.num, expression.den):
+            number = fmpq(part(*values))
+            residues.append(int(number.p) * self.field.inverse(int(number.q)))
+        return residues[0] * self.field.inverse(residues[1]) % self.field.prime
 
     def all(self, expressions: Iterable[Expr]) -> list[int]:
         """The values of several expressions."""
@@ -89,16 +96,8 @@ class SamplePoint:
             return False
         return True
 
-    def _residue(self, value: Any) -> int:
-        number = fmpq(value)
-        return int(number.p) * self.field.inverse(int(number.q))
-
     def _value(self, generator: Generator) -> int:
-        if generator not in self._values:
-            self._values[generator] = self._function(generator)
-        return self._values[generator]
-
-    def _function(self, generator: Generator) -> int:
+        """Of a symbol, or of a function of expressions that have values here."""
         even = next(
             (g for g in generator.companions() if generator.arguments and g.partner()), None
         )
@@ -109,7 +108,7 @@ class SamplePoint:
             return above * self.field.inverse(1 - sign * half * half) % self.field.prime
         if generator.depth:
             return self.field.root(self(generator.arguments[0]))
-        return self._drawn(generator)  # a symbol, or an exponential: independent of all others
+        return self._drawn(generator)  # a symbol or an exponential, independent of all others
 
     def _drawn(self, generator: Generator) -> int:
         varies = not generator.symbols().isdisjoint(self.field.varying)
@@ -125,15 +124,16 @@ def points(
     """Random points of one field at which all expressions have a value.
 
     Args:
-        expressions: what is to be evaluated there.
-        varying: symbols with another value at every point; all others have the same at all.
-        count: how many points.
+        expressions: those to be evaluated.
+        varying: symbols with a new value at every point; all others have the same at all points.
+        count: number of points.
         seed: of the random values.
 
     Raises `NumericError` where no such points are found.
     """
     random, changing = Random(seed), frozenset(varying)
-    for prime in islice(_primes(), _FIELDS):
+    primes = (n for n in range(_LARGEST, 3, -4) if fmpz(n).is_probable_prime())
+    for prime in islice(primes, _FIELDS):
         found = list(islice(_regular(Field(prime, random, changing), expressions), count))
         if len(found) == count:
             return found
@@ -153,5 +153,26 @@ def _regular(among: Field, expressions: Sequence[Expr]) -> Iterator[SamplePoint]
         misses += 1
 
 
-def _primes() -> Iterator[int]:
-    return (n for n in range(_LARGEST, 3, -4) if fmpz(n).is_probable_prime())
+_SEED = 20261121
+
+
+class Independent:
+    """A growing set of functions of the state none of which is a function of the others.
+
+    Decided by the rank of their gradients at one random point, which is lower only by coincidence.
+    """
+
+    def __init__(self, state: Iterable[Symbol]) -> None:
+        self._state = tuple(state)
+        self._gradients: list[list[Expr]] = []
+
+    def takes(self, expression: Expr) -> bool:
+        """Add an expression if it is independent of those taken before."""
+        gradients = [*self._gradients, [expression.diff(symbol) for symbol in self._state]]
+        entries = [entry for gradient in gradients for entry in gradient]
+        (point,) = points(entries, self._state, 1, _SEED)
+        table = nmod_mat(len(gradients), len(self._state), point.all(entries), point.field.prime)
+        if table.rank() < len(gradients):
+            return False
+        self._gradients = gradients
+        return True
