@@ -13,7 +13,7 @@ from polhode.analyse._fictitious import relative_momentum as relative_momentum
 from polhode.analyse._fictitious import relative_rate as relative_rate
 from polhode.analyse._friction import ContactForces as ContactForces
 from polhode.analyse._friction import contact_forces as contact_forces
-from polhode.analyse._given import exact_value as exact_value
+from polhode.analyse._given import values_given as values_given
 from polhode.analyse._invariants import Invariant as Invariant
 from polhode.analyse._invariants import Invariants as Invariants
 from polhode.analyse._invariants import invariants as invariants

@@ -15,7 +15,7 @@ from typing import Any
 from polhode.algebra import Expr
 from polhode.analyse import Ansatz, invariants
 from polhode.base import DeclarationError, Exit, NumericError, StoreError, terminal_progress
-from polhode.catalogue import CatalogueEntry, about_with, contact_numbers, exactly, numbers_of
+from polhode.catalogue import CatalogueEntry, about_with, contact_numbers, numbers_of
 from polhode.cli._contact_options import declared, sheet_of, watched_for
 from polhode.cli._document import print_document
 from polhode.cli._endings import MOTIONS, PAGES, refuse_other_endings
@@ -101,7 +101,7 @@ def run(options: Namespace) -> int:
     claims = _claims(options, entry)
     asked = (settings, assignments(options.start), options.duration)
     numbers = numbers_of(entry, equations, *asked, flight=modes.apart.equations)
-    given = exactly(entry, equations, numbers, *asked) if _is_finer(options) else numbers
+    given = numbers.exact if _is_finer(options) else numbers
     trajectory = _kept(
         simulate(
             modes,

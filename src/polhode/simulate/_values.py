@@ -3,30 +3,43 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
-from polhode.algebra import FLOATS, Compiled, Expr, Symbol, compile_program
-from polhode.base import (
-    PURE,
-    TIME,
-    DeclarationError,
-    Dimension,
-    UnitError,
-    look_up,
-    read_quantity,
-    read_unit,
-    to_si,
+from polhode.algebra import (
+    FLOATS,
+    Compiled,
+    Expr,
+    GivenValue,
+    Symbol,
+    compile_program,
+    read_value,
 )
+from polhode.base import TIME, DeclarationError, Dimension, look_up
 from polhode.model import check_inertia, check_mass
 from polhode.simulate._dynamics import Dynamics, EquationsOfMotion, constants
 from polhode.simulate._names import Name, by_name, published
 
 Numbers = Mapping[Symbol, float]
+
+
+def given_values(given: Mapping[Name, Any]) -> dict[Name, GivenValue]:
+    """Values by published name, each read once.
+
+    Raises:
+        DeclarationError: for a name that is given twice.
+        UnitError: for a value that cannot be read.
+    """
+    values: dict[Name, GivenValue] = {}
+    for key, value in given.items():
+        name = published(key)
+        if name in values:
+            raise DeclarationError(f"{name} is given twice", expected="one value for it")
+        values[name] = read_value(name, value)
+    return values
 
 
 def read_values(
@@ -36,7 +49,7 @@ def read_values(
     dimensions: Mapping[Symbol, Dimension],
     known: Numbers,
 ) -> dict[Symbol, float]:
-    """SI values of quantities given by name.
+    """SI values of quantities given by name, rounded to doubles.
 
     Args:
         given: numbers, texts with a unit, or expressions of `known` symbols.
@@ -50,19 +63,14 @@ def read_values(
         UnitError: for a value that cannot be read or has the wrong dimension.
     """
     values: dict[Symbol, float] = {}
-    for key, value in given.items():
-        name = published(key)
-        symbol = look_up(name, symbols, what)
-        if symbol in values:
-            raise DeclarationError(f"{name} is given twice", expected="one value for it")
-        values[symbol] = _number(value, name, _dimension(symbol, dimensions), known)
+    for name in map(published, given):
+        look_up(name, symbols, what)
+    for value in given_values(given).values():
+        symbol = symbols[value.name]
+        base = dimensions.get(symbol.base())
+        dimension = None if base is None else base / TIME**symbol.order
+        values[symbol] = value.in_dimension(dimension).rounded(known)
     return values
-
-
-def _dimension(symbol: Symbol, dimensions: Mapping[Symbol, Dimension]) -> Dimension | None:
-    """Of a quantity, or of the rate of one."""
-    base = dimensions.get(symbol.base())
-    return None if base is None else base / TIME**symbol.order
 
 
 def read_parameters(
@@ -116,23 +124,6 @@ def evaluate(expression: Expr, numbers: Numbers) -> float:
 @lru_cache(maxsize=256)
 def _function(expressions: tuple[Expr, ...], symbols: tuple[Symbol, ...]) -> Compiled:
     return compile_program(expressions, symbols).function(FLOATS)
-
-
-def _number(value: Any, name: str, dimension: Dimension | None, known: Numbers) -> float:
-    if isinstance(value, Expr):
-        value = evaluate(value, known)
-    return to_si(value, _stated(value) if dimension is None else dimension, name)
-
-
-def _stated(value: Any) -> Dimension:
-    """The dimension a value comes with, taken at its word where none is known."""
-    with suppress(UnitError):  # what cannot be read is refused with its name, later
-        match value:
-            case str():
-                return read_quantity(value).dimension or PURE
-            case (_, str(unit)):
-                return read_unit(unit).dimension
-    return PURE
 
 
 def _check_signs(values: Numbers) -> None:

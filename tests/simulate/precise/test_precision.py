@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 import polhode as ph
+from polhode.algebra import fraction_of
 from polhode.base import ConstraintError, DeclarationError, NumericError, StopRequested
 from polhode.simulate import Trajectory
-from polhode.simulate.integrate._number_types import DOUBLES, fraction_of, numbers_for
+from polhode.simulate.integrate._number_types import DOUBLES, numbers_for
 from simulate.examples import four_bar
 
 TIMES = (0, 0.3, 1, 1.75, 2)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from fractions import Fraction
 from functools import lru_cache, partial
 from typing import Any
@@ -20,18 +19,11 @@ from polhode.algebra import (
     as_symbol,
     compile_program,
     pi,
+    read_value,
     sin,
     variables,
 )
-from polhode.analyse._given import measured
-from polhode.base import (
-    PURE,
-    TIME,
-    DeclarationError,
-    Dimension,
-    NumericError,
-    to_si,
-)
+from polhode.base import TIME, DeclarationError, Dimension, NumericError, look_up
 from polhode.derive import Equations
 
 Name = str | Symbol | Expr
@@ -173,9 +165,9 @@ def exact_data(
     """
     constants = {*equations.parameters, *_of_bodies(equations)}
     state = (*equations.coordinates, *equations.speeds)
-    read = _ExactReader(equations.dimensions)
-    given = read.all(parameters, constants, "parameter")
-    begun = read.all(start, state, "coordinate or independent speed")
+    dimensions = equations.dimensions
+    given = _read(parameters, constants, "parameter", dimensions)
+    begun = _read(start, state, "coordinate or independent speed", dimensions)
     at_rest = dict.fromkeys(state, ZERO)
     data = Data({**at_rest, **{s: v.subs(given) for s, v in begun.items()}, **given}, digits)
     for symbol, value in data.values.items():
@@ -210,44 +202,21 @@ def _check_positive(data: Data, quantity: Expr) -> None:
         )
 
 
-@dataclass(frozen=True)
-class _ExactReader:
-    dimensions: Mapping[Symbol, Dimension]
-
-    def all(
-        self, given: Mapping[Any, Any], known: Iterable[Symbol], what: str
-    ) -> dict[Symbol, Expr]:
-        by_name = {symbol.published: symbol for symbol in known}
-        found = dict[Symbol, Expr]()
-        for key, value in given.items():
-            name = key if isinstance(key, str) else as_symbol(key).published
-            if name not in by_name:
-                raise _unknown(name, by_name, what)
-            found[by_name[name]] = self._value(value, by_name[name])
-        return found
-
-    def _value(self, value: Any, symbol: Symbol) -> Expr:
-        if isinstance(value, Expr):
-            return value
-        exact = measured(value, symbol, self.dimensions)
-        if exact:
-            return Expr.constant(exact.coefficient) * pi**exact.pi_power
-        if isinstance(value, int | Fraction):
-            return Expr.constant(value)
-        return Expr.constant(Fraction(to_si(value, self._dimension(symbol), symbol.published)))
-
-    def _dimension(self, symbol: Symbol) -> Dimension:
-        base = self.dimensions.get(symbol.base())
-        return PURE if base is None else base / TIME**symbol.order
-
-
-def _unknown(name: str, known: Mapping[str, Symbol], what: str) -> DeclarationError:
-    near = get_close_matches(name, known, n=3, cutoff=0.5)
-    return DeclarationError(
-        f"{name!r} is no {what} of this system",
-        expected=f"one of {', '.join(sorted(known))}",
-        advice=f"did you mean {' or '.join(near)}?" if near else "",
-    )
+def _read(
+    given: Mapping[Any, Any],
+    known: Iterable[Symbol],
+    what: str,
+    dimensions: Mapping[Symbol, Dimension],
+) -> dict[Symbol, Expr]:
+    by_name = {symbol.published: symbol for symbol in known}
+    found = dict[Symbol, Expr]()
+    for key, value in given.items():
+        name = key if isinstance(key, str) else as_symbol(key).published
+        symbol = look_up(name, by_name, what)
+        base = dimensions.get(symbol.base())
+        dimension = None if base is None else base / TIME**symbol.order
+        found[symbol] = read_value(name, value).in_dimension(dimension).exact()
+    return found
 
 
 def _generic(value: Expr) -> Expr:

@@ -2,14 +2,100 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
-from polhode.algebra import Compiled, Expr, Symbol
+from polhode.algebra import Arithmetic, Compiled, Expr, Symbol, compile_program
 from polhode.base import ConstraintError, NumericError
 from polhode.simulate._dynamics import CLOCK, Dynamics
+from polhode.simulate._names import Name, by_name
 from polhode.simulate._start import Start
-from polhode.simulate.precise._exactly import on
+from polhode.simulate._task import InitialState, Task
+from polhode.simulate._values import given_values
+from polhode.simulate.integrate._number_types import NumberType, ratio
+
+# Values exactly as they were given, so that they can be rounded to any precision.
+
+
+def evaluated(expressions: Sequence[Expr], values: Mapping[Symbol, Any], context: Any) -> list[Any]:
+    """Expressions of symbols with a value, in the numbers of an mpmath context."""
+    return list(compile_program(expressions, tuple(values)).function(on(context))(*values.values()))
+
+
+def on(context: Any) -> Arithmetic:
+    """The arithmetic of an mpmath context, one value at a time."""
+    return Arithmetic.of(context, lambda number: ratio(context, number))
+
+
+# Numbers, start and end of a motion exactly as they were given.
+
+Values = Mapping[Symbol, Any]
+
+
+@dataclass(frozen=True)
+class Given:
+    """What was given, in numbers with bits to spare.
+
+    Attributes:
+        parameters: the constants.
+        start: coordinates and speeds at the start, of the mode in which it was read.
+        begun: how it was read.
+        context: of mpmath.
+    """
+
+    parameters: Values
+    start: Values
+    begun: InitialState
+    context: Any
+
+    def state(self, symbols: tuple[Symbol, ...]) -> dict[Symbol, Any]:
+        """Coordinates and speeds of any mode, from those in which the start was read."""
+        dynamics = self.begun.dynamics
+        parameters = {s: self.parameters[s] for s in dynamics.parameters}
+        wanted = [dynamics.lifted.get(s, Expr.generator(s)) for s in symbols]
+        program = dynamics.program(wanted, (*self.start, *parameters, CLOCK))
+        zero = self.context.mpf(0)
+        function = program.function(on(self.context))
+        values = function(*self.start.values(), *parameters.values(), zero)
+        return dict(zip(symbols, values, strict=True))
+
+
+def read_exactly(begun: InitialState, known: set[Symbol], task: Task, numbers: NumberType) -> Given:
+    """What was given, once it has been read and checked as doubles.
+
+    Args:
+        begun: how the start was read.
+        known: the parameters.
+
+    Raises:
+        ConstraintError: where loops do not close to the precision.
+    """
+    context = numbers.exact
+
+    def values(given: Mapping[Symbol, Expr]) -> dict[Symbol, Any]:
+        return dict(zip(given, evaluated(list(given.values()), {}, context), strict=True))
+
+    exact = _exact(task.given, known, {})
+    parameters = values(exact)
+    given = values(_exact(task.start, _startable(begun.dynamics), exact))
+    own = {s: parameters[s] for s in begun.dynamics.parameters}
+    start = precise_start(begun.dynamics, begun.start, given, own, context)
+    return Given(parameters, start, begun, context)
+
+
+def _exact(
+    given: Mapping[Name, Any], symbols: Iterable[Symbol], known: Mapping[Symbol, Expr]
+) -> dict[Symbol, Expr]:
+    names = by_name(symbols)
+    return {names[v.name]: v.exact(known) for v in given_values(given).values()}
+
+
+def _startable(dynamics: Dynamics) -> tuple[Symbol, ...]:
+    equations = dynamics.equations
+    rates = (*equations.kinematics, *equations.dependent)
+    return (*equations.coordinates, *equations.speeds, *rates)
+
 
 _INDEPENDENT = 1e-12  # relative size below which a pivot is rounding
 _ROUNDS = 20  # of Newton's method: each doubles the digits

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from polhode.algebra import Expr
+from polhode.algebra import Expr, GivenValue
 from polhode.simulate.integrate._number_types import NumberType
 
 
@@ -16,12 +16,12 @@ class Wanted:
 
     Attributes:
         numbers: what to compute in.
-        duration: s, with a unit or exactly.
+        duration: s.
         samples: how many, or their times.
         events: expressions whose passing through zero is recorded, by name.
     """
 
     numbers: NumberType
-    duration: Any
+    duration: GivenValue
     samples: Any
     events: Mapping[str, Expr]

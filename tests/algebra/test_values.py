@@ -5,8 +5,8 @@ import math
 import pytest
 
 import polhode as ph
+from polhode.algebra import read_value
 from polhode.base import LENGTH, MASS, PURE, TIME, ParseError, PolhodeError, UnitError, look_up
-from polhode.catalogue._values import in_si, read_value
 
 SYMBOLS = {"m": ph.Symbol("m"), "a": ph.Symbol("a")}
 DIMENSIONS = {SYMBOLS["m"]: MASS, SYMBOLS["a"]: LENGTH}
@@ -15,7 +15,7 @@ KNOWN = {SYMBOLS["m"]: 2.0, SYMBOLS["a"]: 0.5}
 
 def value(text, dimension):
     read = read_value("q", text, SYMBOLS)
-    return in_si("q", read, dimension, DIMENSIONS, KNOWN)
+    return read.in_dimension(dimension, DIMENSIONS).rounded(KNOWN)
 
 
 @pytest.mark.parametrize(
