@@ -10,7 +10,7 @@ from importlib.metadata import version
 import pytest
 
 from polhode import base
-from polhode.cli import _output, _parser, main
+from polhode.cli import _parser, _run_files, main
 
 POLHODE = (sys.executable, "-m", "polhode")
 
@@ -99,7 +99,7 @@ def test_what_an_interrupted_run_had_written_is_told(polhode, monkeypatch, tmp_p
     def interrupt(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(_output, "figure_of_run", interrupt)
+    monkeypatch.setattr(_run_files, "figure_of_run", interrupt)
     code, out, err = polhode("run", "spinning-coin", "--duration", "0.1s", "--out", str(tmp_path))
     table = tmp_path / "spinning-coin.csv"
     assert (code, out, err) == (130, "", f"polhode: interrupted; kept {table}\n")

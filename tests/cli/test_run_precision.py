@@ -9,7 +9,7 @@ from decimal import Decimal, localcontext
 import pytest
 
 from polhode.base import SilentProgress, StopRequested
-from polhode.cli._interrupt import Interruptible
+from polhode.cli._exit import Interruptible
 
 
 def test_all_digits_are_printed(polhode):

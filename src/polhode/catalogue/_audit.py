@@ -3,16 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from polhode.base import Progress, look_up, terminal_progress
-from polhode.catalogue._problem_set import problem_set
 from polhode.catalogue._systems import CATALOGUE
 from polhode.model import System
 
 if TYPE_CHECKING:
     from polhode.claims import ClaimLimits, Document, Report
+
+
+# The problem set as a document of claims: what it states, and how its symbols are meant.
+
+
+def problem_set() -> str:
+    """The document, as the TOML text that `polhode.claims` reads; docs/claims-format.md tells how.
+
+    It holds all 162 numbered equations of the problem set, byte for byte as its transcript prints
+    them, and statements in words.
+    """
+    return (files("polhode.catalogue") / "problem_set.toml").read_text("utf-8")
 
 
 def audit(

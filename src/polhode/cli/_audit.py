@@ -8,9 +8,8 @@ from pathlib import Path
 from polhode.base import Exit
 from polhode.catalogue import audit, document_of
 from polhode.claims import Document, Report
-from polhode.cli._document import print_document
-from polhode.cli._endings import PAGES, refuse_other_endings
-from polhode.cli._parser import Parser
+from polhode.cli._parser import PAGES, Parser, refuse_other_endings
+from polhode.cli._printing import print_document
 from polhode.cli._systems import entry_of
 from polhode.model import System
 

@@ -8,9 +8,9 @@ from typing import Any
 
 from polhode.base import NumericError, Tell, within
 from polhode.claims import Answer, CheckRequest, Verdict, uncorrected
-from polhode.cli._document import document, printed
-from polhode.cli._failure import flag
+from polhode.cli._exit import flag
 from polhode.cli._parser import Parser
+from polhode.cli._printing import document, printed
 from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.derive import derive
 

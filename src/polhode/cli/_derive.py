@@ -9,10 +9,9 @@ from typing import Any
 
 from polhode.algebra import Expr, Symbol
 from polhode.catalogue import CatalogueEntry
-from polhode.cli._document import print_document, printed
 from polhode.cli._parser import Parser
+from polhode.cli._printing import print_document, printed, wrapped
 from polhode.cli._systems import NAME_HELP, entry_of
-from polhode.cli._text import wrapped
 from polhode.derive import Equations, derive, lettered
 
 

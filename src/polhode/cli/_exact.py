@@ -12,10 +12,9 @@ import numpy as np
 from polhode.analyse import ClosedForm, closed_form
 from polhode.base import NumericError, terminal_progress
 from polhode.catalogue import CatalogueEntry, exact_values, numbers_of
-from polhode.cli._document import print_document
 from polhode.cli._parser import Parser, assignments
+from polhode.cli._printing import print_document, values, wrapped
 from polhode.cli._systems import NAME_HELP, entry_of
-from polhode.cli._text import values, wrapped
 from polhode.derive import derive
 from polhode.simulate import Trajectory, simulate
 

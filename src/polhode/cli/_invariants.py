@@ -6,8 +6,8 @@ from argparse import Namespace
 from typing import Any
 
 from polhode.analyse import Invariant, LinearIntegrals, invariants
-from polhode.cli._document import print_document, printed
 from polhode.cli._parser import Parser
+from polhode.cli._printing import print_document, printed
 from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.derive import derive
 

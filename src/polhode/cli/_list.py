@@ -8,9 +8,8 @@ from dataclasses import asdict
 from typing import Any
 
 from polhode.catalogue import CATALOGUE, CatalogueEntry
-from polhode.cli._document import print_document
 from polhode.cli._parser import Parser
-from polhode.cli._text import wrapped
+from polhode.cli._printing import print_document, wrapped
 from polhode.derive import derive
 
 

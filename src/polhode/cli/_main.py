@@ -12,7 +12,7 @@ from types import ModuleType
 from warnings import catch_warnings, simplefilter
 
 from polhode.base import DriftWarning, installed_version
-from polhode.cli._failure import report
+from polhode.cli._exit import report
 from polhode.cli._parser import Parser
 
 COMMANDS = {

@@ -5,8 +5,8 @@ from __future__ import annotations
 from argparse import Namespace
 from pathlib import Path
 
-from polhode.cli._document import print_document
 from polhode.cli._parser import Parser
+from polhode.cli._printing import print_document
 from polhode.study import found_in
 
 _EXAMPLES = """examples:

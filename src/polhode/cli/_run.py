@@ -17,12 +17,10 @@ from polhode.analyse import Ansatz, invariants
 from polhode.base import DeclarationError, Exit, NumericError, StoreError, terminal_progress
 from polhode.catalogue import CatalogueEntry, about_with, contact_numbers, numbers_of
 from polhode.cli._contact_options import declared, sheet_of, watched_for
-from polhode.cli._document import print_document
-from polhode.cli._endings import MOTIONS, PAGES, refuse_other_endings
-from polhode.cli._interrupt import Interruptible
-from polhode.cli._parser import Parser, assignments
+from polhode.cli._exit import Interruptible
+from polhode.cli._parser import MOTIONS, PAGES, Parser, assignments, refuse_other_endings
+from polhode.cli._printing import print_document, values, wrapped
 from polhode.cli._systems import NAME_HELP, entry_of
-from polhode.cli._text import values, wrapped
 from polhode.derive import Equations, automaton
 from polhode.simulate import EquationsOfMotion, Trajectory, numbers_for, simulate
 
@@ -160,7 +158,7 @@ def _claims(options: Namespace, entry: CatalogueEntry) -> tuple[str, ...]:
             expected="--page F.html, which shows them",
             advice="polhode audit prints verdicts in a table",
         )
-    from polhode.cli._verdicts import claims_about
+    from polhode.cli._run_files import claims_about
 
     return claims_about(entry)
 
@@ -201,7 +199,7 @@ def _written(
         files.append(options.save)
     if not (options.out or options.page):
         return files
-    from polhode.cli._output import write_page, write_run  # a bare run can do without their load
+    from polhode.cli._run_files import write_page, write_run  # a bare run can do without their load
 
     if options.out:
         files += write_run(options.out, entry, trajectory)

@@ -20,10 +20,9 @@ from polhode.analyse import (
 )
 from polhode.base import NumericError
 from polhode.catalogue import exact_values
-from polhode.cli._document import print_document, printed, printed_all
 from polhode.cli._parser import Parser, assignments
+from polhode.cli._printing import in_decimals, print_document, printed, printed_all
 from polhode.cli._systems import NAME_HELP, entry_of
-from polhode.cli._text import in_decimals
 from polhode.derive import derive
 
 

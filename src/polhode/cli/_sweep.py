@@ -15,11 +15,10 @@ import numpy as np
 from polhode.base import DeclarationError, ParseError, terminal_progress
 from polhode.catalogue import CatalogueEntry, RunNumbers, numbers_of
 from polhode.cli._contact_options import declared
-from polhode.cli._document import print_document
-from polhode.cli._interrupt import ended_in_order
+from polhode.cli._exit import ended_in_order
 from polhode.cli._parser import Parser, assignments
+from polhode.cli._printing import print_document, wrapped
 from polhode.cli._systems import NAME_HELP, entry_of
-from polhode.cli._text import wrapped
 from polhode.derive import Equations, automaton
 from polhode.study import Duration, Fate, Final, Output, open_store, sweep
 

@@ -2,12 +2,83 @@
 
 from __future__ import annotations
 
+import sys
+import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
+from types import ModuleType
 
-from polhode.base import DeclarationError, look_up
+from polhode.base import DeclarationError, ParseError, PolhodeError, StoreError, look_up
 from polhode.catalogue import CATALOGUE, CatalogueEntry
-from polhode.cli._user_file import load
 from polhode.model import System
+
+# A Python file of the user's own, loaded as a module; its errors are told with file and line.
+
+
+def load(path: Path) -> ModuleType:
+    """Run a Python file as a module; what it prints goes to standard error.
+
+    Raises:
+        DeclarationError: for an error in the file (its own kind, where it is one of polhode's).
+        ParseError: where the file is not Python.
+        StoreError: where it cannot be read.
+    """
+    if not path.is_file():
+        raise StoreError(
+            f"there is no file {path}", expected="a Python file that declares a System"
+        )
+    name = f"polhode_file_{path.stem}"
+    loader = SourceFileLoader(name, str(path))
+    spec = spec_from_loader(name, loader)
+    assert spec is not None  # a loader of source files always has one
+    module = module_from_spec(spec)
+    sys.modules[name] = module
+    with _failures_located(path), _neighbours_importable(path), redirect_stdout(sys.stderr):
+        loader.exec_module(module)
+    return module
+
+
+@contextmanager
+def _neighbours_importable(path: Path) -> Iterator[None]:
+    folder = str(path.resolve().parent)
+    sys.path.insert(0, folder)
+    try:
+        yield
+    finally:
+        sys.path.remove(folder)
+
+
+@contextmanager
+def _failures_located(path: Path) -> Iterator[None]:
+    try:
+        yield
+    except SyntaxError as error:
+        place = f"{error.filename}, line {error.lineno}" if error.filename else str(path)
+        raise ParseError(f"{place}: {error.msg}", expected="a Python file") from error
+    except PolhodeError as error:
+        given = f"{_place(path, error)}: {error.given}"
+        raise type(error)(given, expected=error.expected, advice=error.advice) from error
+    except OSError as error:
+        raise StoreError(f"{_place(path, error)}: {error}") from error
+    except (Exception, SystemExit) as error:
+        raise DeclarationError(
+            f"{_place(path, error)}: {type(error).__name__}: {error}",
+            expected="a file that declares a System",
+        ) from error
+
+
+def _place(path: Path, error: BaseException) -> str:
+    """The last line of the file that the error came through."""
+    lines = [
+        frame.lineno
+        for frame in traceback.extract_tb(error.__traceback__)
+        if frame.filename == str(path)
+    ]
+    return f"{path}, line {lines[-1]}" if lines else str(path)
+
 
 NAME_HELP = "a system of 'polhode list', or path/to/file.py:name of a System"
 

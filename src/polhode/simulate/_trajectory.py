@@ -6,18 +6,34 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol
-from polhode.base import NumericError, Shown, look_up
+from polhode.algebra import Expr, Symbol, SymbolKind, dimension_of
+from polhode.base import (
+    LENGTH,
+    MASS,
+    PURE,
+    TIME,
+    Dimension,
+    NumericError,
+    Shown,
+    StoreError,
+    UnitError,
+    look_up,
+)
+from polhode.derive import Equations
+from polhode.model import write_declaration
 from polhode.simulate._drift import Drift, drift_of
 from polhode.simulate._dynamics import Dynamics, EquationsOfMotion
 from polhode.simulate._event import Event, placed
 from polhode.simulate._readable import readable
-from polhode.simulate._segment import Segment
-from polhode.simulate.files._csv import write_csv
+from polhode.simulate._segment import Segment, TrajectoryPiece
+from polhode.simulate.files._archive import Archive, ChebyshevPiece, Sampled, series_of
+from polhode.simulate.files._details import Details, label
+from polhode.simulate.files._store import write_archive
+from polhode.simulate.files._tables import to_pandas, to_xarray, write_csv
 from polhode.simulate.integrate._ascending import occurring
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._stepping import Array
@@ -201,9 +217,7 @@ class Trajectory(Shown):
         Raises:
             StoreError: where xarray is not installed.
         """
-        from polhode.simulate.files import _sampling, _tables
-
-        return _tables.to_xarray(self.t, _sampling.samples_of(self, names), self._origin)
+        return to_xarray(self.t, samples_of(self, names), self._origin)
 
     def to_pandas(self, names: Iterable[str] | None = None) -> pandas.DataFrame:
         """The samples as a table with the times `t` (s) as its index.
@@ -216,9 +230,7 @@ class Trajectory(Shown):
         Raises:
             StoreError: where pandas is not installed.
         """
-        from polhode.simulate.files import _sampling, _tables
-
-        return _tables.to_pandas(self.t, _sampling.samples_of(self, names), self._origin)
+        return to_pandas(self.t, samples_of(self, names), self._origin)
 
     def save(self, path: str | Path) -> None:
         """Keep the whole motion in a file that `polhode.load` reads: HDF5, NetCDF-4 to others.
@@ -229,9 +241,13 @@ class Trajectory(Shown):
             StoreError: where the file cannot be written, h5py is not installed, or the system has
                 parts of classes that are not polhode's own.
         """
-        from polhode.simulate.files._saved import save
-
-        save(self, path)
+        if self.precision != DOUBLES.name:
+            raise StoreError(
+                f"a motion in {self.precision} precision, to be kept in doubles",
+                expected="a motion in doubles",
+                advice="save run.rounded(), or its samples with to_csv, which keeps all digits",
+            )
+        write_archive(path, archive_of(self), samples_of(self))
 
     @property
     def _origin(self) -> dict[str, Any]:
@@ -293,3 +309,111 @@ class Trajectory(Shown):
 
 #: What a quantity is in a mode that does not have it, such as the force of an open contact.
 _NOTHING = Expr.of(0)
+
+
+# -- samples with their units ----------------------------------------------------------------------
+
+_ENERGY = MASS * LENGTH**2 / TIME**2
+_NAMED = {PURE: "", _ENERGY: "J", _ENERGY / LENGTH: "N", _ENERGY / TIME: "W"}
+_TURNING = {PURE: "rad", PURE / TIME: "rad/s", PURE / TIME**2: "rad/s^2"}
+_WORDS = {"energy": "J", "work": "J", "power": "W"}
+
+
+def samples_of(run: Trajectory, names: Iterable[str] | None = None) -> dict[str, Sampled]:
+    """Quantities at the sample times of a motion.
+
+    Args:
+        run: the motion.
+        names: published names; by default coordinates, speeds, rates, reactions, energy, power,
+            work and the invariants watched.
+    """
+    chosen = list(names) if names is not None else _usual(run)
+    table = run.table(chosen)
+    return {name: Sampled(unit_of(run, name), values) for name, values in table.items()}
+
+
+def _usual(run: Trajectory) -> list[str]:
+    states = (name for name in run.final if name not in ("energy", "mode"))
+    return list(dict.fromkeys((*states, *_WORDS, *run.invariants)))
+
+
+def unit_of(run: Trajectory, name: str) -> str:
+    """SI unit of a quantity of a motion; empty for a pure number, and where it is not known."""
+    if name in _WORDS:
+        return _WORDS[name]
+    if name in run.reactions:
+        return "N m" if name in _couples(run) else "N"
+    expression = run.quantities[name]
+    try:
+        known = cast(Equations, run.equations).dimensions
+        return _unit(expression.symbol, dimension_of(expression, known) or PURE)
+    except UnitError:
+        return ""
+
+
+def _couples(run: Trajectory) -> frozenset[str]:
+    modes = (cast(Equations, segment.dynamics.equations) for segment in run.segments)
+    return frozenset(n.name for mode in modes for n in mode.lines if n.restraint.is_couple)
+
+
+def _unit(symbol: Symbol | None, dimension: Dimension) -> str:
+    moves = symbol is not None and symbol.kind in (SymbolKind.COORDINATE, SymbolKind.SPEED)
+    if moves and dimension in _TURNING:
+        return _TURNING[dimension]
+    return _NAMED.get(dimension, str(dimension))
+
+
+# -- what a file keeps of a motion -----------------------------------------------------------------
+
+
+def archive_of(run: Trajectory) -> Archive:
+    """What is kept of a motion.
+
+    Raises:
+        StoreError: for a system with parts of classes that are not polhode's own.
+    """
+    parts = [
+        (i, segment, part)
+        for i, segment in enumerate(run.segments)
+        for part in segment.parts
+        if part.begin < part.end
+    ]
+    solutions = [part.solution for segment in run.segments for part in segment.parts]
+    sides = {i: tuple(s.dynamics.sides.values()) for i, s in enumerate(run.segments)}
+    details = Details(
+        duration=run.duration,
+        mode=run.mode,
+        assumed=run.assumed,
+        seconds=run.seconds,
+        integrator=run.integrator,
+        resolution=run.resolution,
+        turned={s: t for solution in solutions for s, t in solution.turned.items()},
+        prescribed=run.dynamics.prescribed,
+        invariants=run.invariants,
+        sides={i: s for i, s in sides.items() if s},
+        doubt=run.doubt,
+    )
+    return Archive(
+        declaration=write_declaration(run.system),
+        parameters=run.parameters,
+        stretches=tuple(_chebyshev(i, segment, part) for i, segment, part in parts),
+        events=tuple(event.as_json() for event in run.events),
+        times=run.t,
+        details=details.as_json(),
+    )
+
+
+def _chebyshev(number: int, segment: Segment, part: TrajectoryPiece) -> ChebyshevPiece:
+    solution = part.solution
+    steps = np.append(solution.steps[solution.steps < part.end], part.end)
+    knots, series = series_of(solution.at, steps)
+    names = (symbol.published for symbol in segment.dynamics.parameters)
+    return ChebyshevPiece(
+        segment=number,
+        mode=segment.mode,
+        states=tuple(map(label, solution.symbols)),
+        constants=dict(zip(names, part.constants.tolist(), strict=True)),
+        steps=steps,
+        knots=knots,
+        series=series,
+    )

@@ -12,8 +12,15 @@ import xarray
 
 from polhode.base import StoreError
 from polhode.simulate.files import _store
-from polhode.simulate.files._archive import Archive, ChebyshevPiece, Sampled, series_of
-from polhode.simulate.files._payload import counted, packed, unpacked
+from polhode.simulate.files._archive import (
+    Archive,
+    ChebyshevPiece,
+    Sampled,
+    counted,
+    packed,
+    series_of,
+    unpacked,
+)
 from polhode.simulate.files._store import read_archive, write_archive
 
 

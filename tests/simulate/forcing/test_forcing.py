@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from scipy.interpolate import make_smoothing_spline
 
 from polhode.base import NumericError
-from polhode.simulate.forcing._callable import approximated
+from polhode.simulate.forcing._approximation import approximated
 from polhode.simulate.forcing._pieces import Pieces
-from polhode.simulate.forcing._spline import _smoothed, sampled
+from polhode.simulate.forcing._samples import _smoothed, sampled
 
 PARABOLAS = Pieces(np.array([1.0, 3.0, 4.0]), np.array([[2.0, 0.0, 0.5], [4.0, -1.0, 3.0]]), (1,))
 

@@ -9,8 +9,7 @@ import pytest
 
 import polhode as ph
 from polhode.base import NumericError
-from polhode.simulate.forcing._approximation import looked_at
-from polhode.simulate.forcing._callable import approximated
+from polhode.simulate.forcing._approximation import approximated, looked_at
 
 
 def box(begin, width):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from polhode.base import PolhodeError, StoreError
-from polhode.simulate.forcing._sheet_file import read_sheet
+from polhode.simulate.forcing._samples import read_sheet
 
 PLAIN = "t,x,y\n0,0,0\n1,0.5,0\n2,2,-1\n"
 

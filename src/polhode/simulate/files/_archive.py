@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from math import isfinite, prod
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from polhode.base import provenance
+from polhode.base import SCHEMA, provenance
 from polhode.simulate.integrate._quadrature import resolved
 from polhode.simulate.integrate._stepping import Array
 
@@ -126,3 +128,207 @@ class Archive:
     times: Array
     details: Mapping[str, Any] = field(default_factory=dict)
     origin: Mapping[str, Any] = field(default_factory=lambda: dict(provenance()))
+
+
+# A motion as bytes: a JSON document and doubles, read without trust and without a library.
+#
+# The document says how many doubles each array has; all together must be those that are there. So
+# what reading takes is bounded by the length of the bytes, whatever they say.
+#
+# Layout: the length of the document as eight bytes, the document as UTF-8, the doubles; whole
+# numbers and doubles with the least byte first.
+
+FORMAT = "polhode motion"
+
+_LENGTH = 8  # bytes of a length
+_DOUBLE = np.dtype("<f8")
+
+
+# -- writing ---------------------------------------------------------------------------------------
+
+
+def packed(archive: Archive) -> bytes:
+    """The bytes that stand for a motion, the same ones for the same motion."""
+    document = {
+        "format": FORMAT,
+        "schema": SCHEMA,
+        "declaration": archive.declaration,
+        "parameters": dict(archive.parameters),
+        "events": [dict(event) for event in archive.events],
+        "details": dict(archive.details),
+        "origin": dict(archive.origin),
+        "times": len(archive.times),
+        "stretches": [_described(stretch) for stretch in archive.stretches],
+    }
+    head = json.dumps(document).encode()
+    parts = [a for s in archive.stretches for a in (s.steps, s.knots, s.series)]
+    arrays = b"".join(np.ascontiguousarray(a, _DOUBLE).tobytes() for a in (archive.times, *parts))
+    return counted(len(head)) + head + arrays
+
+
+def _described(stretch: ChebyshevPiece) -> dict[str, Any]:
+    pieces, order, _ = stretch.series.shape
+    return {
+        "segment": stretch.segment,
+        "mode": stretch.mode,
+        "states": list(stretch.states),
+        "constants": dict(stretch.constants),
+        "steps": len(stretch.steps),
+        "pieces": pieces,
+        "order": order,
+    }
+
+
+def counted(length: int) -> bytes:
+    """A length as bytes."""
+    return length.to_bytes(_LENGTH, "little")
+
+
+# -- reading ---------------------------------------------------------------------------------------
+
+
+def unpacked(content: bytes) -> Archive:
+    """The motion that bytes stand for.
+
+    Raises:
+        ValueError: for bytes that stand for none.
+    """
+    length = int.from_bytes(content[:_LENGTH], "little")
+    head, rest = content[_LENGTH : _LENGTH + length], content[_LENGTH + length :]
+    if len(head) < length or len(rest) % _DOUBLE.itemsize:
+        raise ValueError("it has another length than it says")
+    document = _document(head)
+    arrays = _Arrays(rest)
+    times = arrays.take(_count(document, "times", 0))
+    stretches = tuple(_stretch(item, arrays) for item in _listed(document["stretches"]))
+    arrays.finish()
+    return Archive(
+        declaration=text(document["declaration"]),
+        parameters=numbers(document["parameters"]),
+        stretches=stretches,
+        events=tuple(mapping(event) for event in _listed(document["events"])),
+        times=times,
+        details=mapping(document["details"]),
+        origin=mapping(document["origin"]),
+    )
+
+
+def _document(head: bytes) -> dict[str, Any]:
+    try:
+        document = mapping(json.loads(head, parse_constant=_no_number))
+    except RecursionError as error:
+        raise ValueError("lists within lists without end") from error
+    if document.get("format") != FORMAT:
+        raise ValueError("it is of another kind")
+    if document.get("schema") != SCHEMA:
+        raise ValueError(f"it is of schema {document.get('schema')!r}, not {SCHEMA}")
+    missing = _KEYS - set(document)
+    if missing:
+        raise ValueError(f"no {', '.join(sorted(missing))} in it")
+    return document
+
+
+_KEYS = {"declaration", "parameters", "events", "details", "origin", "times", "stretches"}
+
+
+def _no_number(name: str) -> NoReturn:
+    raise ValueError(f"{name} for a number")
+
+
+class _Arrays:
+    """Doubles, taken one array after the other."""
+
+    def __init__(self, content: bytes) -> None:
+        self._left = np.frombuffer(content, dtype=_DOUBLE)
+
+    def take(self, *shape: int) -> Array:
+        count = prod(shape)
+        if count > len(self._left):
+            raise ValueError(f"{len(self._left)} numbers where there should be {count}")
+        taken, self._left = self._left[:count], self._left[count:]
+        if not np.all(np.isfinite(taken)):
+            raise ValueError("a number that is not finite")
+        return taken.astype(float).reshape(shape)
+
+    def finish(self) -> None:
+        """See that none are left over."""
+        if len(self._left):
+            raise ValueError(f"{len(self._left)} numbers more than there should be")
+
+
+def _stretch(item: Any, arrays: _Arrays) -> ChebyshevPiece:
+    part = mapping(item)
+    states = tuple(text(state) for state in _listed(part["states"]))
+    pieces, order = _count(part, "pieces"), _count(part, "order")
+    if not states:
+        raise ValueError("a stretch without states")
+    steps = arrays.take(_count(part, "steps", 2))
+    knots = arrays.take(pieces + 1)
+    for times in (steps, knots):
+        if not np.all(np.diff(times) > 0) or times[0] != steps[0] or times[-1] != steps[-1]:
+            raise ValueError("times of a stretch that do not rise from its begin to its end")
+    return ChebyshevPiece(
+        segment=_count(part, "segment", 0),
+        mode=text(part["mode"]),
+        states=states,
+        constants=numbers(part["constants"]),
+        steps=steps,
+        knots=knots,
+        series=arrays.take(pieces, order, len(states)),
+    )
+
+
+def _count(table: Mapping[str, Any], name: str, least: int = 1) -> int:
+    value = table[name]
+    if type(value) is not int or not least <= value < 2**60:
+        raise ValueError(f"{name} = {str(value)[:30]}")
+    return value
+
+
+def text(value: Any) -> str:
+    """A text.
+
+    Raises:
+        ValueError: for anything else, and for half a character.
+    """
+    if not isinstance(value, str):
+        raise ValueError(f"{str(value)[:30]} where a text is expected")
+    value.encode()
+    return value
+
+
+def _listed(value: Any) -> list[Any]:
+    if not isinstance(value, list):
+        raise ValueError("no list where one is expected")
+    return value
+
+
+def mapping(value: Any) -> dict[str, Any]:
+    """A table of anything by name.
+
+    Raises:
+        ValueError: for anything else.
+    """
+    if not isinstance(value, dict):
+        raise ValueError("no names where they are expected")
+    return value
+
+
+def number(value: Any) -> float:
+    """A finite number.
+
+    Raises:
+        ValueError: for anything else.
+    """
+    if type(value) not in (int, float) or not isfinite(value):
+        raise ValueError(f"{str(value)[:30]} where a number is expected")
+    return float(value)
+
+
+def numbers(value: Any) -> dict[str, float]:
+    """Finite numbers by name.
+
+    Raises:
+        ValueError: for anything else.
+    """
+    return {name: number(item) for name, item in mapping(value).items()}

@@ -9,9 +9,7 @@ from typing import Any
 from polhode.algebra import SHAPES, Expr, Symbol, SymbolKind
 from polhode.base import Codec, ShapeRecord
 from polhode.simulate._event import Event
-from polhode.simulate._segment import Segment
-from polhode.simulate._trajectory import Trajectory
-from polhode.simulate.files._payload import mapping, number, numbers, text
+from polhode.simulate.files._archive import mapping, number, numbers, text
 
 
 @dataclass(frozen=True)
@@ -72,29 +70,6 @@ class Details:
             "sides": {str(number): list(sides) for number, sides in self.sides.items()},
             "doubt": self.doubt,
         }
-
-
-def details_of(run: Trajectory) -> Details:
-    """What is kept of a motion by name."""
-    parts = (part for segment in run.segments for part in segment.parts)
-    return Details(
-        duration=run.duration,
-        mode=run.mode,
-        assumed=run.assumed,
-        seconds=run.seconds,
-        integrator=run.integrator,
-        resolution=run.resolution,
-        turned={s: t for part in parts for s, t in part.solution.turned.items()},
-        prescribed=run.dynamics.prescribed,
-        invariants=run.invariants,
-        sides={i: s for i, segment in enumerate(run.segments) if (s := _sides(segment))},
-        doubt=run.doubt,
-    )
-
-
-def _sides(segment: Segment) -> tuple[int, ...]:
-    """On which sides of their zeros the insides of absolute values are."""
-    return tuple(segment.dynamics.sides.values())
 
 
 def read_details(given: Mapping[str, Any]) -> Details:

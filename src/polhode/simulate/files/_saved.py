@@ -12,7 +12,7 @@ import numpy as np
 from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError, PolhodeError, StoreError, Tell, within
 from polhode.derive import Automaton, automaton, derive
-from polhode.model import System, read_declaration, write_declaration
+from polhode.model import System, read_declaration
 from polhode.simulate._absolute_values import sides_in_order
 from polhode.simulate._dynamics import WORK, Dynamics
 from polhode.simulate._event import placed
@@ -20,40 +20,20 @@ from polhode.simulate._segment import Segment, TrajectoryPiece
 from polhode.simulate._task import AS_DECLARED
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate.contact._hybrid_system import HybridSystem
-from polhode.simulate.files._archive import Archive, ChebyshevPiece, series_of
+from polhode.simulate.files._archive import Archive, ChebyshevPiece
 from polhode.simulate.files._details import (
     Details,
-    details_of,
-    label,
     read_details,
     read_event,
     symbol,
 )
-from polhode.simulate.files._sampling import samples_of
-from polhode.simulate.files._store import read_archive, write_archive
+from polhode.simulate.files._store import read_archive
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion
 from polhode.simulate.integrate._driver import SegmentSolution
 from polhode.simulate.integrate._integrators import chosen
-from polhode.simulate.integrate._number_types import DOUBLES
 from polhode.simulate.integrate._stop_criteria import Stop
 
 LONGEST = 60.0  # s of processor time
-
-
-def save(run: Trajectory, path: str | Path) -> None:
-    """Keep a motion in a file, with all that it was made of.
-
-    Raises:
-        StoreError: where the file cannot be written, h5py is not installed, or the system has
-            parts of classes that are not polhode's own.
-    """
-    if run.precision != DOUBLES.name:
-        raise StoreError(
-            f"a motion in {run.precision} precision, to be kept in doubles",
-            expected="a motion in doubles",
-            advice="save run.rounded(), or its samples with to_csv, which keeps all digits",
-        )
-    write_archive(path, archive_of(run), samples_of(run))
 
 
 def load(path: str | Path, *, seconds: float | None = LONGEST) -> Trajectory:
@@ -91,47 +71,6 @@ def _rehearse(archive: Archive, seconds: float) -> None:
         within(seconds, rehearsed, advice="allow more with load(path, seconds=...)")
     except NumericError as error:
         raise _unfit(str(error)) from error
-
-
-# -- from a trajectory -----------------------------------------------------------------------------
-
-
-def archive_of(run: Trajectory) -> Archive:
-    """What is kept of a motion.
-
-    Raises:
-        StoreError: for a system with parts of classes that are not polhode's own.
-    """
-    parts = [
-        (i, segment, part)
-        for i, segment in enumerate(run.segments)
-        for part in segment.parts
-        if part.begin < part.end
-    ]
-    return Archive(
-        declaration=write_declaration(run.system),
-        parameters=run.parameters,
-        stretches=tuple(_stretch(i, segment, part) for i, segment, part in parts),
-        events=tuple(event.as_json() for event in run.events),
-        times=run.t,
-        details=details_of(run).as_json(),
-    )
-
-
-def _stretch(number: int, segment: Segment, part: TrajectoryPiece) -> ChebyshevPiece:
-    solution = part.solution
-    steps = np.append(solution.steps[solution.steps < part.end], part.end)
-    knots, series = series_of(solution.at, steps)
-    names = (symbol.published for symbol in segment.dynamics.parameters)
-    return ChebyshevPiece(
-        segment=number,
-        mode=segment.mode,
-        states=tuple(map(label, solution.symbols)),
-        constants=dict(zip(names, part.constants.tolist(), strict=True)),
-        steps=steps,
-        knots=knots,
-        series=series,
-    )
 
 
 # -- and back --------------------------------------------------------------------------------------

@@ -16,8 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from polhode.base import SCHEMA, StoreError, extra, read_whole, write_whole
-from polhode.simulate.files._archive import Archive, Sampled
-from polhode.simulate.files._payload import FORMAT, counted, packed, unpacked
+from polhode.simulate.files._archive import FORMAT, Archive, Sampled, counted, packed, unpacked
 
 _MOTION = "polhode.motion"
 _MAGIC = b"\x89HDF\r\n\x1a\n"

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from math import ceil
+from itertools import pairwise
+from math import ceil, inf, isfinite
 from typing import Any
 
 import numpy as np
+from numpy.polynomial import chebyshev, polynomial
 
 from polhode.base import NumericError
 from polhode.simulate.forcing._pieces import Pieces
@@ -120,3 +122,232 @@ def values_of(function: Function, times: Array) -> Array:
             expected="a number at every time",
         )
     return values
+
+
+# Python functions of time as polynomials, to rounding.
+
+_DEGREE = 11
+_ROUNDING = 6 * np.finfo(float).eps
+_NOTHING = np.finfo(float).eps / 2  # a coefficient that small is rounding
+_LEAST = np.finfo(float).tiny  # numbers below have fewer digits
+_HELPED = 64  # by what halving a piece reduces its error at least, and in fact by 4096
+_AT_ENDS = 16  # roundings by which a piece may be off where it ends
+_SHORTEST = 1e-7  # length of a piece over the whole: shorter ones mean a corner
+_MOST = 100_000  # pieces
+_LOOKS = 2000  # resolutions in a span, where none is given
+_MOST_LOOKS = 10_000_000
+
+
+def approximated(
+    function: Function,
+    start: float,
+    end: float,
+    *,
+    corners: Iterable[float] = (),
+    resolution: float | None = None,
+) -> Approximation:
+    """A smooth Python function of time as polynomials that agree with it to rounding.
+
+    The function is evaluated at times that are at most the resolution apart, and more often where
+    that is not enough. So nothing that it does for longer than the resolution is missed; what it
+    does for less may be. A motion that is computed with it evaluates it again between its steps.
+
+    Outside the span it is at rest where the span ends.
+
+    Args:
+        function: of the time in seconds.
+        start: s.
+        end: s.
+        corners: times at which the function or its rate jumps.
+        resolution: s; by default a 2000th of the span. The function is evaluated 1.6 times in
+            every resolution.
+
+    Raises:
+        NumericError: for a function that has no finite value, or is not smooth between corners,
+            and for a resolution that is none.
+    """
+    bounds = [start, *sorted(float(t) for t in corners if start < t < end), end]
+    if not (isfinite(start) and isfinite(end) and start < end):
+        raise NumericError(f"a span from {start:g} s to {end:g} s", expected="a span of time")
+    finest = _resolution(resolution, end - start)
+    knots, tables, jerks = np.array([start]), list[Array](), list[int]()
+    allowed = list[Array]()
+    for left, right in pairwise(bounds):
+        seen = _seen(function, left, right, finest)
+        pieces = _resolved(function, left, right, _SHORTEST * (end - start), seen)
+        ends, table = _joined(pieces)
+        knots = np.concatenate([knots, ends])
+        tables.append(table)
+        jerks.append(len(knots) - 1)
+        allowed.append(np.array([2 * piece.allowed for piece in pieces]))  # and for the joints
+    return Approximation(
+        knots,
+        np.vstack(tables),
+        tuple(jerks[:-1]),
+        resolution=finest,
+        function=function,
+        allowed=np.concatenate(allowed),
+    )
+
+
+def _resolution(given: float | None, span: float) -> float:
+    if given is None:
+        return span / _LOOKS
+    if not (isfinite(given) and span / _MOST_LOOKS <= given):
+        raise NumericError(
+            f"a resolution of {given:g} s over {span:g} s",
+            expected=f"a time of at least {span / _MOST_LOOKS:g} s",
+            advice="give the duration of the shortest thing that the function does",
+        )
+    return float(given)
+
+
+@dataclass(frozen=True)
+class _Evaluations:
+    """Values of the function at increasing times that no polynomial is made of."""
+
+    times: Array
+    values: Array
+
+    def within(self, left: float, right: float) -> _Evaluations:
+        first, last = np.searchsorted(self.times, [left, right]).tolist()
+        return _Evaluations(self.times[first:last], self.values[first:last])
+
+
+def _seen(function: Function, left: float, right: float, resolution: float) -> _Evaluations:
+    times = looked_at(left, right, resolution)
+    return _Evaluations(times, values_of(function, times))
+
+
+@dataclass(frozen=True)
+class _Piece:
+    """A polynomial between two times, in powers of the time since the left one.
+
+    Attributes:
+        size: of the function's values.
+        rounding: what the function's values are uncertain by, as far as they tell.
+        error: by how much they differ from it between the values that it was made of.
+        allowed: by how much they may differ from it elsewhere.
+    """
+
+    left: float
+    right: float
+    powers: Array
+    size: float
+    rounding: float
+    error: float
+    allowed: float
+
+    def passes_by(self, seen: _Evaluations) -> bool:
+        """Whether it differs by more than allowed from one of the function's values within it."""
+        own = seen.within(self.left, self.right)
+        values = polynomial.polyval(own.times - self.left, self.powers)
+        return bool(np.any(np.abs(values - own.values) > self.allowed))
+
+
+def _resolved(
+    function: Function, left: float, right: float, shortest: float, seen: _Evaluations
+) -> list[_Piece]:
+    """Pieces from left to right, halved until each agrees with the function."""
+    noise = _ROUNDING * float(np.max(np.abs(seen.values)))
+    whole = _fitted(function, left, right, noise)
+    noise = max(noise, _ROUNDING * whole.size)
+    done, waiting = list[_Piece](), [(whole, inf)]
+    while waiting:
+        piece, before = waiting.pop()
+        a, b = piece.left, piece.right
+        is_short = b - a < shortest
+        if _agrees(piece, 0.0 if is_short else before, noise) and not piece.passes_by(seen):
+            done.append(piece)
+        elif is_short or len(done) > _MOST:
+            raise _not_smooth(a)
+        else:
+            halves = ((a + b) / 2, b), (a, (a + b) / 2)
+            waiting += [(_fitted(function, *half, noise), piece.error) for half in halves]
+    return done
+
+
+def _agrees(piece: _Piece, before: float, noise: float) -> bool:
+    """Whether what is left of the error is rounding: of the values, or of what they are made of.
+
+    The latter shows, where large terms cancel, in that halving the piece has not helped.
+    """
+    return piece.error <= piece.rounding or before / _HELPED < piece.error <= noise
+
+
+def _fitted(function: Function, left: float, right: float, noise: float) -> _Piece:
+    """The polynomial through the function's values, compared with it in between."""
+    values = _values(function, left, right, _NODES)
+    series = _SERIES @ (values - values[0])
+    size = float(np.max(np.abs(values)))
+    series[np.abs(series) < _NOTHING * size] = 0.0
+    series[0] += values[0]
+    apart = chebyshev.chebval(_BETWEEN, series) - _values(function, left, right, _BETWEEN)
+    error = float(np.max(np.abs(apart)))
+    rate = float(np.max(np.abs(np.diff(values) / np.diff(_NODES)))) * 2 / (right - left)
+    rounding = _ROUNDING * (size + max(abs(left), abs(right)) * rate) + _LEAST
+    powers = _POWERS @ series / (right - left) ** np.arange(_DEGREE + 1)
+    allowed = _AT_ENDS * max(rounding, error, noise)
+    return _Piece(left, right, powers, size, rounding, error, allowed)
+
+
+def _not_smooth(time: float) -> NumericError:
+    return NumericError(
+        f"a prescribed motion that is not smooth near t = {time:.6g} s",
+        expected="a smooth function of time",
+        advice="name the times at which it jumps or has a corner",
+    )
+
+
+def _values(function: Function, left: float, right: float, places: Array) -> Array:
+    """Of the function, at places between -1 and 1."""
+    return values_of(function, (left + right + (right - left) * places) / 2)
+
+
+def _joined(pieces: list[_Piece]) -> tuple[Array, Array]:
+    """Right ends and coefficients, with the last rounding between pieces taken out.
+
+    Values and rates on both sides of a joint are brought to their mean by a cubic on either side.
+
+    Raises:
+        NumericError: where they differ by more: the function jumps, or has a corner, at a joint.
+    """
+    right = np.array([piece.right for piece in pieces])
+    span = right - np.array([piece.left for piece in pieces])
+    table = np.array([piece.powers for piece in pieces])
+    powers = np.arange(_DEGREE + 1)
+    reached = np.array(
+        [
+            np.sum(table * span[:, None] ** powers, axis=1),
+            np.sum((table * powers)[:, 1:] * span[:, None] ** powers[:-1], axis=1),
+        ]
+    )
+    apart = table.T[:2, 1:] - reached[:, :-1]
+    unsure = np.array([piece.allowed for piece in pieces])
+    unsure = np.array([unsure, 2 * _DEGREE**2 / span * unsure])  # Markov's inequality
+    torn = np.flatnonzero(np.any(np.abs(apart) > unsure[:, 1:] + unsure[:, :-1], axis=0))
+    if len(torn):
+        raise _not_smooth(right[torn[0]])
+    gaps = np.pad(apart, ((0, 0), (1, 1))) / 2
+    (d, v), (e, w) = -gaps[:, :-1], gaps[:, 1:]
+    table[:, 0] += d
+    table[:, 1] += v
+    table[:, 2] += 3 * (e - d) / span**2 - (2 * v + w) / span
+    table[:, 3] += 2 * (d - e) / span**3 + (v + w) / span**2
+    return right, table
+
+
+def _shifted_powers() -> Array:
+    """Chebyshev polynomials over [-1, 1] in powers of the place counted from 0 to 1."""
+    columns = [np.eye(1, _DEGREE + 1)[0]]
+    columns.append(2 * np.roll(columns[0], 1) - columns[0])
+    while len(columns) <= _DEGREE:
+        columns.append(4 * np.roll(columns[-1], 1) - 2 * columns[-1] - columns[-2])
+    return np.array(columns).T
+
+
+_NODES = chebyshev.chebpts1(_DEGREE + 1)
+_BETWEEN = np.cos(np.pi * np.arange(_DEGREE + 2) / (_DEGREE + 1))[1:-1]
+_SERIES = chebyshev.chebvander(_NODES, _DEGREE).T * 2 / (_DEGREE + 1)
+_SERIES[0] /= 2
+_POWERS = _shifted_powers()

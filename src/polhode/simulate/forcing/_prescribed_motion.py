@@ -12,8 +12,7 @@ from typing import Any
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, time
 from polhode.base import DeclarationError, look_up
 from polhode.simulate._names import Name, by_name, published
-from polhode.simulate.forcing._approximation import Approximation
-from polhode.simulate.forcing._callable import approximated
+from polhode.simulate.forcing._approximation import Approximation, approximated
 from polhode.simulate.forcing._pieces import Pieces
 from polhode.simulate.integrate._stepping import Array
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from pathlib import Path
 
-from polhode.base import StoreError
-from polhode.catalogue import CatalogueEntry
-from polhode.cli._verdicts import judgements_on
+from polhode.base import DeclarationError, StoreError
+from polhode.catalogue import CatalogueEntry, audit, document_of
 from polhode.simulate import Trajectory
-from polhode.view import figure_of_run, origin_of, page, save_figure
+from polhode.view import Judgement, figure_of_run, origin_of, page, save_figure
+
+# The files of a run: a table of samples, a figure, a page, each whole or not there.
 
 
 def write_run(folder: Path, entry: CatalogueEntry, trajectory: Trajectory) -> list[Path]:
@@ -73,3 +74,28 @@ def _make(folder: Path) -> None:
             expected="a place where a folder can be made",
             advice="give --out another one",
         ) from error
+
+
+# What the problem set claims about a system, judged, for its page.
+
+
+def claims_about(entry: CatalogueEntry) -> tuple[str, ...]:
+    """Ids of the problem set's claims about a system.
+
+    Raises:
+        DeclarationError: where there are none.
+    """
+    found = tuple(claim.id for claim in document_of(None).about(entry.name))
+    if not found:
+        raise DeclarationError(
+            f"--verdicts for {entry.name}, about which the problem set says nothing",
+            expected="a system that its claims are about, such as rolling-disk",
+            advice="judge your own with ph.check and give them to ph.page as judgements",
+        )
+    return found
+
+
+def judgements_on(claims: Collection[str]) -> tuple[Judgement, ...]:
+    """The verdicts on claims of the problem set with these ids, part by part."""
+    parted = audit(only=claims).by_part() if claims else ()
+    return tuple(Judgement.on(judged) for _, found in parted for judged in found)
