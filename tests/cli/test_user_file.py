@@ -53,7 +53,11 @@ def test_its_missing_numbers_are_named(polhode, ring):
 
 @pytest.mark.parametrize(
     ("variable", "said"),
-    [("", "which system of"), (":lab", "no System but a Frame"), (":nothing", "is no System")],
+    [
+        ("", "which system of"),
+        (":lab", "is not a System but a Frame"),
+        (":nothing", "is not a System"),
+    ],
 )
 def test_the_systems_of_the_file_are_offered(polhode, ring, variable, said):
     code, out, err = polhode("derive", f"{ring}{variable}")

@@ -154,7 +154,12 @@ def read_value(name: str, value: Any, names: Mapping[str, Symbol] | None = None)
     if isinstance(value, Expr):
         return GivenValue(name, value, value)
     if isinstance(value, str) and names is not None and not _NUMBER_THEN_UNIT.match(value):
-        return GivenValue(name, value, number := _formula(name, value, names), _double(number))
+        return GivenValue(
+            name,
+            value,
+            number := _formula(name, value, names),
+            number.value if isinstance(number, Quantity) else None,
+        )
     quantity = quantity_of(value, name)
     return GivenValue(name, value, _unrounded(quantity, value), quantity.value)
 
@@ -168,10 +173,6 @@ def _formula(name: str, text: str, names: Mapping[str, Symbol]) -> Quantity | Ex
             return read_quantity(text)
         except UnitError:
             raise _about(name, unread) from unread
-
-
-def _double(number: Quantity | Expr) -> float | None:
-    return number.value if isinstance(number, Quantity) else None
 
 
 def _unrounded(quantity: Quantity, value: Any) -> Quantity:

@@ -1,4 +1,4 @@
-"""What the catalogue knows of a system: its declaration, default numbers, and what to plot."""
+"""An entry of the catalogue: declaration, default numbers, description, and what to plot."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class CatalogueEntry:
     """A system of the catalogue.
 
     Attributes:
-        name: what the command line calls it.
+        name: as on the command line.
         title: heading.
         about: the problem in a few sentences.
         build: makes the declaration.
@@ -56,7 +56,7 @@ class CatalogueEntry:
 
     @classmethod
     def bare(cls, name: str, title: str, system: System) -> CatalogueEntry:
-        """A system of somebody's own, with no defaults."""
+        """The entry of a user's own system, without defaults."""
         return cls(
             name=name,
             title=title,
@@ -72,11 +72,11 @@ class CatalogueEntry:
 GRAVITY = Parameter("g", "m/s^2", "9.81 m/s^2", "acceleration of gravity")
 
 
-# What a system is about, with the contacts that a run gives it.
+# -- what it is about, with the contacts that a run gives it ---------------------------------------
 
 
 def about_with(entry: CatalogueEntry, system: System) -> str:
-    """The words of an entry, or where its contacts are of another kind those that still hold."""
+    """The description of an entry; with contacts of another kind, the part that still holds."""
     declared = [type(contact) for contact in _contacts(entry.build())]
     contacts = _contacts(system)
     if [type(contact) for contact in contacts] == declared:
@@ -86,9 +86,9 @@ def about_with(entry: CatalogueEntry, system: System) -> str:
 
 
 def contact_numbers(system: System) -> dict[str, float]:
-    """Coefficients of friction and edges of sheets that a declaration has as numbers, by name.
+    """Coefficients of friction and edges of sheets declared as numbers, by name, SI.
 
-    SI. Of contacts that differ, under the name of each.
+    Where the contacts differ, the name of the contact precedes: "ground_mu".
     """
     contacts = _contacts(system)
     found = {contact.name: dict(_numbers(contact)) for contact in contacts}
@@ -120,10 +120,10 @@ def _sentence(contact: Contact) -> str:
         return "There is no friction at the contact."
     known = dict(_numbers(contact))
     letters = {"mu": "μ", "mu_static": "static μ"}
-    told = " and ".join(
+    stated = " and ".join(
         f"{letters[name]} = {value:g}" for name, value in known.items() if name in letters
     )
-    with_what = f" with {told}" if told else ""
+    with_what = f" with {stated}" if stated else ""
     return (
         f"Coulomb friction{with_what} acts at the contact: it rolls where that is enough, and "
         "slides where it is not."

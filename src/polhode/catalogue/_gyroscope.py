@@ -4,21 +4,15 @@ import polhode as ph
 from polhode.catalogue._entry import GRAVITY, CatalogueEntry, Parameter
 
 
-def _cylindrical_axes(ground: ph.Frame) -> ph.Frame:
-    """Directions ρ, φ, z that turn with the azimuth φ about the vertical (problem 7)."""
-    return ground.rotated(ph.coordinate("phi"), "z", labels="rho phi z", name="cylindrical")
-
-
-def _axle_axes(cylindrical: ph.Frame) -> ph.Frame:
-    """Axes 1 along the axle at θ to the vertical, 2 along φ, 3 = 1 × 2 (equation 90)."""
-    theta = ph.coordinate("theta")
-    return cylindrical.rotated(theta - ph.pi / 2, "phi", labels="1 2 3", name="axes")
-
-
 def _top() -> tuple[ph.Body, ph.Pivot, ph.Gravity]:
     mass, a, first, second, g = ph.symbols("M a I_1 I_2 g", positive=True)
-    cylindrical = _cylindrical_axes(ph.Frame("lab"))
-    axes = _axle_axes(cylindrical)
+    # Directions ρ, φ, z that turn with the azimuth φ about the vertical (problem 7).
+    cylindrical = ph.Frame("lab").rotated(
+        ph.coordinate("phi"), "z", labels="rho phi z", name="cylindrical"
+    )
+    # Axes 1 along the axle at θ to the vertical, 2 along φ, 3 = 1 × 2 (equation 90).
+    theta = ph.coordinate("theta")
+    axes = cylindrical.rotated(theta - ph.pi / 2, "phi", labels="1 2 3", name="axes")
     moments = (first, second, second)
     top = ph.Body("gyroscope", mass=mass, inertia=moments, axes=axes, spin_about="1")
     return top, ph.Pivot(top, at=axes["1"] * -a, along=cylindrical), ph.Gravity(g)

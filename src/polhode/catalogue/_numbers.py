@@ -1,4 +1,4 @@
-"""The numbers of one run: catalogue values, what was asked for instead, and what follows."""
+"""The numbers of one run: catalogue values, those given instead, and those that follow."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def exact_values(equations: Equations, texts: Mapping[str, str]) -> dict[Symbol,
 
     Raises:
         DeclarationError: for a name the system does not have.
-        ParseError: for text that is no value; UnitError for one of the wrong dimension.
+        ParseError: for text that is not a value; UnitError for one of the wrong dimension.
     """
     constants = {symbol.published: symbol for symbol in equations.parameters}
     return values_given(equations, texts, constants)
@@ -74,9 +74,9 @@ def numbers_of(
 ) -> RunNumbers:
     """The numbers of a run.
 
-    Values are numbers with a unit or exact expressions of parameters: a default such as
-    ``m*a**2/2`` follows the m that was set. A start that is given is given for all speeds: those
-    it does not name are at rest. Coordinates it does not name keep their catalogue value.
+    Values are numbers with a unit or expressions of parameters: a default such as ``m*a**2/2``
+    follows the m that was set. If any start value is given, speeds that are not named are zero;
+    coordinates that are not named keep their catalogue value.
 
     Args:
         entry: the system, with its defaults.
@@ -84,16 +84,16 @@ def numbers_of(
         settings: parameters and prescribed functions in place of the defaults.
         start: coordinates and speeds in place of the defaults.
         duration: in place of the default.
-        flight: equations of the mode in which nothing touches: a start may name heights of theirs.
+        flight: equations of the mode without contact, whose coordinates a start may name too.
 
     Raises:
         DeclarationError: for a name the system does not have, and for values that are missing or
-            depend on themselves.
-        ParseError: for text that is no value.
+            depend on one another in a circle.
+        ParseError: for text that is not a value.
         UnitError: for a value of the wrong dimension, or without a finite one.
     """
     named = {p.name: Symbol(p.name) for p in entry.parameters}
-    # all that has a value, also what only other values are made of
+    # also parameters that occur only in the values of others, such as a radius
     constants = named | {symbol.published: symbol for symbol in equations.parameters}
     functions = {symbol.published: symbol for symbol in equations.functions}
     for name in settings:
@@ -144,15 +144,6 @@ def _parameters(
     """Values of parameters, each after those that it is an expression of."""
     given = {name: read_value(name, text, constants) for name, text in texts.items()}
     doubles, exact = dict[Symbol, float](), dict[Symbol, Expr]()
-    for name in _in_order(given):
-        symbol = constants[name]
-        _refuse_unvalued(given[name], doubles)
-        value = given[name].in_dimension(dimensions.get(symbol), dimensions)
-        doubles[symbol], exact[symbol] = value.rounded(doubles), value.exact(exact)
-    return _Parameters({constants[name]: doubles[constants[name]] for name in texts}, exact)
-
-
-def _in_order(given: Mapping[str, GivenValue]) -> list[str]:
     needs = {name: {symbol.published for symbol in v.symbols} for name, v in given.items()}
     try:
         order = list(TopologicalSorter(needs).static_order())
@@ -161,7 +152,12 @@ def _in_order(given: Mapping[str, GivenValue]) -> list[str]:
         raise DeclarationError(
             f"values that depend on one another: {circle}", expected="one of them as a number"
         ) from error
-    return [name for name in order if name in given]
+    for name in (name for name in order if name in given):
+        symbol = constants[name]
+        _refuse_unvalued(given[name], doubles)
+        value = given[name].in_dimension(dimensions.get(symbol), dimensions)
+        doubles[symbol], exact[symbol] = value.rounded(doubles), value.exact(exact)
+    return _Parameters({constants[name]: doubles[constants[name]] for name in texts}, exact)
 
 
 def _refuse_unvalued(value: GivenValue, known: Mapping[Symbol, float]) -> None:

@@ -32,7 +32,7 @@ def run(options: Namespace) -> int:
     if options.json:
         print_document(_document(entry, equations, reactions) | {"seconds": seconds})
     else:
-        print("\n".join(_told(entry, equations)))
+        print("\n".join(_lines(entry, equations)))
         print(f"\nDerived in {seconds:.3f} s.")
     return 0
 
@@ -57,7 +57,7 @@ def _document(
     }
 
 
-def _told(entry: CatalogueEntry, equations: Equations) -> Iterator[str]:
+def _lines(entry: CatalogueEntry, equations: Equations) -> Iterator[str]:
     yield f"{entry.title} ({entry.name})"
     yield from wrapped("coordinates", _names(equations.coordinates))
     yield from wrapped("speeds", _names(equations.speeds))

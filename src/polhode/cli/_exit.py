@@ -1,4 +1,4 @@
-"""Ctrl-C ends a computation where it is, and what is done is kept; a second one ends it all."""
+"""How a command ends: interrupted, terminated or failed, with a message and an exit code."""
 
 from __future__ import annotations
 
@@ -15,25 +15,23 @@ from typing import Any
 
 from polhode.base import PolhodeError, Progress, StopRequested, exit_code
 
-# Ctrl-C ends a computation where it is, and what is done is kept; a second one ends it all.
+# interrupts: the first Ctrl-C stops a computation and keeps its results, a second one kills it
 
 
 class Terminated(KeyboardInterrupt):
-    """An end that was asked for by SIGTERM."""
+    """Termination by SIGTERM."""
 
     code = 128 + signal.SIGTERM
 
 
 @contextmanager
-def ended_in_order() -> Iterator[None]:
-    """Within it SIGTERM ends a command as Ctrl-C does: what it began is ended, and what is kept is
-    told.
-    """
+def terminating_like_interrupt() -> Iterator[None]:
+    """Let SIGTERM end a command as Ctrl-C does, with its processes ended and its results kept."""
 
-    def end(number: int, frame: FrameType | None) -> None:
+    def terminate(number: int, frame: FrameType | None) -> None:
         raise Terminated
 
-    before = signal.signal(signal.SIGTERM, end)
+    before = signal.signal(signal.SIGTERM, terminate)
     try:
         yield
     finally:
@@ -41,32 +39,32 @@ def ended_in_order() -> Iterator[None]:
 
 
 class Interruptible:
-    """Progress that has enough after an interrupt."""
+    """Progress that asks the computation to stop after an interrupt."""
 
     def __init__(self, shown: Progress) -> None:
         self._shown = shown
         self._before: Any = None
-        self._asked = False
+        self._interrupted = False
 
     def begin(self, task: str, total: int | None = None) -> None:
-        """Show the task, and from now on keep what is done when interrupted."""
+        """Show the task; from now on an interrupt stops it and keeps what is done."""
         self._shown.begin(task, total)
         if threading.current_thread() is threading.main_thread():
-            self._before = signal.signal(signal.SIGINT, self._ask)
+            self._before = signal.signal(signal.SIGINT, self._interrupt)
 
     def advance(self, steps: int = 1) -> None:
-        """Tell of steps; raises `StopRequested` once interrupted."""
+        """Show steps; raises `StopRequested` once interrupted."""
         self._shown.advance(steps)
-        if self._asked:
+        if self._interrupted:
             raise StopRequested
 
     def finish(self) -> None:
-        """End the task; an interrupt is again what it was."""
+        """End the task; an interrupt again has its usual effect."""
         self._restore()
         self._shown.finish()
 
-    def _ask(self, number: int, frame: FrameType | None) -> None:
-        self._asked = True
+    def _interrupt(self, number: int, frame: FrameType | None) -> None:
+        self._interrupted = True
         self._restore()
 
     def _restore(self) -> None:
@@ -75,24 +73,25 @@ class Interruptible:
             self._before = None
 
 
-# What is said when a command fails, and the exit code it leaves with.
+# -- failures --------------------------------------------------------------------------------------
 
 
 def report(error: BaseException) -> int:
-    """Tell in one line what went wrong, on standard error; returns the exit code.
+    """Print what went wrong in one line on standard error; returns the exit code.
 
     With POLHODE_DEBUG=1 the traceback comes first.
     """
     if os.environ.get("POLHODE_DEBUG") == "1":
         traceback.print_exception(error)
     if isinstance(error, BrokenPipeError):
-        _stop_printing()
+        # The reader of the pipe is gone: Python must not try to flush the rest when it exits.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     else:
-        print(f"polhode: {_told(error)}", file=sys.stderr)
+        print(f"polhode: {_message(error)}", file=sys.stderr)
     return error.code if isinstance(error, Terminated) else exit_code(error)
 
 
-def _told(error: BaseException) -> str:
+def _message(error: BaseException) -> str:
     match error:
         case PolhodeError():
             return " ".join(f"{error}{flag(error.option)}".split())
@@ -100,17 +99,12 @@ def _told(error: BaseException) -> str:
             how = "terminated" if isinstance(error, Terminated) else "interrupted"
             return "; ".join([how, *getattr(error, "__notes__", ())])
         case OSError(errno=errno.ENOSPC):
-            return "the output cannot be written: no space left where it goes; make room there"
+            return "the output cannot be written: no space left on the device; free some space"
         case _:
             what = " ".join(f"{type(error).__name__}: {error}".split())
             return f"unexpected {what} (POLHODE_DEBUG=1 shows where; please report it)"
 
 
 def flag(option: str) -> str:
-    """How an option is given in a shell, behind the advice to give it; nothing for none."""
+    """An option as written in a shell, to follow the advice to give it; empty for none."""
     return f" (--{option})" if option else ""
-
-
-def _stop_printing() -> None:
-    """Whoever read our output left; Python must not try to flush the rest when it ends."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from typing import Any
 
-from polhode.analyse import Invariant, LinearIntegrals, invariants
+from polhode.analyse import Invariant, invariants
 from polhode.cli._parser import Parser
 from polhode.cli._printing import print_document, printed
 from polhode.cli._systems import NAME_HELP, entry_of
@@ -24,7 +23,12 @@ def run(options: Namespace) -> int:
     found = invariants(derive(entry.build()))
     if options.json:
         described = [_document(invariant) for invariant in found]
-        linear = found.linear and _linear_document(found.linear)
+        linear = found.linear and {
+            "angle": found.linear.angle.published,
+            "speeds": [speed.published for speed in found.linear.speeds],
+            # d(speed)/d(angle), one slope for each speed
+            "slopes": [printed(slope) for slope in found.linear.slopes],
+        }
         print_document(
             {
                 "system": entry.name,
@@ -44,13 +48,4 @@ def _document(invariant: Invariant) -> dict[str, str]:
         "name": invariant.name,
         **printed(invariant.expression),
         "meaning": invariant.meaning,
-    }
-
-
-def _linear_document(linear: LinearIntegrals) -> dict[str, Any]:
-    """d(speeds)/d(angle), one slope for each speed."""
-    return {
-        "angle": linear.angle.published,
-        "speeds": [speed.published for speed in linear.speeds],
-        "slopes": [printed(slope) for slope in linear.slopes],
     }

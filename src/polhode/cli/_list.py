@@ -24,7 +24,7 @@ def run(options: Namespace) -> int:
     if options.json:
         print_document({"systems": systems})
     else:
-        print("\n\n".join("\n".join(_told(system)) for system in systems))
+        print("\n\n".join("\n".join(_lines(system)) for system in systems))
     return 0
 
 
@@ -40,7 +40,7 @@ def _described(entry: CatalogueEntry) -> dict[str, Any]:
     }
 
 
-def _told(system: dict[str, Any]) -> Iterator[str]:
+def _lines(system: dict[str, Any]) -> Iterator[str]:
     yield f"{system['name']:<28}{system['title']}"
     for what in ("coordinates", "speeds", "reactions"):
         yield from wrapped(what, system[what])

@@ -1,4 +1,4 @@
-"""JSON documents: one on standard output, and nothing else there."""
+"""What commands print: JSON documents, and text laid out for the terminal."""
 
 from __future__ import annotations
 
@@ -13,11 +13,9 @@ from typing import Any
 from polhode.algebra import Expr
 from polhode.base import NumericError, StoreError, provenance
 
-# JSON documents: one on standard output, and nothing else there.
-
 
 def print_document(content: Mapping[str, Any]) -> None:
-    """Print a document, with what it was made with.
+    """Print one JSON document with the versions it was made with.
 
     Raises:
         NumericError: for a number that is not finite.
@@ -26,7 +24,7 @@ def print_document(content: Mapping[str, Any]) -> None:
 
 
 def document(content: Mapping[str, Any]) -> str:
-    """The text of a document, with what it was made with.
+    """The text of a JSON document with the versions it was made with.
 
     Raises:
         NumericError: for a number that is not finite.
@@ -38,7 +36,7 @@ def document(content: Mapping[str, Any]) -> str:
 
 
 def printed_all(expressions: Sequence[Expr]) -> str:
-    """Several expressions as `sympy.srepr` text: the one there is, or a Tuple of them."""
+    """Expressions as `sympy.srepr` text: of a single one, or a Tuple of several."""
     texts = [printed(expression)["sympy"] for expression in expressions]
     return texts[0] if len(texts) == 1 else f"Tuple({', '.join(texts)})"
 
@@ -56,13 +54,13 @@ def printed(expression: Expr) -> dict[str, str]:
     except ImportError as error:
         raise StoreError(
             "SymPy is not installed",
-            expected="it, to write expressions into a JSON document",
+            expected="SymPy, which writes the expressions of JSON documents",
             advice="pip install 'polhode[sympy]'",
         ) from error
     return {"latex": expression.latex(), "sympy": srepr(to_sympy(expression))}
 
 
-# Layout of what is printed for people.
+# -- text ------------------------------------------------------------------------------------------
 
 _LABEL = 14  # width of the column of labels
 _NARROWEST, _WIDEST = 60, 100
@@ -78,20 +76,20 @@ def wrapped(label: str, words: Iterable[str], indent: str = "  ") -> Iterator[st
 
 
 def values(numbers: Mapping[str, float | str]) -> list[str]:
-    """Names with their values, each to be followed by another; texts as they are."""
+    """Items "name = value," of a list; texts are left as they are."""
     shown = {n: v if isinstance(v, str) else f"{v:.9g}" for n, v in numbers.items()}
     return [f"{name} = {value}," for name, value in shown.items()]
 
 
 _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
-_LONG = r"(-?\d{5,}/\d+|-?\d+/\d{5,})"  # a ratio that stands for a decimal number
+_LONG = r"(-?\d{5,}/\d+|-?\d+/\d{5,})"  # a fraction that stands for a decimal number
 _OF_LONG = re.compile(rf"(sin|cos)([⁰¹²³⁴⁵⁶⁷⁸⁹]*)\({_LONG}\)")
 
 
 def in_decimals(text: str) -> str:
-    """Formulas with long ratios, and sines and cosines of them, as decimal numbers.
+    """Formulas with long fractions, and their sines and cosines, as decimal numbers.
 
-    An angle of 80 degrees has no sine that could be written exactly in a line.
+    The sine of 80 degrees, for instance, cannot be written exactly in one line.
     """
     text = _OF_LONG.sub(_sine, text)
     return re.sub(_LONG, lambda found: f"{_ratio(found[1]):.10g}", text)

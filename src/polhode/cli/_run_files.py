@@ -1,8 +1,8 @@
-"""The files of a run: a table of samples, a figure, a page, each whole or not there."""
+"""The files of a run: a table of samples, a figure, a page. None is ever left half written."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection
 from pathlib import Path
 
 from polhode.base import DeclarationError, StoreError
@@ -19,12 +19,26 @@ def write_run(folder: Path, entry: CatalogueEntry, trajectory: Trajectory) -> li
     Raises:
         StoreError: where a file cannot be written.
     """
-    _make(folder)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise StoreError(
+            f"the folder {folder} cannot be made ({error.strerror})",
+            expected="a place where a folder can be made",
+            advice="give --out another one",
+        ) from error
+    equations = trajectory.equations
+    everything = (
+        [symbol.published for symbol in equations.coordinates],
+        [symbol.published for symbol in equations.speeds],
+        trajectory.reactions,
+    )
+    plots = entry.plots or [group for group in everything if group]
     stem = entry.name.rpartition(":")[2].replace("/", "-")
     table, picture = folder / f"{stem}.csv", folder / f"{stem}.png"
     trajectory.to_csv(table)
     try:
-        figure = figure_of_run(trajectory.rounded(), entry.plots or _everything(trajectory))
+        figure = figure_of_run(trajectory.rounded(), plots)
         save_figure(figure, picture, origin=origin_of(trajectory))
     except KeyboardInterrupt as interrupt:
         interrupt.add_note(f"kept {table}")
@@ -35,10 +49,10 @@ def write_run(folder: Path, entry: CatalogueEntry, trajectory: Trajectory) -> li
 def write_page(
     path: Path, entry: CatalogueEntry, about: str, trajectory: Trajectory, claims: Collection[str]
 ) -> Path:
-    """Write a page that plays a run, with claims of the problem set judged, told by their ids.
+    """Write a page that plays a run, with verdicts on claims of the problem set, given by id.
 
     Args:
-        about: what it is a run of, in a few sentences.
+        about: description of the system in a few sentences.
 
     Raises:
         StoreError: where the file cannot be written.
@@ -55,47 +69,26 @@ def write_page(
     return path
 
 
-def _everything(trajectory: Trajectory) -> Sequence[Sequence[str]]:
-    equations = trajectory.equations
-    groups = (
-        [symbol.published for symbol in equations.coordinates],
-        [symbol.published for symbol in equations.speeds],
-        trajectory.reactions,
-    )
-    return [group for group in groups if group]
-
-
-def _make(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise StoreError(
-            f"the folder {folder} cannot be made ({error.strerror})",
-            expected="a place where a folder can be made",
-            advice="give --out another one",
-        ) from error
-
-
-# What the problem set claims about a system, judged, for its page.
+# -- claims of the problem set, for the page -------------------------------------------------------
 
 
 def claims_about(entry: CatalogueEntry) -> tuple[str, ...]:
     """Ids of the problem set's claims about a system.
 
     Raises:
-        DeclarationError: where there are none.
+        DeclarationError: if there are none.
     """
     found = tuple(claim.id for claim in document_of(None).about(entry.name))
     if not found:
         raise DeclarationError(
-            f"--verdicts for {entry.name}, about which the problem set says nothing",
-            expected="a system that its claims are about, such as rolling-disk",
+            f"--verdicts for {entry.name}: the problem set says nothing about it",
+            expected="a system of the problem set, such as rolling-disk",
             advice="judge your own with ph.check and give them to ph.page as judgements",
         )
     return found
 
 
 def judgements_on(claims: Collection[str]) -> tuple[Judgement, ...]:
-    """The verdicts on claims of the problem set with these ids, part by part."""
+    """The verdicts on claims of the problem set, given by id, part by part."""
     parted = audit(only=claims).by_part() if claims else ()
     return tuple(Judgement.on(judged) for _, found in parted for judged in found)

@@ -40,7 +40,7 @@ def configure(parser: Parser) -> None:
 
 
 def run(options: Namespace) -> int:
-    """Find the steady motions of one system and print what is known of them."""
+    """Find the steady motions of one system and print their existence and stability."""
     entry = entry_of(options.name)
     equations = derive(entry.build())
     at = exact_values(equations, assignments(options.at))
@@ -51,13 +51,13 @@ def run(options: Namespace) -> int:
     else:
         print(f"Steady motions of {entry.name}")
         for family, judged in families:
-            print(in_decimals("\n".join(_told(family, judged))))
+            print(in_decimals("\n".join(_lines(family, judged))))
         print(f"\n{PROVES}")
     return 0
 
 
 def _judged(family: SteadyMotion) -> Stability | NumericError:
-    """Stability, or why the coordinates cannot tell."""
+    """Stability, or why it cannot be decided in these coordinates."""
     try:
         return stability(family)
     except NumericError as undecided:
@@ -101,7 +101,7 @@ def _inequality(condition: Condition) -> dict[str, str]:
     return {"latex": condition.latex(), "sympy": f"StrictGreaterThan({left}, Integer(0))"}
 
 
-def _told(family: SteadyMotion, judged: Stability | NumericError) -> Iterator[str]:
+def _lines(family: SteadyMotion, judged: Stability | NumericError) -> Iterator[str]:
     yield f"\n  {family}"
     for branch in family.branches:
         yield f"    {branch.quantity.pretty()} = {branch.value.pretty()}"

@@ -15,14 +15,14 @@ from polhode.base import DeclarationError, ParseError, PolhodeError, StoreError,
 from polhode.catalogue import CATALOGUE, CatalogueEntry
 from polhode.model import System
 
-# A Python file of the user's own, loaded as a module; its errors are told with file and line.
+# -- a Python file of the user's, loaded as a module; its errors are located -----------------------
 
 
 def load(path: Path) -> ModuleType:
     """Run a Python file as a module; what it prints goes to standard error.
 
     Raises:
-        DeclarationError: for an error in the file (its own kind, where it is one of polhode's).
+        DeclarationError: for an error in the file (polhode's own errors keep their kind).
         ParseError: where the file is not Python.
         StoreError: where it cannot be read.
     """
@@ -71,7 +71,7 @@ def _failures_located(path: Path) -> Iterator[None]:
 
 
 def _place(path: Path, error: BaseException) -> str:
-    """The last line of the file that the error came through."""
+    """The last line of the file in the traceback of an error."""
     lines = [
         frame.lineno
         for frame in traceback.extract_tb(error.__traceback__)
@@ -80,14 +80,16 @@ def _place(path: Path, error: BaseException) -> str:
     return f"{path}, line {lines[-1]}" if lines else str(path)
 
 
+# -- the NAME --------------------------------------------------------------------------------------
+
 NAME_HELP = "a system of 'polhode list', or path/to/file.py:name of a System"
 
 
 def entry_of(name: str) -> CatalogueEntry:
-    """The catalogue's entry, or one without defaults for a system in a file.
+    """The entry of the catalogue, or one without defaults for a system in a file.
 
     Raises:
-        DeclarationError: for a name that means no system, and for errors in a file.
+        DeclarationError: for a name without a system, and for errors in a file.
         ParseError: for a file that is not Python.
         StoreError: for a file that cannot be read.
     """
@@ -107,7 +109,7 @@ def _declared(name: str, path: Path, variable: str) -> CatalogueEntry:
     found = vars(load(path))
     systems = [key for key, value in found.items() if isinstance(value, System)]
     if variable not in systems:
-        what = f"{variable!r} in {path} is no System" if variable else f"which system of {path}?"
+        what = f"{variable!r} in {path} is not a System" if variable else f"which system of {path}?"
         raise DeclarationError(
             what if variable not in found else f"{what} but a {type(found[variable]).__name__}",
             expected=" or ".join(f"{path}:{key}" for key in systems) or "a System in that file",

@@ -1,4 +1,4 @@
-"""A computed motion, and everything that can be read from it."""
+"""A computed motion, with every quantity at any time, its tables and its file."""
 
 from __future__ import annotations
 
@@ -16,7 +16,6 @@ from polhode.base import (
     MASS,
     PURE,
     TIME,
-    Dimension,
     NumericError,
     Shown,
     StoreError,
@@ -63,11 +62,10 @@ class Trajectory(Shown):
         assumed: start values that were not given, by name.
         seconds: time spent to derive, compile and integrate.
         integrator: what integrated it.
-        invariants: expressions that the motion should keep constant, watched by `drift`.
-        resolution: of prescribed motions given as Python functions, by name, s: what such a
-            function does for less than that may have been missed.
-        doubt: what speaks against the motion: a drift beyond what rounding explains. Empty where
-            nothing does.
+        invariants: expressions that the motion should conserve, checked by `drift`.
+        resolution: of prescribed motions given as Python functions, by name, s: changes that last
+            less than that may have been missed.
+        doubt: why the motion is doubtful: a drift that rounding does not explain. Empty otherwise.
     """
 
     system: Any
@@ -86,15 +84,12 @@ class Trajectory(Shown):
 
     def __repr__(self) -> str:
         modes = ", ".join(dict.fromkeys(segment.mode for segment in self.segments))
-        told = (
+        unseen = "".join(f"; {n} resolved to {time:.3g} s" for n, time in self.resolution.items())
+        summary = (
             f"Trajectory of {self.system.name!r} over {float(self.duration):.6g} s: {modes}; "
-            f"{len(self.events)} events{self._unseen}"
+            f"{len(self.events)} events{unseen}"
         )
-        return f"{told}; CANNOT BE RELIED ON: {self.doubt}" if self.doubt else told
-
-    @property
-    def _unseen(self) -> str:
-        return "".join(f"; {n} resolved to {time:.3g} s" for n, time in self.resolution.items())
+        return f"{summary}; CANNOT BE RELIED ON: {self.doubt}" if self.doubt else summary
 
     @property
     def dynamics(self) -> Dynamics:
@@ -108,9 +103,9 @@ class Trajectory(Shown):
 
     @cached_property
     def quantities(self) -> dict[str, Expr]:
-        """Everything that can be read by name, as it is in the first mode.
+        """Every quantity that has a name, as an expression in the first mode.
 
-        "power" is that of all that is not in the potential, "work" what it did since the start.
+        "power" is that of all forces without a potential, "work" their work since the start.
         """
         return self._readable[0]
 
@@ -127,11 +122,11 @@ class Trajectory(Shown):
 
     @property
     def precision(self) -> str:
-        """What it was computed in: double, extended, quadruple, or so many digits."""
+        """The precision it was computed in: double, extended, quadruple, or a number of digits."""
         return self._numbers.name
 
     def rounded(self) -> Trajectory:
-        """The same motion in doubles, for all that works with doubles only."""
+        """The same motion in double precision."""
         segments = tuple(segment.rounded() for segment in self.segments)
         double = DOUBLES.array
         return replace(
@@ -198,8 +193,8 @@ class Trajectory(Shown):
     def to_csv(self, path: str | Path, names: Iterable[str] | None = None) -> None:
         """Write the samples: by default coordinates, speeds, rates, reactions and energy.
 
-        A line that begins with # says what the file was made with. A file already there is
-        replaced only once the new one is complete.
+        A first line that begins with # tells what the file was computed from. A file already there
+        is replaced only once the new one is complete.
 
         Raises:
             StoreError: where the file cannot be written.
@@ -211,7 +206,7 @@ class Trajectory(Shown):
         """The samples over the coordinate `t` (s), each with its unit as an attribute.
 
         Args:
-            names: what to take; by default coordinates, speeds, rates, reactions, energy, power,
+            names: published names; by default coordinates, speeds, rates, reactions, energy, power,
                 work and the invariants watched.
 
         Raises:
@@ -222,7 +217,7 @@ class Trajectory(Shown):
     def to_pandas(self, names: Iterable[str] | None = None) -> pandas.DataFrame:
         """The samples as a table with the times `t` (s) as its index.
 
-        Its `attrs` say what it was made with, and under "units" the unit of every column.
+        Its `attrs` hold what it was computed from and, under "units", the unit of every column.
 
         Args:
             names: as for `to_xarray`.
@@ -233,9 +228,10 @@ class Trajectory(Shown):
         return to_pandas(self.t, samples_of(self, names), self._origin)
 
     def save(self, path: str | Path) -> None:
-        """Keep the whole motion in a file that `polhode.load` reads: HDF5, NetCDF-4 to others.
+        """Save the whole motion in a file that `polhode.load` reads.
 
-        With it go the declaration, the parameters and the samples, which others' tools read.
+        With it go the declaration, the parameters and the samples, which other tools read as HDF5
+        or NetCDF-4.
 
         Raises:
             StoreError: where the file cannot be written, h5py is not installed, or the system has
@@ -243,7 +239,7 @@ class Trajectory(Shown):
         """
         if self.precision != DOUBLES.name:
             raise StoreError(
-                f"a motion in {self.precision} precision, to be kept in doubles",
+                f"a motion in {self.precision} precision, and a file that holds doubles",
                 expected="a motion in doubles",
                 advice="save run.rounded(), or its samples with to_csv, which keeps all digits",
             )
@@ -251,7 +247,7 @@ class Trajectory(Shown):
 
     @property
     def _origin(self) -> dict[str, Any]:
-        """What the samples were made with."""
+        """What the samples were computed from."""
         return {
             "system": self.system.name,
             "mode": self.mode,
@@ -307,7 +303,7 @@ class Trajectory(Shown):
         return found.reshape(len(wanted), *times.shape)
 
 
-#: What a quantity is in a mode that does not have it, such as the force of an open contact.
+#: The value of a quantity in a mode without it, such as the force of an open contact.
 _NOTHING = Expr.of(0)
 
 
@@ -346,9 +342,13 @@ def unit_of(run: Trajectory, name: str) -> str:
     expression = run.quantities[name]
     try:
         known = cast(Equations, run.equations).dimensions
-        return _unit(expression.symbol, dimension_of(expression, known) or PURE)
+        dimension = dimension_of(expression, known) or PURE
     except UnitError:
         return ""
+    kind = None if expression.symbol is None else expression.symbol.kind
+    if kind in (SymbolKind.COORDINATE, SymbolKind.SPEED) and dimension in _TURNING:
+        return _TURNING[dimension]
+    return _NAMED.get(dimension, str(dimension))
 
 
 def _couples(run: Trajectory) -> frozenset[str]:
@@ -356,18 +356,11 @@ def _couples(run: Trajectory) -> frozenset[str]:
     return frozenset(n.name for mode in modes for n in mode.lines if n.restraint.is_couple)
 
 
-def _unit(symbol: Symbol | None, dimension: Dimension) -> str:
-    moves = symbol is not None and symbol.kind in (SymbolKind.COORDINATE, SymbolKind.SPEED)
-    if moves and dimension in _TURNING:
-        return _TURNING[dimension]
-    return _NAMED.get(dimension, str(dimension))
-
-
 # -- what a file keeps of a motion -----------------------------------------------------------------
 
 
 def archive_of(run: Trajectory) -> Archive:
-    """What is kept of a motion.
+    """The data that a file keeps of a motion.
 
     Raises:
         StoreError: for a system with parts of classes that are not polhode's own.

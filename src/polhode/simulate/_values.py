@@ -88,7 +88,13 @@ def read_parameters(
     values = read_values(given, by_name(wanted), "parameter", dimensions, {})
     missing = [symbol.published for symbol in wanted if symbol not in values]
     refuse_missing(missing)
-    _check_signs(values)
+    for symbol, value in values.items():
+        if symbol.positive and value <= 0:
+            raise DeclarationError(
+                f"{symbol.published} = {value:g}",
+                expected="a positive value, as it was declared",
+                advice=f"check the sign of {symbol.published}",
+            )
     _check_bodies(dynamics, values)
     return {symbol: values[symbol] for symbol in wanted}
 
@@ -124,16 +130,6 @@ def evaluate(expression: Expr, numbers: Numbers) -> float:
 @lru_cache(maxsize=256)
 def _function(expressions: tuple[Expr, ...], symbols: tuple[Symbol, ...]) -> Compiled:
     return compile_program(expressions, symbols).function(FLOATS)
-
-
-def _check_signs(values: Numbers) -> None:
-    for symbol, value in values.items():
-        if symbol.positive and value <= 0:
-            raise DeclarationError(
-                f"{symbol.published} = {value:g}",
-                expected="a positive value, as it was declared",
-                advice=f"check the sign of {symbol.published}",
-            )
 
 
 def _check_bodies(dynamics: Dynamics, values: Numbers) -> None:

@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from polhode.simulate.forcing._spline import sampled
 
 import polhode as ph
 from polhode.base import StoreError
@@ -14,6 +13,7 @@ from polhode.simulate._trajectory import archive_of, samples_of, unit_of
 from polhode.simulate.files._archive import Archive
 from polhode.simulate.files._saved import load, trajectory_of
 from polhode.simulate.forcing._pieces import Pieces
+from polhode.simulate.forcing._samples import sampled
 
 m, r, k, g, mu, a = ph.symbols("m r k g mu a", positive=True)
 lab = ph.Frame("lab")

@@ -158,7 +158,7 @@ def test_a_forcing_is_exact_too():
     motion = {"P": ph.sin(ph.time / 10)}
     run = ph.simulate(system, values, {}, 1, precision=40, samples=3, forcing=motion)
     assert largest(run.final["v_x"], 10 - 10 * MANY.cos(MANY.mpf(1) / 10)) < 1e-39
-    with pytest.raises(DeclarationError, match="P, which is known to doubles only"):
+    with pytest.raises(DeclarationError, match="P, known only in double precision"):
         ph.simulate(system, values, {}, 1, precision=40, forcing={"P": lambda t: t})
 
 

@@ -1,4 +1,10 @@
-"""A computed motion as plain data: what a file of it holds, and all that is needed to go on."""
+"""A computed motion as plain data, and as bytes: JSON and doubles, read without trust.
+
+The bytes are the length of the JSON document as eight bytes, the document as UTF-8, and the
+doubles; integers and doubles are little-endian. The document gives the length of every array, and
+the total must be that of the doubles present: the memory and time taken to read are bounded by the
+length of the bytes, whatever they contain.
+"""
 
 from __future__ import annotations
 
@@ -19,26 +25,26 @@ _NODES = chebyshev.chebpts1(16)
 
 
 def _analysis() -> Array:
-    """From values at the nodes to coefficients; refined, as the nodes themselves are rounded."""
+    """The matrix from values at the nodes to coefficients, refined once as Newton's method does."""
     values = chebyshev.chebvander(_NODES.astype(np.longdouble), 15)
     rough = np.linalg.inv(values.astype(float))
     return np.asarray(rough + (np.eye(16) - rough @ values) @ rough, dtype=float)
 
 
 _ANALYSIS = _analysis()
-_ROUNDING = 2.0**-50  # of the largest coefficient: what the last ones have of rounding
+_ROUNDING = 2.0**-50  # relative to the largest coefficient: smaller trailing ones are rounding
 
 
 @dataclass(frozen=True, eq=False)
 class ChebyshevPiece:
-    """What was integrated in one go, as Chebyshev series between knots.
+    """A stretch of motion with constant parameters, as Chebyshev series between knots.
 
     Attributes:
         segment: number of the segment of the motion that it belongs to.
         mode: name of the contact mode.
         states: names of the states.
-        constants: values of the constants of that stretch, by name.
-        steps: where the steps of the integrator begin and end, s.
+        constants: values of the constants of the stretch, by name.
+        steps: ends of the steps of the integrator, s.
         knots: ends of the pieces, s, shape (pieces + 1,).
         series: coefficients over each piece, shape (pieces, order, states).
     """
@@ -80,17 +86,17 @@ def series_of(states: Callable[[Array], Array], steps: Array) -> tuple[Array, Ar
     times = (left[:, None] + right[:, None] + (right - left)[:, None] * _NODES) / 2
     values = states(times.ravel())
     values = values.reshape(len(values), len(left), len(_NODES))
-    offset = values[:, :, :1]  # taken out, since rounding is relative to what goes in
+    offset = values[:, :, :1]  # subtracted first: rounding is relative to the size of the values
     series = _without_noise((values - offset) @ _ANALYSIS.T)
     series[:, :, :1] += offset
     return np.append(left, right[-1:]), np.moveaxis(series, 0, 2)
 
 
 def _without_noise(series: Array) -> Array:
-    """Series whose last coefficients, where they are rounding, are nothing."""
+    """Series whose trailing coefficients are zero where they are rounding."""
     sizes = np.abs(series)
-    told = sizes > _ROUNDING * np.max(sizes, axis=2, keepdims=True)
-    followed = np.logical_or.accumulate(told[:, :, ::-1], axis=2)[:, :, ::-1]
+    significant = sizes > _ROUNDING * np.max(sizes, axis=2, keepdims=True)
+    followed = np.logical_or.accumulate(significant[:, :, ::-1], axis=2)[:, :, ::-1]
     return np.where(followed, series, 0.0)
 
 
@@ -109,7 +115,7 @@ class Sampled:
 
 @dataclass(frozen=True, eq=False)
 class Archive:
-    """A motion with all it was made of.
+    """A motion with everything it was computed from.
 
     Attributes:
         declaration: document of the system.
@@ -117,7 +123,7 @@ class Archive:
         stretches: in order of time.
         events: each by its time, kind and modes.
         times: of the samples, s.
-        details: whatever else belongs to it and can be written as JSON.
+        details: everything else about it, as JSON values.
         origin: schema, versions and seed it was made with.
     """
 
@@ -130,14 +136,6 @@ class Archive:
     origin: Mapping[str, Any] = field(default_factory=lambda: dict(provenance()))
 
 
-# A motion as bytes: a JSON document and doubles, read without trust and without a library.
-#
-# The document says how many doubles each array has; all together must be those that are there. So
-# what reading takes is bounded by the length of the bytes, whatever they say.
-#
-# Layout: the length of the document as eight bytes, the document as UTF-8, the doubles; whole
-# numbers and doubles with the least byte first.
-
 FORMAT = "polhode motion"
 
 _LENGTH = 8  # bytes of a length
@@ -148,7 +146,7 @@ _DOUBLE = np.dtype("<f8")
 
 
 def packed(archive: Archive) -> bytes:
-    """The bytes that stand for a motion, the same ones for the same motion."""
+    """A motion as bytes; equal motions give equal bytes."""
     document = {
         "format": FORMAT,
         "schema": SCHEMA,
@@ -188,16 +186,26 @@ def counted(length: int) -> bytes:
 
 
 def unpacked(content: bytes) -> Archive:
-    """The motion that bytes stand for.
+    """The motion that was packed into bytes.
 
     Raises:
-        ValueError: for bytes that stand for none.
+        ValueError: for bytes that are not a motion.
     """
     length = int.from_bytes(content[:_LENGTH], "little")
     head, rest = content[_LENGTH : _LENGTH + length], content[_LENGTH + length :]
     if len(head) < length or len(rest) % _DOUBLE.itemsize:
-        raise ValueError("it has another length than it says")
-    document = _document(head)
+        raise ValueError("its length is not the one it states")
+    try:
+        document = mapping(json.loads(head, parse_constant=_no_number))
+    except RecursionError as error:
+        raise ValueError("lists nested too deeply") from error
+    if document.get("format") != FORMAT:
+        raise ValueError("it has another format")
+    if document.get("schema") != SCHEMA:
+        raise ValueError(f"it is of schema {document.get('schema')!r}, not {SCHEMA}")
+    missing = _KEYS - set(document)
+    if missing:
+        raise ValueError(f"{', '.join(sorted(missing))} missing")
     arrays = _Arrays(rest)
     times = arrays.take(_count(document, "times", 0))
     stretches = tuple(_stretch(item, arrays) for item in _listed(document["stretches"]))
@@ -211,21 +219,6 @@ def unpacked(content: bytes) -> Archive:
         details=mapping(document["details"]),
         origin=mapping(document["origin"]),
     )
-
-
-def _document(head: bytes) -> dict[str, Any]:
-    try:
-        document = mapping(json.loads(head, parse_constant=_no_number))
-    except RecursionError as error:
-        raise ValueError("lists within lists without end") from error
-    if document.get("format") != FORMAT:
-        raise ValueError("it is of another kind")
-    if document.get("schema") != SCHEMA:
-        raise ValueError(f"it is of schema {document.get('schema')!r}, not {SCHEMA}")
-    missing = _KEYS - set(document)
-    if missing:
-        raise ValueError(f"no {', '.join(sorted(missing))} in it")
-    return document
 
 
 _KEYS = {"declaration", "parameters", "events", "details", "origin", "times", "stretches"}
@@ -244,16 +237,16 @@ class _Arrays:
     def take(self, *shape: int) -> Array:
         count = prod(shape)
         if count > len(self._left):
-            raise ValueError(f"{len(self._left)} numbers where there should be {count}")
+            raise ValueError(f"{len(self._left)} numbers instead of {count}")
         taken, self._left = self._left[:count], self._left[count:]
         if not np.all(np.isfinite(taken)):
             raise ValueError("a number that is not finite")
         return taken.astype(float).reshape(shape)
 
     def finish(self) -> None:
-        """See that none are left over."""
+        """Check that none are left over."""
         if len(self._left):
-            raise ValueError(f"{len(self._left)} numbers more than there should be")
+            raise ValueError(f"{len(self._left)} numbers too many")
 
 
 def _stretch(item: Any, arrays: _Arrays) -> ChebyshevPiece:
@@ -266,7 +259,7 @@ def _stretch(item: Any, arrays: _Arrays) -> ChebyshevPiece:
     knots = arrays.take(pieces + 1)
     for times in (steps, knots):
         if not np.all(np.diff(times) > 0) or times[0] != steps[0] or times[-1] != steps[-1]:
-            raise ValueError("times of a stretch that do not rise from its begin to its end")
+            raise ValueError("times of a stretch that do not increase from its start to its end")
     return ChebyshevPiece(
         segment=_count(part, "segment", 0),
         mode=text(part["mode"]),
@@ -286,31 +279,31 @@ def _count(table: Mapping[str, Any], name: str, least: int = 1) -> int:
 
 
 def text(value: Any) -> str:
-    """A text.
+    """A string.
 
     Raises:
-        ValueError: for anything else, and for half a character.
+        ValueError: for anything else, and for a lone surrogate.
     """
     if not isinstance(value, str):
-        raise ValueError(f"{str(value)[:30]} where a text is expected")
+        raise ValueError(f"{str(value)[:30]} where text is expected")
     value.encode()
     return value
 
 
 def _listed(value: Any) -> list[Any]:
     if not isinstance(value, list):
-        raise ValueError("no list where one is expected")
+        raise ValueError("no list where a list is expected")
     return value
 
 
 def mapping(value: Any) -> dict[str, Any]:
-    """A table of anything by name.
+    """A JSON object.
 
     Raises:
         ValueError: for anything else.
     """
     if not isinstance(value, dict):
-        raise ValueError("no names where they are expected")
+        raise ValueError("no object where an object is expected")
     return value
 
 

@@ -1,4 +1,4 @@
-"""Between a trajectory and what is kept of it."""
+"""Motions loaded from files: their equations are derived again, and nothing in a file is run."""
 
 from __future__ import annotations
 
@@ -37,55 +37,68 @@ LONGEST = 60.0  # s of processor time
 
 
 def load(path: str | Path, *, seconds: float | None = LONGEST) -> Trajectory:
-    """The motion that was kept in a file, known at every instant as it was.
+    """Load a motion from a file, known at every instant as when it was saved.
 
-    Its equations are derived again from the declaration in the file; nothing in it is run. A file
-    may have been made to declare what takes for ever: so they are derived first in a process that
-    is ended where it takes too long. On macOS and Windows that is interrupted instead, between
-    steps of Python and in the main thread alone.
+    Its equations are derived again from the declaration in the file; nothing in it is run. A
+    malicious file may declare a system that takes forever to derive, so a process with a time limit
+    derives it first. On macOS and Windows the derivation is interrupted instead, which works only
+    between steps of Python and in the main thread.
 
     Args:
         path: of the file.
-        seconds: of processor time that the equations may take; None for a file that is trusted,
-            for as long as they take.
+        seconds: processor time allowed for the equations; None, for a file that is trusted, sets
+            no limit.
 
     Raises:
-        StoreError: for a file that is damaged, or that polhode did not write, and for one whose
-            equations take longer, or too much memory.
+        StoreError: for a file that is damaged, was not written by polhode, or whose equations
+            take too long or too much memory.
     """
     archive = read_archive(path)
     if seconds is not None:
-        _rehearse(archive, seconds)
+        _try_in_process(archive, seconds)
     return trajectory_of(archive)
 
 
-def _rehearse(archive: Archive, seconds: float) -> None:
-    """See in a process of its own that a motion can be had in time."""
+def _try_in_process(archive: Archive, seconds: float) -> None:
+    """Check in a separate process that a motion can be loaded in time."""
     if not 0 < seconds < inf:
-        raise StoreError(f"{seconds!r} s to load in", expected="some time, or None for no bound")
+        raise StoreError(
+            f"a limit of {seconds!r} s", expected="a positive time, or None for no limit"
+        )
 
-    def rehearsed(tell: Tell[None]) -> None:
+    def trial(tell: Tell[None]) -> None:
         trajectory_of(archive)
 
     try:
-        within(seconds, rehearsed, advice="allow more with load(path, seconds=...)")
+        within(seconds, trial, advice="allow more with load(path, seconds=...)")
     except NumericError as error:
-        raise _unfit(str(error)) from error
-
-
-# -- and back --------------------------------------------------------------------------------------
+        raise _inconsistent(str(error)) from error
 
 
 def trajectory_of(archive: Archive) -> Trajectory:
-    """The motion again, its equations derived anew from the declaration.
+    """The motion of an archive, with its equations derived again from the declaration.
 
     Raises:
-        StoreError: for an archive that does not fit together.
+        StoreError: for an archive that is inconsistent.
     """
     system = read_declaration(archive.declaration)
     try:
         details = read_details(archive.details)
-        _refuse_gaps(archive, details.duration)
+        # The stretches must be one motion from 0 to its end, and the samples within it.
+        stretches = archive.stretches
+        if not stretches:
+            raise ValueError("it is empty")
+        ends = [0.0, *(stretch.end for stretch in stretches)]
+        if (
+            any(s.begin != end for s, end in zip(stretches, ends, strict=False))
+            or ends[-1] != details.duration
+        ):
+            raise ValueError("stretches that are not contiguous from 0 to the end")
+        numbers = [0, *(stretch.segment for stretch in stretches)]
+        if any(after - before not in (0, 1) for before, after in pairwise(numbers)):
+            raise ValueError("segments out of order")
+        if not np.all((archive.times >= 0) & (archive.times <= details.duration)):
+            raise ValueError("samples outside the motion")
         segments = tuple(_segments(archive, system, details))
         events = (read_event(event, details.duration) for event in archive.events)
         return Trajectory(
@@ -104,30 +117,13 @@ def trajectory_of(archive: Archive) -> Trajectory:
             doubt=details.doubt,
         )
     except (ArithmeticError, AttributeError, LookupError, RecursionError) as error:
-        raise _unfit(str(error)) from error
+        raise _inconsistent(str(error)) from error
     except (PolhodeError, TypeError, ValueError) as error:
-        raise _unfit(str(error)) from error
+        raise _inconsistent(str(error)) from error
 
 
-def _unfit(what: str) -> StoreError:
-    return StoreError(
-        f"a motion whose parts do not fit together: {what[:200]}", expected="one that polhode kept"
-    )
-
-
-def _refuse_gaps(archive: Archive, duration: float) -> None:
-    """See that the stretches are one motion, from 0 to its end, with samples along it."""
-    stretches = archive.stretches
-    if not stretches:
-        raise ValueError("there is nothing in it")
-    ends = [0.0, *(stretch.end for stretch in stretches)]
-    if any(s.begin != end for s, end in zip(stretches, ends, strict=False)) or ends[-1] != duration:
-        raise ValueError("stretches that do not follow one another from 0 to the end")
-    numbers = [0, *(stretch.segment for stretch in stretches)]
-    if any(after - before not in (0, 1) for before, after in pairwise(numbers)):
-        raise ValueError("segments that do not follow one another")
-    if not np.all((archive.times >= 0) & (archive.times <= duration)):
-        raise ValueError("samples outside the motion")
+def _inconsistent(what: str) -> StoreError:
+    return StoreError(f"an inconsistent motion: {what[:200]}", expected="one that polhode saved")
 
 
 def _segments(archive: Archive, system: System, details: Details) -> Iterable[Segment]:
@@ -143,7 +139,7 @@ def _segments(archive: Archive, system: System, details: Details) -> Iterable[Se
 
 
 class _Modes:
-    """The equations behind each contact mode."""
+    """The equations of each contact mode."""
 
     def __init__(self, modes: Automaton, prescribed: Mapping[Symbol, Expr]) -> None:
         self._modes = modes
@@ -151,7 +147,7 @@ class _Modes:
         self._known: dict[str, Dynamics] = {}
 
     def dynamics(self, stretch: ChebyshevPiece) -> Dynamics:
-        """Of the mode of a stretch."""
+        """The equations of the mode of a stretch."""
         if stretch.mode not in self._known:
             self._known[stretch.mode] = self._made(stretch)
         return self._known[stretch.mode]
@@ -160,10 +156,10 @@ class _Modes:
         constants = {Symbol(name): value for name, value in stretch.constants.items()}
         if stretch.mode == AS_DECLARED:
             return Dynamics(derive(self._modes.system), self._prescribed, tuple(constants))
-        machine = HybridSystem(
+        hybrid = HybridSystem(
             self._modes, PrescribedMotion(self._prescribed, {}), constants, chosen(), tolerance=None
         )
-        return machine.mode(self._modes.named(stretch.mode)).dynamics
+        return hybrid.mode(self._modes.named(stretch.mode)).dynamics
 
 
 def _part(

@@ -1,4 +1,4 @@
-"""Samples as the tables that others' libraries work with."""
+"""Samples as tables: CSV files, xarray data sets and pandas data frames."""
 
 from __future__ import annotations
 
@@ -20,16 +20,13 @@ if TYPE_CHECKING:
     import xarray
 
 
-# Tables of samples as text.
-
-
 def write_csv(path: Path, columns: Mapping[str, Array], origin: Mapping[str, Any]) -> None:
-    """Write columns of equal length under their names, to the last digit.
+    """Write columns of equal length under their names, with all digits.
 
-    The first line is a comment: # and a JSON document that says what the table was made with.
+    The first line is a comment: # and a JSON document of what the table was computed from.
 
     Raises:
-        StoreError: where the file cannot be written; what was there before is kept.
+        StoreError: where the file cannot be written; a file already there is then kept.
     """
     header = json.dumps({**provenance(), **origin}, sort_keys=True)
     stream = io.StringIO(newline="")
@@ -55,7 +52,11 @@ def to_xarray(
     """
     with extra("xarray", "data"):
         import xarray
-    columns = {name: ("t", s.values, _attributes(s)) for name, s in samples.items() if name != "t"}
+    columns = {
+        name: ("t", s.values, {"units": s.unit or "1"})
+        for name, s in samples.items()
+        if name != "t"
+    }
     clock = ("t", times, {"units": "s"})
     return xarray.Dataset(columns, coords={"t": clock}, attrs=dict(origin))
 
@@ -65,7 +66,7 @@ def to_pandas(
 ) -> pandas.DataFrame:
     """Samples as a table with the times `t` (s) as its index, in SI units.
 
-    Its `attrs` say what it was made with, and under "units" the unit of every column.
+    Its `attrs` hold what it was computed from and, under "units", the unit of every column.
 
     Args:
         times: s.
@@ -82,7 +83,3 @@ def to_pandas(
     table: pandas.DataFrame = pandas.DataFrame(columns, index=index)
     table.attrs |= {**origin, "units": {name: s.unit for name, s in samples.items()}}
     return table
-
-
-def _attributes(sampled: Sampled) -> dict[str, str]:
-    return {"units": sampled.unit or "1"}

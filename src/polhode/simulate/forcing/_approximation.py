@@ -1,4 +1,4 @@
-"""What stands for a Python function of time, and how closely the function was looked at."""
+"""Python functions of time as piecewise polynomials that agree with them to rounding."""
 
 from __future__ import annotations
 
@@ -18,20 +18,19 @@ from polhode.simulate.integrate._stepping import Array
 Function = Callable[[float], float]
 
 _GOLDEN = (5**0.5 - 1) / 2
-_MOST_AGAIN = 1000  # times of one motion at which a function is evaluated again
-_NEAR = 1e-9  # of the span: so close to a corner a time is not looked at
+_MOST_AGAIN = 1000  # times of one motion at which a function is evaluated again, at most
+_NEAR = 1e-9  # of the span: times closer than that to a corner are skipped
 
 
 @dataclass(frozen=True, eq=False)
 class Approximation(Pieces):
-    """A Python function of time as polynomials, and how long a departure could have been missed.
+    """A Python function of time as polynomials, with the resolution it was sampled at.
 
     Attributes:
-        resolution: s. Whatever the function does for longer than that has been seen; what it does
-            for less, such as a pulse between two of the times at which it was evaluated, may
-            have been missed.
-        function: itself; a copy in another process is without it.
-        allowed: by how much it may differ from each polynomial, shape (pieces,).
+        resolution: s. Changes that last longer have been seen; shorter ones, such as a pulse
+            between two of the times at which the function was evaluated, may have been missed.
+        function: the function; None in a copy in another process.
+        allowed: largest difference from each polynomial that is accepted, shape (pieces,).
     """
 
     resolution: float = 0.0
@@ -41,12 +40,12 @@ class Approximation(Pieces):
     def __repr__(self) -> str:
         return (
             f"a function of time from {self.start:.6g} s to {self.end:.6g} s as "
-            f"{len(self.coefficients)} polynomials; what it does for less than "
+            f"{len(self.coefficients)} polynomials; changes that last less than "
             f"{self.resolution:.3g} s may have been missed"
         )
 
     def __getstate__(self) -> dict[str, Any]:
-        """Without the function, which need not be one that can be sent to another process."""
+        """Without the function, which often cannot be sent to another process."""
         fields = ("knots", "coefficients", "corners", "resolution")
         return {name: getattr(self, name) for name in fields} | {"function": None, "allowed": None}
 
@@ -54,11 +53,11 @@ class Approximation(Pieces):
         """Evaluate the function again between the ends of steps of a motion.
 
         Args:
-            name: of what it prescribes.
+            name: of the prescribed function.
             steps: increasing times, s.
 
         Raises:
-            NumericError: where it does not have the value that the motion was computed with.
+            NumericError: where it differs from the value that the motion was computed with.
         """
         if self.function is None or self.allowed is None:
             return
@@ -72,16 +71,16 @@ class Approximation(Pieces):
                 f"{name} = {values[first]:.6g} at t = {times[first]:.9g} s, where the motion was "
                 f"computed with {float(self.value(times[first])):.6g}: the function was evaluated "
                 f"before and after, but not there",
-                expected=f"a function that does nothing for less than {self.resolution:.3g} s, "
-                "and has the same value whenever it is asked for",
+                expected=f"a function without changes shorter than {self.resolution:.3g} s, "
+                "and the same value at every evaluation",
                 advice="give the motion as polhode.approximated(function, 0, duration, "
-                "resolution=...), with what it does shortest as the resolution",
+                "resolution=...), with its shortest change as the resolution",
             )
 
     def _between(self, steps: Array) -> Array:
         """A time within each step, neither at rest nor at a corner.
 
-        Not in the middle: where steps are pieces the function was evaluated there.
+        Not the middle: where a step is a piece, the function was evaluated there.
         """
         times = steps[:-1] + _GOLDEN * np.diff(steps)
         times = times[:: ceil(len(times) / _MOST_AGAIN) or 1]
@@ -91,11 +90,11 @@ class Approximation(Pieces):
         return times[np.all(np.abs(times[:, None] - corners) > near, axis=1)]
 
 
-def looked_at(left: float, right: float, resolution: float) -> Array:
-    """Times between two others, at most a resolution apart, from the ends too.
+def sampling_times(left: float, right: float, resolution: float) -> Array:
+    """Times between two others, at most a resolution apart, and from the ends.
 
-    Their distances are two in golden ratio, in a sequence without period: evenly spaced times
-    could meet every gap of what is periodic itself.
+    The spacings are two in golden ratio, in an aperiodic sequence: evenly spaced times could miss
+    every pulse of a periodic function.
     """
     count = ceil((right - left) / (_GOLDEN * resolution))
     numbers = np.arange(count)
@@ -103,7 +102,7 @@ def looked_at(left: float, right: float, resolution: float) -> Array:
 
 
 def values_of(function: Function, times: Array) -> Array:
-    """Of a function, at some times.
+    """Values of a function at some times.
 
     Raises:
         NumericError: where it fails, or has no finite value.
@@ -114,7 +113,7 @@ def values_of(function: Function, times: Array) -> Array:
         raise NumericError(
             f"a prescribed motion that fails between {np.min(times):.6g} s and "
             f"{np.max(times):.6g} s ({error})",
-            expected="a function from a time in seconds to a number",
+            expected="a function of the time in seconds that returns a number",
         ) from error
     if not np.all(np.isfinite(values)):
         raise NumericError(
@@ -124,17 +123,17 @@ def values_of(function: Function, times: Array) -> Array:
     return values
 
 
-# Python functions of time as polynomials, to rounding.
+# -- fitting ---------------------------------------------------------------------------------------
 
 _DEGREE = 11
 _ROUNDING = 6 * np.finfo(float).eps
-_NOTHING = np.finfo(float).eps / 2  # a coefficient that small is rounding
-_LEAST = np.finfo(float).tiny  # numbers below have fewer digits
-_HELPED = 64  # by what halving a piece reduces its error at least, and in fact by 4096
+_NEGLIGIBLE = np.finfo(float).eps / 2  # relative coefficients below are rounding
+_SMALLEST = np.finfo(float).tiny  # numbers below have fewer digits
+_REDUCTION = 64  # halving a piece reduces a true error by 2**12; less than this is rounding
 _AT_ENDS = 16  # roundings by which a piece may be off where it ends
-_SHORTEST = 1e-7  # length of a piece over the whole: shorter ones mean a corner
+_SHORTEST = 1e-7  # length of a piece over the span: shorter ones mean a corner
 _MOST = 100_000  # pieces
-_LOOKS = 2000  # resolutions in a span, where none is given
+_LOOKS = 2000  # resolutions in a span, by default
 _MOST_LOOKS = 10_000_000
 
 
@@ -148,23 +147,23 @@ def approximated(
 ) -> Approximation:
     """A smooth Python function of time as polynomials that agree with it to rounding.
 
-    The function is evaluated at times that are at most the resolution apart, and more often where
-    that is not enough. So nothing that it does for longer than the resolution is missed; what it
-    does for less may be. A motion that is computed with it evaluates it again between its steps.
+    The function is evaluated at times at most the resolution apart, and more often where that is
+    not enough: no change that lasts longer than the resolution is missed, a shorter one may be. A
+    motion computed with it evaluates it again between its steps.
 
-    Outside the span it is at rest where the span ends.
+    Outside the span it keeps the value at the end of the span.
 
     Args:
         function: of the time in seconds.
         start: s.
         end: s.
         corners: times at which the function or its rate jumps.
-        resolution: s; by default a 2000th of the span. The function is evaluated 1.6 times in
-            every resolution.
+        resolution: s; by default 1/2000 of the span. The function is evaluated 1.6 times per
+            resolution.
 
     Raises:
-        NumericError: for a function that has no finite value, or is not smooth between corners,
-            and for a resolution that is none.
+        NumericError: for a function that is not finite, or not smooth between corners, and for a
+            resolution that is too fine or not positive.
     """
     bounds = [start, *sorted(float(t) for t in corners if start < t < end), end]
     if not (isfinite(start) and isfinite(end) and start < end):
@@ -179,7 +178,9 @@ def approximated(
         knots = np.concatenate([knots, ends])
         tables.append(table)
         jerks.append(len(knots) - 1)
-        allowed.append(np.array([2 * piece.allowed for piece in pieces]))  # and for the joints
+        allowed.append(
+            np.array([2 * piece.allowed for piece in pieces])
+        )  # doubled: joining moves the ends
     return Approximation(
         knots,
         np.vstack(tables),
@@ -197,14 +198,14 @@ def _resolution(given: float | None, span: float) -> float:
         raise NumericError(
             f"a resolution of {given:g} s over {span:g} s",
             expected=f"a time of at least {span / _MOST_LOOKS:g} s",
-            advice="give the duration of the shortest thing that the function does",
+            advice="give the duration of the shortest change of the function",
         )
     return float(given)
 
 
 @dataclass(frozen=True)
 class _Evaluations:
-    """Values of the function at increasing times that no polynomial is made of."""
+    """Values of the function at increasing times, used to check the polynomials only."""
 
     times: Array
     values: Array
@@ -215,7 +216,7 @@ class _Evaluations:
 
 
 def _seen(function: Function, left: float, right: float, resolution: float) -> _Evaluations:
-    times = looked_at(left, right, resolution)
+    times = sampling_times(left, right, resolution)
     return _Evaluations(times, values_of(function, times))
 
 
@@ -225,9 +226,9 @@ class _Piece:
 
     Attributes:
         size: of the function's values.
-        rounding: what the function's values are uncertain by, as far as they tell.
-        error: by how much they differ from it between the values that it was made of.
-        allowed: by how much they may differ from it elsewhere.
+        rounding: estimated uncertainty of the function's values.
+        error: largest difference from the function between the interpolation nodes.
+        allowed: difference that is accepted elsewhere.
     """
 
     left: float
@@ -238,8 +239,8 @@ class _Piece:
     error: float
     allowed: float
 
-    def passes_by(self, seen: _Evaluations) -> bool:
-        """Whether it differs by more than allowed from one of the function's values within it."""
+    def misses(self, seen: _Evaluations) -> bool:
+        """Whether it differs by more than allowed from one of the values within it."""
         own = seen.within(self.left, self.right)
         values = polynomial.polyval(own.times - self.left, self.powers)
         return bool(np.any(np.abs(values - own.values) > self.allowed))
@@ -248,7 +249,7 @@ class _Piece:
 def _resolved(
     function: Function, left: float, right: float, shortest: float, seen: _Evaluations
 ) -> list[_Piece]:
-    """Pieces from left to right, halved until each agrees with the function."""
+    """Pieces from left to right, bisected until each agrees with the function."""
     noise = _ROUNDING * float(np.max(np.abs(seen.values)))
     whole = _fitted(function, left, right, noise)
     noise = max(noise, _ROUNDING * whole.size)
@@ -257,7 +258,13 @@ def _resolved(
         piece, before = waiting.pop()
         a, b = piece.left, piece.right
         is_short = b - a < shortest
-        if _agrees(piece, 0.0 if is_short else before, noise) and not piece.passes_by(seen):
+        # The error is rounding if it is below that of the values. Where the function itself cancels
+        # large terms it is larger, and shows in that bisection has not reduced it.
+        agrees = (
+            piece.error <= piece.rounding
+            or (0.0 if is_short else before) / _REDUCTION < piece.error <= noise
+        )
+        if agrees and not piece.misses(seen):
             done.append(piece)
         elif is_short or len(done) > _MOST:
             raise _not_smooth(a)
@@ -267,25 +274,17 @@ def _resolved(
     return done
 
 
-def _agrees(piece: _Piece, before: float, noise: float) -> bool:
-    """Whether what is left of the error is rounding: of the values, or of what they are made of.
-
-    The latter shows, where large terms cancel, in that halving the piece has not helped.
-    """
-    return piece.error <= piece.rounding or before / _HELPED < piece.error <= noise
-
-
 def _fitted(function: Function, left: float, right: float, noise: float) -> _Piece:
-    """The polynomial through the function's values, compared with it in between."""
+    """The polynomial through the function's values at Chebyshev nodes, checked in between."""
     values = _values(function, left, right, _NODES)
     series = _SERIES @ (values - values[0])
     size = float(np.max(np.abs(values)))
-    series[np.abs(series) < _NOTHING * size] = 0.0
+    series[np.abs(series) < _NEGLIGIBLE * size] = 0.0
     series[0] += values[0]
     apart = chebyshev.chebval(_BETWEEN, series) - _values(function, left, right, _BETWEEN)
     error = float(np.max(np.abs(apart)))
     rate = float(np.max(np.abs(np.diff(values) / np.diff(_NODES)))) * 2 / (right - left)
-    rounding = _ROUNDING * (size + max(abs(left), abs(right)) * rate) + _LEAST
+    rounding = _ROUNDING * (size + max(abs(left), abs(right)) * rate) + _SMALLEST
     powers = _POWERS @ series / (right - left) ** np.arange(_DEGREE + 1)
     allowed = _AT_ENDS * max(rounding, error, noise)
     return _Piece(left, right, powers, size, rounding, error, allowed)
@@ -295,22 +294,23 @@ def _not_smooth(time: float) -> NumericError:
     return NumericError(
         f"a prescribed motion that is not smooth near t = {time:.6g} s",
         expected="a smooth function of time",
-        advice="name the times at which it jumps or has a corner",
+        advice="give the times at which it jumps or has a corner as corners",
     )
 
 
 def _values(function: Function, left: float, right: float, places: Array) -> Array:
-    """Of the function, at places between -1 and 1."""
+    """Values of the function at positions between -1 and 1 in an interval."""
     return values_of(function, (left + right + (right - left) * places) / 2)
 
 
 def _joined(pieces: list[_Piece]) -> tuple[Array, Array]:
-    """Right ends and coefficients, with the last rounding between pieces taken out.
+    """Right ends and coefficients, with the rounding between neighbours removed.
 
-    Values and rates on both sides of a joint are brought to their mean by a cubic on either side.
+    A cubic added on either side of a joint brings values and rates to their mean.
 
     Raises:
-        NumericError: where they differ by more: the function jumps, or has a corner, at a joint.
+        NumericError: where they differ by more than rounding: the function jumps, or has a
+            corner, at a joint.
     """
     right = np.array([piece.right for piece in pieces])
     span = right - np.array([piece.left for piece in pieces])
@@ -325,9 +325,9 @@ def _joined(pieces: list[_Piece]) -> tuple[Array, Array]:
     apart = table.T[:2, 1:] - reached[:, :-1]
     unsure = np.array([piece.allowed for piece in pieces])
     unsure = np.array([unsure, 2 * _DEGREE**2 / span * unsure])  # Markov's inequality
-    torn = np.flatnonzero(np.any(np.abs(apart) > unsure[:, 1:] + unsure[:, :-1], axis=0))
-    if len(torn):
-        raise _not_smooth(right[torn[0]])
+    jumps = np.flatnonzero(np.any(np.abs(apart) > unsure[:, 1:] + unsure[:, :-1], axis=0))
+    if len(jumps):
+        raise _not_smooth(right[jumps[0]])
     gaps = np.pad(apart, ((0, 0), (1, 1))) / 2
     (d, v), (e, w) = -gaps[:, :-1], gaps[:, 1:]
     table[:, 0] += d
@@ -338,7 +338,7 @@ def _joined(pieces: list[_Piece]) -> tuple[Array, Array]:
 
 
 def _shifted_powers() -> Array:
-    """Chebyshev polynomials over [-1, 1] in powers of the place counted from 0 to 1."""
+    """Chebyshev polynomials over [-1, 1] in powers of the position scaled to [0, 1]."""
     columns = [np.eye(1, _DEGREE + 1)[0]]
     columns.append(2 * np.roll(columns[0], 1) - columns[0])
     while len(columns) <= _DEGREE:

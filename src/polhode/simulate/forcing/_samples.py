@@ -1,4 +1,4 @@
-"""Smooth curves through samples, or near them where the samples are noisy."""
+"""Functions of time from samples: smooth curves through or near them, and sheet files."""
 
 from __future__ import annotations
 
@@ -18,8 +18,6 @@ from polhode.base import NumericError, ParseError, read_whole
 from polhode.simulate.forcing._pieces import Pieces
 from polhode.simulate.integrate._stepping import Array
 
-# Smooth curves through samples, or near them where the samples are noisy.
-
 _LEAST_TO_SMOOTH = 3
 _SOFTEST, _STIFFEST = -12.0, 12.0  # decades of the penalty on curvature, time in mean steps
 
@@ -33,16 +31,16 @@ def sampled(
 ) -> Pieces:
     """A function of time from samples: cubic splines with continuous acceleration.
 
-    At rest before the first sample, it starts from rest there and stops at once at the last. Where
-    a new segment starts its rate jumps. A segment sets out from the end of the one before it; if
-    its first sample repeats that time with another value, the value jumps.
+    It is constant before the first sample, starts from rest there and stops abruptly at the last.
+    Its rate jumps where a new segment starts. A segment continues from the end of the previous
+    one; if its first sample repeats that time with another value, the value jumps.
 
     Args:
         times: s, increasing within a segment.
         values: one for each time.
-        starts: which samples begin a new segment, besides the first.
-        noise: standard deviation of the values. The curve is then the smoothest one that passes
-            them at that distance in the mean, and its value never jumps.
+        starts: indices of samples that begin a new segment, besides the first.
+        noise: standard deviation of the values. The curve is then the smoothest one at that root
+            mean square distance from them, and its value never jumps.
 
     Raises:
         NumericError: for times that do not increase, values that are not finite, a noise that is
@@ -64,7 +62,7 @@ def sampled(
 def _joined(
     own: Array, through: Array, knots: Array, table: Array, noise: float
 ) -> tuple[Array, Array]:
-    """The samples of a segment, with the end of the one before it in front."""
+    """The samples of a segment, preceded by the end of the previous one."""
     ended = polynomial.polyval(knots[-1] - knots[-2], table[-1])
     if own[0] > knots[-1]:
         return np.concatenate([knots[-1:], own]), np.concatenate([[ended], through])
@@ -73,12 +71,12 @@ def _joined(
 
 def _curve(t: Array, x: Array, noise: float, *, clamped: bool) -> Array:
     """Coefficients of the pieces of one segment; `clamped` starts from rest."""
-    with np.errstate(all="ignore"):  # what overflows is refused in words by `Pieces`
+    with np.errstate(all="ignore"):  # `Pieces` refuses what overflows
         return _near(t, x, noise, clamped) if noise else _through(t, x, clamped)
 
 
 def _through(t: Array, x: Array, clamped: bool) -> Array:
-    """Of the curve through the samples, with no more freedom at its ends than it needs."""
+    """Coefficients of the interpolating spline, clamped or not-a-knot at its ends."""
     from scipy.interpolate import CubicSpline
 
     if len(t) == 2:
@@ -91,10 +89,10 @@ def _through(t: Array, x: Array, clamped: bool) -> Array:
 
 
 def _near(t: Array, x: Array, noise: float, clamped: bool) -> Array:
-    """Of the smoothest curve whose mean distance from the samples is the noise.
+    """Coefficients of the smoothest curve whose r.m.s. distance from the samples is the noise.
 
-    The samples are continued backwards in time, evenly for a start from rest, oddly about the
-    first one for a start from there.
+    The samples are reflected to earlier times: as an even function for a start from rest, as an
+    odd one about the first sample otherwise.
     """
     step = float(t[-1] - t[0]) / (len(t) - 1)
     since = (t - t[0]) / step
@@ -110,7 +108,7 @@ def _near(t: Array, x: Array, noise: float, clamped: bool) -> Array:
 
 
 def _discrepant(t: Array, x: Array, noise: float) -> Array:
-    """The smoothing spline at a given distance from its samples (Reinsch 1967)."""
+    """The smoothing spline at a given r.m.s. distance from its samples (Reinsch 1967)."""
     from scipy.optimize import brentq
 
     def excess(stiffness: float) -> float:
@@ -180,18 +178,18 @@ def _refuse(t: Array, x: Array, starts: Sequence[int], noise: float) -> None:
         )
 
 
-# The path of a sheet, read from a table.
+# -- the path of a sheet, read from a table --------------------------------------------------------
 
 _NEEDED = ("t", "x", "y")
 _OPTIONAL = ("angle", "segment")
-_LARGEST = 1e12  # beyond it a number is taken for a slip, in s, m and rad
-_CLOSEST = 1e-9  # of the whole time: rows closer than that are one row twice, with its rounding
+_LARGEST = 1e12  # s, m and rad; a larger number is taken for a mistake
+_CLOSEST = 1e-9  # of the whole time: closer rows are taken for a repeated row
 _SHOWN = 40  # characters of the file that a message repeats
 
 
 @dataclass(frozen=True)
 class SheetPath:
-    """How a sheet is moved: place of its origin in the lab, and the angle it is turned by.
+    """Motion of a sheet: position of its origin in the lab, and the angle it is turned by.
 
     Attributes:
         X: m.
@@ -208,24 +206,34 @@ def read_sheet(path: str | Path, *, noise: float = 0.0) -> SheetPath:
     """Read the path of a sheet from a CSV file.
 
     Its header is `t,x,y`, optionally with `angle` and `segment`; all is in SI units. The sheet is
-    at rest before the first row and after the last. It starts from rest and stops at once. Every
-    segment is a smooth spline of its own; from one to the next the velocity jumps, at the last row
-    of the earlier one. A segment may repeat that row's time: repeated with another place, the
-    sheet is shifted in no time. Lines that begin with # are skipped.
+    at rest before the first row and after the last. It starts from rest and stops abruptly. Every
+    segment is a smooth spline; between two segments the velocity jumps, at the last row of the
+    earlier one. If a segment repeats the time of that row with another position, the sheet is
+    displaced instantaneously. Lines that begin with # are skipped.
 
     Args:
         path: the file.
-        noise: standard deviation of places (m) and angles (rad), which are then smoothed.
+        noise: standard deviation of positions (m) and angles (rad), which are then smoothed.
 
     Raises:
-        ParseError: for a table that is not such a path, with the number of the line.
+        ParseError: for a table that is not such a path, with the line number.
         StoreError: for a file that cannot be read.
     """
     lines = _lines(Path(path))
     columns = _columns(next(lines, _Line(1, [])))
     rows = [_row(line, columns) for line in lines]
     starts = _starts(rows)
-    _refuse_disorder(rows, starts)
+    least = _CLOSEST * abs(rows[-1].numbers["t"] - rows[0].numbers["t"])
+    for i, (before, row) in enumerate(pairwise(rows), start=1):
+        earlier, now = before.numbers["t"], row.numbers["t"]
+        if now < earlier or (now == earlier and i not in starts):
+            raise _bad(row.line, f"t = {now:.9g} after {earlier:.9g}", "times that increase")
+        if now - earlier < least and i not in starts:
+            raise _bad(
+                row.line,
+                f"t = {now:.17g} right after {earlier:.17g}",
+                f"rows at least {least:.1g} s apart, a billionth of the whole",
+            )
     times = np.array([row.numbers["t"] for row in rows])
     _refuse_gaps(rows, times, starts)
 
@@ -250,22 +258,22 @@ class _Row:
 
 
 def _lines(path: Path) -> Iterator[_Line]:
-    """The lines of a table, without comments and without the empty ones at its end."""
+    """The lines of a table, without comments and trailing empty lines."""
     content = read_whole(path, "a file of comma-separated text")
     try:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1
-        raise _bad(line, "bytes that are no text", "a file of comma-separated text") from error
+        raise _bad(
+            line, "bytes that are not UTF-8 text", "a file of comma-separated text"
+        ) from error
     reader = csv.reader(io.StringIO(text.rstrip(), newline=""), strict=True)
     try:
         for cells in reader:
             if not cells or not cells[0].startswith("#"):
                 yield _Line(reader.line_num, [cell.strip() for cell in cells])
     except csv.Error as error:
-        raise _bad(
-            reader.line_num, f"a line that is no row ({error})", "a row of numbers"
-        ) from error
+        raise _bad(reader.line_num, f"a malformed row ({error})", "a row of numbers") from error
 
 
 def _columns(header: _Line) -> list[str]:
@@ -309,7 +317,7 @@ def _number(line: int, name: str, cell: str) -> float:
 
 
 def _starts(rows: Sequence[_Row]) -> tuple[int, ...]:
-    """Which rows begin a segment, besides the first."""
+    """Indices of the rows that begin a segment, besides the first."""
     if len(rows) < 2:
         raise ParseError(f"a sheet with {len(rows)} rows", expected="at least two rows to move by")
     starts = [i for i in range(1, len(rows)) if rows[i].segment != rows[i - 1].segment]
@@ -318,7 +326,7 @@ def _starts(rows: Sequence[_Row]) -> tuple[int, ...]:
         if rows[i].segment in known:
             raise _bad(
                 rows[i].line,
-                f"segment {_shown(rows[i].segment)} once more",
+                f"segment {_shown(rows[i].segment)} again",
                 "all rows of a segment together",
             )
         known.add(rows[i].segment)
@@ -329,22 +337,8 @@ def _starts(rows: Sequence[_Row]) -> tuple[int, ...]:
     return tuple(starts)
 
 
-def _refuse_disorder(rows: Sequence[_Row], starts: Sequence[int]) -> None:
-    least = _CLOSEST * abs(rows[-1].numbers["t"] - rows[0].numbers["t"])
-    for i, (before, row) in enumerate(pairwise(rows), start=1):
-        earlier, now = before.numbers["t"], row.numbers["t"]
-        if now < earlier or (now == earlier and i not in starts):
-            raise _bad(row.line, f"t = {now:.9g} after {earlier:.9g}", "times that increase")
-        if now - earlier < least and i not in starts:
-            raise _bad(
-                row.line,
-                f"t = {now:.17g} right after {earlier:.17g}",
-                f"rows at least {least:.1g} s apart, a billionth of the whole",
-            )
-
-
 def _refuse_gaps(rows: Sequence[_Row], times: Array, starts: Sequence[int]) -> None:
-    """Between segments nothing is known of the path; a step of the rows is bridged, no more."""
+    """Refuse gaps between segments longer than the steps within them: the path there is unknown."""
     bounds = (0, *starts, len(rows))
     for first, start, stop in zip(bounds[:-2], bounds[1:-1], bounds[2:], strict=True):
         gap = times[start] - times[start - 1]

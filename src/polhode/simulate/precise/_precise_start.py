@@ -1,4 +1,4 @@
-"""Start values to any precision, once they are known and checked as doubles."""
+"""Parameters and start of a motion to any precision, once they are checked in doubles."""
 
 from __future__ import annotations
 
@@ -15,8 +15,6 @@ from polhode.simulate._task import InitialState, Task
 from polhode.simulate._values import given_values
 from polhode.simulate.integrate._number_types import NumberType, ratio
 
-# Values exactly as they were given, so that they can be rounded to any precision.
-
 
 def evaluated(expressions: Sequence[Expr], values: Mapping[Symbol, Any], context: Any) -> list[Any]:
     """Expressions of symbols with a value, in the numbers of an mpmath context."""
@@ -28,19 +26,17 @@ def on(context: Any) -> Arithmetic:
     return Arithmetic.of(context, lambda number: ratio(context, number))
 
 
-# Numbers, start and end of a motion exactly as they were given.
-
 Values = Mapping[Symbol, Any]
 
 
 @dataclass(frozen=True)
 class Given:
-    """What was given, in numbers with bits to spare.
+    """The values given for a motion, in numbers with spare bits.
 
     Attributes:
         parameters: the constants.
         start: coordinates and speeds at the start, of the mode in which it was read.
-        begun: how it was read.
+        begun: the start in doubles, and the equations it was read in.
         context: of mpmath.
     """
 
@@ -50,7 +46,7 @@ class Given:
     context: Any
 
     def state(self, symbols: tuple[Symbol, ...]) -> dict[Symbol, Any]:
-        """Coordinates and speeds of any mode, from those in which the start was read."""
+        """Coordinates and speeds of any mode, from those of the mode of the start."""
         dynamics = self.begun.dynamics
         parameters = {s: self.parameters[s] for s in dynamics.parameters}
         wanted = [dynamics.lifted.get(s, Expr.generator(s)) for s in symbols]
@@ -62,10 +58,10 @@ class Given:
 
 
 def read_exactly(begun: InitialState, known: set[Symbol], task: Task, numbers: NumberType) -> Given:
-    """What was given, once it has been read and checked as doubles.
+    """The given values to higher precision, once they are checked in doubles.
 
     Args:
-        begun: how the start was read.
+        begun: the start in doubles, and the equations it was read in.
         known: the parameters.
 
     Raises:
@@ -78,7 +74,9 @@ def read_exactly(begun: InitialState, known: set[Symbol], task: Task, numbers: N
 
     exact = _exact(task.given, known, {})
     parameters = values(exact)
-    given = values(_exact(task.start, _startable(begun.dynamics), exact))
+    equations = begun.dynamics.equations
+    rates = (*equations.kinematics, *equations.dependent)
+    given = values(_exact(task.start, (*equations.coordinates, *equations.speeds, *rates), exact))
     own = {s: parameters[s] for s in begun.dynamics.parameters}
     start = precise_start(begun.dynamics, begun.start, given, own, context)
     return Given(parameters, start, begun, context)
@@ -89,12 +87,6 @@ def _exact(
 ) -> dict[Symbol, Expr]:
     names = by_name(symbols)
     return {names[v.name]: v.exact(known) for v in given_values(given).values()}
-
-
-def _startable(dynamics: Dynamics) -> tuple[Symbol, ...]:
-    equations = dynamics.equations
-    rates = (*equations.kinematics, *equations.dependent)
-    return (*equations.coordinates, *equations.speeds, *rates)
 
 
 _INDEPENDENT = 1e-12  # relative size below which a pivot is rounding
@@ -136,7 +128,7 @@ def _closed(
     parameters: Mapping[Symbol, Any],
     context: Any,
 ) -> dict[Symbol, Any]:
-    """Coordinates that close the loops: those that follow are improved by Newton's method."""
+    """Coordinates that close the loops: those not given are found by Newton's method."""
     free = [q for q in places if q not in given]
     closures = dynamics.equations.closures
     slopes = [closure.diff(q) for closure in closures for q in free]
@@ -155,8 +147,8 @@ def _closed(
         for j, step in zip(pivots, steps, strict=True):
             found[free[j]] -= step
     raise ConstraintError(
-        f"loops that close to {float(max(map(abs, residuals))):.1g} m only",
-        expected="a start at which they close to the precision that was asked for",
+        f"loops that close only to {float(max(map(abs, residuals))):.1g} m",
+        expected="a start at which they close to the requested precision",
         advice="leave out the coordinates that the loops determine",
     )
 
@@ -207,7 +199,7 @@ def _function(
 
 
 def _independent(matrix: Sequence[Sequence[Any]]) -> tuple[list[int], list[int]]:
-    """Rows that say something new, and the unknown that each is solved for."""
+    """Independent rows, and the unknown that each is solved for."""
     reduced = [list(row) for row in matrix]
     rows, pivots = list[int](), list[int]()
     for i, row in enumerate(reduced):

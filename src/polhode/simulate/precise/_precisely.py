@@ -1,4 +1,4 @@
-"""A motion once more in numbers of higher precision."""
+"""A motion computed again in numbers of higher precision, along the one in doubles."""
 
 from __future__ import annotations
 
@@ -50,14 +50,14 @@ from polhode.simulate.precise._precise_start import Given, evaluated, read_exact
 from polhode.simulate.precise._precise_walk import PreciseWalk
 from polhode.simulate.precise._wanted import Wanted
 
-# A motion within one contact mode, as it is declared, in numbers of higher precision.
+# -- equations of one contact mode, kept to as declared --------------------------------------------
 
-_LOOK = 12  # steps after which absolute values are looked at
+_LOOK = 12  # steps between checks of the signs of absolute values
 
 
 @dataclass(frozen=True)
 class _Declared:
-    """The equations of the contacts as they are declared, with numbers."""
+    """The equations of the contacts as declared, with the values of their parameters."""
 
     dynamics: Dynamics
     parameters: Any
@@ -65,7 +65,7 @@ class _Declared:
 
 @dataclass(frozen=True)
 class _DeclaredCut:
-    """A stretch up to the end of a side, or to its own."""
+    """A stretch up to a sign change of an absolute value, or to the end."""
 
     part: TrajectoryPiece
     state: StateValues
@@ -75,10 +75,10 @@ class _DeclaredCut:
 
 
 def as_declared(dynamics: Dynamics, given: Given, steps: PieceIntegrator) -> HybridSolution:
-    """The contacts as they are declared, and kept to.
+    """The motion with the contacts as declared, without looking for mode changes.
 
     Args:
-        dynamics: of which no sides of absolute values are known.
+        dynamics: with the signs of absolute values not yet decided.
 
     Raises:
         NumericError: where the motion cannot be continued.
@@ -117,7 +117,7 @@ def _segment(face: Dynamics, parts: list[TrajectoryPiece]) -> Segment:
 def _along(
     moving: _Declared, state: StateValues, span: tuple[Any, Any], steps: PieceIntegrator
 ) -> _DeclaredCut:
-    """Up to the end of a span, or of a side."""
+    """Integrate to the end of a span, or to the first sign change of an absolute value."""
     passages, careful = passages_of(moving.dynamics), steps.numbers.careful
     watched = StopCriteria(pause=_LOOK) if passages else StopCriteria()
     stretch = steps.along(moving, state, span, watched, span[0])
@@ -145,7 +145,7 @@ def _along(
 def _passed(
     dynamics: Dynamics, passages: Sequence[SideChange], stretch: PrecisePiece
 ) -> tuple[PiecePoint, SideChange] | None:
-    """Where the first side ends, and which."""
+    """Where the first sign changes, and which."""
     if not passages:
         return None
     seen = InDoubles(stretch)
@@ -166,15 +166,16 @@ def _passed(
 def precisely(
     rough: Trajectory, motion: MotionResult, task: Task, wanted: Wanted, progress: Progress
 ) -> Trajectory:
-    """The same motion in other numbers.
+    """The motion in numbers of higher precision.
 
     Args:
-        rough: in doubles.
-        motion: what it was made of.
-        task: numbers and start, as they were given.
+        rough: the motion in doubles.
+        motion: the parts it was made of.
+        task: parameters and start, as given.
+        wanted: the precision, duration, samples and events requested.
 
     Raises:
-        DeclarationError: for prescribed motions that are known to doubles only.
+        DeclarationError: for prescribed motions that are known only in double precision.
         NumericError: where the motion cannot be continued.
     """
     numbers = wanted.numbers
@@ -186,7 +187,11 @@ def precisely(
     steps = PieceIntegrator(_integrator(task.integrator.name), numbers, end, progress)
     if motion.guarded is None:
         course = as_declared(motion.begun.dynamics, given, steps)
-        events = _events_beside(rough, course)
+        # Start, end and sign changes are those found now, other events those seen in doubles.
+        first, *turns, last = events_of(course)
+        seen = [e for e in rough.events[1:-1] if not e.divides and e.time < last.time]
+        between = sorted([*turns, *placed(seen, course.segments)], key=lambda event: event.time)
+        events = (first, *between, last)
     else:
         course = _through_modes(motion.guarded, given, steps, task, progress)
         events = events_of(course)
@@ -203,19 +208,11 @@ def precisely(
     return _with_events(run, wanted.events)
 
 
-def _events_beside(rough: Trajectory, course: HybridSolution) -> tuple[Event, ...]:
-    """Start and end, and between them what was seen of the motion in doubles."""
-    first, *turns, last = events_of(course)
-    seen = [e for e in rough.events[1:-1] if not e.divides and e.time < last.time]
-    between = sorted([*turns, *placed(seen, course.segments)], key=lambda event: event.time)
-    return (first, *between, last)
-
-
 def _refuse_samples(forcing: Mapping[Any, Any], numbers: NumberType) -> None:
     for name, given in forcing.items():
         if isinstance(given, Pieces) or (callable(given) and not isinstance(given, Expr)):
             raise DeclarationError(
-                f"the motion {name}, which is known to doubles only, in {numbers.name} precision",
+                f"the motion {name}, known only in double precision, in {numbers.name} precision",
                 expected="an expression of time for every prescribed function",
                 advice="write it with polhode.time instead of samples or a Python function",
             )
@@ -231,15 +228,15 @@ def _integrator(name: str) -> SeriesIntegrator:
     return PowerSeries()
 
 
-# -- what is integrated ------------------------------------------------------------------------
+# -- through contact modes ---------------------------------------------------------------------
 
 
 def _through_modes(
     guarded: Guarded, given: Given, steps: PieceIntegrator, task: Task, progress: Progress
 ) -> HybridSolution:
-    """Through all contact modes, as the forces demand."""
+    """The motion through all contact modes, as the forces demand."""
     rough, numbers = guarded.machine, steps.numbers.careful
-    machine = HybridSystem(
+    hybrid = HybridSystem(
         rough.automaton, rough.drive, given.parameters, rough.integrator, None, numbers, rough
     )
     equations = rough.automaton.apart.equations
@@ -248,8 +245,8 @@ def _through_modes(
         for symbols in (equations.coordinates, equations.speeds)
     )
     zero = given.context.mpf(0)
-    first = begun_at(machine, State(zero, coordinates, speeds, zero), guarded.apart)
-    walk = PreciseWalk(machine, steps, task.near_flat, progress, task.until)
+    first = begun_at(hybrid, State(zero, coordinates, speeds, zero), guarded.apart)
+    walk = PreciseWalk(hybrid, steps, task.near_flat, progress, task.until)
     return walk.along(first, steps.end)
 
 
@@ -267,7 +264,7 @@ def _samples(wanted: Wanted, duration: Any, end: Any) -> Any:
 
 
 def _with_events(run: Trajectory, events: Mapping[str, Expr]) -> Trajectory:
-    """The same motion with an event wherever one of some expressions passes through zero."""
+    """The same motion with an event at every zero crossing of some expressions."""
     segments = run.segments
     found = []
     for name, expression in events.items():
@@ -281,7 +278,7 @@ def _with_events(run: Trajectory, events: Mapping[str, Expr]) -> Trajectory:
 
 
 def _root(segment: Segment, expression: Expr, near: float) -> Any:
-    """Where an expression is zero, from where it is in doubles."""
+    """The zero of an expression, from its position in doubles."""
     wanted, numbers = [Expr.of(expression)], segment.numbers
     length = segment.end - segment.begin
 
