@@ -75,7 +75,7 @@ class Pieces:
         return tuple(self.knots.tolist())
 
     def piece(self, time: float) -> int:
-        """Index of the polynomial just after a time: -1 before the first, their number after all."""
+        """Index of the polynomial just after a time: -1 before the first one."""
         return int(np.searchsorted(self.knots, time, "right")) - 1
 
     def polynomial(self, piece: int) -> tuple[float, Array]:
