@@ -10,7 +10,6 @@ from polhode.algebra import Expr
 from polhode.analyse import (
     ALWAYS,
     PROVES,
-    Branch,
     Condition,
     Stability,
     SteadyMotion,
@@ -44,7 +43,12 @@ def run(options: Namespace) -> int:
     entry = entry_of(options.name)
     equations = derive(entry.build())
     at = exact_values(equations, assignments(options.at))
-    families = [(family, _judged(family)) for family in steady(equations, at)]
+    families = list[tuple[SteadyMotion, Stability | NumericError]]()
+    for family in steady(equations, at):
+        try:
+            families.append((family, stability(family)))
+        except NumericError as undecided:  # such as in singular coordinates
+            families.append((family, undecided))
     if options.json:
         described = [_document(family, judged) for family, judged in families]
         print_document({"system": entry.name, "families": described})
@@ -56,20 +60,19 @@ def run(options: Namespace) -> int:
     return 0
 
 
-def _judged(family: SteadyMotion) -> Stability | NumericError:
-    """Stability, or why it cannot be decided in these coordinates."""
-    try:
-        return stability(family)
-    except NumericError as undecided:
-        return undecided
-
-
 def _document(family: SteadyMotion, judged: Stability | NumericError) -> dict[str, Any]:
     exists = family.branches[0].exists if family.branches else ()
     document: dict[str, Any] = {
         "latex": family.latex(),
         "sympy": printed_all(family.conditions),
-        "branches": [_branch(branch) for branch in family.branches],
+        "branches": [
+            {
+                "quantity": printed(branch.quantity),
+                **printed(branch.value),
+                "exists_when": _inequalities(branch.exists)[0],
+            }
+            for branch in family.branches
+        ],
         "exists_when": _inequalities(exists)[0],
     }
     if isinstance(judged, NumericError):
@@ -82,11 +85,6 @@ def _document(family: SteadyMotion, judged: Stability | NumericError) -> dict[st
         "loss": judged.loss,
         "drifts": judged.drifts,
     }
-
-
-def _branch(branch: Branch) -> dict[str, Any]:
-    quantity, value = printed(branch.quantity), printed(branch.value)
-    return {"quantity": quantity, **value, "exists_when": _inequalities(branch.exists)[0]}
 
 
 def _inequalities(conditions: Sequence[Condition]) -> list[dict[str, str]]:

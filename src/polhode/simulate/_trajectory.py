@@ -323,14 +323,11 @@ def samples_of(run: Trajectory, names: Iterable[str] | None = None) -> dict[str,
         names: published names; by default coordinates, speeds, rates, reactions, energy, power,
             work and the invariants watched.
     """
-    chosen = list(names) if names is not None else _usual(run)
-    table = run.table(chosen)
+    if names is None:
+        states = (name for name in run.final if name not in ("energy", "mode"))
+        names = dict.fromkeys((*states, *_WORDS, *run.invariants))
+    table = run.table(names)
     return {name: Sampled(unit_of(run, name), values) for name, values in table.items()}
-
-
-def _usual(run: Trajectory) -> list[str]:
-    states = (name for name in run.final if name not in ("energy", "mode"))
-    return list(dict.fromkeys((*states, *_WORDS, *run.invariants)))
 
 
 def unit_of(run: Trajectory, name: str) -> str:
@@ -338,7 +335,9 @@ def unit_of(run: Trajectory, name: str) -> str:
     if name in _WORDS:
         return _WORDS[name]
     if name in run.reactions:
-        return "N m" if name in _couples(run) else "N"
+        modes = (cast(Equations, segment.dynamics.equations) for segment in run.segments)
+        couples = {n.name for mode in modes for n in mode.lines if n.restraint.is_couple}
+        return "N m" if name in couples else "N"
     expression = run.quantities[name]
     try:
         known = cast(Equations, run.equations).dimensions
@@ -349,11 +348,6 @@ def unit_of(run: Trajectory, name: str) -> str:
     if kind in (SymbolKind.COORDINATE, SymbolKind.SPEED) and dimension in _TURNING:
         return _TURNING[dimension]
     return _NAMED.get(dimension, str(dimension))
-
-
-def _couples(run: Trajectory) -> frozenset[str]:
-    modes = (cast(Equations, segment.dynamics.equations) for segment in run.segments)
-    return frozenset(n.name for mode in modes for n in mode.lines if n.restraint.is_couple)
 
 
 # -- what a file keeps of a motion -----------------------------------------------------------------

@@ -9,7 +9,7 @@ import pytest
 
 import polhode as ph
 from polhode.base import NumericError
-from polhode.simulate.forcing._approximation import approximated, looked_at
+from polhode.simulate.forcing._approximation import approximated, sampling_times
 
 
 def box(begin, width):
@@ -54,7 +54,7 @@ def test_a_smooth_bump_is_resolved(half):
 
 
 def test_what_is_shorter_than_the_resolution_may_be_missed_and_the_resolution_says_so():
-    times = looked_at(0.0, 1.0, 1 / 2000)
+    times = sampling_times(0.0, 1.0, 1 / 2000)
     before = int(np.argmax(np.diff(times) > 4e-4))
     function = box(times[before] + 1e-4, 2e-4)
     curve = approximated(function, 0.0, 1.0)
@@ -71,7 +71,7 @@ def test_the_times_at_which_it_is_evaluated():
     for _ in range(200):
         left, span = rng.uniform(-5, 5), 10 ** rng.uniform(-6, 6)
         resolution = span / rng.uniform(0.1, 3000)
-        times = looked_at(left, left + span, resolution)
+        times = sampling_times(left, left + span, resolution)
         gaps = np.diff([left, *times, left + span])
         assert np.all(gaps > 0)
         assert np.max(gaps) <= resolution * (1 + 1e-9)
@@ -167,7 +167,7 @@ def test_a_motion_of_something_else_is_an_error_that_names_the_time(subject, num
         ph.simulate(subject, numbers, {}, 1.5, forcing={X: curve, Y: 0})
 
 
-def test_named_corners_are_not_looked_at_from_the_wrong_side():
+def test_named_corners_are_not_sampling_times_from_the_wrong_side():
     corners = [math.pi / 3 * n for n in (1, 2)]
     curve = approximated(lambda t: 0.05 * abs(math.sin(3 * t)), 0.0, 2.5, corners=corners)
     run = ph.simulate(SLIPPING, RUBBED, {"v_x": 0.2}, 3.0, forcing={X: curve, Y: lambda t: 0.0})

@@ -128,7 +128,7 @@ BAD = {
         "line 4 of the sheet: 4 s without a row",
     ),
     "open quote": (HEADER + '0,0,0\n1,"1,1\n', "of the sheet: a malformed row"),
-    "binary": (b"\x89PNG\r\n\x1a\n\xff\x00", "line 1 of the sheet: bytes that are not text"),
+    "binary": (b"\x89PNG\r\n\x1a\n\xff\x00", "line 1 of the sheet: bytes that are not UTF-8 text"),
     "binary below": (HEADER.encode() + b"0,0,0\n1,\xff,0\n", "line 3 of the sheet: bytes"),
     "zeros": (b"\x00" * 1000, "line 1 of the sheet"),
     "junk in one line": ("x" * 1_000_000, "line 1 of the sheet"),

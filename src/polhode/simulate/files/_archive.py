@@ -87,17 +87,13 @@ def series_of(states: Callable[[Array], Array], steps: Array) -> tuple[Array, Ar
     values = states(times.ravel())
     values = values.reshape(len(values), len(left), len(_NODES))
     offset = values[:, :, :1]  # subtracted first: rounding is relative to the size of the values
-    series = _without_noise((values - offset) @ _ANALYSIS.T)
-    series[:, :, :1] += offset
-    return np.append(left, right[-1:]), np.moveaxis(series, 0, 2)
-
-
-def _without_noise(series: Array) -> Array:
-    """Series whose trailing coefficients are zero where they are rounding."""
+    series = (values - offset) @ _ANALYSIS.T
     sizes = np.abs(series)
     significant = sizes > _ROUNDING * np.max(sizes, axis=2, keepdims=True)
     followed = np.logical_or.accumulate(significant[:, :, ::-1], axis=2)[:, :, ::-1]
-    return np.where(followed, series, 0.0)
+    series = np.where(followed, series, 0.0)  # trailing coefficients that are rounding are zero
+    series[:, :, :1] += offset
+    return np.append(left, right[-1:]), np.moveaxis(series, 0, 2)
 
 
 @dataclass(frozen=True, eq=False)

@@ -127,39 +127,30 @@ def _inconsistent(what: str) -> StoreError:
 
 
 def _segments(archive: Archive, system: System, details: Details) -> Iterable[Segment]:
-    known = _Modes(automaton(system), details.prescribed)
+    modes, known = automaton(system), dict[str, Dynamics]()
     for _, group in groupby(archive.stretches, lambda stretch: stretch.segment):
         own = list(group)
         if len({stretch.mode for stretch in own}) > 1:
             raise ValueError("a segment in several modes")
-        dynamics = known.dynamics(own[0])
-        dynamics = dynamics.on(sides_in_order(dynamics, details.sides.get(own[0].segment, ())))
+        first = own[0]
+        if first.mode not in known:
+            known[first.mode] = _dynamics(modes, first, details.prescribed)
+        sides = details.sides.get(first.segment, ())
+        dynamics = known[first.mode].on(sides_in_order(known[first.mode], sides))
         parts = tuple(_part(stretch, dynamics, details.turned) for stretch in own)
-        yield Segment(own[0].mode, parts[0].begin, parts[-1].end, dynamics, parts)
+        yield Segment(first.mode, parts[0].begin, parts[-1].end, dynamics, parts)
 
 
-class _Modes:
-    """The equations of each contact mode."""
-
-    def __init__(self, modes: Automaton, prescribed: Mapping[Symbol, Expr]) -> None:
-        self._modes = modes
-        self._prescribed = prescribed
-        self._known: dict[str, Dynamics] = {}
-
-    def dynamics(self, stretch: ChebyshevPiece) -> Dynamics:
-        """The equations of the mode of a stretch."""
-        if stretch.mode not in self._known:
-            self._known[stretch.mode] = self._made(stretch)
-        return self._known[stretch.mode]
-
-    def _made(self, stretch: ChebyshevPiece) -> Dynamics:
-        constants = {Symbol(name): value for name, value in stretch.constants.items()}
-        if stretch.mode == AS_DECLARED:
-            return Dynamics(derive(self._modes.system), self._prescribed, tuple(constants))
-        hybrid = HybridSystem(
-            self._modes, PrescribedMotion(self._prescribed, {}), constants, chosen(), tolerance=None
-        )
-        return hybrid.mode(self._modes.named(stretch.mode)).dynamics
+def _dynamics(
+    modes: Automaton, stretch: ChebyshevPiece, prescribed: Mapping[Symbol, Expr]
+) -> Dynamics:
+    """The equations of the contact mode of a stretch."""
+    constants = {Symbol(name): value for name, value in stretch.constants.items()}
+    if stretch.mode == AS_DECLARED:
+        return Dynamics(derive(modes.system), prescribed, tuple(constants))
+    motion = PrescribedMotion(prescribed, {})
+    hybrid = HybridSystem(modes, motion, constants, chosen(), tolerance=None)
+    return hybrid.mode(modes.named(stretch.mode)).dynamics
 
 
 def _part(

@@ -172,15 +172,15 @@ def approximated(
     knots, tables, jerks = np.array([start]), list[Array](), list[int]()
     allowed = list[Array]()
     for left, right in pairwise(bounds):
-        seen = _seen(function, left, right, finest)
+        times = sampling_times(left, right, finest)
+        seen = _Evaluations(times, values_of(function, times))
         pieces = _resolved(function, left, right, _SHORTEST * (end - start), seen)
         ends, table = _joined(pieces)
         knots = np.concatenate([knots, ends])
         tables.append(table)
         jerks.append(len(knots) - 1)
-        allowed.append(
-            np.array([2 * piece.allowed for piece in pieces])
-        )  # doubled: joining moves the ends
+        # doubled, since joining the pieces has moved their ends
+        allowed.append(np.array([2 * piece.allowed for piece in pieces]))
     return Approximation(
         knots,
         np.vstack(tables),
@@ -213,11 +213,6 @@ class _Evaluations:
     def within(self, left: float, right: float) -> _Evaluations:
         first, last = np.searchsorted(self.times, [left, right]).tolist()
         return _Evaluations(self.times[first:last], self.values[first:last])
-
-
-def _seen(function: Function, left: float, right: float, resolution: float) -> _Evaluations:
-    times = sampling_times(left, right, resolution)
-    return _Evaluations(times, values_of(function, times))
 
 
 @dataclass(frozen=True)

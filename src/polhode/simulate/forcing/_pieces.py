@@ -97,7 +97,12 @@ class Pieces:
     @cached_property
     def jumps(self) -> tuple[Jump, ...]:
         """All jumps in order, those at the start and at the end included."""
-        size, speed = self._sizes
+        powers, table = np.arange(self._table.shape[1]), self._table[1:-1]
+        spans = self._spans[:, None]
+        values = np.sum(table * spans**powers, axis=1)
+        rates = np.sum((table * powers)[:, 1:] * spans ** powers[:-1], axis=1)
+        ends = np.abs(np.vstack([table[:, :2], np.column_stack([values, rates])]))
+        size, speed = np.max(ends, axis=0).tolist()
         found = list[Jump]()
         for knot in (0, *self.corners, len(self.knots) - 1):
             span = self.knots[knot] - self._begins[knot]
@@ -106,17 +111,6 @@ class Pieces:
             if abs(after - before) > _ROUNDING * size or abs(rate - slope) > _ROUNDING * speed:
                 found.append(Jump(float(self.knots[knot]), (before, after), (slope, rate)))
         return tuple(found)
-
-    @cached_property
-    def _sizes(self) -> tuple[float, float]:
-        """Largest value and rate at the knots."""
-        table, spans = self._table[1:-1], self._spans[:, None]
-        powers = np.arange(table.shape[1])
-        values = np.sum(table * spans**powers, axis=1)
-        rates = np.sum((table * powers)[:, 1:] * spans ** powers[:-1], axis=1)
-        both = np.abs(np.vstack([table[:, :2], np.column_stack([values, rates])]))
-        size, speed = np.max(both, axis=0).tolist()
-        return size, speed
 
     @property
     def _spans(self) -> Array:

@@ -117,7 +117,12 @@ def prescribed_motion(
     pieces = {s: p for s, motion in given.items() if (p := _pieces(motion, duration)) is not None}
     plain = {s: _expression(s, motion) for s, motion in given.items() if s not in pieces}
     counted = {_since(s): time - Expr.generator(_begin(s)) for s in pieces}
-    polynomials = {s: _polynomial(s, p) for s, p in pieces.items()}
+    polynomials = dict[Symbol, Expr]()
+    for symbol, p in pieces.items():
+        # in powers of the time since the knot, which are accurate however late the knot is
+        since = Expr.generator(_since(symbol))
+        powers = enumerate(_coefficients(symbol, p))
+        polynomials[symbol] = sum((Expr.generator(c) * since**k for k, c in powers), ZERO)
     return PrescribedMotion({**plain, **polynomials, **counted}, pieces)
 
 
@@ -141,13 +146,6 @@ def _expression(symbol: Symbol, motion: Any) -> Expr:
             advice="a force that depends on the motion is a load of the system",
         )
     return expression
-
-
-def _polynomial(symbol: Symbol, pieces: Pieces) -> Expr:
-    """In powers of the time since its knot, which are accurate however late the knot is."""
-    since = Expr.generator(_since(symbol))
-    powers = enumerate(_coefficients(symbol, pieces))
-    return sum((Expr.generator(c) * since**k for k, c in powers), ZERO)
 
 
 def _begin(symbol: Symbol) -> Symbol:

@@ -54,7 +54,12 @@ def sampled(
         if first:
             corners.append(len(knots) - 1)
             own, through = _joined(own, through, knots, tables[-1], noise)
-        tables.append(_curve(own, through, noise, clamped=not first))
+        with np.errstate(all="ignore"):  # `Pieces` refuses what overflows
+            clamped = not first  # only the first segment starts from rest
+            if noise:
+                tables.append(_near(own, through, noise, clamped))
+            else:
+                tables.append(_through(own, through, clamped))
         knots = np.concatenate([knots, own[1:]])
     return Pieces(knots, np.vstack(tables), tuple(corners))
 
@@ -67,12 +72,6 @@ def _joined(
     if own[0] > knots[-1]:
         return np.concatenate([knots[-1:], own]), np.concatenate([[ended], through])
     return own, np.concatenate([[ended], through[1:]]) if noise else through
-
-
-def _curve(t: Array, x: Array, noise: float, *, clamped: bool) -> Array:
-    """Coefficients of the pieces of one segment; `clamped` starts from rest."""
-    with np.errstate(all="ignore"):  # `Pieces` refuses what overflows
-        return _near(t, x, noise, clamped) if noise else _through(t, x, clamped)
 
 
 def _through(t: Array, x: Array, clamped: bool) -> Array:
