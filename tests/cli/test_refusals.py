@@ -54,7 +54,7 @@ REFUSALS = [
     ("run tennis-racquet --set I_3=1", "triangle inequality"),
     (
         "run rolling-disk --duration 0.01 --set a=1e200",
-        "'disk': beyond all numbers",
+        "'disk': not finite",
     ),
     ("run ball-on-paper --set X=sin(q)", "X: at character 5 of 'sin(q)': 'q' is not known"),
     ("run ball-on-paper --set X=1/t", "no finite solution at the start"),

@@ -55,10 +55,10 @@ class Trajectory(Shown):
         system: the declaration that moves.
         segments: one per contact mode that was visited, in order.
         parameters: value of every parameter by name.
-        duration: s; less than was asked for where the motion could not go on.
+        duration: s; shorter than requested where the motion could not continue.
         t: times of the samples, s.
         mode: name of the contact mode it ends in.
-        events: start, changes of contact mode, events asked for, end.
+        events: start, changes of contact mode, requested events, end.
         assumed: start values that were not given, by name.
         seconds: time spent to derive, compile and integrate.
         integrator: what integrated it.

@@ -53,13 +53,13 @@ def read_values(
 
     Args:
         given: numbers, texts with a unit, or expressions of `known` symbols.
-        symbols: what may be given.
-        what: what these are called in messages.
-        dimensions: what is known of the dimension of each.
-        known: values of symbols that expressions may use.
+        symbols: the quantities that may be given, by published name.
+        what: what they are called in messages.
+        dimensions: of those whose dimension is known.
+        known: values of the symbols that expressions may use.
 
     Raises:
-        DeclarationError: for a name that is not known or given twice.
+        DeclarationError: for a name that is unknown or given twice.
         UnitError: for a value that cannot be read or has the wrong dimension.
     """
     values: dict[Symbol, float] = {}
@@ -76,11 +76,11 @@ def read_values(
 def read_parameters(
     dynamics: Dynamics, given: Mapping[Name, Any], supplied: Numbers = MappingProxyType({})
 ) -> dict[Symbol, float]:
-    """The value of every parameter; those `supplied` by prescribed motions are not asked for.
+    """The value of every parameter; those `supplied` by prescribed motions need none.
 
     Raises:
-        DeclarationError: for a name that is not known, a parameter without a value, or values
-            that no body can have.
+        DeclarationError: for an unknown name, a parameter without a value, or values that no body
+            can have.
         UnitError: for a value that cannot be read or has the wrong dimension.
     """
     wanted = [symbol for symbol in dynamics.parameters if symbol not in supplied]
@@ -100,7 +100,7 @@ def read_parameters(
 
 
 def refuse_missing(parameters: Sequence[str]) -> None:
-    """Refuse parameters without a value, if there are any.
+    """Refuse parameters that have no value.
 
     Raises:
         DeclarationError: with their names.
@@ -114,7 +114,7 @@ def refuse_missing(parameters: Sequence[str]) -> None:
 
 
 def idle_parameters(equations: EquationsOfMotion, given: Mapping[Name, Any]) -> tuple[Symbol, ...]:
-    """Parameters of the bodies among those given, needed by the motion or not."""
+    """Given parameters of the bodies, whether the motion depends on them or not."""
     names = {published(name) for name in given}
     bodies = getattr(equations.system, "bodies", ())
     parts = [part for body in bodies for part in (body.mass, *sum(body.inertia.rows, ()))]
@@ -141,7 +141,7 @@ def _check_bodies(dynamics: Dynamics, values: Numbers) -> None:
             inertia = _function(entries, tuple(values))(*values.values())
             if not np.isfinite(inertia).all():
                 raise DeclarationError(
-                    f"inertia of body {body.name!r}: beyond all numbers, with these values",
+                    f"inertia of body {body.name!r}: not finite, with these values",
                     expected="moments of at most 1e308 kg m²",
                     advice="check the units of masses and lengths",
                 )

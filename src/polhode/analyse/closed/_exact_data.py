@@ -28,7 +28,7 @@ from polhode.derive import Equations
 
 Name = str | Symbol | Expr
 
-#: Digits carried beyond those asked for, so that short formulas come out correct to rounding.
+#: Digits carried beyond those requested, so that short formulas are correct to rounding.
 SPARE = 50
 #: Multiples of the digits tried before a number that is lost in rounding is given up.
 _REFINEMENTS = (1, 2, 4, 8, 16, 32)

@@ -16,9 +16,13 @@ from polhode.simulate._values import given_values
 from polhode.simulate.integrate._number_types import NumberType, ratio
 
 
-def evaluated(expressions: Sequence[Expr], values: Mapping[Symbol, Any], context: Any) -> list[Any]:
-    """Expressions of symbols with a value, in the numbers of an mpmath context."""
-    return list(compile_program(expressions, tuple(values)).function(on(context))(*values.values()))
+_INDEPENDENT = 1e-12  # relative size below which a pivot is rounding
+_ROUNDS = 20  # of Newton's method: each doubles the number of correct digits
+
+
+def evaluated(constants: Sequence[Expr], context: Any) -> list[Any]:
+    """Constant expressions in the numbers of an mpmath context."""
+    return list(compile_program(constants, ()).function(on(context))())
 
 
 def on(context: Any) -> Arithmetic:
@@ -70,7 +74,7 @@ def read_exactly(begun: InitialState, known: set[Symbol], task: Task, numbers: N
     context = numbers.exact
 
     def values(given: Mapping[Symbol, Expr]) -> dict[Symbol, Any]:
-        return dict(zip(given, evaluated(list(given.values()), {}, context), strict=True))
+        return dict(zip(given, evaluated(list(given.values()), context), strict=True))
 
     exact = _exact(task.given, known, {})
     parameters = values(exact)
@@ -87,10 +91,6 @@ def _exact(
 ) -> dict[Symbol, Expr]:
     names = by_name(symbols)
     return {names[v.name]: v.exact(known) for v in given_values(given).values()}
-
-
-_INDEPENDENT = 1e-12  # relative size below which a pivot is rounding
-_ROUNDS = 20  # of Newton's method: each doubles the digits
 
 
 def precise_start(

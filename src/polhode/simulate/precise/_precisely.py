@@ -50,117 +50,7 @@ from polhode.simulate.precise._precise_start import Given, evaluated, read_exact
 from polhode.simulate.precise._precise_walk import PreciseWalk
 from polhode.simulate.precise._wanted import Wanted
 
-# -- equations of one contact mode, kept to as declared --------------------------------------------
-
 _LOOK = 12  # steps between checks of the signs of absolute values
-
-
-@dataclass(frozen=True)
-class _Declared:
-    """The equations of the contacts as declared, with the values of their parameters."""
-
-    dynamics: Dynamics
-    parameters: Any
-
-
-@dataclass(frozen=True)
-class _DeclaredCut:
-    """A stretch up to a sign change of an absolute value, or to the end."""
-
-    part: TrajectoryPiece
-    state: StateValues
-    time: Any
-    stop: Stop
-    passage: SideChange | None
-
-
-def as_declared(dynamics: Dynamics, given: Given, steps: PieceIntegrator) -> HybridSolution:
-    """The motion with the contacts as declared, without looking for mode changes.
-
-    Args:
-        dynamics: with the signs of absolute values not yet decided.
-
-    Raises:
-        NumericError: where the motion cannot be continued.
-    """
-    numbers, careful = steps.numbers, steps.numbers.careful
-    constants = careful.array([given.parameters[s] for s in dynamics.parameters])
-    now = given.context.mpf(0)
-    state: StateValues = given.state(dynamics.states) | {WORK: now}
-    face = dynamics.on(sides_at(dynamics, Here(state, constants, now, careful)))
-    segments, changes, turns = list[Segment](), list[ModeSwitch](), SideChangeCount()
-    parts, stop = list[TrajectoryPiece](), Stop.TIME
-    while now < steps.end and stop is not Stop.INTERRUPTED:
-        cut = _along(_Declared(face, constants), state, (now, steps.end), steps)
-        parts.append(cut.part)
-        state, now, stop = cut.state, cut.time, cut.stop
-        if cut.passage is None:
-            continue
-        turns.count(now, cut.passage)
-        segments.append(_segment(face, parts))
-        parts = []
-        here = Here(state, constants, now, careful)
-        sides = beyond(dynamics, here, face.sides, cut.passage)
-        if sides != face.sides:
-            time, kind = numbers.array([now])[0], told_change(cut.passage, sides)
-            changes.append(ModeSwitch(time, kind, AS_DECLARED, AS_DECLARED))
-        face = dynamics.on(sides)
-    if parts:
-        segments.append(_segment(face, parts))
-    return HybridSolution(tuple(segments), tuple(changes), AS_DECLARED)
-
-
-def _segment(face: Dynamics, parts: list[TrajectoryPiece]) -> Segment:
-    return Segment(AS_DECLARED, parts[0].begin, parts[-1].end, face, tuple(parts))
-
-
-def _along(
-    moving: _Declared, state: StateValues, span: tuple[Any, Any], steps: PieceIntegrator
-) -> _DeclaredCut:
-    """Integrate to the end of a span, or to the first sign change of an absolute value."""
-    passages, careful = passages_of(moving.dynamics), steps.numbers.careful
-    watched = StopCriteria(pause=_LOOK) if passages else StopCriteria()
-    stretch = steps.along(moving, state, span, watched, span[0])
-    found = _passed(moving.dynamics, passages, stretch)
-    if found is None:
-        if stretch.stop is Stop.STUCK:
-            raise broken(float(stretch.series.times[-1]))
-        spot, time, passage = (
-            PiecePoint(stretch.series.steps - 1, 1),
-            stretch.series.times[-1],
-            None,
-        )
-    else:
-        spot, passage = found
-        time = stretch.series.time(spot.step, spot.share)
-        again = nearer(stretch.series.times, time, steps.numbers)
-        if again is not None:
-            return _along(moving, state, (span[0], careful.array([again])[0]), steps)
-    part = stretch.part(time)
-    refuse_vanishing(moving.dynamics, part.rounded())
-    there = stretch.state(spot.step, spot.share, careful)
-    return _DeclaredCut(part, there, careful.array([time])[0], stretch.stop, passage)
-
-
-def _passed(
-    dynamics: Dynamics, passages: Sequence[SideChange], stretch: PrecisePiece
-) -> tuple[PiecePoint, SideChange] | None:
-    """Where the first sign changes, and which."""
-    if not passages:
-        return None
-    seen = InDoubles(stretch)
-    arguments = (*seen.symbols, *dynamics.parameters, CLOCK)
-    function = dynamics.function([passage.positive for passage in passages], arguments)
-
-    def values(places: Array) -> Array:
-        found = function(*seen.at(places), *seen.constants, seen.times(places))
-        return np.asarray(rows(found, len(places)))
-
-    fall = first_fall(from_zero(values, seen.knots), seen.knots)
-    if fall is None:
-        return None
-    passage = passages[fall.guard]
-    return fallen(dynamics, passage.positive, stretch, fall.time), passage
 
 
 def precisely(
@@ -182,26 +72,27 @@ def precisely(
     _refuse_samples(task.forcing, numbers)
     known = {*motion.begun.dynamics.parameters, *motion.segments[0].dynamics.parameters}
     given = read_exactly(motion.begun, known, task, numbers)
-    (duration,) = evaluated([wanted.duration.exact()], {}, numbers.exact)
+    (duration,) = evaluated([wanted.duration.exact()], numbers.exact)
     end = numbers.array([duration])[0]
     steps = PieceIntegrator(_integrator(task.integrator.name), numbers, end, progress)
     if motion.guarded is None:
-        course = as_declared(motion.begun.dynamics, given, steps)
+        solution = as_declared(motion.begun.dynamics, given, steps)
         # Start, end and sign changes are those found now, other events those seen in doubles.
-        first, *turns, last = events_of(course)
+        first, *sign_changes, last = events_of(solution)
         seen = [e for e in rough.events[1:-1] if not e.divides and e.time < last.time]
-        between = sorted([*turns, *placed(seen, course.segments)], key=lambda event: event.time)
+        others = placed(seen, solution.segments)
+        between = sorted([*sign_changes, *others], key=lambda event: event.time)
         events = (first, *between, last)
     else:
-        course = _through_modes(motion.guarded, given, steps, task, progress)
-        events = events_of(course)
-    end = course.segments[-1].end
+        solution = _through_modes(motion.guarded, given, steps, task, progress)
+        events = events_of(solution)
+    end = solution.segments[-1].end
     run = replace(
         rough,
-        segments=course.segments,
+        segments=solution.segments,
         duration=end,
         t=_samples(wanted, duration, end),
-        mode=course.ending,
+        mode=solution.ending,
         integrator=steps.name,
         events=events,
     )
@@ -228,7 +119,115 @@ def _integrator(name: str) -> SeriesIntegrator:
     return PowerSeries()
 
 
-# -- through contact modes ---------------------------------------------------------------------
+# -- equations of one contact mode, kept to as declared --------------------------------------------
+
+
+@dataclass(frozen=True)
+class _WithValues:
+    """The equations of the contacts as declared, with the values of their parameters."""
+
+    dynamics: Dynamics
+    parameters: Any
+
+
+@dataclass(frozen=True)
+class _Arrival:
+    """A stretch up to a sign change of an absolute value, or to the end."""
+
+    part: TrajectoryPiece
+    state: StateValues
+    time: Any
+    stop: Stop
+    sign_change: SideChange | None
+
+
+def as_declared(dynamics: Dynamics, given: Given, steps: PieceIntegrator) -> HybridSolution:
+    """The motion with the contacts as declared, without looking for mode changes.
+
+    Args:
+        dynamics: with the signs of absolute values not yet decided.
+
+    Raises:
+        NumericError: where the motion cannot be continued.
+    """
+    numbers, careful = steps.numbers, steps.numbers.careful
+    constants = careful.array([given.parameters[s] for s in dynamics.parameters])
+    now = given.context.mpf(0)
+    state: StateValues = given.state(dynamics.states) | {WORK: now}
+    signed = dynamics.on(sides_at(dynamics, Here(state, constants, now, careful)))
+    segments, changes, sign_changes = list[Segment](), list[ModeSwitch](), SideChangeCount()
+    parts, stop = list[TrajectoryPiece](), Stop.TIME
+    while now < steps.end and stop is not Stop.INTERRUPTED:
+        arrival = _along(_WithValues(signed, constants), state, (now, steps.end), steps)
+        parts.append(arrival.part)
+        state, now, stop = arrival.state, arrival.time, arrival.stop
+        if arrival.sign_change is None:
+            continue
+        sign_changes.count(now, arrival.sign_change)
+        segments.append(_segment(signed, parts))
+        parts = []
+        here = Here(state, constants, now, careful)
+        sides = beyond(dynamics, here, signed.sides, arrival.sign_change)
+        if sides != signed.sides:
+            time, kind = numbers.array([now])[0], told_change(arrival.sign_change, sides)
+            changes.append(ModeSwitch(time, kind, AS_DECLARED, AS_DECLARED))
+        signed = dynamics.on(sides)
+    if parts:
+        segments.append(_segment(signed, parts))
+    return HybridSolution(tuple(segments), tuple(changes), AS_DECLARED)
+
+
+def _segment(signed: Dynamics, parts: list[TrajectoryPiece]) -> Segment:
+    return Segment(AS_DECLARED, parts[0].begin, parts[-1].end, signed, tuple(parts))
+
+
+def _along(
+    declared: _WithValues, state: StateValues, span: tuple[Any, Any], steps: PieceIntegrator
+) -> _Arrival:
+    """Integrate to the end of a span, or to the first sign change of an absolute value."""
+    passages, careful = passages_of(declared.dynamics), steps.numbers.careful
+    watched = StopCriteria(pause=_LOOK) if passages else StopCriteria()
+    stretch = steps.along(declared, state, span, watched, span[0])
+    found = _first_sign_change(declared.dynamics, passages, stretch)
+    if found is None:
+        if stretch.stop is Stop.STUCK:
+            raise broken(float(stretch.series.times[-1]))
+        point, change = PiecePoint(stretch.series.steps - 1, 1), None
+        time = stretch.series.times[-1]
+    else:
+        point, change = found
+        time = stretch.series.time(point.step, point.share)
+        again = nearer(stretch.series.times, time, steps.numbers)
+        if again is not None:
+            return _along(declared, state, (span[0], careful.array([again])[0]), steps)
+    part = stretch.part(time)
+    refuse_vanishing(declared.dynamics, part.rounded())
+    arrived = stretch.state(point.step, point.share, careful)
+    return _Arrival(part, arrived, careful.array([time])[0], stretch.stop, change)
+
+
+def _first_sign_change(
+    dynamics: Dynamics, passages: Sequence[SideChange], stretch: PrecisePiece
+) -> tuple[PiecePoint, SideChange] | None:
+    """Where the first sign changes, and which."""
+    if not passages:
+        return None
+    seen = InDoubles(stretch)
+    arguments = (*seen.symbols, *dynamics.parameters, CLOCK)
+    function = dynamics.function([change.positive for change in passages], arguments)
+
+    def values(places: Array) -> Array:
+        found = function(*seen.at(places), *seen.constants, seen.times(places))
+        return np.asarray(rows(found, len(places)))
+
+    fall = first_fall(from_zero(values, seen.knots), seen.knots)
+    if fall is None:
+        return None
+    change = passages[fall.guard]
+    return fallen(dynamics, change.positive, stretch, fall.time), change
+
+
+# -- through contact modes -------------------------------------------------------------------------
 
 
 def _through_modes(
@@ -250,7 +249,7 @@ def _through_modes(
     return walk.along(first, steps.end)
 
 
-# -- samples and events ------------------------------------------------------------------------
+# -- samples and events ----------------------------------------------------------------------------
 
 
 def _samples(wanted: Wanted, duration: Any, end: Any) -> Any:
