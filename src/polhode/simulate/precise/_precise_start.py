@@ -15,7 +15,6 @@ from polhode.simulate._task import InitialState, Task
 from polhode.simulate._values import given_values
 from polhode.simulate.integrate._number_types import NumberType, ratio
 
-
 _INDEPENDENT = 1e-12  # relative size below which a pivot is rounding
 _ROUNDS = 20  # of Newton's method: each doubles the number of correct digits
 
