@@ -55,7 +55,8 @@ class GivenValue:
         name: of the quantity, for messages.
         given: the value as it was written.
         number: a number with the dimension of its unit, or an expression of other quantities.
-        double: the number in double precision; None for an expression.
+        double: the number in double precision; None for an expression. The power of π is rounded
+            apart from its coefficient, so that the last digit can differ from that of `exact`.
     """
 
     name: str
