@@ -17,7 +17,7 @@ def store(tmp_path_factory):
     return path
 
 
-def test_a_sweep_tells_its_members(store, capsys):
+def test_a_sweep_reports_its_members(store, capsys):
     assert main([*SWEEP, *SHORT, "--keep", "theta", "--out", store, "--resume", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told["members"] == 6
@@ -58,6 +58,6 @@ def test_refusals(words, told, capsys, tmp_path, monkeypatch):
     assert told in capsys.readouterr().err
 
 
-def test_a_map_needs_an_output_that_is_there(store, tmp_path, capsys):
+def test_a_map_needs_an_existing_output(store, tmp_path, capsys):
     assert main(["map", store, "-o", str(tmp_path / "a.png"), "--show", "fates"]) == 2
     assert "fates" in capsys.readouterr().err

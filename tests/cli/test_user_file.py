@@ -80,7 +80,7 @@ def test_the_systems_of_the_file_are_offered(polhode, ring, variable, said):
         ("\x00", "null bytes"),
     ],
 )
-def test_errors_are_told_with_file_and_line(polhode, tmp_path, text, said):
+def test_errors_are_located_by_file_and_line(polhode, tmp_path, text, said):
     path = tmp_path / "bad.py"
     path.write_text(text)
     code, out, err = polhode("derive", f"{path}:roll")

@@ -168,7 +168,7 @@ def test_a_folder_that_is_not_there(tmp_path):
         write_archive(tmp_path / "none" / "motion.h5", ARCHIVE, SAMPLES)
 
 
-def test_what_was_there_is_kept_if_writing_fails(path, content):
+def test_an_existing_file_is_kept_if_writing_fails(path, content):
     with pytest.raises(TypeError):
         write_archive(path, replace(ARCHIVE, events=({"time": object()},)), SAMPLES)
     assert path.read_bytes() == content
@@ -186,7 +186,7 @@ def test_a_motion_is_read_without_h5py(path, content, monkeypatch):
     assert_same(read_archive(path), ARCHIVE)
 
 
-def test_what_precedes_the_motion_is_not_looked_at(path, content):
+def test_the_samples_are_not_read_on_loading(path, content):
     path.write_bytes(sealed(packed(ARCHIVE), before=b"\x89HDF\r\n\x1a\n" + b"\xff" * 5000))
     assert_same(read_archive(path), ARCHIVE)
 
@@ -198,7 +198,7 @@ def test_a_file_of_an_earlier_version_says_so(path):
 
 
 @pytest.mark.parametrize("name", ["/dev/zero", "."])
-def test_what_is_no_file(name):
+def test_an_unreadable_path_is_refused(name):
     with pytest.raises(StoreError, match="cannot be read"):
         read_archive(name)
 
@@ -301,7 +301,7 @@ CHANGES = {
 
 
 @pytest.mark.parametrize("name", CHANGES)
-def test_files_that_were_tampered_with_are_refused(path, name):
+def test_tampered_files_are_refused(path, name):
     path.write_bytes(sealed(CHANGES[name](*taken_apart(packed(ARCHIVE)))))
     with pytest.raises(StoreError, match="is damaged"):
         read_archive(path)
@@ -314,7 +314,7 @@ def test_a_length_that_is_longer_than_the_file(path):
         read_archive(path)
 
 
-def test_a_file_altered_in_nothing_is_read(path):
+def test_an_unaltered_file_is_read(path):
     path.write_bytes(sealed(put_together(*taken_apart(packed(ARCHIVE)))))
     assert_same(read_archive(path), ARCHIVE)
 

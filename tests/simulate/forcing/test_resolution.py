@@ -80,7 +80,7 @@ def test_the_times_at_which_it_is_evaluated():
 
 @pytest.mark.parametrize("count", [100, 618, 1000, 1618, 2000, 3236, 3237, 4000])
 @pytest.mark.parametrize("phase", [0.0, 0.3, 0.7])
-def test_pulses_that_come_again_do_not_hide_between(count, phase):
+def test_periodic_pulses_are_not_missed(count, phase):
     """Each is a fifth of its period wide, and less than half of the resolution."""
 
     def pulses(t):
@@ -112,7 +112,7 @@ def test_it_costs_few_calls():
 
 
 @pytest.mark.parametrize("resolution", [0.0, -1.0, math.nan, math.inf, 1e-12])
-def test_a_resolution_that_is_none(resolution):
+def test_an_invalid_resolution_is_refused(resolution):
     with pytest.raises(NumericError, match="a resolution of"):
         approximated(math.sin, 0.0, 3.0, resolution=resolution)
 
@@ -145,7 +145,7 @@ class Shaken:
 @pytest.mark.parametrize(
     ("subject", "numbers"), [(SLIPPING, RUBBED), (ROLLING, NUMBERS), (ph.derive(ROLLING), NUMBERS)]
 )
-def test_a_motion_looks_at_the_function_again(subject, numbers):
+def test_a_motion_evaluates_the_function_again(subject, numbers):
     shaken = Shaken()
     curve = approximated(shaken, 0.0, 1.5)
     before = set(shaken.times)

@@ -225,12 +225,12 @@ def test_times_beyond_the_motion_are_refused():
 @pytest.mark.parametrize(
     "precision", ["triple", "", 0, 15, -40, 301, 10**6, 2.5, True, "1e3", "9" * 5000, object()]
 )
-def test_precisions_that_there_are_not(precision):
+def test_unknown_precisions_are_refused(precision):
     with pytest.raises(NumericError, match="expected double, extended, quadruple, or a number of"):
         numbers_for(precision)
 
 
-def test_precisions_that_there_are():
+def test_the_known_precisions():
     assert numbers_for(None) is numbers_for("double") is DOUBLES
     assert numbers_for("quadruple").bits == 113
     assert numbers_for("40").bits == numbers_for(40).bits > 132
