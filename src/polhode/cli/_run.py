@@ -97,29 +97,21 @@ def run(options: Namespace) -> int:
     sheet = sheet_of(options, equations)
     _check_precision(options)
     claims = _claims(options, entry)
-    numbers = numbers_of(
-        entry,
-        equations,
-        settings,
-        assignments(options.start),
-        options.duration,
-        flight=modes.apart.equations,
-    )
+    choices = (settings, assignments(options.start), options.duration)
+    numbers = numbers_of(entry, equations, *choices, flight=modes.apart.equations)
     given = numbers.exact if _is_finer(options) else numbers
-    trajectory = _conserved(
-        simulate(
-            modes,
-            given.parameters,
-            given.start,
-            given.duration,
-            forcing=dict[Any, Any](numbers.forcing) | sheet,
-            invariants=_watched(equations),
-            events=event_expressions(options.events, equations),
-            progress=Interruptible(terminal_progress()),
-            precision=options.precision,
-        ),
-        equations,
+    motion = simulate(
+        modes,
+        given.parameters,
+        given.start,
+        given.duration,
+        forcing=dict[Any, Any](numbers.forcing) | sheet,
+        invariants=_candidates(equations),
+        events=event_expressions(options.events, equations),
+        progress=Interruptible(terminal_progress()),
+        precision=options.precision,
     )
+    trajectory = _with_conserved(motion, equations)
     document = _document(entry, trajectory, numbers.start, seconds)
     document["parameters"] = contact_numbers(system) | document["parameters"]
     _refuse_overflow(document["final"] | document["drift"])
@@ -169,7 +161,7 @@ def _claims(options: Namespace, entry: CatalogueEntry) -> tuple[str, ...]:
     return claims_about(entry)
 
 
-def _watched(equations: Equations) -> dict[str, Expr]:
+def _candidates(equations: Equations) -> dict[str, Expr]:
     """Conserved energy, momenta and speeds."""
     with suppress(NumericError):  # too large to be solved for its accelerations
         found = invariants(equations, Ansatz(0, 0, 0))
@@ -177,14 +169,14 @@ def _watched(equations: Equations) -> dict[str, Expr]:
     return {}
 
 
-def _conserved(trajectory: Trajectory, rolling: Equations) -> Trajectory:
+def _with_conserved(trajectory: Trajectory, together: Equations) -> Trajectory:
     """The motion with those invariants only that every contact mode visited conserves."""
     visited = {id(s.dynamics): s.dynamics.equations for s in trajectory.segments}.values()
     kept = {
         name: expression
         for name, expression in trajectory.invariants.items()
         if all(
-            mode is rolling or (isinstance(mode, Equations) and mode.rate(expression).is_zero)
+            mode is together or (isinstance(mode, Equations) and mode.rate(expression).is_zero)
             for mode in visited
         )
     }
