@@ -49,7 +49,7 @@ def test_a_precise_motion_is_not_saved_in_doubles(polhode, tmp_path):
     save = str(tmp_path / "run.h5")
     code, out, err = polhode("run", "tennis-racquet", "--precision", "40", "--save", save)
     assert (code, out) == (2, "")
-    assert "a file of doubles" in err
+    assert "the file holds doubles" in err
     assert not list(tmp_path.iterdir())
 
 
