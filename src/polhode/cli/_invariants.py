@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from argparse import Namespace
 
-from polhode.analyse import Invariant, invariants
+from polhode.analyse import invariants
 from polhode.cli._parser import Parser
 from polhode.cli._printing import print_document, printed
 from polhode.cli._systems import NAME_HELP, entry_of
@@ -22,7 +22,7 @@ def run(options: Namespace) -> int:
     entry = entry_of(options.name)
     found = invariants(derive(entry.build()))
     if options.json:
-        described = [_document(invariant) for invariant in found]
+        described = [{"name": i.name, **printed(i.expression), "meaning": i.meaning} for i in found]
         linear = found.linear and {
             "angle": found.linear.angle.published,
             "speeds": [speed.published for speed in found.linear.speeds],
@@ -41,11 +41,3 @@ def run(options: Namespace) -> int:
     print(f"Integrals of {entry.name}")
     print(found)
     return 0
-
-
-def _document(invariant: Invariant) -> dict[str, str]:
-    return {
-        "name": invariant.name,
-        **printed(invariant.expression),
-        "meaning": invariant.meaning,
-    }

@@ -36,19 +36,14 @@ def load(path: Path) -> ModuleType:
     assert spec is not None  # a loader of source files always has one
     module = module_from_spec(spec)
     sys.modules[name] = module
-    with _failures_located(path), _neighbours_importable(path), redirect_stdout(sys.stderr):
-        loader.exec_module(module)
-    return module
-
-
-@contextmanager
-def _neighbours_importable(path: Path) -> Iterator[None]:
-    folder = str(path.resolve().parent)
+    folder = str(path.resolve().parent)  # whose other modules the file may import
     sys.path.insert(0, folder)
     try:
-        yield
+        with _failures_located(path), redirect_stdout(sys.stderr):
+            loader.exec_module(module)
     finally:
         sys.path.remove(folder)
+    return module
 
 
 @contextmanager

@@ -12,7 +12,6 @@ import io
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from polhode.base import SCHEMA, StoreError, extra, read_whole, write_whole
 from polhode.simulate.files._archive import FORMAT, Archive, Sampled, counted, packed, unpacked
@@ -49,7 +48,17 @@ def write_archive(path: str | Path, archive: Archive, samples: Mapping[str, Samp
             column = root.create_dataset(name.replace("/", "|"), data=sampled.values)
             column.attrs.update({"units": sampled.unit or "1", "long_name": name})
             column.dims[0].attach_scale(times)
-        _write_origin(root.create_group(_MOTION), archive, h5py)
+        # what the samples were computed from, as text
+        origin = {
+            "declaration": archive.declaration,
+            "parameters": json.dumps(dict(archive.parameters)),
+            "events": json.dumps([dict(event) for event in archive.events]),
+            "details": json.dumps(dict(archive.details)),
+            "origin": json.dumps(dict(archive.origin)),
+        }
+        group = root.create_group(_MOTION)
+        for name, text in origin.items():
+            group.create_dataset(name, data=text, dtype=h5py.string_dtype())
     content = memory.getvalue() + payload + counted(len(payload))
     write_whole(Path(path), content + _seal(content))
 
@@ -69,19 +78,6 @@ def read_archive(path: str | Path) -> Archive:
         return unpacked(inside[len(inside) - length :])
     except (LookupError, OverflowError, ValueError) as error:
         raise _damaged(path, error) from error
-
-
-def _write_origin(group: Any, archive: Archive, h5py: Any) -> None:
-    """What the samples were computed from, as text."""
-    texts = {
-        "declaration": archive.declaration,
-        "parameters": json.dumps(dict(archive.parameters)),
-        "events": json.dumps([dict(event) for event in archive.events]),
-        "details": json.dumps(dict(archive.details)),
-        "origin": json.dumps(dict(archive.origin)),
-    }
-    for name, text in texts.items():
-        group.create_dataset(name, data=text, dtype=h5py.string_dtype())
 
 
 # -- the checksum ----------------------------------------------------------------------------------

@@ -299,20 +299,20 @@ def _row(line: _Line, columns: Sequence[str]) -> _Row:
     segment = cells.pop("segment", "only")
     if not segment:
         raise _bad(line.number, "no segment", "the name or number of one")
-    numbers = {name: _number(line.number, name, cell) for name, cell in cells.items()}
+    numbers = dict[str, float]()
+    for name, cell in cells.items():
+        if not cell:
+            raise _bad(line.number, f"no {name}", "a value in every row")
+        try:
+            value = float(cell.replace("_", "?"))
+        except ValueError:
+            given = f"{name} = {_shown(cell)}"
+            raise _bad(line.number, given, "a number in SI units") from None
+        if not isfinite(value) or abs(value) > _LARGEST:
+            expected = f"a number not beyond {_LARGEST:g}"
+            raise _bad(line.number, f"{name} = {_shown(cell)}", expected)
+        numbers[name] = value
     return _Row(line.number, numbers, segment)
-
-
-def _number(line: int, name: str, cell: str) -> float:
-    if not cell:
-        raise _bad(line, f"no {name}", "a value in every row")
-    try:
-        value = float(cell.replace("_", "?"))
-    except ValueError:
-        raise _bad(line, f"{name} = {_shown(cell)}", "a number in SI units") from None
-    if not isfinite(value) or abs(value) > _LARGEST:
-        raise _bad(line, f"{name} = {_shown(cell)}", f"a number not beyond {_LARGEST:g}")
-    return value
 
 
 def _starts(rows: Sequence[_Row]) -> tuple[int, ...]:
