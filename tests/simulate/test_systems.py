@@ -6,7 +6,7 @@ import pytest
 from polhode.algebra import coordinates, sin, symbols, time
 from polhode.base import DeclarationError, UnitError
 from polhode.catalogue._ball_on_paper import BALL_ON_PAPER
-from polhode.catalogue._rolling_disk import ROLLING_DISK
+from polhode.catalogue._disks import ROLLING_DISK
 from polhode.model import Body, Frame, Pivot, System
 from polhode.simulate import simulate
 

@@ -60,6 +60,9 @@ from polhode.algebra._symbols import symbols as symbols
 from polhode.algebra._symbols import time as time
 from polhode.algebra._sympy import from_sympy as from_sympy
 from polhode.algebra._sympy import to_sympy as to_sympy
+from polhode.algebra._values import GivenValue as GivenValue
+from polhode.algebra._values import fraction_of as fraction_of
+from polhode.algebra._values import read_value as read_value
 from polhode.algebra._vector import Triad as Triad
 from polhode.algebra._vector import Vector as Vector
 from polhode.algebra._vector import zero_vector as zero_vector

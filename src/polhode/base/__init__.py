@@ -22,7 +22,14 @@ from polhode.base._forked_worker import ForkedWorker, Tell, can_part, within
 from polhode.base._lookup import look_up
 from polhode.base._plain import Codec, ShapeRecord, digest
 from polhode.base._progress import Progress, SilentProgress, StopRequested, terminal_progress
-from polhode.base._quantity import Quantity, Value, read_quantity, to_si
+from polhode.base._quantity import (
+    Quantity,
+    Value,
+    check_dimension,
+    quantity_of,
+    read_quantity,
+    to_si,
+)
 from polhode.base._schema import SCHEMA, Provenance, installed_version, provenance
 from polhode.base._unit_text import read_unit
 from polhode.base._units import Unit
@@ -60,6 +67,7 @@ __all__ = [
     "bound_time",
     "cache",
     "can_part",
+    "check_dimension",
     "digest",
     "ended_with",
     "exit_code",
@@ -67,6 +75,7 @@ __all__ = [
     "installed_version",
     "look_up",
     "provenance",
+    "quantity_of",
     "read_quantity",
     "read_unit",
     "read_whole",

@@ -77,19 +77,39 @@ def to_si(value: Value, dimension: Dimension, name: str) -> float:
     Raises:
         UnitError: if the value cannot be read, is not finite or has another dimension.
     """
+    quantity = quantity_of(value, name)
+    check_dimension(quantity, dimension, name, value)
+    return quantity.value
+
+
+def quantity_of(value: Value, name: str) -> Quantity:
+    """The value of the quantity `name`, with the dimension of its unit.
+
+    A magnitude that is not text is rounded to a double first, then its unit is applied.
+
+    Raises:
+        UnitError: if the value cannot be read or is not finite.
+    """
     try:
-        quantity = _quantity(value)
+        return _quantity(value)
     except UnitError as error:
         raise UnitError(
             f"{name}: {error.given}", expected=error.expected, advice=error.advice
         ) from error
+
+
+def check_dimension(quantity: Quantity, dimension: Dimension, name: str, given: object) -> None:
+    """Check that a quantity, written as `given`, has a dimension; bare numbers have any.
+
+    Raises:
+        UnitError: if it has another one.
+    """
     if quantity.dimension not in (None, dimension):
         raise UnitError(
-            f"{name} = {_shown(value)} is {_described(quantity.dimension)}",
+            f"{name} = {_shown(given)} is {_described(quantity.dimension)}",
             expected=_described(dimension),
             advice=f"give {name} as a bare SI number or in a unit of that dimension",
         )
-    return quantity.value
 
 
 _LONGEST = 2000  # characters; Python itself reads no more than 4300 digits

@@ -19,10 +19,10 @@ from polhode.simulate._values import refuse_missing as refuse_missing
 from polhode.simulate.contact._carried import slip_symbols as slip_symbols
 from polhode.simulate.files._saved import load as load
 from polhode.simulate.forcing._approximation import Approximation as Approximation
-from polhode.simulate.forcing._callable import approximated as approximated
+from polhode.simulate.forcing._approximation import approximated as approximated
 from polhode.simulate.forcing._pieces import Jump as Jump
 from polhode.simulate.forcing._pieces import Pieces as Pieces
-from polhode.simulate.forcing._sheet_file import SheetPath as SheetPath
-from polhode.simulate.forcing._sheet_file import read_sheet as read_sheet
-from polhode.simulate.forcing._spline import sampled as sampled
+from polhode.simulate.forcing._samples import SheetPath as SheetPath
+from polhode.simulate.forcing._samples import read_sheet as read_sheet
+from polhode.simulate.forcing._samples import sampled as sampled
 from polhode.simulate.integrate._number_types import numbers_for as numbers_for

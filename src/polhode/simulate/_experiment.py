@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from polhode.algebra import Expr
-from polhode.base import TIME, NumericError, Progress, SilentProgress, UnitError, to_si
+from polhode.algebra import Expr, read_value
+from polhode.base import TIME, NumericError, Progress, SilentProgress, UnitError
 from polhode.derive import Automaton
 from polhode.model import System
 from polhode.simulate._drift_warning import doubt_about
@@ -22,7 +22,7 @@ from polhode.simulate._names import Name
 from polhode.simulate._task import MotionResult, Prepared, Task, timed
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate._validity import pulling_contacts, refuse_lost_side
-from polhode.simulate._values import evaluate
+from polhode.simulate._values import given_values
 from polhode.simulate._watching import with_events
 from polhode.simulate.integrate._integrators import chosen
 from polhode.simulate.integrate._number_types import DOUBLES, Precision, numbers_for
@@ -67,9 +67,10 @@ class Experiment:
         precision: Precision = None,
     ) -> None:
         self.subject = subject
-        self.duration = _duration(duration)
+        given = read_value("duration", duration).in_dimension(TIME)
+        self.duration = _duration(given.rounded())
         self._times = _samples(samples, self.duration)
-        self._wanted = Wanted(numbers_for(precision), duration, samples, events or {})
+        self._wanted = Wanted(numbers_for(precision), given, samples, events or {})
         self._invariants = invariants or {}
         self._events = events or {}
         self._integrator = chosen()
@@ -109,7 +110,8 @@ class Experiment:
         Raises:
             ConstraintError, DeclarationError, NumericError, UnitError: as `simulate`.
         """
-        task = replace(self._plan, given=parameters, start=start, seconds={})
+        given, begun = given_values(parameters), given_values(start)
+        task = replace(self._plan, given=given, start=begun, seconds={})
         with _shown(progress or SilentProgress()) as shown:
             motion = self._ready(task).follow(task, shown)
             run = self._trajectory(motion, task)
@@ -160,9 +162,7 @@ def _with_pulls(trajectory: Trajectory) -> tuple[Event, ...]:
     return (start, *between, end)
 
 
-def _duration(value: Any) -> float:
-    given = evaluate(value, {}) if isinstance(value, Expr) else value
-    duration = to_si(given, TIME, "duration")
+def _duration(duration: float) -> float:
     if duration <= 0:
         raise UnitError(f"a duration of {duration:g} s", expected="a positive one")
     if duration > _LONGEST:

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 import polhode as ph
+from polhode.algebra import fraction_of
 from polhode.base import ConstraintError, DeclarationError, NumericError, StopRequested
 from polhode.simulate import Trajectory
-from polhode.simulate.integrate._number_types import DOUBLES, fraction_of, numbers_for
+from polhode.simulate.integrate._number_types import DOUBLES, numbers_for
 from simulate.examples import four_bar
 
 TIMES = (0, 0.3, 1, 1.75, 2)
@@ -157,7 +158,7 @@ def test_a_forcing_is_exact_too():
     motion = {"P": ph.sin(ph.time / 10)}
     run = ph.simulate(system, values, {}, 1, precision=40, samples=3, forcing=motion)
     assert largest(run.final["v_x"], 10 - 10 * MANY.cos(MANY.mpf(1) / 10)) < 1e-39
-    with pytest.raises(DeclarationError, match="P, which is known to doubles only"):
+    with pytest.raises(DeclarationError, match="P, known only in double precision"):
         ph.simulate(system, values, {}, 1, precision=40, forcing={"P": lambda t: t})
 
 
@@ -224,12 +225,12 @@ def test_times_beyond_the_motion_are_refused():
 @pytest.mark.parametrize(
     "precision", ["triple", "", 0, 15, -40, 301, 10**6, 2.5, True, "1e3", "9" * 5000, object()]
 )
-def test_precisions_that_there_are_not(precision):
+def test_unknown_precisions_are_refused(precision):
     with pytest.raises(NumericError, match="expected double, extended, quadruple, or a number of"):
         numbers_for(precision)
 
 
-def test_precisions_that_there_are():
+def test_the_known_precisions():
     assert numbers_for(None) is numbers_for("double") is DOUBLES
     assert numbers_for("quadruple").bits == 113
     assert numbers_for("40").bits == numbers_for(40).bits > 132

@@ -6,8 +6,8 @@ import mpmath
 import pytest
 
 import polhode as ph
+from polhode.algebra import fraction_of
 from polhode.simulate import Trajectory
-from polhode.simulate.integrate._number_types import fraction_of
 from simulate.contact import balls, blocks, disks
 from simulate.precise.test_precision import Impatient
 

@@ -14,8 +14,8 @@ from typing import Any
 import flint
 import numpy as np
 
-from polhode.algebra import Arithmetic, Op, Symbol, SymbolKind
-from polhode.simulate.integrate._number_types import NumberType, fraction_of
+from polhode.algebra import Arithmetic, Op, Symbol, SymbolKind, fraction_of
+from polhode.simulate.integrate._number_types import NumberType
 from polhode.simulate.integrate._series import TaylorSolution
 
 _SPARE = 32  # bits carried beyond those asked for

@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from polhode.algebra import Arithmetic, Op, arrays
+from polhode.algebra import Arithmetic, Op, arrays, fraction_of
 from polhode.base import NumericError
 from polhode.simulate.integrate._equations import least_solution, solution
 
@@ -302,14 +302,3 @@ def number(context: Any, value: Any) -> Any:
     if hasattr(value, "_mpf_"):
         return +context.make_mpf(value._mpf_)
     return context.mpf(value) if isinstance(value, float) else ratio(context, fraction_of(value))
-
-
-def fraction_of(value: Any) -> Fraction:
-    """The fraction that a finite number of any sort is."""
-    if hasattr(value, "_mpf_"):
-        sign, mantissa, exponent, _ = value._mpf_
-        size = Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
-        return -size if sign else size
-    if hasattr(value, "as_integer_ratio"):
-        return Fraction(*(int(part) for part in value.as_integer_ratio()))
-    return Fraction(int(value)) if hasattr(value, "__index__") else Fraction(float(value))

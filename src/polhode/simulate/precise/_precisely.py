@@ -1,16 +1,31 @@
-"""A motion once more in numbers of higher precision."""
+"""A motion computed again in numbers of higher precision, along the one in doubles."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
+
+import numpy as np
 
 from polhode.algebra import Expr
 from polhode.base import DeclarationError, Progress
-from polhode.simulate._event import Event, events_of, placed
-from polhode.simulate._segment import Segment
-from polhode.simulate._task import Guarded, MotionResult, Task
+from polhode.simulate._absolute_values import (
+    Here,
+    SideChange,
+    SideChangeCount,
+    beyond,
+    from_zero,
+    nearer,
+    passages_of,
+    sides_at,
+    told_change,
+)
+from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
+from polhode.simulate._event import Event, ModeSwitch, events_of, placed
+from polhode.simulate._lengths import refuse_vanishing
+from polhode.simulate._segment import Segment, TrajectoryPiece
+from polhode.simulate._task import AS_DECLARED, Guarded, MotionResult, Task
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate._watching import passages
 from polhode.simulate.contact._hybrid_integrator import HybridSolution
@@ -18,68 +33,77 @@ from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._initial_mode import begun_at
 from polhode.simulate.contact._state import State
 from polhode.simulate.forcing._pieces import Pieces
+from polhode.simulate.integrate._crossing import first_fall
 from polhode.simulate.integrate._number_types import NumberType
+from polhode.simulate.integrate._rows import rows
 from polhode.simulate.integrate._series import SeriesIntegrator
-from polhode.simulate.precise._given import Given, exactly, read_exactly
-from polhode.simulate.precise._precise_declared import as_declared
-from polhode.simulate.precise._precise_piece import PieceIntegrator
+from polhode.simulate.integrate._stepping import Array, broken
+from polhode.simulate.integrate._stop_criteria import Stop, StopCriteria
+from polhode.simulate.precise._landing import PiecePoint, fallen
+from polhode.simulate.precise._precise_piece import (
+    InDoubles,
+    PieceIntegrator,
+    PrecisePiece,
+    StateValues,
+)
+from polhode.simulate.precise._precise_start import Given, evaluated, read_exactly
 from polhode.simulate.precise._precise_walk import PreciseWalk
 from polhode.simulate.precise._wanted import Wanted
+
+_LOOK = 12  # steps between checks of the signs of absolute values
 
 
 def precisely(
     rough: Trajectory, motion: MotionResult, task: Task, wanted: Wanted, progress: Progress
 ) -> Trajectory:
-    """The same motion in other numbers.
+    """The motion in numbers of higher precision.
 
     Args:
-        rough: in doubles.
-        motion: what it was made of.
-        task: numbers and start, as they were given.
+        rough: the motion in doubles.
+        motion: the parts it was made of.
+        task: parameters and start, as given.
+        wanted: the precision, duration, samples and events requested.
 
     Raises:
-        DeclarationError: for prescribed motions that are known to doubles only.
+        DeclarationError: for prescribed motions that are known only in double precision.
         NumericError: where the motion cannot be continued.
     """
     numbers = wanted.numbers
     _refuse_samples(task.forcing, numbers)
     known = {*motion.begun.dynamics.parameters, *motion.segments[0].dynamics.parameters}
     given = read_exactly(motion.begun, known, task, numbers)
-    duration = exactly(wanted.duration, numbers)
+    (duration,) = evaluated([wanted.duration.exact()], numbers.exact)
     end = numbers.array([duration])[0]
     steps = PieceIntegrator(_integrator(task.integrator.name), numbers, end, progress)
     if motion.guarded is None:
-        course = as_declared(motion.begun.dynamics, given, steps)
-        events = _events_beside(rough, course)
+        solution = as_declared(motion.begun.dynamics, given, steps)
+        # Start, end and sign changes are those found now, other events those seen in doubles.
+        first, *sign_changes, last = events_of(solution)
+        seen = [e for e in rough.events[1:-1] if not e.divides and e.time < last.time]
+        others = placed(seen, solution.segments)
+        between = sorted([*sign_changes, *others], key=lambda event: event.time)
+        events = (first, *between, last)
     else:
-        course = _through_modes(motion.guarded, given, steps, task, progress)
-        events = events_of(course)
-    end = course.segments[-1].end
+        solution = _through_modes(motion.guarded, given, steps, task, progress)
+        events = events_of(solution)
+    end = solution.segments[-1].end
     run = replace(
         rough,
-        segments=course.segments,
+        segments=solution.segments,
         duration=end,
         t=_samples(wanted, duration, end),
-        mode=course.ending,
+        mode=solution.ending,
         integrator=steps.name,
         events=events,
     )
     return _with_events(run, wanted.events)
 
 
-def _events_beside(rough: Trajectory, course: HybridSolution) -> tuple[Event, ...]:
-    """Start and end, and between them what was seen of the motion in doubles."""
-    first, *turns, last = events_of(course)
-    seen = [e for e in rough.events[1:-1] if not e.divides and e.time < last.time]
-    between = sorted([*turns, *placed(seen, course.segments)], key=lambda event: event.time)
-    return (first, *between, last)
-
-
 def _refuse_samples(forcing: Mapping[Any, Any], numbers: NumberType) -> None:
     for name, given in forcing.items():
         if isinstance(given, Pieces) or (callable(given) and not isinstance(given, Expr)):
             raise DeclarationError(
-                f"the motion {name}, which is known to doubles only, in {numbers.name} precision",
+                f"the motion {name}, known only in double precision, in {numbers.name} precision",
                 expected="an expression of time for every prescribed function",
                 advice="write it with polhode.time instead of samples or a Python function",
             )
@@ -95,15 +119,123 @@ def _integrator(name: str) -> SeriesIntegrator:
     return PowerSeries()
 
 
-# -- what is integrated ------------------------------------------------------------------------
+# -- equations of one contact mode, kept to as declared --------------------------------------------
+
+
+@dataclass(frozen=True)
+class _WithValues:
+    """The equations of the contacts as declared, with the values of their parameters."""
+
+    dynamics: Dynamics
+    parameters: Any
+
+
+@dataclass(frozen=True)
+class _Arrival:
+    """A stretch up to a sign change of an absolute value, or to the end."""
+
+    part: TrajectoryPiece
+    state: StateValues
+    time: Any
+    stop: Stop
+    sign_change: SideChange | None
+
+
+def as_declared(dynamics: Dynamics, given: Given, steps: PieceIntegrator) -> HybridSolution:
+    """The motion with the contacts as declared, without looking for mode changes.
+
+    Args:
+        dynamics: with the signs of absolute values not yet decided.
+
+    Raises:
+        NumericError: where the motion cannot be continued.
+    """
+    numbers, careful = steps.numbers, steps.numbers.careful
+    constants = careful.array([given.parameters[s] for s in dynamics.parameters])
+    now = given.context.mpf(0)
+    state: StateValues = given.state(dynamics.states) | {WORK: now}
+    signed = dynamics.on(sides_at(dynamics, Here(state, constants, now, careful)))
+    segments, changes, sign_changes = list[Segment](), list[ModeSwitch](), SideChangeCount()
+    parts, stop = list[TrajectoryPiece](), Stop.TIME
+    while now < steps.end and stop is not Stop.INTERRUPTED:
+        arrival = _along(_WithValues(signed, constants), state, (now, steps.end), steps)
+        parts.append(arrival.part)
+        state, now, stop = arrival.state, arrival.time, arrival.stop
+        if arrival.sign_change is None:
+            continue
+        sign_changes.count(now, arrival.sign_change)
+        segments.append(_segment(signed, parts))
+        parts = []
+        here = Here(state, constants, now, careful)
+        sides = beyond(dynamics, here, signed.sides, arrival.sign_change)
+        if sides != signed.sides:
+            time, kind = numbers.array([now])[0], told_change(arrival.sign_change, sides)
+            changes.append(ModeSwitch(time, kind, AS_DECLARED, AS_DECLARED))
+        signed = dynamics.on(sides)
+    if parts:
+        segments.append(_segment(signed, parts))
+    return HybridSolution(tuple(segments), tuple(changes), AS_DECLARED)
+
+
+def _segment(signed: Dynamics, parts: list[TrajectoryPiece]) -> Segment:
+    return Segment(AS_DECLARED, parts[0].begin, parts[-1].end, signed, tuple(parts))
+
+
+def _along(
+    declared: _WithValues, state: StateValues, span: tuple[Any, Any], steps: PieceIntegrator
+) -> _Arrival:
+    """Integrate to the end of a span, or to the first sign change of an absolute value."""
+    passages, careful = passages_of(declared.dynamics), steps.numbers.careful
+    watched = StopCriteria(pause=_LOOK) if passages else StopCriteria()
+    stretch = steps.along(declared, state, span, watched, span[0])
+    found = _first_sign_change(declared.dynamics, passages, stretch)
+    if found is None:
+        if stretch.stop is Stop.STUCK:
+            raise broken(float(stretch.series.times[-1]))
+        point, change = PiecePoint(stretch.series.steps - 1, 1), None
+        time = stretch.series.times[-1]
+    else:
+        point, change = found
+        time = stretch.series.time(point.step, point.share)
+        again = nearer(stretch.series.times, time, steps.numbers)
+        if again is not None:
+            return _along(declared, state, (span[0], careful.array([again])[0]), steps)
+    part = stretch.part(time)
+    refuse_vanishing(declared.dynamics, part.rounded())
+    arrived = stretch.state(point.step, point.share, careful)
+    return _Arrival(part, arrived, careful.array([time])[0], stretch.stop, change)
+
+
+def _first_sign_change(
+    dynamics: Dynamics, passages: Sequence[SideChange], stretch: PrecisePiece
+) -> tuple[PiecePoint, SideChange] | None:
+    """Where the first sign changes, and which."""
+    if not passages:
+        return None
+    seen = InDoubles(stretch)
+    arguments = (*seen.symbols, *dynamics.parameters, CLOCK)
+    function = dynamics.function([change.positive for change in passages], arguments)
+
+    def values(places: Array) -> Array:
+        found = function(*seen.at(places), *seen.constants, seen.times(places))
+        return np.asarray(rows(found, len(places)))
+
+    fall = first_fall(from_zero(values, seen.knots), seen.knots)
+    if fall is None:
+        return None
+    change = passages[fall.guard]
+    return fallen(dynamics, change.positive, stretch, fall.time), change
+
+
+# -- through contact modes -------------------------------------------------------------------------
 
 
 def _through_modes(
     guarded: Guarded, given: Given, steps: PieceIntegrator, task: Task, progress: Progress
 ) -> HybridSolution:
-    """Through all contact modes, as the forces demand."""
+    """The motion through all contact modes, as the forces demand."""
     rough, numbers = guarded.machine, steps.numbers.careful
-    machine = HybridSystem(
+    hybrid = HybridSystem(
         rough.automaton, rough.drive, given.parameters, rough.integrator, None, numbers, rough
     )
     equations = rough.automaton.apart.equations
@@ -112,12 +244,12 @@ def _through_modes(
         for symbols in (equations.coordinates, equations.speeds)
     )
     zero = given.context.mpf(0)
-    first = begun_at(machine, State(zero, coordinates, speeds, zero), guarded.apart)
-    walk = PreciseWalk(machine, steps, task.near_flat, progress, task.until)
+    first = begun_at(hybrid, State(zero, coordinates, speeds, zero), guarded.apart)
+    walk = PreciseWalk(hybrid, steps, task.near_flat, progress, task.until)
     return walk.along(first, steps.end)
 
 
-# -- samples and events ------------------------------------------------------------------------
+# -- samples and events ----------------------------------------------------------------------------
 
 
 def _samples(wanted: Wanted, duration: Any, end: Any) -> Any:
@@ -131,7 +263,7 @@ def _samples(wanted: Wanted, duration: Any, end: Any) -> Any:
 
 
 def _with_events(run: Trajectory, events: Mapping[str, Expr]) -> Trajectory:
-    """The same motion with an event wherever one of some expressions passes through zero."""
+    """The same motion with an event at every zero crossing of some expressions."""
     segments = run.segments
     found = []
     for name, expression in events.items():
@@ -145,7 +277,7 @@ def _with_events(run: Trajectory, events: Mapping[str, Expr]) -> Trajectory:
 
 
 def _root(segment: Segment, expression: Expr, near: float) -> Any:
-    """Where an expression is zero, from where it is in doubles."""
+    """The zero of an expression, from its position in doubles."""
     wanted, numbers = [Expr.of(expression)], segment.numbers
     length = segment.end - segment.begin
 
