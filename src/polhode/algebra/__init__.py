@@ -1,16 +1,24 @@
 """Exact expressions, vectors, linear algebra, printing."""
 
-from polhode.algebra._blocks import eliminate_in_parts as eliminate_in_parts
-from polhode.algebra._blocks import solve_definite as solve_definite
 from polhode.algebra._calculus import integrate as integrate
 from polhode.algebra._calculus import linear_parts as linear_parts
 from polhode.algebra._calculus import taylor as taylor
+from polhode.algebra._elimination import Elimination as Elimination
+from polhode.algebra._elimination import OutgrownError as OutgrownError
+from polhode.algebra._elimination import eliminate as eliminate
+from polhode.algebra._elimination import eliminate_in_parts as eliminate_in_parts
+from polhode.algebra._elimination import refuse_long as refuse_long
+from polhode.algebra._elimination import solve as solve
+from polhode.algebra._elimination import solve_definite as solve_definite
 from polhode.algebra._expression import ONE as ONE
 from polhode.algebra._expression import ZERO as ZERO
 from polhode.algebra._expression import Expr as Expr
 from polhode.algebra._expression import ExprLike as ExprLike
+from polhode.algebra._expression import Facilities
 from polhode.algebra._expression import as_symbol as as_symbol
+from polhode.algebra._expression import length as length
 from polhode.algebra._expression import total as total
+from polhode.algebra._expression import variables as variables
 from polhode.algebra._functions import cos as cos
 from polhode.algebra._functions import cosh as cosh
 from polhode.algebra._functions import exp as exp
@@ -20,36 +28,25 @@ from polhode.algebra._functions import sin as sin
 from polhode.algebra._functions import sinh as sinh
 from polhode.algebra._functions import tan as tan
 from polhode.algebra._functions import tanh as tanh
-from polhode.algebra._generators import Generator as Generator
-from polhode.algebra._generators import Symbol as Symbol
-from polhode.algebra._generators import SymbolKind as SymbolKind
 from polhode.algebra._half_angles import lowest_numerator as lowest_numerator
 from polhode.algebra._homogeneity import dimension_of as dimension_of
-from polhode.algebra._linear import Elimination as Elimination
-from polhode.algebra._linear import Matrix as Matrix
-from polhode.algebra._linear import OutgrownError as OutgrownError
-from polhode.algebra._linear import Row as Row
-from polhode.algebra._linear import dot as dot
-from polhode.algebra._linear import eliminate as eliminate
-from polhode.algebra._linear import length as length
-from polhode.algebra._linear import refuse_long as refuse_long
-from polhode.algebra._linear import rotation as rotation
-from polhode.algebra._linear import solve as solve
-from polhode.algebra._linear import variables as variables
 from polhode.algebra._parts import has_parts as has_parts
 from polhode.algebra._parts import named as named
 from polhode.algebra._parts import under_letters as under_letters
 from polhode.algebra._parts import under_name as under_name
 from polhode.algebra._reading import read_expression as read_expression
+from polhode.algebra._ring import Generator as Generator
+from polhode.algebra._ring import Symbol as Symbol
+from polhode.algebra._ring import SymbolKind as SymbolKind
 from polhode.algebra._roots import SquareRoot as SquareRoot
 from polhode.algebra._roots import absolute as absolute
 from polhode.algebra._roots import factors as factors
 from polhode.algebra._roots import is_positive as is_positive
 from polhode.algebra._roots import principal_root as principal_root
+from polhode.algebra._roots import roots_in as roots_in
 from polhode.algebra._roots import sqrt as sqrt
+from polhode.algebra._roots import with_roots as with_roots
 from polhode.algebra._shapes import SHAPES as SHAPES
-from polhode.algebra._sides import roots_in as roots_in
-from polhode.algebra._sides import with_roots as with_roots
 from polhode.algebra._symbols import coordinate as coordinate
 from polhode.algebra._symbols import coordinates as coordinates
 from polhode.algebra._symbols import functions as functions
@@ -60,8 +57,12 @@ from polhode.algebra._symbols import symbols as symbols
 from polhode.algebra._symbols import time as time
 from polhode.algebra._sympy import from_sympy as from_sympy
 from polhode.algebra._sympy import to_sympy as to_sympy
+from polhode.algebra._vector import Matrix as Matrix
+from polhode.algebra._vector import Row as Row
 from polhode.algebra._vector import Triad as Triad
 from polhode.algebra._vector import Vector as Vector
+from polhode.algebra._vector import dot as dot
+from polhode.algebra._vector import rotation as rotation
 from polhode.algebra._vector import zero_vector as zero_vector
 from polhode.algebra.printing._latex import latex as latex
 from polhode.algebra.printing._latex import latex_of_symbol as latex_of_symbol
@@ -79,3 +80,5 @@ from polhode.algebra.programs._program import Compiled as Compiled
 from polhode.algebra.programs._program import Op as Op
 from polhode.algebra.programs._program import Program as Program
 from polhode.algebra.programs._program import arrays as arrays
+
+Expr.facilities = Facilities(sqrt, from_sympy, text, pretty, latex, mathml)

@@ -8,7 +8,7 @@ from math import comb, factorial
 
 from polhode.algebra._expression import ONE, ZERO, Expr, ExprLike, as_symbol
 from polhode.algebra._functions import CIRCULAR, Elementary, Even, cos, sin
-from polhode.algebra._generators import Generator, Symbol
+from polhode.algebra._ring import Generator, Symbol
 from polhode.base import NumericError
 
 

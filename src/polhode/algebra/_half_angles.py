@@ -14,8 +14,7 @@ from typing import Any, NamedTuple
 
 from polhode.algebra._expression import Expr
 from polhode.algebra._functions import CIRCULAR, Even
-from polhode.algebra._generators import Generator
-from polhode.algebra._ring import Monomial, Polynomial, Ring
+from polhode.algebra._ring import Generator, Monomial, Polynomial, Ring
 
 #: Longer numerators take longer to divide than the digits are worth.
 _LONGEST = 3000

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from polhode.algebra._expression import Expr
 from polhode.algebra._functions import pi
-from polhode.algebra._generators import Generator, Symbol
+from polhode.algebra._ring import Generator, Symbol
 from polhode.base import PURE, TIME, Dimension, UnitError
 
 

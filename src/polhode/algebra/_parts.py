@@ -13,8 +13,8 @@ from hashlib import blake2b
 from math import prod
 from typing import Any
 
-from polhode.algebra._expression import ONE, ZERO, Expr, total
-from polhode.algebra._generators import Generator, Rate, Symbol
+from polhode.algebra._expression import ONE, ZERO, Composite, Expr, Rate, chained, total
+from polhode.algebra._ring import Ball, Generator, Symbol
 from polhode.algebra._roots import factors
 
 _SHORT = 3  # terms that cost no more written out than under a name
@@ -22,7 +22,7 @@ _MEMORY = 65536  # derivatives and substitutions that are remembered
 
 
 @dataclass(frozen=True, eq=False)
-class NamedPart(Generator):
+class NamedPart(Composite):
     """A name for an expression."""
 
     meaning: Expr
@@ -64,11 +64,21 @@ class NamedPart(Generator):
     def replaced(self, image: Rate) -> Expr:
         return _replaced(self, image)
 
+    @property
+    def inside(self) -> Expr:
+        return self.meaning
+
+    def remade(self, inside: Expr) -> Expr:
+        return named(inside)
+
+    def ball(self, state: int) -> Ball:
+        return self.meaning.ball(state)
+
 
 @lru_cache(_MEMORY)
 def _chained(part: NamedPart, rate: Rate) -> Expr:
     slopes = ((g, part.slope(g)) for g in part.meaning.generators)
-    return named(total(slope * named(g.chain(rate)) for g, slope in slopes))
+    return named(total(slope * named(chained(g, rate)) for g, slope in slopes))
 
 
 @lru_cache(_MEMORY)

@@ -1,28 +1,158 @@
-"""Polynomial rings: an ordered set of generators, with the relations between them.
+"""Generators and the polynomial rings over them.
 
-A ring is the bridge to python-flint. Polynomials are kept reduced: no algebraic generator occurs
-with a power above one. Fractions are kept with denominators free of algebraic generators. With
-numerator and denominator coprime and the denominator monic that form is unique, so that "is it
-zero" is decided and never guessed.
+A generator is a symbol, or a function of symbols such as sin θ or √a. A ring is an ordered set of
+generators with the relations between them, and the bridge to python-flint. Polynomials are kept
+reduced: no algebraic generator occurs with a power above one. Fractions are kept with denominators
+free of algebraic generators. With numerator and denominator coprime and the denominator monic that
+form is unique, so that "is it zero" is decided and never guessed.
 """
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
-from functools import lru_cache
+from dataclasses import dataclass, field
+from enum import Enum
+from functools import cached_property, lru_cache
+from hashlib import blake2b
 from itertools import pairwise
 from typing import Any
 
-from flint import Ordering, fmpq_mpoly_ctx
+from flint import Ordering, acb, arb, fmpq, fmpq_mpoly_ctx
 
-from polhode.algebra._generators import Generator
 from polhode.base import DeclarationError, NumericError
 
 _MOST_PRODUCTS = 2 * 10**6  # of terms; beyond, what comes out is of no use and fills the memory
 _FEW = 16  # terms up to which it is quicker to put the variables in one by one
+_MEMORY = 65536  # values of generators that are remembered
+
 Polynomial = Any  # flint.fmpq_mpoly: python-flint ships no usable type information
+Ball = Any  # flint.acb, likewise
 Monomial = tuple[int, ...]
+#: Powers over some generators, numerator and denominator of the coefficient, for each term.
+PlainTerms = tuple[tuple[tuple[int, ...], int, int], ...]
+
+
+# -- generators ------------------------------------------------------------------------------------
+
+
+class Generator(ABC):
+    """One variable of a polynomial ring: a symbol, or a function such as sin θ of an expression.
+
+    A generator is *algebraic* when its square is a polynomial in simpler generators
+    (cos² = 1 - sin², a square root); every other one is transcendental.
+    """
+
+    #: Unique name; fixes the order of generators everywhere.
+    key: str
+    #: Whether its value is known to be positive.
+    positive: bool = False
+    #: Whether it stands for a longer expression that is not multiplied out.
+    is_part: bool = False
+
+    @property
+    def depth(self) -> int:
+        """Height in the tower of algebraic generators; 0 for a transcendental one."""
+        return 0
+
+    def square(self, ring: Ring) -> Polynomial:
+        """What the square of an algebraic generator equals, in a ring that holds it."""
+        return ring.variable(self) ** 2
+
+    def companions(self) -> tuple[Generator, ...]:
+        """Generators that its square, or another form of it, is written with."""
+        return ()
+
+    def partner(self) -> tuple[Generator, int] | None:
+        """The odd function and the sign with which this one's square is 1 + sign · odd²."""
+        return None
+
+    @property
+    def arguments(self) -> tuple[Any, ...]:
+        """The expressions that it is a function of; their class, `Expr`, is built on rings."""
+        return ()
+
+    @abstractmethod
+    def symbols(self) -> frozenset[Symbol]:
+        """The symbols it depends on."""
+
+    @abstractmethod
+    def ball(self, state: int) -> Ball:
+        """Its value at one of the random states of `Ring.ball`."""
+
+
+class SymbolKind(Enum):
+    """What a symbol stands for; decides what its time derivative is."""
+
+    PARAMETER = "parameter"
+    COORDINATE = "coordinate"
+    SPEED = "speed"
+    FUNCTION = "function"
+    TIME = "time"
+
+    @property
+    def varies(self) -> bool:
+        """Whether the time derivative is a further symbol."""
+        return self in (SymbolKind.COORDINATE, SymbolKind.SPEED, SymbolKind.FUNCTION)
+
+
+_DOTS = ("", "_dot", "_ddot", "_dddot")
+
+
+@dataclass(frozen=True)
+class Symbol(Generator):
+    """A named quantity, or one of its time derivatives.
+
+    `positive` is what is known of its sign; it decides √(x²) = x and is not part of the identity.
+    """
+
+    name: str
+    kind: SymbolKind = SymbolKind.PARAMETER
+    order: int = 0
+    positive: bool = field(default=False, compare=False)
+
+    @cached_property
+    def published(self) -> str:
+        """ASCII name as scripts know it: `theta`, `theta_dot`, `omega_3_dot`."""
+        if self.order < len(_DOTS):
+            return self.name + _DOTS[self.order]
+        return f"{self.name}_d{self.order}"
+
+    @cached_property
+    def key(self) -> str:  # type: ignore[override]
+        return self.published if self.kind is not SymbolKind.TIME else "t"
+
+    def derivative(self) -> Symbol:
+        """The symbol of the time derivative."""
+        return Symbol(self.name, self.kind, self.order + 1)
+
+    def base(self) -> Symbol:
+        """The quantity this is a time derivative of."""
+        return Symbol(self.name, self.kind, 0, self.positive)
+
+    def __hash__(self) -> int:
+        return hash(self.key)
+
+    def __repr__(self) -> str:
+        return self.published
+
+    def symbols(self) -> frozenset[Symbol]:
+        return frozenset((self,))
+
+    def ball(self, state: int) -> Ball:
+        if self == PI:
+            return acb.pi()
+        digest = blake2b(f"{state} {self.key}".encode(), digest_size=16).digest()
+        drawn = fmpq(1, 8) + fmpq(int.from_bytes(digest, "big"), 2**128)  # from 1/8 to 9/8
+        return acb(arb(drawn if self.positive else drawn - fmpq(1, 2)))
+
+
+#: The ratio of a circle's circumference to its diameter.
+PI = Symbol("pi", SymbolKind.PARAMETER, 0, positive=True)
+
+
+# -- rings -----------------------------------------------------------------------------------------
 
 
 class Ring:
@@ -131,10 +261,48 @@ class Ring:
         lead = den.leading_coefficient()
         return num / lead, den / lead
 
+    def ball(self, polynomial: Polynomial, state: int) -> Ball:
+        """Its value at a random state, in the working precision, as a ball that holds it for sure.
+
+        In the same state a generator has the same value in every ring.
+        """
+        total = acb(0)
+        for monomial, coefficient in polynomial.terms():
+            term = acb(arb(fmpq(coefficient)))
+            for generator, power in zip(self.generators, monomial, strict=True):
+                if power:
+                    term *= _ball(generator, state) ** int(power)
+            total += term
+        return total
+
+    def plain(self, generators: Sequence[Generator], polynomial: Polynomial) -> PlainTerms:
+        """The terms of a polynomial over some generators, which hold all that occur in it."""
+        positions = [self.index[g] for g in generators]
+        return tuple(
+            (tuple(monomial[p] for p in positions), int(c.p), int(c.q))
+            for monomial, c in polynomial.terms()
+        )
+
+    def polynomial(self, generators: Sequence[Generator], terms: PlainTerms) -> Polynomial:
+        """The polynomial that has these plain terms."""
+        positions = [self.index[g] for g in generators]
+        table = {}
+        for powers, p, q in terms:
+            monomial = [0] * len(self.generators)
+            for position, power in zip(positions, powers, strict=True):
+                monomial[position] = power
+            table[tuple(monomial)] = fmpq(p, q)
+        return self.context.from_dict(table)
+
     def _over_transcendentals(self, num: Polynomial) -> Iterable[Polynomial]:
         """Coefficients of `num` over the monomials of the algebraic generators."""
         positions = [position for position, _ in self.algebraic]
         return self.grouped(num, positions).values() if positions else (num,)
+
+
+@lru_cache(_MEMORY)
+def _ball(generator: Generator, state: int) -> Ball:
+    return generator.ball(state)
 
 
 def _refuse_if_hopeless(products: int) -> None:

@@ -19,12 +19,10 @@ from polhode.algebra._functions import (
     Odd,
     is_unit_argument,
 )
-from polhode.algebra._generators import Generator, Symbol, SymbolKind
-from polhode.algebra._linear import Matrix
-from polhode.algebra._plain import plain
-from polhode.algebra._ring import Polynomial, Ring, ring_of
+from polhode.algebra._ring import Generator, Polynomial, Ring, Symbol, SymbolKind, ring_of
 from polhode.algebra._roots import SquareRoot, sqrt
 from polhode.algebra._symbols import is_name
+from polhode.algebra._vector import Matrix
 from polhode.base import ShapeRecord
 
 _LARGEST_POWER = 1000
@@ -102,7 +100,7 @@ def _expression_apart(expression: Expr) -> dict[str, Any]:
 
 
 def _terms(expression: Expr, polynomial: Polynomial) -> tuple[Any, ...]:
-    terms = plain(expression, polynomial)
+    terms = expression.ring.plain(expression.generators, polynomial)
     return tuple(sorted((tuple(map(int, powers)), p, q) for powers, p, q in terms))
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from polhode.algebra import _functions as functions
 from polhode.algebra._expression import ZERO, Expr
-from polhode.algebra._generators import Symbol
+from polhode.algebra._ring import Symbol
 from polhode.algebra._roots import absolute, sqrt
 from polhode.algebra._symbols import coordinate, symbol, time
 from polhode.algebra.printing._layout import layout

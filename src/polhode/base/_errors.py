@@ -1,6 +1,12 @@
 """The one family of errors, and what each means to a shell."""
 
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from difflib import get_close_matches
 from enum import IntEnum
+from typing import TypeVar
 
 
 class PolhodeError(Exception):
@@ -81,3 +87,44 @@ def _rebuilt(
     kind: type[PolhodeError], given: str, expected: str, advice: str, option: str
 ) -> PolhodeError:
     return kind(given, expected=expected, advice=advice, option=option)
+
+
+# Libraries that polhode can do without, told of where they are missed.
+
+
+@contextmanager
+def extra(library: str, name: str) -> Iterator[None]:
+    """Around the import of a library that an extra of polhode brings.
+
+    Raises:
+        StoreError: where it is not installed.
+    """
+    try:
+        yield
+    except ImportError as error:
+        raise StoreError(
+            f"{library} is not installed",
+            expected="the extra of polhode that brings it",
+            advice=f"pip install 'polhode[{name}]'",
+        ) from error
+
+
+# What is known under a name, and the nearest names where nothing is.
+
+Known = TypeVar("Known")
+
+
+def look_up(name: str, known: Mapping[str, Known], what: str) -> Known:
+    """What is known under a name.
+
+    Raises:
+        DeclarationError: for a name that is not known, with the nearest ones that are.
+    """
+    if name in known:
+        return known[name]
+    near = get_close_matches(name, known, n=3, cutoff=0.5)
+    raise DeclarationError(
+        f"{name!r} is no {what}",
+        expected=f"one of {', '.join(known)}" if known else "none: it has none",
+        advice=f"did you mean {' or '.join(near)}?" if near else "",
+    )

@@ -7,10 +7,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Protocol, SupportsFloat, TypeAlias, runtime_checkable
 
-from polhode.base._dimension import PURE, Dimension
 from polhode.base._errors import UnitError
-from polhode.base._unit_text import read_unit
-from polhode.base._units import Unit
+from polhode.base._units import PURE, Dimension, Unit, read_unit
 
 
 @runtime_checkable

@@ -11,41 +11,46 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 
 from polhode.algebra import SHAPES, Expr, Vector
 from polhode.base import Codec, ShapeRecord
-from polhode.model import _contacts, _joints, _loads, _phases, _pivots, _spin, _supports, _surface
 from polhode.model._body import Body, BodyPoint
+from polhode.model._contacts import Apart, Coulomb, Rolling, Smooth
 from polhode.model._frame import Frame
+from polhode.model._joints import Guide, Hinge, Hold, Motor, Pivot, Universal, Weld
+from polhode.model._loads import Damper, Force, Gravity, Spring, Torque
+from polhode.model._spin import About, Components, Free, Relative, WithAxes
+from polhode.model._supports import Plane, Sheet, Turntable
+from polhode.model._surface import Ellipsoidal, Face, Rim, Round
 from polhode.model._system import System
 
 _DECLARED = (
     BodyPoint,
-    _contacts.Coulomb,
-    _contacts.Rolling,
-    _contacts.Smooth,
-    _joints.Guide,
-    _joints.Hinge,
-    _joints.Motor,
-    _joints.Universal,
-    _loads.Damper,
-    _loads.Force,
-    _loads.Gravity,
-    _loads.Spring,
-    _loads.Torque,
-    _phases.Apart,
-    _pivots.Hold,
-    _pivots.Pivot,
-    _pivots.Weld,
-    _spin.About,
-    _spin.Components,
-    _spin.Free,
-    _spin.Relative,
-    _spin.WithAxes,
-    _supports.Plane,
-    _supports.Sheet,
-    _supports.Turntable,
-    _surface.Ellipsoidal,
-    _surface.Face,
-    _surface.Rim,
-    _surface.Round,
+    Coulomb,
+    Rolling,
+    Smooth,
+    Guide,
+    Hinge,
+    Motor,
+    Universal,
+    Damper,
+    Force,
+    Gravity,
+    Spring,
+    Torque,
+    Apart,
+    Hold,
+    Pivot,
+    Weld,
+    About,
+    Components,
+    Free,
+    Relative,
+    WithAxes,
+    Plane,
+    Sheet,
+    Turntable,
+    Ellipsoidal,
+    Face,
+    Rim,
+    Round,
 )
 
 
@@ -98,7 +103,7 @@ def _declared(kind: type, given: Mapping[str, Any]) -> Any:
 @cache
 def _words(kind: type[Any]) -> frozenset[str]:
     """What its constructor can be told by name; a weld passes on what a pivot can."""
-    kinds = (kind, _pivots.Pivot) if kind is _pivots.Weld else (kind,)
+    kinds = (kind, Pivot) if kind is Weld else (kind,)
     return frozenset(name for one in kinds for name in inspect.signature(one).parameters)
 
 

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from polhode.algebra import Expr, Vector
+from polhode.algebra import Expr, Vector, coordinate, speed
 from polhode.base import DeclarationError
 from polhode.model._body import Body
 from polhode.model._declared import FieldwiseRepr
@@ -111,3 +111,29 @@ def require_two(name: str, body: Body, other: Body) -> None:
             f"{name!r}, which joins body {body.name!r} to itself",
             expected="another body, or none for the ground",
         )
+
+
+# A body that nothing places: its centre of mass has three coordinates of its own.
+
+
+@dataclass(frozen=True)
+class Flight(Element):
+    """Free motion of the centre of mass, by components along the root frame."""
+
+    body: Body
+    name: str = "flight"
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        return (self.body,)
+
+    def rates(self) -> Mapping[Expr, Expr]:
+        tag = self.body.tag
+        labels = self.body.axes.root.labels
+        return {coordinate(f"{label}{tag}"): speed(f"v_{label}{tag}") for label in labels}
+
+    def centre(self, places: Places) -> Mapping[Body, Vector]:
+        return {self.body: Vector(tuple(self.rates()), self.body.axes.root)}
+
+    def restraints(self, places: Places) -> tuple[Restraint, ...]:
+        return ()

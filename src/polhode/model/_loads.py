@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, ExprLike, Vector
 from polhode.model._body import Body, BodyPoint
-from polhode.model._checks import (
+from polhode.model._declared import (
+    FieldwiseRepr,
     not_negative,
     of_type,
     quantity,
@@ -16,7 +17,6 @@ from polhode.model._checks import (
     without_coordinates,
     without_rates,
 )
-from polhode.model._declared import FieldwiseRepr
 from polhode.model._element import Places
 from polhode.model._frame import Frame
 

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, ExprLike, Vector
 from polhode.base import DeclarationError
-from polhode.model._checks import quantity
-from polhode.model._declared import FieldwiseRepr
+from polhode.model._declared import FieldwiseRepr, quantity
 from polhode.model._frame import Frame
 
 

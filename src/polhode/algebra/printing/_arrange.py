@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 
 from polhode.algebra._functions import Elementary, Even
-from polhode.algebra._generators import Generator, Symbol, SymbolKind
+from polhode.algebra._ring import Generator, Symbol, SymbolKind
 from polhode.algebra.printing._names import Spelling
 
 Rank = tuple[object, ...]

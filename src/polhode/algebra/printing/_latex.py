@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from polhode.algebra._expression import Expr
-from polhode.algebra._generators import Symbol
+from polhode.algebra._ring import Symbol
 from polhode.algebra.printing._layout import layout
 from polhode.algebra.printing._names import GREEK, Spelling
 from polhode.algebra.printing._nodes import (

@@ -10,12 +10,17 @@ from operator import add
 from typing import Any
 
 from polhode.algebra._expression import ZERO, Expr
-from polhode.algebra._factored import Factored, factorised, powers_of, products, terms
+from polhode.algebra._forms import (
+    Factored,
+    factorised,
+    in_shortest_squares,
+    powers_of,
+    products,
+    terms,
+)
 from polhode.algebra._functions import Elementary, Exponential
-from polhode.algebra._generators import Generator, Symbol
 from polhode.algebra._parts import under_letters
-from polhode.algebra._ring import Monomial, Polynomial, Ring
-from polhode.algebra._squares import in_shortest_squares
+from polhode.algebra._ring import Generator, Monomial, Polynomial, Ring, Symbol
 from polhode.algebra.printing._arrange import (
     CONSTANT_SUM,
     EXPONENTIAL,

@@ -8,7 +8,7 @@ from functools import cached_property
 from math import prod
 from typing import Protocol, TypeVar
 
-from polhode.algebra._generators import Symbol
+from polhode.algebra._ring import Symbol
 
 T = TypeVar("T")
 T_co = TypeVar("T_co", covariant=True)

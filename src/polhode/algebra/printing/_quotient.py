@@ -6,9 +6,8 @@ from math import prod
 
 from polhode.algebra._expression import Expr
 from polhode.algebra._forms import traded
-from polhode.algebra._generators import Generator
 from polhode.algebra._half_angles import Lowest, lowest
-from polhode.algebra._ring import Polynomial, Ring
+from polhode.algebra._ring import Generator, Polynomial, Ring
 
 Quotient = tuple[Polynomial, Polynomial]
 

@@ -12,11 +12,9 @@ from typing import TypeVar
 from flint.utils.flint_exceptions import DomainError
 
 from polhode.algebra._expression import ONE, Expr
-from polhode.algebra._factored import content, over_cosines, rational
-from polhode.algebra._generators import Generator
-from polhode.algebra._ring import Polynomial
+from polhode.algebra._forms import content, in_shortest_squares, over_cosines, rational
+from polhode.algebra._ring import Generator, Polynomial
 from polhode.algebra._roots import SquareRoot, is_plainly_positive
-from polhode.algebra._squares import in_shortest_squares
 
 K = TypeVar("K")
 

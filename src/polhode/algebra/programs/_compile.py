@@ -11,22 +11,61 @@ from typing import Any, NamedTuple, TypeAlias
 
 from flint import fmpq
 
-from polhode.algebra._expression import ONE, ZERO, Expr
-from polhode.algebra._factored import extracted
-from polhode.algebra._forms import shortest
+from polhode.algebra._expression import ONE, ZERO, Expr, length
+from polhode.algebra._forms import extracted, shortest
 from polhode.algebra._functions import CIRCULAR, Elementary, exponentials
-from polhode.algebra._generators import Generator, Symbol
 from polhode.algebra._half_angles import Factors, lowest
-from polhode.algebra._linear import Matrix, Row, length
 from polhode.algebra._parts import NamedPart
-from polhode.algebra._ring import Polynomial, Ring
-from polhode.algebra._roots import SquareRoot
-from polhode.algebra._special import PI
-from polhode.algebra.programs._centred import centred
-from polhode.algebra.programs._elimination import solve_on
+from polhode.algebra._ring import PI, Generator, Polynomial, Ring, Symbol, SymbolKind
+from polhode.algebra._roots import SquareRoot, factors
+from polhode.algebra._vector import Matrix, Row
 from polhode.algebra.programs._program import Op, Program
-from polhode.algebra.programs._tape import Tape, Value
+from polhode.algebra.programs._tape import Tape, Value, solve_on
 from polhode.base import DeclarationError, NumericError
+
+# Sums about the place that an exponent is counted from.
+#
+# The second derivative of exp(−(t − c)²/w²) has the factor 2(t − c)² − w². Multiplied out, as
+# 2t² − 4ct + 2c² − w², it loses the digits of t²/w².
+
+
+class Centred(NamedTuple):
+    """An expression by a distance.
+
+    Attributes:
+        expression: with the distance as a symbol.
+        distance: that symbol.
+        meaning: what the distance is.
+    """
+
+    expression: Expr
+    distance: Symbol
+    meaning: Expr
+
+
+def centred(factor: Expr, exponent: Expr) -> Centred | None:
+    """The factor of an exp by a distance of which the exponent has a power.
+
+    None where that is not shorter.
+    """
+    ways = (_about(factor, *place) for place in _places(exponent))
+    best = min(ways, key=lambda way: length(way.expression), default=None)
+    return best if best is not None and length(best.expression) < length(factor) else None
+
+
+def _places(exponent: Expr) -> Iterator[tuple[Symbol, Expr]]:
+    """Sums that the exponent has as factors, with what they are linear in."""
+    for meaning, power in factors(exponent)[1].items():
+        if power > 0 and len(meaning.num) > 1:
+            for symbol in meaning.symbols():
+                if not meaning.diff(symbol).generators:
+                    yield symbol, meaning
+
+
+def _about(factor: Expr, symbol: Symbol, meaning: Expr) -> Centred:
+    distance = Symbol(f"({meaning.key})", SymbolKind.PARAMETER)
+    away = (Expr.generator(distance) - meaning) / meaning.diff(symbol)
+    return Centred(factor.subs({symbol: Expr.generator(symbol) + away}), distance, meaning)
 
 
 @dataclass(frozen=True)
@@ -193,7 +232,7 @@ class _TapeWriter:
         meaning = self._where(symbol)
         if meaning is not None:
             return self.expression(meaning)
-        if symbol == PI.symbol:
+        if symbol == PI:
             return self.tape.pi()
         raise DeclarationError(
             f"{symbol.published} has no value",

@@ -15,7 +15,7 @@ from fractions import Fraction
 from types import CodeType, FunctionType
 from typing import Any, NamedTuple, TypeAlias
 
-from polhode.algebra._generators import Symbol
+from polhode.algebra._ring import Symbol
 from polhode.base import NumericError
 
 

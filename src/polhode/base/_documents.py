@@ -1,8 +1,9 @@
-"""Declarations as plain JSON: nothing in it can run, and each part is written once.
+"""Documents: the schema number and provenance that each carries, and declarations as plain JSON.
 
-A document is a list of parts. A part names its shape and its fields; a field is a number, a text,
-nothing, a list, or {"#": k}, which stands for the k-th part before it. So a reader needs no
-recursion, and what it makes is made by the constructors that a user would call.
+A declaration is a list of parts, and nothing in it can run. A part names its shape and its fields;
+a field is a number, a text, null, a list, or {"#": k}, which stands for the k-th part before it.
+Each part is written once, so a reader needs no recursion, and it builds every object with the
+constructor that a user would call.
 """
 
 from __future__ import annotations
@@ -11,10 +12,54 @@ import hashlib
 import json
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, NoReturn, TypeVar
+from functools import cache
+from typing import Any, NoReturn, TypedDict, TypeVar
 
 from polhode.base._errors import PolhodeError, StoreError
-from polhode.base._schema import SCHEMA
+
+SCHEMA = 2
+"""Number of the layout of every JSON document, file, page and store."""
+
+LIBRARIES = ("python-flint", "numpy", "scipy", "heyoka", "sympy", "matplotlib", "latex2mathml")
+"""Distributions whose version a result may depend on."""
+
+
+class Provenance(TypedDict):
+    """What a document was made with; a library that is not installed has the version None."""
+
+    schema: int
+    versions: dict[str, str | None]
+    seed: int | None
+
+
+def provenance(seed: int | None = None) -> Provenance:
+    """What the document being written is made with, found without importing any library.
+
+    Args:
+        seed: of the random numbers that went into it, None if none did.
+    """
+    import platform
+
+    versions: dict[str, str | None] = {
+        "polhode": installed_version("polhode"),
+        "python": platform.python_version(),
+    }
+    versions |= {library: installed_version(library) for library in LIBRARIES}
+    return {"schema": SCHEMA, "versions": versions, "seed": seed}
+
+
+@cache
+def installed_version(distribution: str) -> str | None:
+    """The version of an installed distribution, None where it is not installed."""
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        return version(distribution)
+    except PackageNotFoundError:
+        return None
+
+
+# -- declarations ----------------------------------------------------------------------------------
 
 T = TypeVar("T")
 
