@@ -21,6 +21,7 @@ from polhode.algebra._ring import (
     Polynomial,
     Ring,
     Symbol,
+    as_fraction,
     ring_of,
     union,
 )
@@ -180,7 +181,7 @@ class Expr(Shown):
         if not (self.num.is_constant() and self.den.is_constant()):
             return None
         value = self.num.leading_coefficient() if self.num != 0 else fmpq(0)
-        return Fraction(int(value.p), int(value.q))
+        return as_fraction(value)
 
     @property
     def symbol(self) -> Symbol | None:
@@ -216,7 +217,7 @@ class Expr(Shown):
         for monomial, coefficient in self.num.terms():
             pairs = zip(self.ring.generators, monomial, strict=True)
             powers = {generator: int(power) for generator, power in pairs if power}
-            yield powers, Fraction(int(coefficient.p), int(coefficient.q))
+            yield powers, as_fraction(coefficient)
 
     @property
     def numerator(self) -> Expr:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from fractions import Fraction as Rational
+from fractions import Fraction
 from math import comb, gcd, lcm
 from typing import Any
 
-from polhode.algebra._ring import Generator, Monomial, Polynomial, Ring
+from polhode.algebra._ring import Generator, Monomial, Polynomial, Ring, as_fraction
 
 
 def shortest(ring: Ring, polynomial: Polynomial) -> Polynomial:
@@ -31,15 +31,7 @@ def traded(ring: Ring, polynomial: Polynomial, even: Generator) -> Polynomial:
     if partner is None:
         return polynomial
     odd, sign = partner
-    position = ring.index[odd]
-    square = sign * (ring.variable(even) ** 2 - 1)
-    parts: dict[int, dict[Monomial, Any]] = defaultdict(dict)
-    for monomial, coefficient in polynomial.to_dict().items():
-        power, rest = divmod(monomial[position], 2)
-        parts[power][(*monomial[:position], rest, *monomial[position + 1 :])] = coefficient
-    return sum(
-        (ring.context.from_dict(part) * square**power for power, part in parts.items()), ring.zero
-    )
+    return ring.folded(polynomial, ring.index[odd], sign * (ring.variable(even) ** 2 - 1))
 
 
 # Squares of sines or of cosines, whichever is shorter, decided for every cofactor.
@@ -118,6 +110,9 @@ _FORMS: tuple[Callable[[Sequence[Any], int], Binary], ...] = (_in_odd, _in_even,
 
 # Polynomials as products: a number, powers of generators, and sums.
 
+#: Polynomials with their powers.
+Factors = list[tuple[Polynomial, int]]
+
 #: Longer polynomials are not worth the search for factors.
 _LONGEST_TO_FACTOR = 150
 
@@ -126,7 +121,7 @@ _LONGEST_TO_FACTOR = 150
 class Factored:
     """number · Π generator^power · Π sum^power; powers of either sign."""
 
-    number: Rational = Rational(1)
+    number: Fraction = Fraction(1)
     powers: dict[Generator, int] = field(default_factory=dict)
     sums: tuple[tuple[Polynomial, int], ...] = ()
 
@@ -148,15 +143,10 @@ class Factored:
         )
 
 
-def rational(number: object) -> Rational:
-    """A number of flint as one of Python."""
-    return Rational(int(number.p), int(number.q))  # type: ignore[attr-defined]
-
-
 def terms(ring: Ring, polynomial: Polynomial) -> Iterator[Factored]:
     """Its terms."""
     for monomial, coefficient in polynomial.terms():
-        yield Factored(rational(coefficient), powers_of(ring, monomial))
+        yield Factored(as_fraction(coefficient), powers_of(ring, monomial))
 
 
 def products(ring: Ring, polynomial: Polynomial) -> list[Factored]:
@@ -172,7 +162,7 @@ def products(ring: Ring, polynomial: Polynomial) -> list[Factored]:
 
 def extracted(ring: Ring, polynomial: Polynomial) -> Factored:
     """With the number and the generators common to all terms taken out."""
-    number = content(rational(c) for c in polynomial.coeffs())
+    number = content(as_fraction(c) for c in polynomial.coeffs())
     if polynomial.leading_coefficient() < 0:
         number = -number
     common = tuple(min(powers) for powers in zip(*polynomial.monoms(), strict=True))
@@ -186,7 +176,7 @@ def factorised(ring: Ring, polynomial: Polynomial) -> Factored:
     if len(polynomial) > _LONGEST_TO_FACTOR:
         return extracted(ring, polynomial)
     number, factors = polynomial.factor()
-    result = Factored(rational(number))
+    result = Factored(as_fraction(number))
     for factor, exponent in _with_squares(ring, factors):
         part = _part(ring, factor)
         powers = {g: p * exponent for g, p in part.powers.items()}
@@ -202,10 +192,10 @@ def over_cosines(ring: Ring, polynomial: Polynomial) -> Polynomial:
     return polynomial
 
 
-def content(numbers: Iterable[Rational]) -> Rational:
+def content(numbers: Iterable[Fraction]) -> Fraction:
     """The largest number of which all are whole multiples."""
     found = list(numbers)
-    return Rational(
+    return Fraction(
         gcd(*(n.numerator for n in found)),
         lcm(*(n.denominator for n in found)),
     )
@@ -220,9 +210,6 @@ def _part(ring: Ring, polynomial: Polynomial) -> Factored:
 def powers_of(ring: Ring, monomial: Iterable[int]) -> dict[Generator, int]:
     """The generators of a monomial and their powers."""
     return {g: int(p) for g, p in zip(ring.generators, monomial, strict=True) if p}
-
-
-Factors = list[tuple[Polynomial, int]]
 
 
 def _with_squares(ring: Ring, factors: Factors) -> Factors:

@@ -7,19 +7,17 @@ common to both is an ordinary common factor.
 
 from __future__ import annotations
 
-from collections import defaultdict
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, NamedTuple
 
 from polhode.algebra._expression import Expr
+from polhode.algebra._forms import Factors
 from polhode.algebra._functions import CIRCULAR, Even
 from polhode.algebra._ring import Generator, Monomial, Polynomial, Ring
 
 #: Longer numerators take longer to divide than the digits are worth.
 _LONGEST = 3000
-
-Factors = list[tuple[Polynomial, int]]
 
 
 class Lowest(NamedTuple):
@@ -131,15 +129,9 @@ class _Angle:
             total += part * rest * (sine / 2) ** odd
         return total
 
-    def _parts(self, polynomial: Polynomial) -> dict[tuple[int, int], Polynomial]:
+    def _parts(self, polynomial: Polynomial) -> dict[Monomial, Polynomial]:
         """Coefficients of the powers of the two."""
-        parts: dict[tuple[int, int], dict[Monomial, Any]] = defaultdict(dict)
-        for monomial, coefficient in polynomial.to_dict().items():
-            rest = list(monomial)
-            p, q = rest[self.sine], rest[self.cosine]
-            rest[self.sine] = rest[self.cosine] = 0
-            parts[int(p), int(q)][tuple(rest)] = coefficient
-        return {key: self.ring.context.from_dict(part) for key, part in parts.items()}
+        return self.ring.grouped(polynomial, (self.sine, self.cosine))
 
 
 Degrees = dict[_Angle, int]

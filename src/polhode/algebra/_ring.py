@@ -14,6 +14,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
+from fractions import Fraction
 from functools import cached_property, lru_cache
 from hashlib import blake2b
 from itertools import pairwise
@@ -152,6 +153,11 @@ class Symbol(Generator):
 PI = Symbol("pi", SymbolKind.PARAMETER, 0, positive=True)
 
 
+def as_fraction(number: Any) -> Fraction:
+    """A rational number of flint's as one of Python's."""
+    return Fraction(int(number.p), int(number.q))
+
+
 # -- rings -----------------------------------------------------------------------------------------
 
 
@@ -202,15 +208,16 @@ class Ring:
         degrees = polynomial.degrees()
         for position, square in self.algebraic:
             if degrees[position] > 1:
-                polynomial = self._fold(polynomial, position, square)
+                polynomial = self.folded(polynomial, position, square)
                 degrees = polynomial.degrees()
         return polynomial
 
-    def _fold(self, polynomial: Polynomial, position: int, square: Polynomial) -> Polynomial:
+    def folded(self, polynomial: Polynomial, position: int, square: Polynomial) -> Polynomial:
+        """With `square` for every square of the generator at `position`."""
         by_power: dict[int, dict[Monomial, Any]] = defaultdict(dict)
         for monomial, coefficient in polynomial.to_dict().items():
             power, rest = divmod(monomial[position], 2)
-            by_power[power][_with(monomial, position, rest)] = coefficient
+            by_power[power][(*monomial[:position], rest, *monomial[position + 1 :])] = coefficient
         return sum(
             (self.context.from_dict(part) * square**power for power, part in by_power.items()),
             self.zero,
@@ -314,10 +321,6 @@ def _refuse_if_hopeless(products: int) -> None:
             expected=f"at most {_MOST_PRODUCTS:.0e}",
             advice="give some of its symbols values, or multiply the denominator out",
         )
-
-
-def _with(monomial: Monomial, position: int, power: int) -> Monomial:
-    return (*monomial[:position], power, *monomial[position + 1 :])
 
 
 def ring_of(generators: frozenset[Generator]) -> Ring:

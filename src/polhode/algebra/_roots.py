@@ -12,7 +12,7 @@ from flint import fmpz
 
 from polhode.algebra._expression import ONE, Composite, Expr, ExprLike, Rate
 from polhode.algebra._forms import in_shortest_squares, shortest
-from polhode.algebra._ring import Ball, Generator, Polynomial, Ring
+from polhode.algebra._ring import Ball, Generator, Polynomial, Ring, as_fraction
 from polhode.base import NumericError
 
 
@@ -158,7 +158,7 @@ def factors(x: Expr) -> tuple[Fraction, dict[Expr, int]]:
     number, powers = Fraction(1), dict[Expr, int]()
     for polynomial, sense in ((x.num, 1), (x.den, -1)):
         content, pairs = shortest(x.ring, polynomial).factor()
-        number *= Fraction(int(content.p), int(content.q)) ** sense
+        number *= as_fraction(content) ** sense
         for factor, exponent in pairs:
             base = Expr(x.ring, x.ring.reduce(factor), x.ring.one)
             powers[base] = powers.get(base, 0) + sense * int(exponent)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from fractions import Fraction as Rational
+from fractions import Fraction
 from math import prod
 from typing import Any
 
@@ -102,7 +102,7 @@ class _SympyReader:
             "AppliedUndef": self._dynamic,
             "Derivative": self._derivative,
             "Symbol": lambda value: self._symbol(value.name, value.is_positive is True),
-            "Rational": lambda value: Expr.constant(Rational(int(value.p), int(value.q))),
+            "Rational": lambda value: Expr.constant(Fraction(int(value.p), int(value.q))),
             "Float": lambda value: Expr.of(float(value)),
             "Pi": lambda value: functions.pi,
             "Exp1": lambda value: functions.exp(1),

@@ -7,8 +7,8 @@ from polhode.algebra._ring import Symbol
 from polhode.algebra.printing._layout import layout
 from polhode.algebra.printing._names import GREEK, Spelling
 from polhode.algebra.printing._nodes import (
-    Fraction,
     PrintCall,
+    PrintFraction,
     PrintName,
     PrintNode,
     PrintNumber,
@@ -78,7 +78,7 @@ class _Latex:
                 return self._called("abs", "", argument) + raised
             case PrintCall(function=function, argument=argument):
                 return self._called(function, raised, argument)
-            case PrintSum() | PrintProduct() | Fraction() | PrintPower():
+            case PrintSum() | PrintProduct() | PrintFraction() | PrintPower():
                 return self._bracketed(base) + raised
         written = base.drawn(self)
         return f"{{{written}}}{raised}" if "'" in written or "^" in written else written + raised

@@ -3,24 +3,31 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator
-from fractions import Fraction as Rational
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
 from functools import lru_cache
+from math import gcd
 from operator import add
-from typing import Any
+from typing import Any, TypeVar
 
-from polhode.algebra._expression import ZERO, Expr
+from flint.utils.flint_exceptions import DomainError
+
+from polhode.algebra._expression import ONE, ZERO, Expr
 from polhode.algebra._forms import (
     Factored,
+    content,
     factorised,
     in_shortest_squares,
+    over_cosines,
     powers_of,
     products,
     terms,
 )
 from polhode.algebra._functions import Elementary, Exponential
 from polhode.algebra._parts import under_letters
-from polhode.algebra._ring import Generator, Monomial, Polynomial, Ring, Symbol
+from polhode.algebra._ring import Generator, Monomial, Polynomial, Ring, Symbol, as_fraction
+from polhode.algebra._roots import SquareRoot, is_plainly_positive
 from polhode.algebra.printing._arrange import (
     CONSTANT_SUM,
     EXPONENTIAL,
@@ -37,16 +44,107 @@ from polhode.algebra.printing._nodes import (
     PrintName,
     PrintNode,
     PrintNumber,
+    PrintRadical,
     PrintSum,
-    Radical,
     fraction,
     power,
     product,
     total,
 )
-from polhode.algebra.printing._quotient import shortest_quotient
-from polhode.algebra.printing._radicals import Radicals, gathered
-from polhode.algebra.printing._sums_of_angles import in_sums_of_angles
+from polhode.algebra.printing._shorter import in_sums_of_angles, shortest_quotient
+
+# The roots of one term drawn together: √g/√a is printed √(g/a), and √(f²) is |f|.
+
+K = TypeVar("K")
+
+
+@dataclass(frozen=True)
+class Radicals:
+    """number · √radicand^power · Π |size|^power · Π loose root^power · Π generator^power."""
+
+    number: Fraction
+    radicand: Expr
+    power: int
+    sizes: dict[Expr, int]
+    loose: dict[SquareRoot, int]
+    powers: dict[Generator, int]
+
+
+def gathered(number: Fraction, powers: Mapping[Generator, int]) -> Radicals:
+    """The roots of a term, as far as their product is a root whatever the signs.
+
+    That is so for all whose radicands are positive, and for one more of unknown sign.
+    """
+    roots = {g: p for g, p in powers.items() if isinstance(g, SquareRoot)}
+    others = {g: p for g, p in powers.items() if g not in roots}
+    absolute = {root: absolute_of(root) for root in roots}
+    sizes = {f: roots[root] for root, f in absolute.items() if f is not None}
+    sizes, others = _with_squares_of_sizes(sizes, others)
+    plain = {root: p for root, p in roots.items() if absolute[root] is None}
+    safe = {root: p for root, p in plain.items() if is_plainly_positive(root.radicand)}
+    loose = {root: p for root, p in plain.items() if root not in safe}
+    if list(loose.values()) == [1]:
+        safe, loose = plain, {}
+    power = max(safe.values(), default=0)
+    radicand = ONE
+    for root, exponent in safe.items():
+        radicand = radicand * root.radicand ** (exponent * power)
+    if power > 0:
+        number, radicand = _with_number_below(number, radicand)
+        radicand, sizes = _with_divisors_inside(radicand, {f: f for f in sizes}, sizes)
+        positive = {g: Expr.generator(g) for g in others if g.positive}
+        radicand, others = _with_divisors_inside(radicand, positive, others)
+    return Radicals(number, radicand, power, sizes, loose, others)
+
+
+def _with_squares_of_sizes(
+    sizes: dict[Expr, int], powers: dict[Generator, int]
+) -> tuple[dict[Expr, int], dict[Generator, int]]:
+    """|f|/f² is 1/|f|."""
+    below = {g: Expr.generator(g) for g, p in powers.items() if p < 0 and p % 2 == 0}
+    squares = {below[g]: powers[g] for g in below if below[g] in sizes}
+    rest = {g: p for g, p in powers.items() if below.get(g) not in squares}
+    return {f: p + squares.get(f, 0) for f, p in sizes.items()}, rest
+
+
+def _with_number_below(number: Fraction, radicand: Expr) -> tuple[Fraction, Expr]:
+    """√(2g)/2 is √(g/2)."""
+    inside = content(as_fraction(c) for c in radicand.num.coeffs()).numerator
+    shared = gcd(inside, number.denominator)
+    if shared == 1 or radicand.rational is not None:
+        return number, radicand
+    return number * shared, radicand / shared**2
+
+
+def _with_divisors_inside(
+    radicand: Expr, values: Mapping[K, Expr], powers: dict[K, int]
+) -> tuple[Expr, dict[K, int]]:
+    """√(q r)/q is √(r/q), for values q that are not negative."""
+    found = dict(powers)
+    for key, value in values.items():
+        if found[key] < 0 and (radicand.numerator / value).is_polynomial:
+            radicand = radicand / value**2
+            found[key] += 1
+    return radicand, {key: p for key, p in found.items() if p}
+
+
+@lru_cache(maxsize=1024)
+def absolute_of(root: SquareRoot) -> Expr | None:
+    """The expression whose absolute value the root is, if it is one."""
+    ring, num = root.radicand.ring, root.radicand.num
+    for form in (num, over_cosines(ring, num), in_shortest_squares(ring, num)):
+        base = _exact_root(form)
+        if base is not None:
+            return Expr(ring, ring.reduce(base), ring.one)
+    return None
+
+
+def _exact_root(polynomial: Polynomial) -> Polynomial | None:
+    try:
+        return polynomial.sqrt()
+    except DomainError:
+        return None
+
 
 #: Terms are collected by constants, as in I₁(θ̇² + φ̇² sin²θ), only if so much is saved by it.
 _MUCH = 0.85
@@ -176,8 +274,8 @@ def _product(factored: Factored, sums: list[Placed]) -> PrintNode:
 
 
 def _turned(
-    number: Rational, sums: list[Placed], wrong: Callable[[Rational, PrintNode], bool]
-) -> tuple[Rational, list[Placed]]:
+    number: Fraction, sums: list[Placed], wrong: Callable[[Fraction, PrintNode], bool]
+) -> tuple[Fraction, list[Placed]]:
     """With the signs of sums turned where they are wrong, and the number's to match."""
     turned = []
     for rank, node, exponent in sums:
@@ -187,11 +285,11 @@ def _turned(
     return number, turned
 
 
-def _is_all_negative(_: Rational, node: PrintNode) -> bool:
+def _is_all_negative(_: Fraction, node: PrintNode) -> bool:
     return all(term.is_negative for term in _addends(node))
 
 
-def _takes_a_sign(outside: Rational, node: PrintNode) -> bool:
+def _takes_a_sign(outside: Fraction, node: PrintNode) -> bool:
     return outside < 0 and any(term.is_negative for term in _addends(node))
 
 
@@ -203,12 +301,12 @@ def _sum_rank(ring: Ring, polynomial: Polynomial) -> Rank:
 
 def _roots(radicals: Radicals) -> Iterator[Placed]:
     if radicals.power:
-        radicand = Radical(layout(radicals.radicand))
+        radicand = PrintRadical(layout(radicals.radicand))
         yield radical_rank(radicals.radicand.generators), radicand, radicals.power
     for size, exponent in radicals.sizes.items():
         yield absolute_value_rank(size.generators), PrintCall("abs", layout(size)), exponent
     for root, exponent in radicals.loose.items():
-        yield factor_rank(root), Radical(layout(root.radicand)), exponent
+        yield factor_rank(root), PrintRadical(layout(root.radicand)), exponent
 
 
 def _powers(powers: Powers) -> Iterator[Placed]:

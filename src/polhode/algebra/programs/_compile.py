@@ -12,11 +12,11 @@ from typing import Any, NamedTuple, TypeAlias
 from flint import fmpq
 
 from polhode.algebra._expression import ONE, ZERO, Expr, length
-from polhode.algebra._forms import extracted, shortest
+from polhode.algebra._forms import Factors, extracted, shortest
 from polhode.algebra._functions import CIRCULAR, Elementary, exponentials
-from polhode.algebra._half_angles import Factors, lowest
+from polhode.algebra._half_angles import lowest
 from polhode.algebra._parts import NamedPart
-from polhode.algebra._ring import PI, Generator, Polynomial, Ring, Symbol, SymbolKind
+from polhode.algebra._ring import PI, Generator, Polynomial, Ring, Symbol, SymbolKind, as_fraction
 from polhode.algebra._roots import SquareRoot, factors
 from polhode.algebra._vector import Matrix, Row
 from polhode.algebra.programs._program import Op, Program
@@ -268,7 +268,7 @@ class _TapeWriter:
 
     def _scaled(self, ring: Ring, polynomial: Polynomial, number: Fraction) -> Value:
         """A number times a sum, the number multiplied in where that costs no step."""
-        coefficients = [_rational(c) for c in polynomial.coeffs()]
+        coefficients = [as_fraction(c) for c in polynomial.coeffs()]
         inside = sum(abs(c * number) != 1 for c in coefficients)
         outside = sum(abs(c) != 1 for c in coefficients) + (abs(number) != 1)
         if inside < outside:
@@ -299,7 +299,7 @@ class _TapeWriter:
         product = reduce(self.tape.multiply, powers, self.tape.one)
         if coefficient == 1:
             return product
-        return self.tape.multiply(self.tape.constant(_rational(coefficient)), product)
+        return self.tape.multiply(self.tape.constant(as_fraction(coefficient)), product)
 
 
 @lru_cache(maxsize=16384)
@@ -345,7 +345,7 @@ def _factored(ring: Ring, polynomial: Polynomial) -> tuple[Fraction, Factors]:
     if ring.has_parts or len(polynomial) > _LONG:
         return _extracted(ring, polynomial)
     content, factors = polynomial.factor()
-    return _rational(content), [(factor, int(exponent)) for factor, exponent in factors]
+    return as_fraction(content), [(factor, int(exponent)) for factor, exponent in factors]
 
 
 def _extracted(ring: Ring, polynomial: Polynomial) -> tuple[Fraction, Factors]:
@@ -378,7 +378,3 @@ def _split(
         else:
             rest[monomial] = coefficient
     return ring.context.from_dict(inner), ring.context.from_dict(rest)
-
-
-def _rational(number: Any) -> Fraction:
-    return Fraction(int(number.p), int(number.q))

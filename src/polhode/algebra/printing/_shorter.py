@@ -1,4 +1,4 @@
-"""Functions of sums and differences of angles: cos(α - β) for cos α cos β + sin α sin β."""
+"""Fractions with their denominators as a text has them: 1/cos θ for cos θ/(1 - sin²θ)."""
 
 from __future__ import annotations
 
@@ -6,11 +6,73 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
+from math import prod
 from operator import le, sub
 
+from polhode.algebra._expression import Expr
+from polhode.algebra._forms import traded
 from polhode.algebra._functions import CIRCULAR, Even
-from polhode.algebra._ring import Monomial, Polynomial, Ring, ring_of
+from polhode.algebra._half_angles import Lowest, lowest
+from polhode.algebra._ring import Generator, Monomial, Polynomial, Ring, ring_of
 from polhode.algebra.printing._arrange import factor_rank
+
+Quotient = tuple[Polynomial, Polynomial]
+
+
+def shortest_quotient(expression: Expr) -> Quotient:
+    """Numerator and denominator, with cosines and roots in the denominator where shorter."""
+    ring, best = expression.ring, (expression.num, expression.den)
+    if expression.is_polynomial:
+        return best
+    cancelled = lowest(expression)
+    if cancelled is not None:
+        best = _over_whole_numbers(cancelled)
+    for rewrite in (_conjugated, _over_cosines):
+        for generator in ring.generators:
+            if generator.depth:
+                best = min(best, rewrite(ring, best, generator), key=_bulk)
+    return best
+
+
+def _over_whole_numbers(fraction: Lowest) -> Quotient:
+    return _cancelled(fraction.num, prod(factor**e for factor, e in fraction.factors))
+
+
+def _bulk(quotient: Quotient) -> int:
+    return sum(
+        1 + sum(1 for power in monomial if power)
+        for polynomial in quotient
+        for monomial in polynomial.monoms()
+    )
+
+
+def _conjugated(ring: Ring, quotient: Quotient, generator: Generator) -> Quotient:
+    """Multiplied above and below so that the generator leaves the numerator."""
+    num, den = quotient
+    position = ring.index[generator]
+    if num.degrees()[position] != 1:
+        return quotient
+    even, odd = ring.split(num, position)
+    variable = ring.variable(generator)
+    conjugate = even - odd * variable if even != 0 else variable
+    above, below = ring.reduce(num * conjugate), ring.reduce(den * conjugate)
+    return _cancelled(above, below) if above != 0 else quotient
+
+
+def _over_cosines(ring: Ring, quotient: Quotient, generator: Generator) -> Quotient:
+    partner = generator.partner()
+    if partner is None or quotient[1].degrees()[ring.index[partner[0]]] < 2:
+        return quotient
+    num, den = (traded(ring, polynomial, generator) for polynomial in quotient)
+    return _cancelled(num, den)
+
+
+def _cancelled(num: Polynomial, den: Polynomial) -> Quotient:
+    common = num.gcd(den)
+    return num / common, den / common
+
+
+# Functions of sums and differences of angles: cos(α - β) for cos α cos β + sin α sin β.
 
 #: Longer polynomials are printed as they are.
 _LONGEST = 80
