@@ -70,7 +70,16 @@ def integrate(
 
 def _primitive(integrand: Expr, variable: Symbol) -> Expr:
     x = Expr.generator(variable)
-    unit = _angular_unit(integrand, variable)
+    # functions of the variable x must be those of kx, k being the unit
+    unit = ONE
+    for generator in integrand.generators:
+        if generator == variable or variable not in generator.symbols():
+            continue
+        if not isinstance(generator, Elementary) or generator.family != CIRCULAR:
+            raise _not_integrable(integrand, variable)
+        unit = generator.argument / x
+        if variable in unit.symbols():
+            raise _not_integrable(integrand, variable)
     result = ZERO
     if variable in integrand.denominator.symbols():
         raise _not_integrable(integrand, variable)
@@ -87,20 +96,6 @@ def _primitive(integrand: Expr, variable: Symbol) -> Expr:
         else:
             result = result + rest * x ** (length + 1) / (length + 1)
     return result / integrand.denominator
-
-
-def _angular_unit(integrand: Expr, variable: Symbol) -> Expr:
-    """The factor k where the functions of the variable x are those of kx."""
-    unit = ONE
-    for generator in integrand.generators:
-        if generator == variable or variable not in generator.symbols():
-            continue
-        if not isinstance(generator, Elementary) or generator.family != CIRCULAR:
-            raise _not_integrable(integrand, variable)
-        unit = generator.argument / Expr.generator(variable)
-        if variable in unit.symbols():
-            raise _not_integrable(integrand, variable)
-    return unit
 
 
 def _circular_primitive(sines: int, cosines: int, angle: Expr) -> Expr:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
-from math import prod
+from math import isfinite, prod
 from numbers import Rational
 from typing import Any, ClassVar, TypeAlias, Union
 
@@ -110,7 +110,9 @@ class Expr(Shown):
         if isinstance(value, Rational):
             return cls.constant(Fraction(int(value.numerator), int(value.denominator)))
         if isinstance(value, float):
-            return cls.constant(_decimal(value))
+            if not isfinite(value):
+                raise NumericError(f"the number {value}", expected="a finite number", advice="")
+            return cls.constant(Fraction(repr(float(value))))  # the decimal that it prints as
         if type(value).__module__.startswith("sympy"):
             return cls.facilities.from_sympy(value)
         if _is_numpy_scalar(value):
@@ -421,13 +423,6 @@ def _rebuilt(generators: tuple[Generator, ...], num: PlainTerms, den: PlainTerms
     """The expression that was pickled."""
     ring = ring_of(frozenset(generators))
     return Expr(ring, ring.polynomial(generators, num), ring.polynomial(generators, den))
-
-
-def _decimal(value: float) -> Fraction:
-    """The decimal that a float prints as."""
-    if value != value or value in (float("inf"), float("-inf")):
-        raise NumericError(f"the number {value}", expected="a finite number", advice="")
-    return Fraction(repr(float(value)))
 
 
 def _is_numpy_scalar(value: object) -> bool:

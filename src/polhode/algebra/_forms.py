@@ -1,4 +1,4 @@
-"""Other forms of one polynomial: cos² written for sin² where that is shorter."""
+"""Other forms of one polynomial: cos² for sin² where that is shorter, and products."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def traded(ring: Ring, polynomial: Polynomial, even: Generator) -> Polynomial:
     return ring.folded(polynomial, ring.index[odd], sign * (ring.variable(even) ** 2 - 1))
 
 
-# Squares of sines or of cosines, whichever is shorter, decided for every cofactor.
+# -- squares of sines or of cosines, whichever is shorter ------------------------------------------
 
 #: Coefficients by half the powers of (odd, even).
 Binary = dict[tuple[int, int], Any]
@@ -108,7 +108,7 @@ def _in_both(parts: Sequence[Any], sign: int) -> Binary:
 _FORMS: tuple[Callable[[Sequence[Any], int], Binary], ...] = (_in_odd, _in_even, _in_both)
 
 
-# Polynomials as products: a number, powers of generators, and sums.
+# -- products --------------------------------------------------------------------------------------
 
 #: Polynomials with their powers.
 Factors = list[tuple[Polynomial, int]]

@@ -290,18 +290,14 @@ def _related(units: set[Fraction]) -> list[tuple[set[Fraction], Fraction]]:
     groups: list[tuple[set[Fraction], Fraction]] = []
     for unit in sorted(units, reverse=True):
         for i, (group, common) in enumerate(groups):
-            finer = _common_unit(common, unit)
+            below = lcm(common.denominator, unit.denominator)
+            finer = Fraction(gcd(int(common * below), int(unit * below)), below)
             if max(group) / finer <= _LARGEST_RATIO:
                 groups[i] = (group | {unit}, finer)
                 break
         else:
             groups.append(({unit}, unit))
     return groups
-
-
-def _common_unit(first: Fraction, second: Fraction) -> Fraction:
-    below = lcm(first.denominator, second.denominator)
-    return Fraction(gcd(int(first * below), int(second * below)), below)
 
 
 def _cosine_of_turn(multiple: Fraction) -> Expr:

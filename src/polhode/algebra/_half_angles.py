@@ -45,7 +45,18 @@ def _lowest(expression: Expr, _generators: tuple[Generator, ...]) -> Lowest | No
     left = {a: 2 * degrees[a] - a.power(common) for a in angles}
     if common.is_constant() or _odd(left):
         return None
-    return _in_angles(above / common, below / common, left)
+    # back in sines and cosines, which takes even degrees
+    number, parts = _by_multiplicity(below / common)
+    missing = {
+        angle: degree - sum(angle.power(part) * exponent for part, exponent in parts)
+        for angle, degree in left.items()
+    }
+    powers = [{angle: angle.power(part) for angle in left} for part, _ in parts]
+    if any(map(_odd, (missing, *powers))):
+        return None
+    factors = [(_back(p, own), e) for (p, e), own in zip(parts, powers, strict=True)]
+    factors += [(angle.cosine_squared, degree // 2) for angle, degree in missing.items() if degree]
+    return Lowest(_back(above / common, left) / number, factors)
 
 
 def lowest_numerator(expression: Expr) -> Expr:
@@ -54,21 +65,6 @@ def lowest_numerator(expression: Expr) -> Expr:
     if cancelled is None:
         return expression.numerator
     return Expr(expression.ring, cancelled.num, expression.ring.one)
-
-
-def _in_angles(above: Polynomial, below: Polynomial, degrees: Degrees) -> Lowest | None:
-    """Back in sines and cosines, which takes even degrees; None where there are odd ones."""
-    number, parts = _by_multiplicity(below)
-    missing = {
-        angle: degree - sum(angle.power(part) * exponent for part, exponent in parts)
-        for angle, degree in degrees.items()
-    }
-    powers = [{angle: angle.power(part) for angle in degrees} for part, _ in parts]
-    if any(map(_odd, (missing, *powers))):
-        return None
-    factors = [(_back(p, own), e) for (p, e), own in zip(parts, powers, strict=True)]
-    factors += [(angle.cosine_squared, degree // 2) for angle, degree in missing.items() if degree]
-    return Lowest(_back(above, degrees) / number, factors)
 
 
 def _odd(degrees: Degrees) -> bool:

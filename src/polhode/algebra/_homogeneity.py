@@ -31,17 +31,17 @@ def dimension_of(expression: Expr, known: Mapping[Symbol, Dimension]) -> Dimensi
 
 def _of_sum(polynomial: Expr, known: Mapping[Symbol, Dimension]) -> Dimension:
     products = (powers for powers, _ in polynomial.terms())
-    found = dict.fromkeys(_of_product(powers, known) for powers in products if not _bare(powers))
+    found = dict.fromkeys(
+        _of_product(powers, known)
+        for powers in products
+        if not all(g.symbols() <= pi.symbols() for g in powers)
+    )
     if len(found) > 1:
         raise UnitError(
             f"{polynomial} adds quantities in {' and '.join(map(str, found))}",
             expected="terms of one dimension",
         )
     return next(iter(found), PURE)
-
-
-def _bare(powers: Mapping[Generator, int]) -> bool:
-    return all(g.symbols() <= pi.symbols() for g in powers)
 
 
 def _of_product(powers: Mapping[Generator, int], known: Mapping[Symbol, Dimension]) -> Dimension:

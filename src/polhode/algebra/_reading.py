@@ -21,7 +21,7 @@ from polhode.algebra._roots import absolute, sqrt
 from polhode.algebra._symbols import time
 from polhode.base import NumericError, ParseError
 
-# Arithmetic on typed expressions that refuses, before it is tried, what would take long.
+# -- arithmetic that refuses beforehand what would take long ---------------------------------------
 
 HIGHEST = 64  # power
 MOST_TERMS = 2000  # of an expression multiplied out

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
@@ -259,7 +259,9 @@ class Ring:
         if den.is_constant():
             return num / den.leading_coefficient(), self.one
         common = den
-        for part in self._over_transcendentals(num):
+        positions = [position for position, _ in self.algebraic]
+        parts = self.grouped(num, positions).values() if positions else (num,)
+        for part in parts:  # coefficients of the products of algebraic generators
             common = common.gcd(part)
             if common.is_constant():
                 break
@@ -301,11 +303,6 @@ class Ring:
             table[tuple(monomial)] = fmpq(p, q)
         return self.context.from_dict(table)
 
-    def _over_transcendentals(self, num: Polynomial) -> Iterable[Polynomial]:
-        """Coefficients of `num` over the monomials of the algebraic generators."""
-        positions = [position for position, _ in self.algebraic]
-        return self.grouped(num, positions).values() if positions else (num,)
-
 
 @lru_cache(_MEMORY)
 def _ball(generator: Generator, state: int) -> Ball:
@@ -339,11 +336,7 @@ def _ring_of(generators: frozenset[Generator], positive: frozenset[str]) -> Ring
         closure |= needed
     if len(closure) > len(generators):
         return ring_of(frozenset(closure))
-    return Ring(_ordered(closure))
-
-
-def _ordered(generators: set[Generator]) -> tuple[Generator, ...]:
-    symbols = sorted(frozenset().union(*(g.symbols() for g in generators)), key=lambda s: s.key)
+    symbols = sorted(frozenset().union(*(g.symbols() for g in closure)), key=lambda s: s.key)
     for first, second in pairwise(symbols):
         if first.key == second.key:
             raise DeclarationError(
@@ -351,7 +344,7 @@ def _ordered(generators: set[Generator]) -> tuple[Generator, ...]:
                 expected="one meaning for one name",
                 advice="rename one of them",
             )
-    return tuple(sorted(generators, key=lambda g: g.key))
+    return Ring(tuple(sorted(closure, key=lambda g: g.key)))
 
 
 @lru_cache(maxsize=16384)

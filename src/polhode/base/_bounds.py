@@ -52,16 +52,11 @@ def ended_with(descriptor: int) -> Iterator[None]:
     except (AttributeError, ImportError, OSError):
         yield
         return
-    _end_if_alone(descriptor)
+    other_end = select.poll()
+    other_end.register(descriptor, 0)
+    if other_end.poll(0):  # closed already: no signal will come
+        os.kill(os.getpid(), signal.SIGIO)
     try:
         yield
     finally:
         fcntl.fcntl(descriptor, fcntl.F_SETFL, before)
-
-
-def _end_if_alone(descriptor: int) -> None:
-    """The signal comes when the other end closes, not where it has been closed before."""
-    looked = select.poll()
-    looked.register(descriptor, 0)
-    if looked.poll(0):
-        os.kill(os.getpid(), signal.SIGIO)

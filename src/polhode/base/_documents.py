@@ -161,22 +161,19 @@ class _PlainWriter:
     def reference(self, value: object) -> dict[str, int]:
         """Stands for an object, which is written where it has not been yet."""
         if id(value) not in self._seen:
-            self._seen[id(value)] = (value, self._written(value))  # kept alive: ids are reused
+            shape = self._shapes.get(type(value))
+            if shape is None:
+                raise StoreError(
+                    f"a {type(value).__name__} in a declaration",
+                    expected="the classes of polhode: others could not be read back",
+                )
+            fields = {name: self._field(field) for name, field in shape.apart(value).items()}
+            part = json.dumps({"is": shape.name, **fields})
+            if part not in self._known:
+                self._known[part] = len(self.parts)
+                self.parts.append(part)
+            self._seen[id(value)] = (value, self._known[part])  # kept alive: ids are reused
         return {_REFERENCE: self._seen[id(value)][1]}
-
-    def _written(self, value: object) -> int:
-        shape = self._shapes.get(type(value))
-        if shape is None:
-            raise StoreError(
-                f"a {type(value).__name__} in a declaration",
-                expected="the classes of polhode: others could not be read back",
-            )
-        fields = {name: self._field(field) for name, field in shape.apart(value).items()}
-        part = json.dumps({"is": shape.name, **fields})
-        if part not in self._known:
-            self._known[part] = len(self.parts)
-            self.parts.append(part)
-        return self._known[part]
 
     def _field(self, value: object) -> object:
         if value is None or isinstance(value, bool | int | str):

@@ -1,4 +1,4 @@
-"""The one family of errors, and what each means to a shell."""
+"""The one family of errors, their exit codes, and the errors that many modules raise."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ def _rebuilt(
     return kind(given, expected=expected, advice=advice, option=option)
 
 
-# Libraries that polhode can do without, told of where they are missed.
+# -- errors that many modules raise ----------------------------------------------------------------
 
 
 @contextmanager
@@ -108,8 +108,6 @@ def extra(library: str, name: str) -> Iterator[None]:
             advice=f"pip install 'polhode[{name}]'",
         ) from error
 
-
-# What is known under a name, and the nearest names where nothing is.
 
 Known = TypeVar("Known")
 

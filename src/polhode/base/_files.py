@@ -20,7 +20,11 @@ def write_whole(path: Path, content: bytes) -> None:
     """
     part = None
     try:
-        _refuse_devices(path)
+        if path.exists() and not (path.is_file() or path.is_dir()):
+            raise StoreError(
+                f"{path} cannot be written (it is a device or a pipe)",
+                expected="the name of a file",
+            )
         descriptor, part = tempfile.mkstemp(suffix=".part", dir=path.parent)
         with os.fdopen(descriptor, "wb") as stream:
             stream.write(content)
@@ -58,10 +62,3 @@ def read_whole(path: Path, expected: str) -> bytes:
     if len(content) > _MOST:
         raise StoreError(f"{path} cannot be read (there is no end to it)", expected=expected)
     return content
-
-
-def _refuse_devices(path: Path) -> None:
-    if path.exists() and not (path.is_file() or path.is_dir()):
-        raise StoreError(
-            f"{path} cannot be written (it is a device or a pipe)", expected="the name of a file"
-        )

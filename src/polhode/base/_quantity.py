@@ -53,7 +53,17 @@ def read_quantity(text: str) -> Quantity:
     """
     match = _NUMBER.match(text)
     assert match is not None  # every part of the pattern is optional
-    number, unit_text = _signed(match), text[match.end() :].strip()
+    if match.end() > _LONGEST:
+        raise UnitError(
+            f"a number of {match.end()} characters", expected=f"one of at most {_LONGEST}"
+        )
+    divisor = Fraction(match["divisor"] or 1)
+    if not (match["factor"] or match["pi"]) or divisor == 0:
+        raise _unreadable(match.string)
+    number = Fraction(match["factor"] or 1) / divisor
+    if match["sign"] in ("-", "−"):
+        number = -number
+    unit_text = text[match.end() :].strip()
     unit = read_unit(unit_text.removeprefix("*")) if unit_text else Unit()
     quantity = Quantity(
         number * unit.coefficient,
@@ -99,18 +109,6 @@ _NUMBER = re.compile(
     (?:\s*/\s*(?P<divisor>{_DECIMAL}))?""",
     re.VERBOSE,
 )
-
-
-def _signed(match: re.Match[str]) -> Fraction:
-    if match.end() > _LONGEST:
-        raise UnitError(
-            f"a number of {match.end()} characters", expected=f"one of at most {_LONGEST}"
-        )
-    divisor = Fraction(match["divisor"] or 1)
-    if not (match["factor"] or match["pi"]) or divisor == 0:
-        raise _unreadable(match.string)
-    size = Fraction(match["factor"] or 1) / divisor
-    return -size if match["sign"] in ("-", "−") else size
 
 
 def _quantity(value: Value) -> Quantity:

@@ -1,4 +1,4 @@
-"""Units of measure, and the table of those that have a name."""
+"""Dimensions, the table of units, and compound units such as ``kg m^2/s``."""
 
 from __future__ import annotations
 
@@ -8,8 +8,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from polhode.base._errors import UnitError
-
-# Dimension: the powers of mass, length and time in a quantity.
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +121,7 @@ UNITS: dict[str, Unit] = {
 """Every name, prefixes included."""
 
 
-# Compound units as people write them, such as ``kg m^2/s``.
+# -- compound units as people write them -----------------------------------------------------------
 
 
 def read_unit(text: str) -> Unit:

@@ -1,4 +1,4 @@
-"""Contacts of a body with a support: rolling, frictionless, sliding with friction."""
+"""Contacts of a body with a support: rolling, frictionless, with dry friction, and their phases."""
 
 from __future__ import annotations
 
@@ -255,7 +255,7 @@ def _described(support: object) -> str:
     return "nothing" if support is None else f"a {type(support).__name__}"
 
 
-# What a contact can be doing: the element that stands for it in each of its phases.
+# -- the phases of a contact, and the element that stands for it in each ---------------------------
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Declarations as they are read: line by line as text, in a notebook as a table."""
+"""What all declarations share: how they print, and the checks of what they are given."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ class FieldwiseRepr(Shown):
     @property
     def brief(self) -> str:
         """What it is called within another declaration."""
-        return " ".join([type(self).__name__, *map(repr, self._called)])
+        name = getattr(self, "name", "")
+        return f"{type(self).__name__} {name!r}" if name else type(self).__name__
 
     @property
     def parts(self) -> Iterator[tuple[str, object]]:
@@ -27,14 +28,10 @@ class FieldwiseRepr(Shown):
             if field.name != "name" and value not in (None, "", ()):
                 yield field.name.replace("_", " "), value
 
-    @property
-    def _called(self) -> list[str]:
-        return [name] if (name := getattr(self, "name", "")) else []
-
     def __str__(self) -> str:
-        told = [(name, brief(value)) for name, value in self.parts]
-        width = max((len(name) for name, _ in told), default=0)
-        return "\n".join([self.brief, *(f"  {name:{width}}  {text}" for name, text in told)])
+        parts = [(name, brief(value)) for name, value in self.parts]
+        width = max((len(name) for name, _ in parts), default=0)
+        return "\n".join([self.brief, *(f"  {name:{width}}  {text}" for name, text in parts)])
 
 
 def brief(value: object) -> str:
@@ -44,7 +41,7 @@ def brief(value: object) -> str:
     return str(getattr(value, "brief", value))
 
 
-# What declarations are refused for, so that every message names the quantity it is about.
+# -- checks, whose messages name the quantity that they are about ----------------------------------
 
 
 def quantity(value: ExprLike, what: str) -> Expr:

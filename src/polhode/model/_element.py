@@ -113,7 +113,7 @@ def require_two(name: str, body: Body, other: Body) -> None:
         )
 
 
-# A body that nothing places: its centre of mass has three coordinates of its own.
+# -- free flight -----------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)

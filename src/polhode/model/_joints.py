@@ -1,4 +1,4 @@
-"""Joints by couples: what holds a body to an axis, in a plane, or at a rate."""
+"""Joints: couples that hold a body to an axis, in a plane or at a rate; pivots and welds."""
 
 from __future__ import annotations
 
@@ -219,7 +219,7 @@ def _carrying(direction: Vector) -> Vector:
     return direction.cross(direction.dt())
 
 
-# Joints at a point: pivots, welds, and points kept at rest.
+# -- joints at a point -----------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, init=False)

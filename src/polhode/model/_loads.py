@@ -102,7 +102,8 @@ class Gravity(Load):
         if up is not None:
             what = f"the direction up of {name!r}"
             unit_vector(up, what)
-            without_coordinates(_at_rest(up).components, what, _NO_POTENTIAL)
+            at_rest = up.express(up.triad.root) if isinstance(up.triad, Frame) else up
+            without_coordinates(at_rest.components, what, _NO_POTENTIAL)
         for field, value in (("g", strength), ("up", up), ("name", name)):
             object.__setattr__(self, field, value)
 
@@ -225,11 +226,10 @@ class Spring(Load):
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
     ) -> tuple[Action, ...]:
         between = self._stretch(places)
-        tension = self.stiffness if not self.length else self._tension(between)
-        return _pair(self.start, self.end, between * -tension)
-
-    def _tension(self, between: Vector) -> Expr:
-        return self.stiffness * (1 - self.length / between.norm())
+        rate = self.stiffness  # tension over distance, N/m
+        if self.length:
+            rate = rate * (1 - self.length / between.norm())
+        return _pair(self.start, self.end, between * -rate)
 
     def potential(self, bodies: tuple[Body, ...], places: Places) -> Expr:
         between = self._stretch(places)
@@ -317,8 +317,3 @@ def _pair(start: BodyPoint, end: BodyPoint | Vector, force: Vector) -> tuple[Act
 def _pushes(end: BodyPoint | Vector, actions: tuple[Action, ...]) -> tuple[Push, ...]:
     """What the first of two opposite forces is answered by, at a place."""
     return () if isinstance(end, BodyPoint) else (Push(-actions[0].force, end.dt()),)
-
-
-def _at_rest(vector: Vector) -> Vector:
-    """Resolved along the root frame."""
-    return vector.express(vector.triad.root) if isinstance(vector.triad, Frame) else vector

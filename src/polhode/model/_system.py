@@ -47,7 +47,14 @@ class System(Shown):
         _refuse_twins("body", [body.name for body in bodies])
         _refuse_twins("contact or joint", [element.name for element in elements])
         _refuse_twins("load", [load.name for load in loads])
-        _root(bodies)
+        roots = {body.axes.root for body in bodies}
+        if len(roots) > 1:
+            names = ", ".join(sorted(frame.name for frame in roots))
+            raise DeclarationError(
+                f"bodies whose axes start from different frames: {names}",
+                expected="frames turned out of one root",
+                advice="build all axes from the same Frame",
+            )
         kept = tuple(as_symbol(speed) for speed in independent)
         values = {
             "bodies": bodies,
@@ -104,6 +111,7 @@ def _named(name: str, things: Iterable[Found], what: str) -> Found:
 
 
 def _bodies(parts: Iterable[Part]) -> tuple[Body, ...]:
+    """The bodies of a system, and those that its contacts, joints and loads name."""
     found: dict[Body, None] = {}
     for part in parts:
         if isinstance(part, Body):
@@ -134,18 +142,7 @@ def _refuse_twins(what: str, names: list[str]) -> None:
             )
 
 
-def _root(bodies: Iterable[Body]) -> None:
-    roots = {body.axes.root for body in bodies}
-    if len(roots) > 1:
-        names = ", ".join(sorted(frame.name for frame in roots))
-        raise DeclarationError(
-            f"bodies whose axes start from different frames: {names}",
-            expected="frames turned out of one root",
-            advice="build all axes from the same Frame",
-        )
-
-
-# The same system with one thing changed.
+# -- the same system with one thing changed --------------------------------------------------------
 
 
 def with_elements(system: System, elements: dict[str, Element]) -> System:

@@ -26,7 +26,10 @@ def latex(expression: Expr) -> str:
 def latex_of_symbol(symbol: Symbol) -> str:
     r"""LaTeX of a symbol: `\dot{\omega}_3` for omega_3_dot, `F'_{\rho}` for Fprime_rho."""
     spelling = Spelling.of(symbol)
-    return _dotted(_letter(spelling.stem), spelling.dots) + _marks(spelling)
+    subscript = ",".join(s if s.isdigit() else _letter(s) for s in spelling.subscripts)
+    below = f"_{subscript}" if len(subscript) == 1 else f"_{{{subscript}}}"
+    letter = _dotted(_letter(spelling.stem), spelling.dots) + "'" * spelling.primes
+    return letter + (below if subscript else "")
 
 
 def mathml(formula: str) -> str:
@@ -51,12 +54,6 @@ def _dotted(letter: str, dots: int) -> str:
     if dots < len(_ACCENTS):
         return rf"\{_ACCENTS[dots]}{{{letter}}}"
     return rf"{letter}^{{({dots})}}"
-
-
-def _marks(spelling: Spelling) -> str:
-    subscript = ",".join(s if s.isdigit() else _letter(s) for s in spelling.subscripts)
-    below = f"_{subscript}" if len(subscript) == 1 else f"_{{{subscript}}}"
-    return "'" * spelling.primes + (below if subscript else "")
 
 
 class _Latex:

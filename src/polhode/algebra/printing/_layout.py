@@ -53,7 +53,7 @@ from polhode.algebra.printing._nodes import (
 )
 from polhode.algebra.printing._shorter import in_sums_of_angles, shortest_quotient
 
-# The roots of one term drawn together: √g/√a is printed √(g/a), and √(f²) is |f|.
+# -- the roots of one term: √g/√a is printed √(g/a), and √(f²) is |f| ------------------------------
 
 K = TypeVar("K")
 
@@ -79,7 +79,10 @@ def gathered(number: Fraction, powers: Mapping[Generator, int]) -> Radicals:
     others = {g: p for g, p in powers.items() if g not in roots}
     absolute = {root: absolute_of(root) for root in roots}
     sizes = {f: roots[root] for root, f in absolute.items() if f is not None}
-    sizes, others = _with_squares_of_sizes(sizes, others)
+    below = {g: Expr.generator(g) for g, p in others.items() if p < 0 and p % 2 == 0}
+    squares = {below[g]: others[g] for g in below if below[g] in sizes}  # |f|/f² is 1/|f|
+    others = {g: p for g, p in others.items() if below.get(g) not in squares}
+    sizes = {f: p + squares.get(f, 0) for f, p in sizes.items()}
     plain = {root: p for root, p in roots.items() if absolute[root] is None}
     safe = {root: p for root, p in plain.items() if is_plainly_positive(root.radicand)}
     loose = {root: p for root, p in plain.items() if root not in safe}
@@ -95,16 +98,6 @@ def gathered(number: Fraction, powers: Mapping[Generator, int]) -> Radicals:
         positive = {g: Expr.generator(g) for g in others if g.positive}
         radicand, others = _with_divisors_inside(radicand, positive, others)
     return Radicals(number, radicand, power, sizes, loose, others)
-
-
-def _with_squares_of_sizes(
-    sizes: dict[Expr, int], powers: dict[Generator, int]
-) -> tuple[dict[Expr, int], dict[Generator, int]]:
-    """|f|/f² is 1/|f|."""
-    below = {g: Expr.generator(g) for g, p in powers.items() if p < 0 and p % 2 == 0}
-    squares = {below[g]: powers[g] for g in below if below[g] in sizes}
-    rest = {g: p for g, p in powers.items() if below.get(g) not in squares}
-    return {f: p + squares.get(f, 0) for f, p in sizes.items()}, rest
 
 
 def _with_number_below(number: Fraction, radicand: Expr) -> tuple[Fraction, Expr]:

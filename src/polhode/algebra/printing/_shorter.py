@@ -1,4 +1,4 @@
-"""Fractions with their denominators as a text has them: 1/cos θ for cos θ/(1 - sin²θ)."""
+"""Shorter forms for print: 1/cos θ for cos θ/(1 - sin²θ), and functions of sums of angles."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from operator import le, sub
 from polhode.algebra._expression import Expr
 from polhode.algebra._forms import traded
 from polhode.algebra._functions import CIRCULAR, Even
-from polhode.algebra._half_angles import Lowest, lowest
+from polhode.algebra._half_angles import lowest
 from polhode.algebra._ring import Generator, Monomial, Polynomial, Ring, ring_of
 from polhode.algebra.printing._arrange import factor_rank
 
@@ -26,16 +26,12 @@ def shortest_quotient(expression: Expr) -> Quotient:
         return best
     cancelled = lowest(expression)
     if cancelled is not None:
-        best = _over_whole_numbers(cancelled)
+        best = _cancelled(cancelled.num, prod(factor**e for factor, e in cancelled.factors))
     for rewrite in (_conjugated, _over_cosines):
         for generator in ring.generators:
             if generator.depth:
                 best = min(best, rewrite(ring, best, generator), key=_bulk)
     return best
-
-
-def _over_whole_numbers(fraction: Lowest) -> Quotient:
-    return _cancelled(fraction.num, prod(factor**e for factor, e in fraction.factors))
 
 
 def _bulk(quotient: Quotient) -> int:
@@ -72,7 +68,7 @@ def _cancelled(num: Polynomial, den: Polynomial) -> Quotient:
     return num / common, den / common
 
 
-# Functions of sums and differences of angles: cos(α - β) for cos α cos β + sin α sin β.
+# -- cos(α - β) for cos α cos β + sin α sin β ------------------------------------------------------
 
 #: Longer polynomials are printed as they are.
 _LONGEST = 80
@@ -102,7 +98,16 @@ def in_sums_of_angles(ring: Ring, polynomial: Polynomial) -> tuple[Ring, Polynom
     """The shortest form found, in a ring that has the functions needed; in general not reduced."""
     if len(polynomial) > _LONGEST:
         return ring, polynomial
-    for first, second in combinations(_angles(ring, polynomial), 2):
+    degrees = polynomial.degrees()
+    angles = [  # that occur by their cosines or sines
+        g
+        for g in ring.generators
+        if isinstance(g, Even)
+        and g.family is CIRCULAR
+        and g.base.symbol is not None
+        and (degrees[ring.index[g]] or degrees[ring.index[g.partner()[0]]])
+    ]
+    for first, second in combinations(sorted(angles, key=factor_rank), 2):
         wider = ring_of(frozenset(ring.generators) | set(_functions(first, second)))
         exchanges = list(_exchanges(wider, first, second))
         shorter = _shortened(wider, exchanges, wider.lift(ring, polynomial))
@@ -116,20 +121,6 @@ def _shortened(ring: Ring, exchanges: list[_Exchange], polynomial: Polynomial) -
     while found := [p for e in exchanges for p in e.applied(ring, polynomial)]:
         polynomial = min(found, key=len)
     return polynomial
-
-
-def _angles(ring: Ring, polynomial: Polynomial) -> list[Even]:
-    """Cosines of single angles that occur, themselves or their sines, in the order of print."""
-    degrees = polynomial.degrees()
-    found = [
-        g
-        for g in ring.generators
-        if isinstance(g, Even)
-        and g.family is CIRCULAR
-        and g.base.symbol is not None
-        and (degrees[ring.index[g]] or degrees[ring.index[g.partner()[0]]])
-    ]
-    return sorted(found, key=factor_rank)
 
 
 def _functions(first: Even, second: Even) -> Iterator[Even]:

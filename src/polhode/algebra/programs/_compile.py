@@ -23,7 +23,7 @@ from polhode.algebra.programs._program import Op, Program
 from polhode.algebra.programs._tape import Tape, Value, solve_on
 from polhode.base import DeclarationError, NumericError
 
-# Sums about the place that an exponent is counted from.
+# -- sums about the place that an exponent is counted from -----------------------------------------
 #
 # The second derivative of exp(−(t − c)²/w²) has the factor 2(t − c)² − w². Multiplied out, as
 # 2t² − 4ct + 2c² − w², it loses the digits of t²/w².
@@ -227,7 +227,12 @@ class _TapeWriter:
 
     def _symbol(self, symbol: Symbol) -> Value:
         if symbol in self._solves:
-            self._solve(self._solves[symbol])
+            solve = self._solves[symbol]
+            matrix, column = _divided(solve)
+            rows = [[self.expression(entry) for entry in row] for row in matrix.rows]
+            right = [self.expression(entry) for entry in column]
+            values = solve_on(self.tape, rows, right, symmetric=matrix == matrix.T)
+            self._values.update(zip(solve.unknowns, values, strict=True))
             return self._values[symbol]
         meaning = self._where(symbol)
         if meaning is not None:
@@ -239,13 +244,6 @@ class _TapeWriter:
             expected="a value for every symbol that occurs",
             advice=f"give {symbol.published} or define it",
         )
-
-    def _solve(self, solve: LinearSolve) -> None:
-        matrix, column = _divided(solve)
-        rows = [[self.expression(entry) for entry in row] for row in matrix.rows]
-        right = [self.expression(entry) for entry in column]
-        values = solve_on(self.tape, rows, right, symmetric=matrix == matrix.T)
-        self._values.update(zip(solve.unknowns, values, strict=True))
 
     # -- polynomials ----------------------------------------------------------------------------
 
@@ -343,16 +341,12 @@ def _factored(ring: Ring, polynomial: Polynomial) -> tuple[Fraction, Factors]:
     if polynomial == 0:
         return Fraction(0), []
     if ring.has_parts or len(polynomial) > _LONG:
-        return _extracted(ring, polynomial)
+        # only what all terms have in common: of many generators, further factors are rare and dear
+        outside = extracted(ring, polynomial)
+        powers = [(ring.variable(g), power) for g, power in outside.powers.items()]
+        return outside.number, [*powers, *outside.sums]
     content, factors = polynomial.factor()
     return as_fraction(content), [(factor, int(exponent)) for factor, exponent in factors]
-
-
-def _extracted(ring: Ring, polynomial: Polynomial) -> tuple[Fraction, Factors]:
-    """Only what all terms have taken out: in many generators further factors are dear and rare."""
-    outside = extracted(ring, polynomial)
-    powers = [(ring.variable(g), power) for g, power in outside.powers.items()]
-    return outside.number, [*powers, *outside.sums]
 
 
 def _most_shared(polynomial: Polynomial) -> tuple[int, int, int]:

@@ -102,7 +102,12 @@ class Program:
             NumericError: for a coefficient beyond the arithmetic's numbers.
         """
         names = {f"_{op.value}": call for op, call in arithmetic.functions.items()}
-        names |= _numbers(self, arithmetic)
+        names |= {
+            f"c{i}": _rounded(Fraction(step.value or 0), arithmetic)
+            for i, step in enumerate(self.instructions)
+            if step.op is Op.CONST
+        }
+        names["pi"] = arithmetic.pi
         return FunctionType(_code(self), {"__builtins__": {}, **names})
 
 
@@ -111,17 +116,6 @@ def arrays() -> Arithmetic:
     import numpy
 
     return Arithmetic.of(numpy)
-
-
-def _numbers(program: Program, arithmetic: Arithmetic) -> dict[str, Any]:
-    """The constants, under the names by which the code knows them."""
-    steps = enumerate(program.instructions)
-    constants = {
-        f"c{i}": _rounded(Fraction(step.value or 0), arithmetic)
-        for i, step in steps
-        if step.op is Op.CONST
-    }
-    return {**constants, "pi": arithmetic.pi}
 
 
 def _rounded(value: Fraction, arithmetic: Arithmetic) -> Any:

@@ -177,7 +177,7 @@ class Tape:
         return self._index[step]
 
 
-# Linear equations solved step by step on a tape; zeros known beforehand cost nothing.
+# -- linear equations ------------------------------------------------------------------------------
 
 
 def solve_on(
@@ -186,6 +186,10 @@ def solve_on(
     """The unknowns of `rows` @ unknowns = `right`, by Gaussian elimination.
 
     Of a symmetric matrix only one triangle is worked on (LDLᵀ); its pivots lie on the diagonal.
+    Zeros known beforehand cost nothing, and the pivot is the one that fills in least, as of sparse
+    matrices of numbers (Markowitz). That is why this is not `algebra._elimination`, which chooses
+    pivots by their expressions, clears above the diagonal too, and whose results would be written
+    in other, more numerous steps.
     """
     return _Elimination(tape, rows, right, symmetric).solution()
 
@@ -207,12 +211,18 @@ class _Elimination:
             pivot = self._pivot()
             self._eliminate(*pivot)
             order.append(pivot)
-        return self._substituted_back(order)
+        found: dict[int, Value] = {}
+        for i, j in reversed(order):
+            value = self._right[i]
+            for k, known in found.items():
+                value = self._less(value, self._rows[i][k], known)
+            found[j] = self._tape.divide(value, self._rows[i][j])
+        return [found[j] for j in range(len(found))]
 
     def _pivot(self) -> tuple[int, int]:
         """The place that fills in least."""
         places = [
-            (self._filled(i), i, j)
+            (sum(self._occurs(i, j) for j in self._columns), i, j)
             for i in self._pending
             for j in (self._columns & {i} if self._symmetric else self._columns)
             if self._occurs(i, j)
@@ -225,9 +235,6 @@ class _Elimination:
             )
         _, i, j = min(places)
         return i, j
-
-    def _filled(self, i: int) -> int:
-        return sum(self._occurs(i, j) for j in self._columns)
 
     def _occurs(self, i: int, j: int) -> bool:
         return self._rows[i][j].step != self._tape.zero.step
@@ -249,15 +256,6 @@ class _Elimination:
                 rows[k][c] = self._less(rows[k][c], factor, rows[i][c])
             elif c >= k:
                 rows[k][c] = rows[c][k] = self._less(rows[k][c], factor, rows[i][c])
-
-    def _substituted_back(self, order: list[tuple[int, int]]) -> list[Value]:
-        found: dict[int, Value] = {}
-        for i, j in reversed(order):
-            value = self._right[i]
-            for k, known in found.items():
-                value = self._less(value, self._rows[i][k], known)
-            found[j] = self._tape.divide(value, self._rows[i][j])
-        return [found[j] for j in range(len(found))]
 
     def _less(self, value: Value, a: Value, b: Value) -> Value:
         return self._tape.add(value, -self._tape.multiply(a, b))
