@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from fractions import Fraction
-from math import comb, factorial
+from math import comb, factorial, prod
 
 from polhode.algebra._expression import ONE, ZERO, Expr, ExprLike, as_symbol
 from polhode.algebra._functions import CIRCULAR, Elementary, Even, cos, sin
-from polhode.algebra._ring import Generator, Symbol
+from polhode.algebra._ring import Symbol
 from polhode.base import NumericError
 
 
@@ -36,13 +35,6 @@ def _not_linear(expression: Expr, symbols: Iterable[Symbol]) -> NumericError:
     return NumericError(
         f"{expression}", expected=f"an expression linear in {names}", advice="check the powers"
     )
-
-
-def _product(powers: dict[Generator, int], coefficient: Fraction) -> Expr:
-    result = Expr.constant(coefficient)
-    for generator, power in powers.items():
-        result = result * Expr.generator(generator) ** power
-    return result
 
 
 def taylor(expression: ExprLike, symbol: Expr | Symbol, order: int, about: ExprLike = 0) -> Expr:
@@ -85,7 +77,8 @@ def _primitive(integrand: Expr, variable: Symbol) -> Expr:
         raise _not_integrable(integrand, variable)
     for powers, coefficient in integrand.terms():
         mine = {g: p for g, p in powers.items() if variable in g.symbols()}
-        rest = _product({g: p for g, p in powers.items() if g not in mine}, coefficient)
+        others = (Expr.generator(g) ** p for g, p in powers.items() if g not in mine)
+        rest = prod(others, start=Expr.constant(coefficient))
         length = mine.pop(variable, 0)
         if length and mine:
             raise _not_integrable(integrand, variable)

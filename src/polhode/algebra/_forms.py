@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import comb, gcd, lcm
@@ -67,7 +67,9 @@ def _rewritten(
     result = ring.zero
     for cofactor, halves in cofactors.items():
         parts = [halves.get(k, 0) for k in range(max(halves) + 1)]
-        best = min((form(parts, sign) for form in _FORMS), key=_length)
+        in_odd: Binary = {(k, 0): part for k, part in enumerate(parts)}
+        forms = (in_odd, _in_even(parts, sign), _in_both(parts, sign))
+        best = min(forms, key=lambda form: _terms_and_signs(form.values()))
         square = sum(
             (c * squares[0] ** odds * squares[1] ** evens for (odds, evens), c in best.items()),
             ring.zero,
@@ -76,14 +78,10 @@ def _rewritten(
     return result
 
 
-def _length(form: Binary) -> tuple[int, int]:
+def _terms_and_signs(coefficients: Iterable[Any]) -> tuple[int, int]:
     """Terms in all, and those that break the common sign."""
-    signs = [coefficient > 0 for coefficient in form.values() if coefficient != 0]
+    signs = [coefficient > 0 for coefficient in coefficients if coefficient != 0]
     return len(signs), min(sum(signs), len(signs) - sum(signs))
-
-
-def _in_odd(parts: Sequence[Any], sign: int) -> Binary:
-    return {(k, 0): part for k, part in enumerate(parts)}
 
 
 def _in_even(parts: Sequence[Any], sign: int) -> Binary:
@@ -103,9 +101,6 @@ def _in_both(parts: Sequence[Any], sign: int) -> Binary:
         )
         for j in range(top + 1)
     }
-
-
-_FORMS: tuple[Callable[[Sequence[Any], int], Binary], ...] = (_in_odd, _in_even, _in_both)
 
 
 # -- products --------------------------------------------------------------------------------------

@@ -40,7 +40,9 @@ def _lowest(expression: Expr, _generators: tuple[Generator, ...]) -> Lowest | No
     if not angles or len(num) > _LONGEST:
         return None
     degrees = {a: max(a.degree(num), a.degree(den)) for a in angles}
-    above, below = (_in_tangents(p, degrees) for p in (num, den))
+    above, below = num, den
+    for angle, degree in degrees.items():
+        above, below = angle.in_tangent(above, degree), angle.in_tangent(below, degree)
     common = above.gcd(below)
     left = {a: 2 * degrees[a] - a.power(common) for a in angles}
     if common.is_constant() or _odd(left):
@@ -145,12 +147,6 @@ def _angles_below(ring: Ring, den: Polynomial) -> list[_Angle]:
             if any(factor.degrees()[sine] > 0 for factor in sums):
                 angles.append(_Angle(ring, sine, cosine))
     return angles
-
-
-def _in_tangents(polynomial: Polynomial, degrees: Degrees) -> Polynomial:
-    for angle, degree in degrees.items():
-        polynomial = angle.in_tangent(polynomial, degree)
-    return polynomial
 
 
 def _back(polynomial: Polynomial, degrees: Degrees) -> Polynomial:

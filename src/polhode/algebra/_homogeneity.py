@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from math import prod
 
 from polhode.algebra._expression import Expr
 from polhode.algebra._functions import pi
@@ -32,7 +33,7 @@ def dimension_of(expression: Expr, known: Mapping[Symbol, Dimension]) -> Dimensi
 def _of_sum(polynomial: Expr, known: Mapping[Symbol, Dimension]) -> Dimension:
     products = (powers for powers, _ in polynomial.terms())
     found = dict.fromkeys(
-        _of_product(powers, known)
+        prod((_of_factor(g, known) ** p for g, p in powers.items()), start=PURE)
         for powers in products
         if not all(g.symbols() <= pi.symbols() for g in powers)
     )
@@ -42,13 +43,6 @@ def _of_sum(polynomial: Expr, known: Mapping[Symbol, Dimension]) -> Dimension:
             expected="terms of one dimension",
         )
     return next(iter(found), PURE)
-
-
-def _of_product(powers: Mapping[Generator, int], known: Mapping[Symbol, Dimension]) -> Dimension:
-    total = PURE
-    for generator, power in powers.items():
-        total = total * _of_factor(generator, known) ** power
-    return total
 
 
 def _of_factor(generator: Generator, known: Mapping[Symbol, Dimension]) -> Dimension:

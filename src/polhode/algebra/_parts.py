@@ -96,10 +96,14 @@ def named(expression: Expr, visible: Iterable[Symbol] = ()) -> Expr:
     ring = expression.ring
     open_ = [symbol for symbol in visible if symbol in ring.index]
     groups = ring.grouped(expression.num, [ring.index[symbol] for symbol in open_])
-    below = ONE if expression.is_polynomial else _reciprocal(expression.denominator)
+    below = ONE
+    if not expression.is_polynomial:
+        number, powers = factors(expression.denominator)
+        inverses = (_part(1 / factor) ** power for factor, power in powers.items())
+        below = prod(inverses, start=Expr.constant(1 / number))
     terms = []
-    for powers, part in groups.items():
-        product = (Expr.generator(s) ** int(p) for s, p in zip(open_, powers, strict=True) if p)
+    for exponents, part in groups.items():
+        product = (Expr.generator(s) ** int(p) for s, p in zip(open_, exponents, strict=True) if p)
         terms.append(prod(product, start=_named(Expr(ring, part, ring.one) * below)))
     return total(terms)
 
@@ -112,13 +116,6 @@ def _named(expression: Expr) -> Expr:
     if expression.num.leading_coefficient() < 0:
         return -_part(-expression)
     return _part(expression)
-
-
-def _reciprocal(denominator: Expr) -> Expr:
-    """One over it, each of its factors under a name."""
-    number, powers = factors(denominator)
-    inverses = (_part(1 / factor) ** power for factor, power in powers.items())
-    return prod(inverses, start=Expr.constant(1 / number))
 
 
 def _part(meaning: Expr) -> Expr:

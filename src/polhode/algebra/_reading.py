@@ -248,7 +248,13 @@ class _ExpressionParser:
                 return apply(token.text, argument)
         if token.text in FUNCTIONS:
             raise self._unexpected(f"the argument of {token.text} in brackets")
-        raise self._unknown(token)
+        near = get_close_matches(token.text, [*self._names, *FUNCTIONS], n=3)
+        raise self._refusal(
+            token,
+            f"{token.text!r} is not known",
+            f"a number or one of {', '.join([*self._names, *FUNCTIONS])}",
+            f"did you mean {' or '.join(near)}?" if near else "",
+        )
 
     @property
     def _token(self) -> _Token:
@@ -281,15 +287,6 @@ class _ExpressionParser:
         token = self._token
         what = f"unexpected {token.text!r}" if token.text else "the text ends"
         return self._refusal(token, what, expected)
-
-    def _unknown(self, token: _Token) -> ParseError:
-        near = get_close_matches(token.text, [*self._names, *FUNCTIONS], n=3)
-        return self._refusal(
-            token,
-            f"{token.text!r} is not known",
-            f"a number or one of {', '.join([*self._names, *FUNCTIONS])}",
-            f"did you mean {' or '.join(near)}?" if near else "",
-        )
 
     def _refusal(self, token: _Token, what: str, expected: str, advice: str = "") -> ParseError:
         place = f"at character {token.place + 1} of {_shown(self._text, token.place)}"

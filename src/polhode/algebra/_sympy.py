@@ -128,17 +128,6 @@ class _SympyReader:
         return self.read(base) ** self.read(exponent)
 
     def _symbol(self, name: str, positive: bool) -> Expr:
-        known = self._known(name)
-        if known is not None:
-            return known
-        try:
-            return symbol(name, positive=positive)
-        except DeclarationError as error:
-            raise NumericError(
-                f"the SymPy symbol {name!r}", expected=error.expected, advice=error.advice
-            ) from error
-
-    def _known(self, name: str) -> Expr | None:
         if name in self._names:
             return self._names[name]
         if name == "t":
@@ -146,7 +135,12 @@ class _SympyReader:
         base, _, suffix = name.rpartition("_")
         if base in self._names and f"_{suffix}" in _DERIVATIVES:
             return _rate(self._names[base], _DERIVATIVES[f"_{suffix}"])
-        return None
+        try:
+            return symbol(name, positive=positive)
+        except DeclarationError as error:
+            raise NumericError(
+                f"the SymPy symbol {name!r}", expected=error.expected, advice=error.advice
+            ) from error
 
     def _dynamic(self, value: Any) -> Expr:
         if [argument.name for argument in value.free_symbols] != ["t"] or len(value.args) != 1:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 
 from polhode.algebra._functions import Elementary, Even
@@ -67,13 +67,8 @@ def term_rank(powers: Mapping[Generator, int]) -> Rank:
         -degree,
         -max((p for _, p in rates), default=0),
         sum(abs(p) for p in powers.values()),
-        sorted(_spread(powers)),
+        sorted((*factor_rank(g), -p) for g, p in powers.items()),
     )
-
-
-def _spread(powers: Mapping[Generator, int]) -> Iterator[Rank]:
-    for generator, power in powers.items():
-        yield (*factor_rank(generator), -power)
 
 
 def _level(symbol: Symbol) -> int:

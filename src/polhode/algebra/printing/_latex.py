@@ -17,6 +17,8 @@ from polhode.algebra.printing._nodes import (
     PrintSum,
 )
 
+_ACCENTS = ("", "dot", "ddot", "dddot")
+
 
 def latex(expression: Expr) -> str:
     r"""LaTeX of an expression: `5 a \ddot{\theta} + 4 g \cos\theta`."""
@@ -28,8 +30,12 @@ def latex_of_symbol(symbol: Symbol) -> str:
     spelling = Spelling.of(symbol)
     subscript = ",".join(s if s.isdigit() else _letter(s) for s in spelling.subscripts)
     below = f"_{subscript}" if len(subscript) == 1 else f"_{{{subscript}}}"
-    letter = _dotted(_letter(spelling.stem), spelling.dots) + "'" * spelling.primes
-    return letter + (below if subscript else "")
+    letter = _letter(spelling.stem)
+    if spelling.dots >= len(_ACCENTS):
+        letter = rf"{letter}^{{({spelling.dots})}}"
+    elif spelling.dots:
+        letter = rf"\{_ACCENTS[spelling.dots]}{{{letter}}}"
+    return letter + "'" * spelling.primes + (below if subscript else "")
 
 
 def mathml(formula: str) -> str:
@@ -43,17 +49,6 @@ def _letter(name: str) -> str:
     if name in GREEK:
         return rf"\{name}"
     return name if len(name) == 1 else rf"\mathrm{{{name}}}"
-
-
-_ACCENTS = ("", "dot", "ddot", "dddot")
-
-
-def _dotted(letter: str, dots: int) -> str:
-    if dots == 0:
-        return letter
-    if dots < len(_ACCENTS):
-        return rf"\{_ACCENTS[dots]}{{{letter}}}"
-    return rf"{letter}^{{({dots})}}"
 
 
 class _Latex:

@@ -110,17 +110,13 @@ def in_sums_of_angles(ring: Ring, polynomial: Polynomial) -> tuple[Ring, Polynom
     for first, second in combinations(sorted(angles, key=factor_rank), 2):
         wider = ring_of(frozenset(ring.generators) | set(_functions(first, second)))
         exchanges = list(_exchanges(wider, first, second))
-        shorter = _shortened(wider, exchanges, wider.lift(ring, polynomial))
+        shorter = wider.lift(ring, polynomial)
+        # the exchange that saves most is made first, and so on until none saves anything
+        while found := [p for e in exchanges for p in e.applied(wider, shorter)]:
+            shorter = min(found, key=len)
         if len(shorter) < len(polynomial):
             ring, polynomial = wider, shorter
     return ring, polynomial
-
-
-def _shortened(ring: Ring, exchanges: list[_Exchange], polynomial: Polynomial) -> Polynomial:
-    """The exchange that saves most is made first, and so on until none saves anything."""
-    while found := [p for e in exchanges for p in e.applied(ring, polynomial)]:
-        polynomial = min(found, key=len)
-    return polynomial
 
 
 def _functions(first: Even, second: Even) -> Iterator[Even]:

@@ -29,7 +29,7 @@ from polhode.base import DeclarationError, NumericError
 # 2t² − 4ct + 2c² − w², it loses the digits of t²/w².
 
 
-class Centred(NamedTuple):
+class _Centred(NamedTuple):
     """An expression by a distance.
 
     Attributes:
@@ -43,29 +43,26 @@ class Centred(NamedTuple):
     meaning: Expr
 
 
-def centred(factor: Expr, exponent: Expr) -> Centred | None:
+def _centred(factor: Expr, exponent: Expr) -> _Centred | None:
     """The factor of an exp by a distance of which the exponent has a power.
 
     None where that is not shorter.
     """
-    ways = (_about(factor, *place) for place in _places(exponent))
+    ways = (
+        _about(factor, symbol, meaning)
+        for meaning, power in factors(exponent)[1].items()
+        if power > 0 and len(meaning.num) > 1
+        for symbol in meaning.symbols()
+        if not meaning.diff(symbol).generators  # it is linear in the symbol
+    )
     best = min(ways, key=lambda way: length(way.expression), default=None)
     return best if best is not None and length(best.expression) < length(factor) else None
 
 
-def _places(exponent: Expr) -> Iterator[tuple[Symbol, Expr]]:
-    """Sums that the exponent has as factors, with what they are linear in."""
-    for meaning, power in factors(exponent)[1].items():
-        if power > 0 and len(meaning.num) > 1:
-            for symbol in meaning.symbols():
-                if not meaning.diff(symbol).generators:
-                    yield symbol, meaning
-
-
-def _about(factor: Expr, symbol: Symbol, meaning: Expr) -> Centred:
+def _about(factor: Expr, symbol: Symbol, meaning: Expr) -> _Centred:
     distance = Symbol(f"({meaning.key})", SymbolKind.PARAMETER)
     away = (Expr.generator(distance) - meaning) / meaning.diff(symbol)
-    return Centred(factor.subs({symbol: Expr.generator(symbol) + away}), distance, meaning)
+    return _Centred(factor.subs({symbol: Expr.generator(symbol) + away}), distance, meaning)
 
 
 @dataclass(frozen=True)
@@ -184,7 +181,7 @@ class _TapeWriter:
         """Factor times one exp; apart, exp(a) and exp(−b) may be infinite and nothing."""
         if exponent.is_zero:
             return self.expression(factor)
-        near = centred(factor, exponent)
+        near = _centred(factor, exponent)
         if near is not None:
             self._values[near.distance] = self.expression(near.meaning)
         value = self.expression(factor if near is None else near.expression)

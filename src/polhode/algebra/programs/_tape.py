@@ -186,10 +186,9 @@ def solve_on(
     """The unknowns of `rows` @ unknowns = `right`, by Gaussian elimination.
 
     Of a symmetric matrix only one triangle is worked on (LDLᵀ); its pivots lie on the diagonal.
-    Zeros known beforehand cost nothing, and the pivot is the one that fills in least, as of sparse
-    matrices of numbers (Markowitz). That is why this is not `algebra._elimination`, which chooses
-    pivots by their expressions, clears above the diagonal too, and whose results would be written
-    in other, more numerous steps.
+    Zeros known beforehand cost nothing, and the row with fewest entries is the next pivot's, so
+    that little fills in. `algebra._elimination` cannot serve: it chooses pivots by their
+    expressions and clears above the diagonal too, which would take more steps.
     """
     return _Elimination(tape, rows, right, symmetric).solution()
 
@@ -220,7 +219,7 @@ class _Elimination:
         return [found[j] for j in range(len(found))]
 
     def _pivot(self) -> tuple[int, int]:
-        """The place that fills in least."""
+        """The place of the next pivot: in the row with fewest entries."""
         places = [
             (sum(self._occurs(i, j) for j in self._columns), i, j)
             for i in self._pending
@@ -240,22 +239,20 @@ class _Elimination:
         return self._rows[i][j].step != self._tape.zero.step
 
     def _eliminate(self, i: int, j: int) -> None:
+        """Clear the column of a pivot in the pending rows, in one triangle if symmetric."""
         rows, right = self._rows, self._right
         self._pending.remove(i)
         self._columns.remove(j)
         for k in sorted(self._pending):
-            if self._occurs(k, j):
-                factor = self._tape.divide(rows[k][j], rows[i][j])
-                right[k] = self._less(right[k], factor, right[i])
-                self._combine(k, i, factor)
-
-    def _combine(self, k: int, i: int, factor: Value) -> None:
-        rows = self._rows
-        for c in sorted(self._columns):
-            if not self._symmetric:
-                rows[k][c] = self._less(rows[k][c], factor, rows[i][c])
-            elif c >= k:
-                rows[k][c] = rows[c][k] = self._less(rows[k][c], factor, rows[i][c])
+            if not self._occurs(k, j):
+                continue
+            factor = self._tape.divide(rows[k][j], rows[i][j])
+            right[k] = self._less(right[k], factor, right[i])
+            for c in sorted(self._columns):
+                if not self._symmetric:
+                    rows[k][c] = self._less(rows[k][c], factor, rows[i][c])
+                elif c >= k:
+                    rows[k][c] = rows[c][k] = self._less(rows[k][c], factor, rows[i][c])
 
     def _less(self, value: Value, a: Value, b: Value) -> Value:
         return self._tape.add(value, -self._tape.multiply(a, b))
