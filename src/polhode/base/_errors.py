@@ -6,20 +6,21 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from difflib import get_close_matches
 from enum import IntEnum
+from functools import partial
 from typing import TypeVar
 
 
 class PolhodeError(Exception):
-    """Something polhode was given, or met, that it cannot work with.
+    """Something given to polhode, or met on the way, that it cannot work with.
 
     Prints as "given; expected ...; advice", without the parts that were left empty.
 
     Args:
-        given: what came, naming the quantity or the declaration it came in.
+        given: what was given, with the name of the quantity or declaration.
         expected: what would have been accepted, without the word "expected".
         advice: what to do about it.
-        option: the argument of a command with which it is done, such as "let"; not printed, for
-            only the command line has it.
+        option: the command-line option that does it, such as "let"; only the command line prints
+            it.
     """
 
     def __init__(
@@ -33,16 +34,17 @@ class PolhodeError(Exception):
         super().__init__("; ".join(filter(None, parts)))
 
     def __reduce__(self) -> tuple[object, ...]:
-        # Worker processes send their errors home; Exception alone would forget the keywords.
-        return _rebuilt, (type(self), self.given, self.expected, self.advice, self.option)
+        # Worker processes send back their errors; Exception alone would lose the keywords.
+        words = {"expected": self.expected, "advice": self.advice, "option": self.option}
+        return partial(type(self), **words), (self.given,)
 
 
 class DeclarationError(PolhodeError):
-    """A body, contact, load or system that contradicts itself or is incomplete."""
+    """A body, contact, load or system that is contradictory or incomplete."""
 
 
 class ConstraintError(PolhodeError):
-    """Constraints that contradict one another, or start values that contradict them."""
+    """Constraints that contradict one another, or start values that violate them."""
 
 
 class UnitError(PolhodeError):
@@ -54,7 +56,7 @@ class ParseError(PolhodeError):
 
 
 class NumericError(PolhodeError):
-    """A computation that could not reach the accuracy asked of it."""
+    """A computation that cannot be done, or not to the requested accuracy."""
 
 
 class StoreError(PolhodeError):
@@ -62,7 +64,7 @@ class StoreError(PolhodeError):
 
 
 class DriftWarning(UserWarning):
-    """A motion whose energy balance or closed loops are off by more than rounding explains."""
+    """A motion whose energy balance or closed loops err by more than rounding explains."""
 
 
 class Exit(IntEnum):
@@ -75,18 +77,12 @@ class Exit(IntEnum):
 
 
 def exit_code(error: BaseException) -> int:
-    """The exit code with which a command ended by `error` leaves.
+    """The exit code of a command that `error` has ended.
 
-    A failed check is an answer, not an error, so `Exit.FAILED` is never returned: bad input,
-    what could not be read or decided, and what went wrong unforeseen are all `Exit.REFUSED`.
+    It is never `Exit.FAILED`, since a failed check is an answer and not an error: bad input, what
+    cannot be read or decided, and unforeseen errors are all `Exit.REFUSED`.
     """
     return Exit.INTERRUPTED if isinstance(error, KeyboardInterrupt) else Exit.REFUSED
-
-
-def _rebuilt(
-    kind: type[PolhodeError], given: str, expected: str, advice: str, option: str
-) -> PolhodeError:
-    return kind(given, expected=expected, advice=advice, option=option)
 
 
 # -- errors that many modules raise ----------------------------------------------------------------
@@ -94,10 +90,10 @@ def _rebuilt(
 
 @contextmanager
 def extra(library: str, name: str) -> Iterator[None]:
-    """Around the import of a library that an extra of polhode brings.
+    """Wraps the import of an optional library, which the extra `name` of polhode installs.
 
     Raises:
-        StoreError: where it is not installed.
+        StoreError: where the library is not installed.
     """
     try:
         yield
@@ -113,10 +109,10 @@ Known = TypeVar("Known")
 
 
 def look_up(name: str, known: Mapping[str, Known], what: str) -> Known:
-    """What is known under a name.
+    """The value that a name has in a table.
 
     Raises:
-        DeclarationError: for a name that is not known, with the nearest ones that are.
+        DeclarationError: for an unknown name, with the nearest known ones.
     """
     if name in known:
         return known[name]
