@@ -139,7 +139,7 @@ def test_what_is_not_finite_is_refused(value_):
 
 @pytest.mark.parametrize("value_", ["x", None, 3 + 1j, [1], np.array([1.0, 2.0]), object()])
 def test_what_is_no_expression_is_refused(value_):
-    with pytest.raises(NumericError, match="is no expression"):
+    with pytest.raises(NumericError, match="is not an expression"):
         Expr.of(value_)
 
 

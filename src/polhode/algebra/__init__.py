@@ -3,6 +3,7 @@
 from polhode.algebra._calculus import integrate as integrate
 from polhode.algebra._calculus import linear_parts as linear_parts
 from polhode.algebra._calculus import taylor as taylor
+from polhode.algebra._documents import SHAPES as SHAPES
 from polhode.algebra._elimination import Elimination as Elimination
 from polhode.algebra._elimination import OutgrownError as OutgrownError
 from polhode.algebra._elimination import eliminate as eliminate
@@ -46,7 +47,6 @@ from polhode.algebra._roots import principal_root as principal_root
 from polhode.algebra._roots import roots_in as roots_in
 from polhode.algebra._roots import sqrt as sqrt
 from polhode.algebra._roots import with_roots as with_roots
-from polhode.algebra._shapes import SHAPES as SHAPES
 from polhode.algebra._symbols import coordinate as coordinate
 from polhode.algebra._symbols import coordinates as coordinates
 from polhode.algebra._symbols import functions as functions

@@ -149,9 +149,8 @@ def _complexity(pivot: Expr) -> tuple[int, int]:
 #
 # Elimination divides by one entry after the other. Multiplied out, a factor that vanishes somewhere
 # cancels again; under names it would stay. So only numbers and what is positive serve as pivots,
-# and the block that remains is made symmetric, AᵀA x = Aᵀb, which is regular wherever A is. That is
-# solved without pivoting, as a positive definite matrix allows: the pivots of a Gauss–Jordan
-# elimination could not be told from what vanishes.
+# and the block that remains is made symmetric, AᵀA x = Aᵀb, which is regular wherever A is. As AᵀA
+# is positive definite, LDLᵀ without pivoting solves it, and no pivot can vanish.
 
 
 def eliminate_in_parts(

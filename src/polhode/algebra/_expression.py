@@ -34,7 +34,7 @@ ExprLike: TypeAlias = Union["Expr", int, float, Fraction, Any]
 #: The derivative, or the image, of every symbol.
 Rate = Callable[[Symbol], "Expr"]
 
-#: Beyond it a power is taken for a slip that would fill the memory.
+#: A higher power is taken for a mistake that would fill the memory.
 _LARGEST_POWER = 1000
 
 _STATES = (1, 2)  # random ones, at which expressions with named parts are compared with zero
@@ -118,7 +118,7 @@ class Expr(Shown):
         if _is_numpy_scalar(value):
             return cls.of(value.item())  # type: ignore[union-attr]
         raise NumericError(
-            f"{value!r} of type {type(value).__name__} is no expression",
+            f"{value!r} of type {type(value).__name__} is not an expression",
             expected="a number, a symbol or an expression of symbols",
             advice="declare names with symbols, coordinates or speeds",
         )
@@ -509,7 +509,7 @@ def time_rate(symbol: Symbol) -> Expr:
 
 @lru_cache(maxsize=1024)
 def _along(wanted: Symbol) -> Rate:
-    """The same function for the same symbol, so that what it gave of a part is known again."""
+    """The same function for the same symbol, so that derivatives of parts are found again."""
     return lambda symbol: ONE if symbol == wanted else ZERO
 
 

@@ -1,7 +1,7 @@
 """Named parts: long expressions that stand under one name, so that nothing is multiplied out.
 
-Arithmetic takes a part for a symbol of its own. Derivatives, substitution, programs and printing
-look inside, and do there once what they would do wherever it occurs.
+Arithmetic treats a part as a symbol. Derivatives, substitution, programs and printing look inside,
+once for all the places where it occurs.
 """
 
 from __future__ import annotations

@@ -39,7 +39,7 @@ FUNCTIONS: dict[str, Callable[[Expr], Expr]] = {
     "cosh": functions.cosh,
     "tanh": functions.tanh,
 }
-"""What may be applied, by name."""
+"""The functions that a text may use."""
 
 
 def add(first: Expr, second: Expr) -> Expr:
@@ -59,7 +59,8 @@ def raise_to(base: Expr, exponent: Expr) -> Expr:
     power = exponent.rational
     if power is None or abs(power) > HIGHEST:
         raise NumericError(
-            "a power that is no number, or too high", expected=f"one from -{HIGHEST} to {HIGHEST}"
+            "a power that is not a number, or too high",
+            expected=f"one from -{HIGHEST} to {HIGHEST}",
         )
     times = abs(power.numerator)
     _refuse_many(comb(_size(base) + times - 1, times))
@@ -235,7 +236,7 @@ class _ExpressionParser:
         power_of_ten = token.text.lower().partition("e")[2]
         if abs(int(power_of_ten or 0)) > HIGHEST_OF_TEN:
             raise self._refusal(
-                token, "a number out of all bounds", f"powers of ten up to {HIGHEST_OF_TEN}"
+                token, "a number too large or too small", f"powers of ten up to {HIGHEST_OF_TEN}"
             )
         return Expr.constant(Fraction(token.text))
 

@@ -24,8 +24,8 @@ from flint import Ordering, acb, arb, fmpq, fmpq_mpoly_ctx
 
 from polhode.base import DeclarationError, NumericError
 
-_MOST_PRODUCTS = 2 * 10**6  # of terms; beyond, what comes out is of no use and fills the memory
-_FEW = 16  # terms up to which it is quicker to put the variables in one by one
+_MOST_PRODUCTS = 2 * 10**6  # of terms; a longer result is useless and fills the memory
+_FEW = 16  # terms up to which composing with the variables is quicker than projecting
 _MEMORY = 65536  # values of generators that are remembered
 
 Polynomial = Any  # flint.fmpq_mpoly: python-flint ships no usable type information
@@ -351,6 +351,7 @@ def _ring_of(generators: frozenset[Generator], positive: frozenset[str]) -> Ring
 def union(*rings: Ring) -> Ring:
     """The smallest ring that holds them all."""
     generators = (generator for ring in rings for generator in ring.generators)
+    # of equal symbols a set keeps the first, which should be the one whose sign is known
     known_first = sorted(generators, key=lambda g: not g.positive)
     return ring_of(frozenset(known_first))
 

@@ -95,7 +95,7 @@ def sqrt(x: ExprLike) -> Expr:
 def principal_root(x: ExprLike) -> Expr:
     """A square root that is a plain expression wherever x is a perfect square.
 
-    √(sin²θ) is sin θ here: the branch on which it is positive. Whoever calls must say so.
+    √(sin²θ) is sin θ here: the branch on which it is positive. The caller must state that.
     """
     x = Expr.of(x)
     number, powers = factors(x)
@@ -129,7 +129,7 @@ def is_positive(x: Expr) -> bool:
 
 
 def is_plainly_positive(x: Expr) -> bool:
-    """The same of the terms as they stand, which decides what comes out of a root."""
+    """The same from the terms as they stand; it decides what comes out of a root."""
     return _all_positive(x.numerator) and _all_positive(x.denominator)
 
 

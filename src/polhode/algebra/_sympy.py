@@ -182,5 +182,5 @@ def _unreadable(value: Any) -> NumericError:
     return NumericError(
         f"the SymPy object {value} of type {type(value).__name__}",
         expected="numbers, symbols, sums, products, half-integer powers and elementary functions",
-        advice="evaluate or substitute it before",
+        advice="evaluate or substitute it beforehand",
     )

@@ -91,7 +91,7 @@ class Body(FieldwiseRepr):
         for field, value in values.items():
             object.__setattr__(self, field, value)
         for axis in chosen.loose(axes):
-            self._refuse_lopsided(axis)
+            self._refuse_asymmetric(axis)
         if chosen.loose(axes):
             self._refuse_second_spin()
 
@@ -107,7 +107,7 @@ class Body(FieldwiseRepr):
                 "another angle, as in spin=About('3', 'chi')",
             )
 
-    def _refuse_lopsided(self, axis: str) -> None:
+    def _refuse_asymmetric(self, axis: str) -> None:
         position = self.axes.position(axis)
         round_ = self.surface is None or self.surface.is_symmetric(self.axes, position)
         if not (round_ and is_symmetric(self.inertia, position)):

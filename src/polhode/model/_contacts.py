@@ -44,8 +44,8 @@ class Contact(Element):
         on: the support.
         name: what to call the contact; contact, with the tag of the body, by default.
         force: letter of the reaction's components: F_x, F_y, F_z.
-        restitution: part of the energy of compression that a shock gives back, as its square
-            root: 0 for none, 1 for all of it (Stronge's coefficient).
+        restitution: square root of the share of the energy of compression that an impact gives
+            back, from 0 to 1 (Stronge's coefficient).
     """
 
     body: Body
@@ -150,7 +150,7 @@ class Contact(Element):
         return (self.restraint(self.on.normal, places), *self.couples())
 
     def couples(self) -> tuple[Restraint, ...]:
-        """What a face on the support holds besides: the body's attitude."""
+        """The couples by which a face on the support holds the body's attitude."""
         if not self._surface().is_face:
             return ()
         body, axes = self.body, self.on.axes
@@ -183,7 +183,7 @@ class Coulomb(Contact):
         mu: coefficient of kinetic friction.
         mu_static: of the largest friction force at rest; that of kinetic friction by default.
         viscous: rise of the coefficient with the slip speed, s/m.
-        stribeck: slip speed over which friction falls from static to kinetic, m/s; at once by
+        stribeck: slip speed over which friction falls from static to kinetic, m/s; zero by
             default.
     """
 
@@ -225,12 +225,12 @@ class Coulomb(Contact):
 
         Args:
             slip: speed, m/s.
-            slowness: exp(−slip/stribeck), what is left of the static friction.
+            slowness: exp(−slip/stribeck), the share of the excess static friction that is left.
         """
         return self.mu + self.viscous * slip + (self.mu_static - self.mu) * slowness
 
     def slowness(self, slip: Expr) -> Expr:
-        """Part of the difference of static and kinetic friction that is felt at a slip speed."""
+        """Share of the excess of static over kinetic friction that is left at a slip speed."""
         return ZERO if self.stribeck is None else exp(-slip / self.stribeck)
 
     def directions(self) -> tuple[tuple[str, Vector], tuple[str, Vector]]:
@@ -260,7 +260,7 @@ def _described(support: object) -> str:
 
 @dataclass(frozen=True)
 class Phase:
-    """What a contact is doing, and whether on what lies beyond the edge of its support."""
+    """What a contact is doing, on its support or on the table beyond the edge."""
 
     kind: str
     is_beyond: bool = False
@@ -371,13 +371,13 @@ class Sliding(Contact):
 
     @property
     def slowness(self) -> Symbol:
-        """What the law of Stribeck leaves of the static friction."""
+        """Share of the excess static friction that Stribeck's law leaves."""
         return Symbol(f"slowness_{self.spelled}", SymbolKind.SPEED)
 
     def friction(self, places: Places) -> tuple[Friction, ...]:
         first, second = (Expr.generator(symbol) for symbol in self.direction)
-        felt = ZERO if self.law.stribeck is None else Expr.generator(self.slowness)
-        coefficient = self.law.coefficient(Expr.generator(self.slip_speed), felt)
+        excess = ZERO if self.law.stribeck is None else Expr.generator(self.slowness)
+        coefficient = self.law.coefficient(Expr.generator(self.slip_speed), excess)
         normal = self.restraint(self.on.normal, places)
         return (Friction(normal, coefficient, self.law.directions(), (first, second)),)
 

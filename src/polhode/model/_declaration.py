@@ -1,4 +1,4 @@
-"""Systems as documents, so that what was computed can be derived again from the file alone."""
+"""Systems as JSON documents, from which all equations can be derived again."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ _DECLARED = (
 
 
 def write_declaration(system: System) -> str:
-    """A system as a JSON document, the same one for the same declaration.
+    """A system as a JSON document, always the same for equal declarations.
 
     Raises:
         StoreError: for a system with parts of classes that are not polhode's own.
@@ -64,7 +64,7 @@ def write_declaration(system: System) -> str:
 
 
 def read_declaration(text: str) -> System:
-    """The system that a document declares, made and checked as if it were declared anew.
+    """The system that a document declares, made and checked as if declared anew.
 
     Nothing in the document is run.
 
@@ -94,7 +94,7 @@ def _fields(value: Any) -> dict[str, Any]:
 
 
 def _declared(kind: type, given: Mapping[str, Any]) -> Any:
-    """An object by its constructor, refused unless that gives the fields that were asked for."""
+    """An object made by its constructor; refused unless its fields are those given."""
     words = {**given, "only": " ".join(given["only"])} if "only" in given else given
     known = _words(kind)
     return _confirmed(kind(**{name: words[name] for name in words if name in known}), given)
@@ -102,7 +102,7 @@ def _declared(kind: type, given: Mapping[str, Any]) -> Any:
 
 @cache
 def _words(kind: type[Any]) -> frozenset[str]:
-    """What its constructor can be told by name; a weld passes on what a pivot can."""
+    """Parameters of its constructor by name; a weld passes on those of a pivot."""
     kinds = (kind, Pivot) if kind is Weld else (kind,)
     return frozenset(name for one in kinds for name in inspect.signature(one).parameters)
 
@@ -135,7 +135,7 @@ def _frame(**given: Any) -> Frame:
     if len(set(frame.labels)) != 3 or len(frame.labels) != 3 or len(frame.turned) != 3:
         raise ValueError("a frame without three directions")
     if len(frame.axis) != 3 or sum(part * part for part in frame.axis) != 1:
-        raise ValueError("a frame turned about no direction")
+        raise ValueError("a frame turned about something other than a unit vector")
     return frame
 
 

@@ -21,7 +21,7 @@ class FieldwiseRepr(Shown):
 
     @property
     def parts(self) -> Iterator[tuple[str, object]]:
-        """Its fields by name, but for its own name and those that are left empty."""
+        """Its fields by name, except its own name and those left empty."""
         named: Any = self
         for field in fields(named):
             value = getattr(self, field.name)
@@ -47,7 +47,7 @@ def brief(value: object) -> str:
 def quantity(value: ExprLike, what: str) -> Expr:
     """The expression that a value stands for.
 
-    Raises `DeclarationError` with the name of the quantity, for NaN or what is no number.
+    Raises `DeclarationError` with the name of the quantity, for NaN or anything but a number.
     """
     try:
         return Expr.of(value)
@@ -58,7 +58,7 @@ def quantity(value: ExprLike, what: str) -> Expr:
 
 
 def positive(value: ExprLike, what: str) -> Expr:
-    """The same, of a quantity that must not be zero or negative."""
+    """The same for a quantity that must be positive."""
     expression = quantity(value, what)
     if expression.is_zero or is_negative(expression):
         raise DeclarationError(f"{what}: {expression}", expected="a positive value")
@@ -66,7 +66,7 @@ def positive(value: ExprLike, what: str) -> Expr:
 
 
 def not_negative(value: ExprLike, what: str) -> Expr:
-    """The same, of a quantity that may vanish."""
+    """The same for a quantity that must not be negative."""
     expression = quantity(value, what)
     if is_negative(expression):
         raise DeclarationError(f"{what}: {expression}", expected="zero or more")
@@ -90,7 +90,7 @@ def is_varying(symbol: Symbol) -> bool:
 
 
 def without_rates(expressions: Iterable[Expr], what: str) -> None:
-    """Refuse speeds, and rates of coordinates, in what is a place or an angle."""
+    """Refuse speeds and rates of coordinates in a position or an angle."""
     found = (s for s in variables(expressions) if _is_rate(s))
     if rates := sorted(s.published for s in found):
         raise DeclarationError(
@@ -101,7 +101,7 @@ def without_rates(expressions: Iterable[Expr], what: str) -> None:
 
 
 def without_coordinates(expressions: Iterable[Expr], what: str, advice: str) -> None:
-    """Refuse what the motion decides on, in what is given beforehand."""
+    """Refuse coordinates and speeds in what must be prescribed."""
     found = (
         s for s in variables(expressions) if s.kind in (SymbolKind.COORDINATE, SymbolKind.SPEED)
     )

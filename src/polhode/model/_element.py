@@ -48,7 +48,7 @@ class Restraint:
 
     @property
     def is_in_parts(self) -> bool:
-        """Whether the place at which it holds is told in named parts."""
+        """Whether its arm is written with named parts."""
         return self.arm is not None and any(c.ring.has_parts for c in self.arm.components)
 
 
@@ -100,7 +100,7 @@ class Element(FieldwiseRepr, ABC):
         return ()
 
     def assumed_positive(self) -> tuple[Expr, ...]:
-        """Expressions whose sign had to be taken as positive."""
+        """Expressions whose sign is assumed to be positive."""
         return ()
 
 

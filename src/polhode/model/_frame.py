@@ -26,7 +26,7 @@ from polhode.base import DeclarationError, Shown
 from polhode.model._declared import without_rates
 
 IDENTITY = Matrix.diagonal([1, 1, 1])
-_FREE = (SymbolKind.COORDINATE, SymbolKind.SPEED)  # what the motion decides on
+_FREE = (SymbolKind.COORDINATE, SymbolKind.SPEED)  # not prescribed
 
 
 @dataclass(frozen=True)

@@ -36,7 +36,7 @@ class _Couple(Element):
         return Restraint(name, self.body, direction, velocity, other=self.to)
 
     def _support(self) -> Vector:
-        """Angular velocity of what holds the body; other bodies' are accounted for by theirs."""
+        """The angular velocity prescribed: that of the ground, or none relative to another body."""
         root = self.body.axes.root
         return root.zero if self.to is not None else root.angular_velocity
 
@@ -318,9 +318,9 @@ class Pivot(Element):
         velocity = self.body.axes.zero if held else self._target(places).dt()
         arm, other_arm = self.at, self.to.offset if isinstance(self.to, BodyPoint) else None
         if self.is_partial:
-            # Away from the place the point is held by the matter that is where the point is: by a
-            # slot of the other body; by a pin at the place in a slot of its own body; or by what
-            # turns with the directions.
+            # The point is held by whatever is there, some way from the place: a slot of the other
+            # body, a pin at the place in a slot of its own body, or a slot that turns with the
+            # directions. The velocity and the arms are those of that point.
             gap = self._gap(places)
             turns = self.along.turns_freely
             if turns and other_arm is not None and _turns_with(self.along, self.other):

@@ -1,4 +1,4 @@
-"""Loads: forces and couples that act whatever the supports do."""
+"""Loads: applied forces and couples."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ class Load(FieldwiseRepr, ABC):
     def actions(
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
     ) -> tuple[Action, ...]:
-        """What it does to the bodies."""
+        """Its forces and couples on the bodies."""
         return ()
 
     def potential(self, bodies: tuple[Body, ...], places: Places) -> Expr | None:
@@ -79,7 +79,7 @@ class Load(FieldwiseRepr, ABC):
         return None
 
     def on_places(self, places: Places, velocities: Velocities) -> tuple[Push, ...]:
-        """What it does to places that are no points of bodies."""
+        """Its forces on moving places that are not points of bodies."""
         return ()
 
 
@@ -315,5 +315,5 @@ def _pair(start: BodyPoint, end: BodyPoint | Vector, force: Vector) -> tuple[Act
 
 
 def _pushes(end: BodyPoint | Vector, actions: tuple[Action, ...]) -> tuple[Push, ...]:
-    """What the first of two opposite forces is answered by, at a place."""
+    """The opposite of the first force, where the other end is a place."""
     return () if isinstance(end, BodyPoint) else (Push(-actions[0].force, end.dt()),)

@@ -30,7 +30,7 @@ class Surface(FieldwiseRepr, ABC):
         """Whether it looks the same however it is turned about this one of the axes."""
 
     def assumed_positive(self, axes: Frame, normal: Vector) -> tuple[Expr, ...]:
-        """Expressions whose sign had to be taken as positive."""
+        """Expressions whose sign is assumed to be positive."""
         return ()
 
 

@@ -41,12 +41,12 @@ class System(Shown):
         bodies = _bodies(parts)
         elements = tuple(part for part in parts if isinstance(part, Element))
         loads = tuple(part for part in parts if isinstance(part, Load))
-        _refuse_strangers(parts)
+        _refuse_other_types(parts)
         if not bodies:
             raise DeclarationError("a system without a body", expected="at least one Body")
-        _refuse_twins("body", [body.name for body in bodies])
-        _refuse_twins("contact or joint", [element.name for element in elements])
-        _refuse_twins("load", [load.name for load in loads])
+        _refuse_same_names("body", [body.name for body in bodies])
+        _refuse_same_names("contact or joint", [element.name for element in elements])
+        _refuse_same_names("load", [load.name for load in loads])
         roots = {body.axes.root for body in bodies}
         if len(roots) > 1:
             names = ", ".join(sorted(frame.name for frame in roots))
@@ -122,17 +122,17 @@ def _bodies(parts: Iterable[Part]) -> tuple[Body, ...]:
     return tuple(found)
 
 
-def _refuse_strangers(parts: Iterable[object]) -> None:
+def _refuse_other_types(parts: Iterable[object]) -> None:
     for part in parts:
         if not isinstance(part, Body | Element | Load):
             raise DeclarationError(
                 f"a {type(part).__name__} in a system",
                 expected="bodies, contacts, joints and loads",
-                advice="a support belongs into a contact: Rolling(body, on=Plane(lab))",
+                advice="a support belongs in a contact: Rolling(body, on=Plane(lab))",
             )
 
 
-def _refuse_twins(what: str, names: list[str]) -> None:
+def _refuse_same_names(what: str, names: list[str]) -> None:
     for name in names:
         if names.count(name) > 1:
             raise DeclarationError(

@@ -29,17 +29,6 @@ from polhode.algebra._functions import Elementary, Exponential
 from polhode.algebra._parts import under_letters
 from polhode.algebra._ring import Generator, Monomial, Polynomial, Ring, Symbol, as_fraction
 from polhode.algebra._roots import SquareRoot, is_plainly_positive
-from polhode.algebra.printing._arrange import (
-    CONSTANT_SUM,
-    EXPONENTIAL,
-    VARYING_SUM,
-    Rank,
-    absolute_value_rank,
-    factor_rank,
-    is_constant,
-    radical_rank,
-    term_rank,
-)
 from polhode.algebra.printing._nodes import (
     PrintCall,
     PrintName,
@@ -51,6 +40,17 @@ from polhode.algebra.printing._nodes import (
     power,
     product,
     total,
+)
+from polhode.algebra.printing._order import (
+    CONSTANT_SUM,
+    EXPONENTIAL,
+    VARYING_SUM,
+    Rank,
+    absolute_value_rank,
+    factor_rank,
+    is_constant,
+    radical_rank,
+    term_rank,
 )
 from polhode.algebra.printing._shorter import in_sums_of_angles, shortest_quotient
 

@@ -14,7 +14,7 @@ from polhode.algebra._forms import traded
 from polhode.algebra._functions import CIRCULAR, Even
 from polhode.algebra._half_angles import lowest
 from polhode.algebra._ring import Generator, Monomial, Polynomial, Ring, ring_of
-from polhode.algebra.printing._arrange import factor_rank
+from polhode.algebra.printing._order import factor_rank
 
 Quotient = tuple[Polynomial, Polynomial]
 

@@ -178,7 +178,7 @@ class _TapeWriter:
         return self._fraction(min(forms, key=self._cost) if len(forms) > 1 else forms[0])
 
     def _exponential(self, factor: Expr, exponent: Expr) -> Value:
-        """Factor times one exp; apart, exp(a) and exp(−b) may be infinite and nothing."""
+        """Factor times one exp; separately, exp(a) may overflow where exp(−b) underflows."""
         if exponent.is_zero:
             return self.expression(factor)
         near = _centred(factor, exponent)

@@ -1,4 +1,4 @@
-"""Expressions as plain fields, for documents."""
+"""Expressions in documents: how they are written as plain fields and read back."""
 
 from __future__ import annotations
 
@@ -77,14 +77,14 @@ def _function(name: str, of: Expr, times: tuple[int, int]) -> Elementary:
     kind, family = _FUNCTIONS[name]
     unit = _rational(*times)
     if unit <= 0 or not is_unit_argument(family, of):
-        raise ValueError(f"{name} of an argument that is not taken apart")
+        raise ValueError(f"{name} of an argument that is not in normal form")
     return kind(family, of, unit)
 
 
 def _root(of: Expr) -> SquareRoot:
     root = SquareRoot(of.trimmed())
     if sqrt(of) != Expr.generator(root):
-        raise ValueError("a root that is not taken apart")
+        raise ValueError("a root that is not in normal form")
     return root
 
 
@@ -106,12 +106,12 @@ def _terms(expression: Expr, polynomial: Polynomial) -> tuple[Any, ...]:
 
 def _expression(over: tuple[Generator, ...], above: Any, below: Any) -> Expr:
     if len(set(over)) < len(over) or not all(isinstance(g, Generator) for g in over):
-        raise ValueError("an expression over what are no different symbols")
+        raise ValueError("an expression whose symbols are not all different")
     ring = ring_of(frozenset(over))
     num = _polynomial(ring, over, above)
     den = _polynomial(ring, over, below)
     if den == 0 or any(den.degrees()[ring.index[g]] for g in over if g.depth):
-        raise ValueError("a fraction over nothing, or over a root")
+        raise ValueError("a fraction with zero or a root below the bar")
     return Expr(ring, *ring.cancel(num, den)) if num != 0 else ZERO
 
 
@@ -147,7 +147,7 @@ def _matrix(rows: tuple[tuple[Expr, ...], ...]) -> Matrix:
     if {len(row) for row in rows} != {len(rows)}:
         raise ValueError("a matrix that is not square")
     if not all(isinstance(entry, Expr) for row in rows for entry in row):
-        raise ValueError("a matrix of something else than expressions")
+        raise ValueError("a matrix of anything but expressions")
     return Matrix(rows)
 
 
