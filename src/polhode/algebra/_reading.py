@@ -217,7 +217,11 @@ class _ExpressionParser:
     def _atom(self) -> Expr:
         token = self._token
         if token.kind == "number":
-            return self._number(self._take())
+            self._take()
+            if abs(int(token.text.lower().partition("e")[2] or 0)) > HIGHEST_OF_TEN:
+                limit = f"powers of ten up to {HIGHEST_OF_TEN}"
+                raise self._refusal(token, "a number too large or too small", limit)
+            return Expr.constant(Fraction(token.text))
         if token.kind == "name":
             return self._named(self._take())
         if token.text == "(":
@@ -231,14 +235,6 @@ class _ExpressionParser:
             raise self._unexpected("a closing bracket")
         self._take()
         return inside
-
-    def _number(self, token: _Token) -> Expr:
-        power_of_ten = token.text.lower().partition("e")[2]
-        if abs(int(power_of_ten or 0)) > HIGHEST_OF_TEN:
-            raise self._refusal(
-                token, "a number too large or too small", f"powers of ten up to {HIGHEST_OF_TEN}"
-            )
-        return Expr.constant(Fraction(token.text))
 
     def _named(self, token: _Token) -> Expr:
         if token.text in self._names:

@@ -3,7 +3,6 @@
 import os
 import shutil
 import sys
-from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
@@ -59,16 +58,13 @@ def clear() -> int:
     """
     root = directory()
     ours = [tag.parent for tag in root.glob(f"*/{_TAG_NAME}") if _is_ours(tag)]
-    freed = sum(status.st_size for owned in ours for _, status in _files(owned))
+    freed = 0
     for owned in ours:
+        for path in owned.rglob("*"):
+            with suppress(OSError):  # another process may just have removed it
+                freed += path.stat().st_size
         shutil.rmtree(owned, ignore_errors=True)
     return freed
-
-
-def _files(owned: Path) -> Iterator[tuple[Path, os.stat_result]]:
-    for path in owned.rglob("*"):
-        with suppress(OSError):  # another process may just have removed it
-            yield path, path.stat()
 
 
 def _is_ours(tag: Path) -> bool:

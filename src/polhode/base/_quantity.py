@@ -115,17 +115,14 @@ def _quantity(value: Value) -> Quantity:
     match value:
         case str():
             return read_quantity(value)
-        case (magnitude, str(unit)):
-            return _scaled(_exact(magnitude), read_unit(unit), value)
+        case (magnitude, str(unit_text)):
+            number, unit = _exact(magnitude), read_unit(unit_text)
+            quantity = Quantity(number * unit.coefficient, unit.pi_power, unit.dimension)
+            return _finite(quantity, value)
         case PintQuantity():
             return _from_pint(value)
         case _:
             return Quantity(_exact(value), 0, None)
-
-
-def _scaled(number: Fraction, unit: Unit, shown: object) -> Quantity:
-    quantity = Quantity(number * unit.coefficient, unit.pi_power, unit.dimension)
-    return _finite(quantity, shown)
 
 
 def _exact(number: Any) -> Fraction:

@@ -34,13 +34,9 @@ class Dimension:
         powers = (("kg", self.mass), ("m", self.length), ("s", self.time))
         above = [_power(unit, exponent) for unit, exponent in powers if exponent > 0]
         below = [_power(unit, -exponent) for unit, exponent in powers if exponent < 0]
-        return " ".join(above or ["1"]) + _divisor(below)
-
-
-def _divisor(factors: list[str]) -> str:
-    if len(factors) > 1:
-        return f"/({' '.join(factors)})"
-    return "".join(f"/{factor}" for factor in factors)
+        if len(below) > 1:
+            below = [f"({' '.join(below)})"]
+        return "/".join([" ".join(above or ["1"]), *below])
 
 
 def _power(unit: str, exponent: Fraction) -> str:
@@ -179,19 +175,16 @@ class _UnitParser:
 
     def _factor(self) -> Unit:
         if self._symbol == "(":
-            return self._bracket()
+            self._take()
+            unit = self._product()
+            if self._symbol != ")":
+                raise _malformed(self._text)
+            self._take()
+            return unit
         base = self._named()
         if self._kind not in ("power", "superscript"):
             return base
         return base ** int(self._take().translate(_SUPERSCRIPTS))
-
-    def _bracket(self) -> Unit:
-        self._take()
-        unit = self._product()
-        if self._symbol != ")":
-            raise _malformed(self._text)
-        self._take()
-        return unit
 
     def _named(self) -> Unit:
         if self._kind != "name":
@@ -200,7 +193,11 @@ class _UnitParser:
         if name == "1":
             return Unit()
         if name not in UNITS:
-            raise _unknown(name)
+            prefixes = " ".join(filter(str.isascii, PREFIXES))
+            raise UnitError(
+                f"the unit {name!r} is not known",
+                expected=f"{' '.join(PREFIXED)}, perhaps prefixed {prefixes}, or {' '.join(PLAIN)}",
+            )
         return UNITS[name]
 
     def _scanned(self) -> Iterator[tuple[str, str]]:
@@ -229,11 +226,3 @@ class _UnitParser:
 
 def _malformed(text: str) -> UnitError:
     return UnitError(f"{text!r} is not a unit", expected="units joined as in 'kg m^2/s'")
-
-
-def _unknown(name: str) -> UnitError:
-    prefixes = " ".join(filter(str.isascii, PREFIXES))
-    return UnitError(
-        f"the unit {name!r} is not known",
-        expected=f"{' '.join(PREFIXED)}, perhaps prefixed {prefixes}, or {' '.join(PLAIN)}",
-    )

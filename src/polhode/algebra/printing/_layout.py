@@ -143,17 +143,17 @@ def _groups(
 def _collected(
     ring: Ring, groups: Iterable[tuple[Powers, Polynomial]], scale: Factored
 ) -> PrintNode:
-    nodes = (_group(ring, outer, coefficient, scale) for outer, coefficient in groups)
-    return total([term for node in nodes for term in _addends(node)])
-
-
-def _group(ring: Ring, outer: Powers, coefficient: Polynomial, scale: Factored) -> PrintNode:
-    if outer:
-        common = scale * Factored(powers=outer)
-        return _shortest(_term(ring, common * form) for form in products(ring, coefficient))
-    scaled = (scale * term for term in terms(ring, coefficient))
-    ordered = sorted(scaled, key=lambda term: term_rank(term.powers))
-    return total([_term(ring, term) for term in ordered])
+    nodes: list[PrintNode] = []
+    for outer, coefficient in groups:
+        if outer:
+            common = scale * Factored(powers=outer)
+            forms = (_term(ring, common * form) for form in products(ring, coefficient))
+            nodes += _addends(_shortest(forms))
+        else:
+            scaled = (scale * term for term in terms(ring, coefficient))
+            ordered = sorted(scaled, key=lambda term: term_rank(term.powers))
+            nodes += _addends(total([_term(ring, term) for term in ordered]))
+    return total(nodes)
 
 
 def _addends(node: PrintNode) -> tuple[PrintNode, ...]:

@@ -23,47 +23,6 @@ from polhode.algebra.programs._program import Op, Program
 from polhode.algebra.programs._tape import Tape, Value, solve_on
 from polhode.base import DeclarationError, NumericError
 
-# -- sums about the place that an exponent is counted from -----------------------------------------
-#
-# The second derivative of exp(−(t − c)²/w²) has the factor 2(t − c)² − w². Multiplied out, as
-# 2t² − 4ct + 2c² − w², it loses the digits of t²/w².
-
-
-class _Centred(NamedTuple):
-    """An expression by a distance.
-
-    Attributes:
-        expression: with the distance as a symbol.
-        distance: that symbol.
-        meaning: what the distance is.
-    """
-
-    expression: Expr
-    distance: Symbol
-    meaning: Expr
-
-
-def _centred(factor: Expr, exponent: Expr) -> _Centred | None:
-    """The factor of an exp by a distance of which the exponent has a power.
-
-    None where that is not shorter.
-    """
-    ways = (
-        _about(factor, symbol, meaning)
-        for meaning, power in factors(exponent)[1].items()
-        if power > 0 and len(meaning.num) > 1
-        for symbol in meaning.symbols()
-        if not meaning.diff(symbol).generators  # it is linear in the symbol
-    )
-    best = min(ways, key=lambda way: length(way.expression), default=None)
-    return best if best is not None and length(best.expression) < length(factor) else None
-
-
-def _about(factor: Expr, symbol: Symbol, meaning: Expr) -> _Centred:
-    distance = Symbol(f"({meaning.key})", SymbolKind.PARAMETER)
-    away = (Expr.generator(distance) - meaning) / meaning.diff(symbol)
-    return _Centred(factor.subs({symbol: Expr.generator(symbol) + away}), distance, meaning)
-
 
 @dataclass(frozen=True)
 class LinearSolve:
@@ -369,3 +328,41 @@ def _split(
         else:
             rest[monomial] = coefficient
     return ring.context.from_dict(inner), ring.context.from_dict(rest)
+
+
+# -- sums about the centre of an exponent ----------------------------------------------------------
+#
+# The second derivative of exp(−(t − c)²/w²) has the factor 2(t − c)² − w². Multiplied out, as
+# 2t² − 4ct + 2c² − w², it loses the digits of t²/w².
+
+
+class _Centred(NamedTuple):
+    """An expression written with a distance.
+
+    Attributes:
+        expression: with the distance as a symbol.
+        distance: that symbol.
+        meaning: what the distance is.
+    """
+
+    expression: Expr
+    distance: Symbol
+    meaning: Expr
+
+
+def _centred(factor: Expr, exponent: Expr) -> _Centred | None:
+    """The factor of an exp, written with a distance that is a factor of the exponent.
+
+    None where that is not shorter.
+    """
+    ways = []
+    for meaning, power in factors(exponent)[1].items():
+        for symbol in meaning.symbols() if power > 0 and len(meaning.num) > 1 else ():
+            slope = meaning.diff(symbol)
+            if slope.generators:
+                continue  # it is not linear in the symbol with a number as coefficient
+            distance = Symbol(f"({meaning.key})", SymbolKind.PARAMETER)
+            image = Expr.generator(symbol) + (Expr.generator(distance) - meaning) / slope
+            ways.append(_Centred(factor.subs({symbol: image}), distance, meaning))
+    best = min(ways, key=lambda way: length(way.expression), default=None)
+    return best if best is not None and length(best.expression) < length(factor) else None
