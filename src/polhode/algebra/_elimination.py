@@ -1,8 +1,9 @@
 """Systems of linear equations solved exactly, with pivots that keep expressions small.
 
-`eliminate` multiplies everything out. `eliminate_in_parts` keeps what is long under names and
-divides by nothing that can vanish. Both are one Gauss–Jordan elimination with their own choice of
-pivots; programs solve equations in numbers by steps of their own (`programs._tape.solve_on`).
+`eliminate` multiplies everything out. `eliminate_in_parts` puts long expressions under names and
+never divides by one that can vanish. Both use the same Gauss–Jordan elimination and differ in
+their choice of pivots. Programs, which solve equations for numbers, have an elimination of their
+own: see `programs._tape.solve_on`.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ class OutgrownError(NumericError):
 
 
 def refuse_long(expressions: Iterable[Expr], what: str) -> None:
-    """Refuse what is too long to be written out, with `OutgrownError`."""
+    """Raise `OutgrownError` if an expression is too long to be of use."""
     longest = max(map(length, expressions), default=0)
     if longest > LONGEST:
         raise OutgrownError(
@@ -145,7 +146,7 @@ def _complexity(pivot: Expr) -> tuple[int, int]:
     return (2 if constant else 3, length(pivot))
 
 
-# -- with what is long under names -----------------------------------------------------------------
+# -- with long expressions under names -------------------------------------------------------------
 #
 # Elimination divides by one entry after the other. Multiplied out, a factor that vanishes somewhere
 # cancels again; under names it would stay. So only numbers and what is positive serve as pivots,
@@ -165,8 +166,7 @@ def eliminate_in_parts(
         rows: of the matrix.
         right: the column they equal.
         rank: how readily each unknown is solved for, low first.
-        visible: symbols in which the right-hand sides are polynomials, and remain so for all to
-            see.
+        visible: symbols in which the right-hand sides are polynomials, and remain so explicitly.
     """
     width, shown = len(rows[0]) if rows else len(rank or ()), tuple(visible)
     table = [[*row, constant] for row, constant in zip(rows, right, strict=True)]
@@ -242,7 +242,7 @@ def _solved_definite(table: Table, visible: tuple[Symbol, ...]) -> list[Row]:
 
 
 def _independent(table: Table, rows: Iterable[int], columns: Iterable[int]) -> dict[int, int]:
-    """Columns none of which follows from those before it, each with a row of its own.
+    """Linearly independent columns, the first ones preferred, each with a pivot row.
 
     Decided by the values at a random state, with partial pivoting.
     """

@@ -38,7 +38,7 @@ Rate = Callable[[Symbol], "Expr"]
 _LARGEST_POWER = 1000
 
 _STATES = (1, 2)  # random ones, at which expressions with named parts are compared with zero
-_BITS = 448  # of the values there: what is zero in all of them is zero to a hundred digits
+_BITS = 448  # precision of the values there, 134 decimal digits
 
 
 class Composite(Generator):
@@ -71,7 +71,7 @@ class Composite(Generator):
 
 @dataclass(frozen=True)
 class Facilities:
-    """What `Expr` offers by modules that are built on it and that it can therefore not import."""
+    """Functions of modules built on `Expr`, which it offers as methods but must not import."""
 
     square_root: Callable[[Expr], Expr]
     from_sympy: Callable[[Any], Expr]
@@ -398,7 +398,7 @@ class Expr(Shown):
         return total(self.diff(s) * rate for s in changing if (rate := time_rate(s)))
 
     def subs(self, images: Mapping[Any, ExprLike]) -> Expr:
-        """With symbols replaced, all at once, also inside functions."""
+        """With symbols replaced simultaneously, also inside functions."""
         table = {as_symbol(symbol): Expr.of(image) for symbol, image in images.items()}
         if not table.keys() & self.symbols():
             return self
@@ -472,7 +472,7 @@ def _substituted(polynomial: Expr, images: Mapping[Generator, Expr]) -> Expr:
 
 
 def total(expressions: Iterable[Expr]) -> Expr:
-    """Their sum; of many polynomials at once, which is quicker than one by one."""
+    """Their sum; many polynomials are added in one ring, which is quicker than one by one."""
     terms = tuple(expressions)
     if len(terms) < 3 or not all(term.is_polynomial for term in terms):
         return sum(terms, ZERO)

@@ -1,8 +1,8 @@
 """Trigonometric fractions in lowest terms, by way of the tangent of half the angle.
 
-In normal form sin(θ - φ)/sin(θ + φ) has a denominator free of cosines, both multiplied by a sine
-that may be as small as it likes. In t = tan θ/2 every sine and cosine is rational, and what is
-common to both is an ordinary common factor.
+In normal form sin(θ - φ)/sin(θ + φ) has a denominator free of cosines, at the price of a common
+factor that vanishes somewhere. In t = tan θ/2 every sine and cosine is rational, and the common
+factor is an ordinary one of polynomials.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _LONGEST = 3000
 
 
 class Lowest(NamedTuple):
-    """A fraction with what is common to both taken out, its denominator as powers of factors."""
+    """A fraction in lowest terms, its denominator as powers of factors."""
 
     num: Polynomial
     factors: Factors
@@ -34,7 +34,7 @@ def lowest(expression: Expr) -> Lowest | None:
 
 @lru_cache(maxsize=512)
 def _lowest(expression: Expr, _generators: tuple[Generator, ...]) -> Lowest | None:
-    """Equal expressions of different rings are told apart: the outcome lives in its ring."""
+    """Cached by the ring too, since equal expressions may lie in different rings."""
     ring, num, den = expression.ring, expression.num, expression.den
     angles = _angles_below(ring, den)
     if not angles or len(num) > _LONGEST:

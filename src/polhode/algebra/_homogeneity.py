@@ -18,7 +18,7 @@ def dimension_of(expression: Expr, known: Mapping[Symbol, Dimension]) -> Dimensi
     A bare number that is added to other terms is SI of whatever they are.
 
     Args:
-        expression: what is asked about.
+        expression: any.
         known: dimension of every symbol that has one; rates follow from what they are rates of.
 
     Raises:

@@ -1,4 +1,4 @@
-"""Named parts: long expressions that stand under one name, so that nothing is multiplied out.
+"""Named parts: long expressions under one name each, which are not multiplied out.
 
 Arithmetic treats a part as a symbol. Derivatives, substitution, programs and printing look inside,
 once for all the places where it occurs.
@@ -87,11 +87,11 @@ def _replaced(part: NamedPart, image: Rate) -> Expr:
 
 
 def named(expression: Expr, visible: Iterable[Symbol] = ()) -> Expr:
-    """An expression with what is long in it under names, and no denominators.
+    """An expression with its long coefficients under names, and without denominators.
 
     Args:
         expression: any.
-        visible: symbols in which it is a polynomial, and remains one for all to see.
+        visible: symbols in which it is a polynomial, and remains one explicitly.
     """
     ring = expression.ring
     open_ = [symbol for symbol in visible if symbol in ring.index]

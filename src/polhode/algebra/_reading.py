@@ -145,7 +145,7 @@ def read_expression(text: str, names: Mapping[str, Expr]) -> Expr:
         names: what each name stands for.
 
     Raises:
-        ParseError: for anything else, pointing at the place, and for what is too large.
+        ParseError: for anything else, pointing at the place, and for results too long.
     """
     if len(text) > LONGEST:
         raise ParseError(

@@ -119,6 +119,6 @@ def look_up(name: str, known: Mapping[str, Known], what: str) -> Known:
     near = get_close_matches(name, known, n=3, cutoff=0.5)
     raise DeclarationError(
         f"{name!r} is no {what}",
-        expected=f"one of {', '.join(known)}" if known else "none: it has none",
+        expected=f"one of {', '.join(known)}" if known else "none, since there are none",
         advice=f"did you mean {' or '.join(near)}?" if near else "",
     )

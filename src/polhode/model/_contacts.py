@@ -282,7 +282,7 @@ class Phase:
 
     @property
     def flies(self) -> bool:
-        """Whether nothing touches."""
+        """Whether the body is off the support."""
         return self.kind == "flight"
 
     def beyond(self) -> Phase:

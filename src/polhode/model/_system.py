@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Protocol, TypeVar
 
 from polhode.algebra import Expr, ExprLike, Symbol, as_symbol
-from polhode.base import DeclarationError, Shown
+from polhode.base import DeclarationError, Shown, look_up
 from polhode.model._body import Body
 from polhode.model._contacts import Contact, Coulomb
 from polhode.model._element import Element, Flight
@@ -78,36 +77,21 @@ class System(Shown):
 
     def body(self, name: str) -> Body:
         """The body with this name."""
-        return _named(name, self.bodies, "body")
+        return look_up(name, {body.name: body for body in self.bodies}, "body of the system")
 
     def element(self, name: str) -> Element:
         """The contact or joint with this name."""
-        return _named(name, self.elements, "contact or joint")
+        known = {element.name: element for element in self.elements}
+        return look_up(name, known, "contact or joint of the system")
 
     def load(self, name: str) -> Load:
         """The load with this name."""
-        return _named(name, self.loads, "load")
+        return look_up(name, {load.name: load for load in self.loads}, "load of the system")
 
     def flights(self, placed: Iterable[Body]) -> tuple[Flight, ...]:
         """Free motion for the bodies that nothing places."""
         known = set(placed)
         return tuple(Flight(b, f"flight{b.tag}") for b in self.bodies if b not in known)
-
-
-class _Named(Protocol):
-    @property
-    def name(self) -> str: ...
-
-
-Found = TypeVar("Found", bound=_Named)
-
-
-def _named(name: str, things: Iterable[Found], what: str) -> Found:
-    known = {thing.name: thing for thing in things}
-    if name not in known:
-        names = ", ".join(known) or f"none: the system has no {what}"
-        raise DeclarationError(f"{what} {name!r}", expected=f"one of {names}")
-    return known[name]
 
 
 def _bodies(parts: Iterable[Part]) -> tuple[Body, ...]:

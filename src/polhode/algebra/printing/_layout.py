@@ -305,6 +305,6 @@ def _absolute_of(root: SquareRoot) -> Expr | None:
     """The expression whose absolute value the root is, if it is one."""
     ring, num = root.radicand.ring, root.radicand.num
     for form in (num, over_cosines(ring, num), in_shortest_squares(ring, num)):
-        with suppress(DomainError):  # of what is no square
+        with suppress(DomainError):  # not a square
             return Expr(ring, ring.reduce(form.sqrt()), ring.one)
     return None

@@ -1,4 +1,4 @@
-"""The display tree: what is printed where, decided once for all printers."""
+"""The display tree: the layout of an expression, made once for all printers."""
 
 from __future__ import annotations
 

@@ -49,7 +49,7 @@ def radical_rank(inside: Sequence[Generator], key: str = "") -> Rank:
 
 
 def absolute_value_rank(inside: Iterable[Generator]) -> Rank:
-    """Where an absolute value stands: behind all else, in the order of what is inside."""
+    """Where an absolute value stands: last, in the order of its contents."""
     return (5, sorted(map(factor_rank, inside)))
 
 

@@ -297,7 +297,7 @@ def _factored(ring: Ring, polynomial: Polynomial) -> tuple[Fraction, Factors]:
     if polynomial == 0:
         return Fraction(0), []
     if ring.has_parts or len(polynomial) > _LONG:
-        # only what all terms have in common: of many generators, further factors are rare and dear
+        # only what all terms have in common: with many generators, factorising rarely pays
         outside = extracted(ring, polynomial)
         powers = [(ring.variable(g), power) for g, power in outside.powers.items()]
         return outside.number, [*powers, *outside.sums]
