@@ -1,4 +1,4 @@
-"""Systems as documents, so that what was computed can be derived again from the file alone."""
+"""Systems as JSON documents, from which all equations can be derived again."""
 
 from __future__ import annotations
 
@@ -11,46 +11,51 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 
 from polhode.algebra import SHAPES, Expr, Vector
 from polhode.base import Codec, ShapeRecord
-from polhode.model import _contacts, _joints, _loads, _phases, _pivots, _spin, _supports, _surface
 from polhode.model._body import Body, BodyPoint
+from polhode.model._contacts import Apart, Coulomb, Rolling, Smooth
 from polhode.model._frame import Frame
+from polhode.model._joints import Guide, Hinge, Hold, Motor, Pivot, Universal, Weld
+from polhode.model._loads import Damper, Force, Gravity, Spring, Torque
+from polhode.model._spin import About, Components, Free, Relative, WithAxes
+from polhode.model._supports import Plane, Sheet, Turntable
+from polhode.model._surface import Ellipsoidal, Face, Rim, Round
 from polhode.model._system import System
 
 _DECLARED = (
     BodyPoint,
-    _contacts.Coulomb,
-    _contacts.Rolling,
-    _contacts.Smooth,
-    _joints.Guide,
-    _joints.Hinge,
-    _joints.Motor,
-    _joints.Universal,
-    _loads.Damper,
-    _loads.Force,
-    _loads.Gravity,
-    _loads.Spring,
-    _loads.Torque,
-    _phases.Apart,
-    _pivots.Hold,
-    _pivots.Pivot,
-    _pivots.Weld,
-    _spin.About,
-    _spin.Components,
-    _spin.Free,
-    _spin.Relative,
-    _spin.WithAxes,
-    _supports.Plane,
-    _supports.Sheet,
-    _supports.Turntable,
-    _surface.Ellipsoidal,
-    _surface.Face,
-    _surface.Rim,
-    _surface.Round,
+    Coulomb,
+    Rolling,
+    Smooth,
+    Guide,
+    Hinge,
+    Motor,
+    Universal,
+    Damper,
+    Force,
+    Gravity,
+    Spring,
+    Torque,
+    Apart,
+    Hold,
+    Pivot,
+    Weld,
+    About,
+    Components,
+    Free,
+    Relative,
+    WithAxes,
+    Plane,
+    Sheet,
+    Turntable,
+    Ellipsoidal,
+    Face,
+    Rim,
+    Round,
 )
 
 
 def write_declaration(system: System) -> str:
-    """A system as a JSON document, the same one for the same declaration.
+    """A system as a JSON document, always the same for equal declarations.
 
     Raises:
         StoreError: for a system with parts of classes that are not polhode's own.
@@ -59,7 +64,7 @@ def write_declaration(system: System) -> str:
 
 
 def read_declaration(text: str) -> System:
-    """The system that a document declares, made and checked as if it were declared anew.
+    """The system that a document declares, made and checked as if declared anew.
 
     Nothing in the document is run.
 
@@ -89,7 +94,7 @@ def _fields(value: Any) -> dict[str, Any]:
 
 
 def _declared(kind: type, given: Mapping[str, Any]) -> Any:
-    """An object by its constructor, refused unless that gives the fields that were asked for."""
+    """An object made by its constructor; refused unless its fields are those given."""
     words = {**given, "only": " ".join(given["only"])} if "only" in given else given
     known = _words(kind)
     return _confirmed(kind(**{name: words[name] for name in words if name in known}), given)
@@ -97,8 +102,8 @@ def _declared(kind: type, given: Mapping[str, Any]) -> Any:
 
 @cache
 def _words(kind: type[Any]) -> frozenset[str]:
-    """What its constructor can be told by name; a weld passes on what a pivot can."""
-    kinds = (kind, _pivots.Pivot) if kind is _pivots.Weld else (kind,)
+    """Parameters of its constructor by name; a weld passes on those of a pivot."""
+    kinds = (kind, Pivot) if kind is Weld else (kind,)
     return frozenset(name for one in kinds for name in inspect.signature(one).parameters)
 
 
@@ -130,7 +135,7 @@ def _frame(**given: Any) -> Frame:
     if len(set(frame.labels)) != 3 or len(frame.labels) != 3 or len(frame.turned) != 3:
         raise ValueError("a frame without three directions")
     if len(frame.axis) != 3 or sum(part * part for part in frame.axis) != 1:
-        raise ValueError("a frame turned about no direction")
+        raise ValueError("a frame turned about something other than a unit vector")
     return frame
 
 

@@ -1,4 +1,4 @@
-"""Loads: forces and couples that act whatever the supports do."""
+"""Loads: applied forces and couples."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, ExprLike, Vector
 from polhode.model._body import Body, BodyPoint
-from polhode.model._checks import (
+from polhode.model._declared import (
+    FieldwiseRepr,
     not_negative,
     of_type,
     quantity,
@@ -16,7 +17,6 @@ from polhode.model._checks import (
     without_coordinates,
     without_rates,
 )
-from polhode.model._declared import FieldwiseRepr
 from polhode.model._element import Places
 from polhode.model._frame import Frame
 
@@ -71,7 +71,7 @@ class Load(FieldwiseRepr, ABC):
     def actions(
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
     ) -> tuple[Action, ...]:
-        """What it does to the bodies."""
+        """Its forces and couples on the bodies."""
         return ()
 
     def potential(self, bodies: tuple[Body, ...], places: Places) -> Expr | None:
@@ -79,7 +79,7 @@ class Load(FieldwiseRepr, ABC):
         return None
 
     def on_places(self, places: Places, velocities: Velocities) -> tuple[Push, ...]:
-        """What it does to places that are no points of bodies."""
+        """Its forces on moving places that are not points of bodies."""
         return ()
 
 
@@ -102,7 +102,8 @@ class Gravity(Load):
         if up is not None:
             what = f"the direction up of {name!r}"
             unit_vector(up, what)
-            without_coordinates(_at_rest(up).components, what, _NO_POTENTIAL)
+            at_rest = up.express(up.triad.root) if isinstance(up.triad, Frame) else up
+            without_coordinates(at_rest.components, what, _NO_POTENTIAL)
         for field, value in (("g", strength), ("up", up), ("name", name)):
             object.__setattr__(self, field, value)
 
@@ -225,11 +226,10 @@ class Spring(Load):
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
     ) -> tuple[Action, ...]:
         between = self._stretch(places)
-        tension = self.stiffness if not self.length else self._tension(between)
-        return _pair(self.start, self.end, between * -tension)
-
-    def _tension(self, between: Vector) -> Expr:
-        return self.stiffness * (1 - self.length / between.norm())
+        rate = self.stiffness  # tension over distance, N/m
+        if self.length:
+            rate = rate * (1 - self.length / between.norm())
+        return _pair(self.start, self.end, between * -rate)
 
     def potential(self, bodies: tuple[Body, ...], places: Places) -> Expr:
         between = self._stretch(places)
@@ -315,10 +315,5 @@ def _pair(start: BodyPoint, end: BodyPoint | Vector, force: Vector) -> tuple[Act
 
 
 def _pushes(end: BodyPoint | Vector, actions: tuple[Action, ...]) -> tuple[Push, ...]:
-    """What the first of two opposite forces is answered by, at a place."""
+    """The opposite of the first force, where the other end is a place."""
     return () if isinstance(end, BodyPoint) else (Push(-actions[0].force, end.dt()),)
-
-
-def _at_rest(vector: Vector) -> Vector:
-    """Resolved along the root frame."""
-    return vector.express(vector.triad.root) if isinstance(vector.triad, Frame) else vector

@@ -6,8 +6,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, Vector, named, principal_root
-from polhode.model._checks import constant, not_negative, positive, quantity
-from polhode.model._declared import FieldwiseRepr
+from polhode.model._declared import FieldwiseRepr, constant, not_negative, positive, quantity
 from polhode.model._frame import Frame
 
 #: Terms of a squared length beyond which what follows from its root is too long to be written out.
@@ -31,7 +30,7 @@ class Surface(FieldwiseRepr, ABC):
         """Whether it looks the same however it is turned about this one of the axes."""
 
     def assumed_positive(self, axes: Frame, normal: Vector) -> tuple[Expr, ...]:
-        """Expressions whose sign had to be taken as positive."""
+        """Expressions whose sign is assumed to be positive."""
         return ()
 
 

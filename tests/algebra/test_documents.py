@@ -5,15 +5,15 @@ import json
 import pytest
 from hypothesis import assume, given, settings
 
-from algebra.worlds import (
+from algebra.backends import (
     NUMBERS,
     a,
     are_close,
-    cooked,
+    evaluated,
     expression_of,
     phi,
-    recipes,
     theta,
+    trees,
     value,
     x,
 )
@@ -39,16 +39,16 @@ from polhode.base import Codec, StoreError
 CODEC = Codec(SHAPES)
 
 
-@given(recipes)
-def test_expressions_come_back_as_they_were(recipe):
-    expression = expression_of(recipe)
+@given(trees)
+def test_expressions_come_back_as_they_were(tree):
+    expression = expression_of(tree)
     assume(expression is not None)
     text = CODEC.write(expression)
     again = CODEC.read(text, Expr)
     assert again == expression
     assert again.generators == expression.generators
     assert CODEC.write(again) == text
-    assert are_close(value(again), cooked(recipe, NUMBERS))
+    assert are_close(value(again), evaluated(tree, NUMBERS))
 
 
 @pytest.mark.parametrize(
@@ -161,8 +161,8 @@ def test_nonsense_is_refused(name):
 
 
 @settings(max_examples=30)
-@given(recipes)
-def test_writing_is_the_same_for_equal_expressions(recipe):
-    first, second = expression_of(recipe), expression_of(recipe)
+@given(trees)
+def test_writing_is_the_same_for_equal_expressions(tree):
+    first, second = expression_of(tree), expression_of(tree)
     assume(first is not None)
     assert CODEC.write(first) == CODEC.write(second + x - x)

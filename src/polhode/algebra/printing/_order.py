@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 
 from polhode.algebra._functions import Elementary, Even
-from polhode.algebra._generators import Generator, Symbol, SymbolKind
+from polhode.algebra._ring import Generator, Symbol, SymbolKind
 from polhode.algebra.printing._names import Spelling
 
 Rank = tuple[object, ...]
@@ -29,7 +29,12 @@ def is_constant(generator: Generator) -> bool:
 def factor_rank(generator: Generator) -> Rank:
     """Numbers, then parameters, then what varies, then functions: m g a θ̇ sin θ."""
     if isinstance(generator, Symbol):
-        return _symbol_rank(generator)
+        if generator.kind is not SymbolKind.PARAMETER:
+            return (2, _level(generator), generator.kind is not SymbolKind.SPEED, _place(generator))
+        stem = Spelling.of(generator).stem
+        families = ("pi",), _MASSES, _INERTIAS, _GRAVITY
+        family = next((i for i, stems in enumerate(families) if stem in stems), len(families))
+        return (1, 0, family, _place(generator))
     if isinstance(generator, Elementary):
         names = sorted(_place(s) for s in generator.symbols())
         return (3, names, generator.family.sign, isinstance(generator, Even), generator.key)
@@ -44,17 +49,8 @@ def radical_rank(inside: Sequence[Generator], key: str = "") -> Rank:
 
 
 def absolute_value_rank(inside: Iterable[Generator]) -> Rank:
-    """Where an absolute value stands: behind all else, in the order of what is inside."""
+    """Where an absolute value stands: last, in the order of its contents."""
     return (5, sorted(map(factor_rank, inside)))
-
-
-def _symbol_rank(symbol: Symbol) -> Rank:
-    if symbol.kind is not SymbolKind.PARAMETER:
-        return (2, _level(symbol), symbol.kind is not SymbolKind.SPEED, _place(symbol))
-    stem = Spelling.of(symbol).stem
-    families = ("pi",), _MASSES, _INERTIAS, _GRAVITY
-    family = next((i for i, stems in enumerate(families) if stem in stems), len(families))
-    return (1, 0, family, _place(symbol))
 
 
 def _place(symbol: Symbol) -> Rank:
@@ -71,13 +67,8 @@ def term_rank(powers: Mapping[Generator, int]) -> Rank:
         -degree,
         -max((p for _, p in rates), default=0),
         sum(abs(p) for p in powers.values()),
-        sorted(_spread(powers)),
+        sorted((*factor_rank(g), -p) for g, p in powers.items()),
     )
-
-
-def _spread(powers: Mapping[Generator, int]) -> Iterator[Rank]:
-    for generator, power in powers.items():
-        yield (*factor_rank(generator), -power)
 
 
 def _level(symbol: Symbol) -> int:

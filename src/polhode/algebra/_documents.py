@@ -1,4 +1,4 @@
-"""Expressions as plain fields, for documents."""
+"""Expressions in documents: how they are written as plain fields and read back."""
 
 from __future__ import annotations
 
@@ -19,12 +19,10 @@ from polhode.algebra._functions import (
     Odd,
     is_unit_argument,
 )
-from polhode.algebra._generators import Generator, Symbol, SymbolKind
-from polhode.algebra._linear import Matrix
-from polhode.algebra._plain import plain
-from polhode.algebra._ring import Polynomial, Ring, ring_of
+from polhode.algebra._ring import Generator, Polynomial, Ring, Symbol, SymbolKind, ring_of
 from polhode.algebra._roots import SquareRoot, sqrt
 from polhode.algebra._symbols import is_name
+from polhode.algebra._vector import Matrix
 from polhode.base import ShapeRecord
 
 _LARGEST_POWER = 1000
@@ -79,14 +77,14 @@ def _function(name: str, of: Expr, times: tuple[int, int]) -> Elementary:
     kind, family = _FUNCTIONS[name]
     unit = _rational(*times)
     if unit <= 0 or not is_unit_argument(family, of):
-        raise ValueError(f"{name} of an argument that is not taken apart")
+        raise ValueError(f"{name} of an argument that is not in normal form")
     return kind(family, of, unit)
 
 
 def _root(of: Expr) -> SquareRoot:
     root = SquareRoot(of.trimmed())
     if sqrt(of) != Expr.generator(root):
-        raise ValueError("a root that is not taken apart")
+        raise ValueError("a root that is not in normal form")
     return root
 
 
@@ -102,18 +100,18 @@ def _expression_apart(expression: Expr) -> dict[str, Any]:
 
 
 def _terms(expression: Expr, polynomial: Polynomial) -> tuple[Any, ...]:
-    terms = plain(expression, polynomial)
+    terms = expression.ring.plain(expression.generators, polynomial)
     return tuple(sorted((tuple(map(int, powers)), p, q) for powers, p, q in terms))
 
 
 def _expression(over: tuple[Generator, ...], above: Any, below: Any) -> Expr:
     if len(set(over)) < len(over) or not all(isinstance(g, Generator) for g in over):
-        raise ValueError("an expression over what are no different symbols")
+        raise ValueError("an expression whose symbols are not all different")
     ring = ring_of(frozenset(over))
     num = _polynomial(ring, over, above)
     den = _polynomial(ring, over, below)
     if den == 0 or any(den.degrees()[ring.index[g]] for g in over if g.depth):
-        raise ValueError("a fraction over nothing, or over a root")
+        raise ValueError("a fraction with zero or a root below the bar")
     return Expr(ring, *ring.cancel(num, den)) if num != 0 else ZERO
 
 
@@ -149,7 +147,7 @@ def _matrix(rows: tuple[tuple[Expr, ...], ...]) -> Matrix:
     if {len(row) for row in rows} != {len(rows)}:
         raise ValueError("a matrix that is not square")
     if not all(isinstance(entry, Expr) for row in rows for entry in row):
-        raise ValueError("a matrix of something else than expressions")
+        raise ValueError("a matrix of anything but expressions")
     return Matrix(rows)
 
 

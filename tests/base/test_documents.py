@@ -1,12 +1,25 @@
 """Objects in documents: shared parts once, unknown ones never, damage told in words."""
 
 import json
+import platform
+import subprocess
+import sys
 from dataclasses import dataclass
 from typing import Any
 
+import numpy
 import pytest
 
-from polhode.base import Codec, DeclarationError, ShapeRecord, StoreError, digest
+from polhode.base import (
+    SCHEMA,
+    Codec,
+    DeclarationError,
+    ShapeRecord,
+    StoreError,
+    digest,
+    installed_version,
+    provenance,
+)
 
 
 @dataclass(frozen=True)
@@ -69,7 +82,7 @@ def test_digests_tell_documents_apart():
     "value", [Stranger("x"), Pair(1, Stranger("x")), Pair(1, 2.5), Pair(1, [])]
 )
 def test_what_could_not_be_read_back_is_not_written(value):
-    with pytest.raises(StoreError, match="in a declaration; expected the classes of polhode"):
+    with pytest.raises(StoreError, match="in a declaration; expected polhode's own classes"):
         CODEC.write(value)
 
 
@@ -144,12 +157,12 @@ def test_damage_is_told_in_words(name):
 
 
 def test_a_document_of_something_else():
-    with pytest.raises(StoreError, match="no Stranger at its end"):
+    with pytest.raises(StoreError, match="it does not end with a Stranger"):
         CODEC.read(document(ONE), Stranger)
 
 
 def test_a_document_too_long():
-    with pytest.raises(StoreError, match="more than any declaration has"):
+    with pytest.raises(StoreError, match="more than any declaration"):
         CODEC.read(" " * (33 * 1024**2), Pair)
 
 
@@ -157,3 +170,32 @@ def test_a_document_too_long():
 def test_another_schema(schema):
     with pytest.raises(StoreError, match="expected schema 2; read it with the version"):
         CODEC.read(document(ONE, schema=schema), Pair)
+
+
+def test_a_document_tells_what_it_was_made_with():
+    made = provenance(seed=7)
+    assert made["schema"] == SCHEMA
+    assert made["seed"] == 7
+    assert made["versions"]["python"] == platform.python_version()
+    assert made["versions"]["numpy"] == numpy.__version__
+    assert made["versions"]["polhode"]
+    assert json.loads(json.dumps(made)) == made
+
+
+def test_no_random_numbers_no_seed():
+    assert provenance()["seed"] is None
+
+
+def test_what_is_not_installed_has_no_version():
+    assert installed_version("no-such-distribution-anywhere") is None
+
+
+def test_telling_imports_no_library():
+    program = (
+        "import sys; from polhode.base import provenance; provenance();"
+        "print(sorted({'numpy', 'scipy', 'heyoka', 'sympy', 'flint'} & sys.modules.keys()))"
+    )
+    told = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    assert told.stdout.strip() == "[]"

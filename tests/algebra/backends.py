@@ -1,7 +1,7 @@
-"""One recipe for an expression, cooked in three worlds: the kernel, mpmath and SymPy.
+"""One expression tree, evaluated in three backends: polhode's algebra, mpmath and SymPy.
 
-A recipe is a nested tuple. The worlds share nothing but the recipe, so that what the kernel makes
-of it can be judged by a number, and by another computer algebra.
+A tree is a nested tuple. The backends share nothing but the tree, so that a result of polhode's
+can be judged by a number, and by another computer algebra.
 """
 
 from collections.abc import Callable, Mapping
@@ -25,7 +25,7 @@ theta, phi = ph.coordinates("theta phi")
 theta_dot, phi_dot = theta.dt(), phi.dt()
 (omega_3,) = ph.speeds("omega_3")
 
-#: Every symbol that recipes use, by its published name.
+#: Every symbol that trees use, by its published name.
 NAMES = {
     str(ph.as_symbol(e).published): e
     for e in (x, y, a, b, theta, phi, theta_dot, phi_dot, omega_3, ph.time)
@@ -50,7 +50,7 @@ POINT = {
 
 
 @dataclass(frozen=True)
-class World:
+class Backend:
     """What numbers, names and functions are made of."""
 
     number: Callable[[Fraction], Any]
@@ -58,21 +58,21 @@ class World:
     function: Callable[[str], Callable[[Any], Any]]
 
 
-KERNEL = World(
+KERNEL = Backend(
     Expr.of,
     lambda name: ph.pi if name == "pi" else NAMES[name],
     lambda name: {"abs": ph.absolute}.get(name) or getattr(ph, name),
 )
-SYMPY = World(
+SYMPY = Backend(
     lambda q: sympy.Rational(q.numerator, q.denominator),
     lambda name: sympy.pi if name == "pi" else sympy.Symbol(name),
     lambda name: getattr(sympy, "Abs" if name == "abs" else name),
 )
 
 
-def numbers_at(point: Mapping[str, Any]) -> World:
-    """The world of numbers of sixty digits, at a point."""
-    return World(
+def numbers_at(point: Mapping[str, Any]) -> Backend:
+    """The backend of numbers of sixty digits, at a point."""
+    return Backend(
         lambda q: mpmath.mpf(q.numerator) / q.denominator,
         point.__getitem__,
         lambda name: abs if name == "abs" else getattr(mpmath, name),
@@ -82,29 +82,29 @@ def numbers_at(point: Mapping[str, Any]) -> World:
 NUMBERS = numbers_at(POINT)
 
 
-def cooked(recipe: tuple, world: World) -> Any:
-    """What a recipe makes in a world."""
-    match recipe:
+def evaluated(tree: tuple, backend: Backend) -> Any:
+    """What a tree makes in a backend."""
+    match tree:
         case ("number", value):
-            return world.number(value)
+            return backend.number(value)
         case ("name", name):
-            return world.name(name)
+            return backend.name(name)
         case ("+", first, second):
-            return cooked(first, world) + cooked(second, world)
+            return evaluated(first, backend) + evaluated(second, backend)
         case ("-", first, second):
-            return cooked(first, world) - cooked(second, world)
+            return evaluated(first, backend) - evaluated(second, backend)
         case ("*", first, second):
-            return cooked(first, world) * cooked(second, world)
+            return evaluated(first, backend) * evaluated(second, backend)
         case ("/", first, second):
-            return cooked(first, world) / cooked(second, world)
+            return evaluated(first, backend) / evaluated(second, backend)
         case ("^", base, power):
-            return cooked(base, world) ** power
+            return evaluated(base, backend) ** power
         case (function, argument):
-            return world.function(function)(cooked(argument, world))
-    raise ValueError(recipe)
+            return backend.function(function)(evaluated(argument, backend))
+    raise ValueError(tree)
 
 
-# --- recipes ---
+# --- trees ---
 
 small = st.fractions(min_value=-3, max_value=3, max_denominator=4)
 numbers = st.tuples(st.just("number"), small)
@@ -144,8 +144,8 @@ def sums_and_products(inner: st.SearchStrategy) -> st.SearchStrategy:
 
 
 def of_positive(sign: str) -> Callable[[tuple], tuple]:
-    """Makes a recipe of one that is positive by construction."""
-    return lambda recipe: ("+", ("*", recipe, recipe), ("name", sign))
+    """Makes a tree of one that is positive by construction."""
+    return lambda tree: ("+", ("*", tree, tree), ("name", sign))
 
 
 #: What it is divided by: short, since a denominator is multiplied by all its conjugates.
@@ -181,13 +181,13 @@ def all_kinds(inner: st.SearchStrategy) -> st.SearchStrategy:
 
 polynomials = st.recursive(leaves, sums_and_products, max_leaves=5)
 smooth = st.recursive(st.one_of(leaves, growing), smooth_ones, max_leaves=4)
-recipes = st.recursive(st.one_of(leaves, growing), all_kinds, max_leaves=4)
+trees = st.recursive(st.one_of(leaves, growing), all_kinds, max_leaves=4)
 
 
-def expression_of(recipe: tuple) -> Expr | None:
+def expression_of(tree: tuple) -> Expr | None:
     """What the kernel makes of it, or None where a denominator vanishes."""
     try:
-        return cooked(recipe, KERNEL)
+        return evaluated(tree, KERNEL)
     except ZeroDivisionError:
         return None
 

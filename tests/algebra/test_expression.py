@@ -9,20 +9,20 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 
-from algebra.worlds import (
+from algebra.backends import (
     KERNEL,
     NUMBERS,
     a,
     are_close,
     b,
-    cooked,
     divisors,
+    evaluated,
     expression_of,
     phi,
     polynomials,
-    recipes,
     small,
     theta,
+    trees,
     value,
     x,
     y,
@@ -31,16 +31,16 @@ from polhode.algebra import ONE, ZERO, Expr, coordinate, cos, cosh, sin, speed, 
 from polhode.base import DeclarationError, NumericError
 
 
-@given(recipes)
-def test_the_normal_form_has_the_value_of_what_it_was_made_of(recipe):
-    expression = expression_of(recipe)
+@given(trees)
+def test_the_normal_form_has_the_value_of_what_it_was_made_of(tree):
+    expression = expression_of(tree)
     assume(expression is not None)
-    assert are_close(value(expression), cooked(recipe, NUMBERS))
+    assert are_close(value(expression), evaluated(tree, NUMBERS))
 
 
 @given(polynomials, polynomials, polynomials)
 def test_addition_and_multiplication_obey_the_laws_of_a_ring(p, q, r):
-    p, q, r = (cooked(recipe, KERNEL) for recipe in (p, q, r))
+    p, q, r = (evaluated(tree, KERNEL) for tree in (p, q, r))
     assert p + q == q + p
     assert p * q == q * p
     assert (p + q) + r == p + (q + r)
@@ -51,7 +51,7 @@ def test_addition_and_multiplication_obey_the_laws_of_a_ring(p, q, r):
     assert +p == p == -p * -1
 
 
-@given(recipes, divisors)
+@given(trees, divisors)
 def test_division_undoes_multiplication(p, q):
     p, q = expression_of(p), expression_of(q)
     assume(p is not None and q is not None and q)
@@ -63,23 +63,23 @@ def test_division_undoes_multiplication(p, q):
 
 @given(polynomials, polynomials)
 def test_equal_expressions_have_equal_hashes_however_they_were_made(p, q):
-    p, q = cooked(p, KERNEL), cooked(q, KERNEL)
+    p, q = evaluated(p, KERNEL), evaluated(q, KERNEL)
     first, second = (p + q) ** 2, p * p + 2 * p * q + q * q
     assert first == second
     assert hash(first) == hash(second)
     assert len({first, second}) == 1
 
 
-@given(recipes, recipes)
+@given(trees, trees)
 def test_difference_is_zero_just_where_equal(p, q):
     p, q = expression_of(p), expression_of(q)
     assume(p is not None and q is not None)
     assert (p == q) == (p - q).is_zero == (not (p - q))
 
 
-@given(recipes)
-def test_pickling_gives_back_the_same(recipe):
-    expression = expression_of(recipe)
+@given(trees)
+def test_pickling_gives_back_the_same(tree):
+    expression = expression_of(tree)
     assume(expression is not None)
     again = pickle.loads(pickle.dumps(expression))
     assert again == expression
@@ -87,9 +87,9 @@ def test_pickling_gives_back_the_same(recipe):
     assert str(again) == str(expression)
 
 
-@given(recipes)
-def test_trimming_changes_nothing(recipe):
-    expression = expression_of(recipe)
+@given(trees)
+def test_trimming_changes_nothing(tree):
+    expression = expression_of(tree)
     assume(expression is not None)
     wide = expression + x * y * sin(theta) - x * y * sin(theta)
     assert wide == expression == wide.trimmed()
@@ -105,8 +105,8 @@ def test_constants_are_python_fractions(p, q):
 
 @settings(max_examples=20)
 @given(polynomials)
-def test_powers_are_repeated_products(recipe):
-    base = cooked(recipe, KERNEL)
+def test_powers_are_repeated_products(tree):
+    base = evaluated(tree, KERNEL)
     assert base**0 == 1
     assert base**3 == base * base * base
 
@@ -139,7 +139,7 @@ def test_what_is_not_finite_is_refused(value_):
 
 @pytest.mark.parametrize("value_", ["x", None, 3 + 1j, [1], np.array([1.0, 2.0]), object()])
 def test_what_is_no_expression_is_refused(value_):
-    with pytest.raises(NumericError, match="is no expression"):
+    with pytest.raises(NumericError, match="is not an expression"):
         Expr.of(value_)
 
 
