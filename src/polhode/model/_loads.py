@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from polhode.algebra import ZERO, Expr, ExprLike, Vector
 from polhode.model._body import Body, BodyPoint
 from polhode.model._declared import (
-    FieldwiseRepr,
+    Declared,
     not_negative,
     of_type,
     quantity,
@@ -58,7 +58,7 @@ class Push:
     velocity: Vector
 
 
-class Load(FieldwiseRepr, ABC):
+class Load(Declared, ABC):
     """A load; conservative where it has a potential."""
 
     name: str
