@@ -59,7 +59,7 @@ class Push:
 
 
 @dataclass(frozen=True)
-class Link:
+class TwoPointLink:
     """A load that is drawn between two points, as a "spring" or a "damper".
 
     An end is a point of a body, or a place from the origin, m.
@@ -108,7 +108,7 @@ class Load(Declared, ABC):
         return ()
 
     @property
-    def link(self) -> Link | None:
+    def link(self) -> TwoPointLink | None:
         """How it is drawn between two points; None for arrows alone."""
         return None
 
@@ -247,8 +247,8 @@ class Spring(Load):
         return _bodies(self.start, self.end)
 
     @property
-    def link(self) -> Link:
-        return Link("spring", self.start, self.end)
+    def link(self) -> TwoPointLink:
+        return TwoPointLink("spring", self.start, self.end)
 
     def on_places(self, places: Places, velocities: Velocities) -> tuple[Push, ...]:
         return _pushes(self.end, self.actions((), places, velocities))
@@ -313,8 +313,8 @@ class Damper(Load):
         return _pair(self.start, self.end, relative * -self.damping)
 
     @property
-    def link(self) -> Link:
-        return Link("damper", self.start, self.end)
+    def link(self) -> TwoPointLink:
+        return TwoPointLink("damper", self.start, self.end)
 
     def on_places(self, places: Places, velocities: Velocities) -> tuple[Push, ...]:
         return _pushes(self.end, self.actions((), places, velocities))
