@@ -82,7 +82,7 @@ def test_digests_tell_documents_apart():
     "value", [Stranger("x"), Pair(1, Stranger("x")), Pair(1, 2.5), Pair(1, [])]
 )
 def test_what_could_not_be_read_back_is_not_written(value):
-    with pytest.raises(StoreError, match="in a declaration; expected polhode's own classes"):
+    with pytest.raises(StoreError, match="in a declaration; expected expressions, vectors, text"):
         CODEC.write(value)
 
 

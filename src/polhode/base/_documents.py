@@ -130,6 +130,8 @@ class Codec:
             reader = _PlainReader(made, depths)
             try:
                 made.append(self._made(part, reader))
+            except StoreError:
+                raise
             except _UNFIT as error:
                 raise _damaged(f"part {number}: {error}") from error
             depths.append(reader.depth + 1)
@@ -138,8 +140,14 @@ class Codec:
         return made[-1]
 
     def _made(self, part: Any, reader: _PlainReader) -> Any:
-        if not isinstance(part, dict) or part.get("is") not in self._by_name:
-            raise ValueError("an unknown shape")
+        if not isinstance(part, dict) or not isinstance(part.get("is"), str):
+            raise ValueError("a part without a class")
+        if part["is"] not in self._by_name:
+            raise StoreError(
+                f"a declaration that cannot be read: it has a part of class {part['is'][:80]!r}",
+                expected="a class of polhode, or one that is defined here",
+                advice="import the module that defines it before reading the declaration",
+            )
         fields = {name: reader.value(field) for name, field in part.items() if name != "is"}
         if reader.depth >= _DEEPEST:
             raise ValueError("parts nested too deeply")
@@ -165,7 +173,7 @@ class _PlainWriter:
             if shape is None:
                 raise StoreError(
                     f"a {type(value).__name__} in a declaration",
-                    expected="polhode's own classes: others cannot be read back",
+                    expected="expressions, vectors, text, whole numbers and parts of declarations",
                 )
             fields = {name: self._field(field) for name, field in shape.apart(value).items()}
             part = json.dumps({"is": shape.name, **fields})

@@ -12,7 +12,7 @@ from typing import Any
 from polhode.algebra import ONE, ZERO, Expr, ExprLike, Matrix, Vector, variables
 from polhode.base import DeclarationError
 from polhode.model._declared import (
-    FieldwiseRepr,
+    Declared,
     constant,
     is_negative,
     is_varying,
@@ -30,7 +30,7 @@ ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
-class Body(FieldwiseRepr):
+class Body(Declared):
     """A rigid body.
 
     Args:
@@ -189,7 +189,7 @@ class Body(FieldwiseRepr):
 
 
 @dataclass(frozen=True)
-class BodyPoint(FieldwiseRepr):
+class BodyPoint(Declared):
     """A point of a body, by its vector from the centre of mass (m)."""
 
     body: Body

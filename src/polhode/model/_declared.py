@@ -3,15 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import fields
+from dataclasses import fields, is_dataclass
+from inspect import isabstract
 from typing import Any
 
 from polhode.algebra import Expr, ExprLike, Symbol, SymbolKind, Vector, is_positive, variables
 from polhode.base import DeclarationError, NumericError, Shown
 
 
-class FieldwiseRepr(Shown):
-    """A dataclass that prints its fields on lines of their own."""
+class Declared(Shown):
+    """A part of a declaration: a frozen dataclass that prints its fields and can be saved.
+
+    Every subclass is registered under its name, so that a load or a surface that a user defines
+    is written to documents, and read from them, like one of polhode's own.
+
+    Raises:
+        DeclarationError: for a subclass with the name of one of polhode's own.
+    """
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        known = _REGISTERED.get(cls.__name__)
+        if known is not None and is_own(known) and not is_own(cls):
+            raise DeclarationError(
+                f"a class {cls.__name__!r}, derived from {cls.__base__.__name__}",  # type: ignore[union-attr]
+                expected="a name that polhode does not use itself",
+                advice="choose another name, by which saved files can tell the two apart",
+            )
+        _REGISTERED[cls.__name__] = cls
 
     @property
     def brief(self) -> str:
@@ -32,6 +51,23 @@ class FieldwiseRepr(Shown):
         parts = [(name, brief(value)) for name, value in self.parts]
         width = max((len(name) for name, _ in parts), default=0)
         return "\n".join([self.brief, *(f"  {name:{width}}  {text}" for name, text in parts)])
+
+
+_REGISTERED: dict[str, type[Declared]] = {}
+
+
+def registered() -> tuple[type[Declared], ...]:
+    """The concrete classes of declarations, with the latest definitions of the user's own."""
+    return tuple(
+        kind
+        for kind in _REGISTERED.values()
+        if is_dataclass(kind) and not isabstract(kind) and not kind.__name__.startswith("_")
+    )
+
+
+def is_own(kind: type) -> bool:
+    """Whether a class is polhode's and not a user's."""
+    return kind.__module__.partition(".")[0] == __name__.partition(".")[0]
 
 
 def brief(value: object) -> str:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from polhode.algebra import Expr, Vector, coordinate, speed
 from polhode.base import DeclarationError
 from polhode.model._body import Body
-from polhode.model._declared import FieldwiseRepr
+from polhode.model._declared import Declared
 
 #: Position of the centre of mass of every body placed so far, from the origin of the root frame.
 Places = Mapping[Body, Vector]
@@ -69,7 +69,7 @@ class Friction:
     slip: tuple[Expr, Expr] | None = None
 
 
-class Element(FieldwiseRepr, ABC):
+class Element(Declared, ABC):
     """A contact or a joint."""
 
     name: str

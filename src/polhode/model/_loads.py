@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from polhode.algebra import ZERO, Expr, ExprLike, Vector
 from polhode.model._body import Body, BodyPoint
 from polhode.model._declared import (
-    FieldwiseRepr,
+    Declared,
     not_negative,
     of_type,
     quantity,
@@ -58,20 +58,45 @@ class Push:
     velocity: Vector
 
 
-class Load(FieldwiseRepr, ABC):
-    """A load; conservative where it has a potential."""
+@dataclass(frozen=True)
+class TwoPointLink:
+    """A load that is drawn between two points, as a "spring" or a "damper".
+
+    An end is a point of a body, or a place from the origin, m.
+    """
+
+    kind: str
+    start: BodyPoint | Vector
+    end: BodyPoint | Vector
+
+
+class Load(Declared, ABC):
+    """A load: forces and couples on bodies; conservative if it has a potential.
+
+    A load of your own is a frozen dataclass derived from this class. Its fields, one of which is
+    `name`, are bodies, points of bodies, vectors, expressions and text; it has to give `bodies`
+    and `actions`, and may give `potential`. It can then be derived, simulated, drawn and saved like
+    polhode's own.
+    """
 
     name: str
 
     @property
     def bodies(self) -> tuple[Body, ...]:
-        """The bodies it names."""
+        """The bodies named in its fields."""
         return ()
 
     def actions(
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
     ) -> tuple[Action, ...]:
-        """Its forces and couples on the bodies."""
+        """The forces (N) and couples (N m) on bodies.
+
+        Args:
+            bodies: all bodies of the system.
+            places: position of the centre of mass of every body, from the origin, m.
+            velocities: velocity of the centre of mass (m/s) and angular velocity (rad/s) of
+                every body, in inertial space.
+        """
         return ()
 
     def potential(self, bodies: tuple[Body, ...], places: Places) -> Expr | None:
@@ -79,8 +104,13 @@ class Load(FieldwiseRepr, ABC):
         return None
 
     def on_places(self, places: Places, velocities: Velocities) -> tuple[Push, ...]:
-        """Its forces on moving places that are not points of bodies."""
+        """The forces on places that are not points of bodies, such as the fixed end of a spring."""
         return ()
+
+    @property
+    def link(self) -> TwoPointLink | None:
+        """How it is drawn between two points; None for arrows alone."""
+        return None
 
 
 @dataclass(frozen=True, init=False)
@@ -216,6 +246,10 @@ class Spring(Load):
     def bodies(self) -> tuple[Body, ...]:
         return _bodies(self.start, self.end)
 
+    @property
+    def link(self) -> TwoPointLink:
+        return TwoPointLink("spring", self.start, self.end)
+
     def on_places(self, places: Places, velocities: Velocities) -> tuple[Push, ...]:
         return _pushes(self.end, self.actions((), places, velocities))
 
@@ -277,6 +311,10 @@ class Damper(Load):
     ) -> tuple[Action, ...]:
         relative = _velocity(self.start, velocities) - _velocity(self.end, velocities)
         return _pair(self.start, self.end, relative * -self.damping)
+
+    @property
+    def link(self) -> TwoPointLink:
+        return TwoPointLink("damper", self.start, self.end)
 
     def on_places(self, places: Places, velocities: Velocities) -> tuple[Push, ...]:
         return _pushes(self.end, self.actions((), places, velocities))

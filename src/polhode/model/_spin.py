@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 from polhode.algebra import Expr, Vector, coordinate, solve, speed
 from polhode.base import DeclarationError
-from polhode.model._declared import FieldwiseRepr
+from polhode.model._declared import Declared
 from polhode.model._frame import Frame
 
 
-class Spin(FieldwiseRepr, ABC):
+class Spin(Declared, ABC):
     """Chooses the rotational speeds of a body."""
 
     @abstractmethod

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, ExprLike, Vector
 from polhode.base import DeclarationError
-from polhode.model._declared import FieldwiseRepr, quantity
+from polhode.model._declared import Declared, quantity
 from polhode.model._frame import Frame
 
 
 @dataclass(frozen=True, init=False)
-class Plane(FieldwiseRepr):
+class Plane(Declared):
     """A plane at rest in a frame, through the frame's origin.
 
     Args:

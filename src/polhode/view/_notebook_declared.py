@@ -7,14 +7,14 @@ from functools import singledispatch
 from html import escape
 
 from polhode.algebra import Expr, Matrix, Vector
-from polhode.model import FieldwiseRepr, Frame, brief
+from polhode.model import Declared, Frame, brief
 from polhode.view._markup import formula, framed, table
 from polhode.view._mathml import alone, symbol
 from polhode.view._notebook_parts import html_of as html_of
 
 
 @html_of.register
-def _(thing: FieldwiseRepr) -> str:
+def _(thing: Declared) -> str:
     parts = [(escape(name), _told(value)) for name, value in thing.parts]
     return framed(table(_title(thing), ("", ""), parts))
 
@@ -28,7 +28,7 @@ def _(thing: Frame) -> str:
     return framed(f"<strong>Frame {escape(str(thing))}</strong>{root if steps else ''}{turns}")
 
 
-def _title(thing: FieldwiseRepr) -> str:
+def _title(thing: Declared) -> str:
     kind = type(thing).__name__
     name = str(getattr(thing, "name", ""))
     return escape(f"{kind} {name}".strip())
