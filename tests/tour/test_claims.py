@@ -6,8 +6,7 @@ import pytest
 
 from polhode.claims import Note
 from polhode.tour import TourReport
-from polhode.tour._claims import Told, judged
-from polhode.tour._verdicts import counted, formula, verdicts
+from polhode.tour._claims import Told, counted, formula, judged, verdicts
 from polhode.view import Judgement
 
 

@@ -5,9 +5,8 @@ from collections import Counter
 from xml.etree import ElementTree
 
 import polhode as ph
-from polhode.tour._formulas import equation, inline, listed, with_formulas
-from polhode.tour._html import joined, raised, table, tag
-from polhode.tour._numerals import power_of_ten, scientific
+from polhode.tour._formulas import equation, listed, power_of_ten, raised, scientific, with_formulas
+from polhode.view import inline, joined, table, tag
 
 a, b, c = ph.symbols("a b c")
 theta = ph.coordinate("theta")

@@ -4,7 +4,7 @@ import pytest
 
 import polhode as ph
 from polhode.claims import Answer
-from polhode.tour._verdicts import _WORDS
+from polhode.tour._claims import _WORDS
 from polhode.view import audit_html
 
 DOCUMENT = r"""

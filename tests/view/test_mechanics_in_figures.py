@@ -11,8 +11,8 @@ from polhode.study._found import Found, measured
 from polhode.study._thresholds import thresholds
 from polhode.view import figures
 from polhode.view._quantities import instants
-from polhode.view.figures._herpolhode import invariable_path
 from polhode.view.figures._potential import potential
+from polhode.view.figures._rotation import invariable_path
 
 
 @pytest.fixture(scope="module")
@@ -64,7 +64,7 @@ def test_one_plot_has_a_panel_for_every_name(run_of):
 
 def test_the_bold_polhode_lies_on_both_quadrics(run_of):
     """Drawn on the ellipsoid of energy, it keeps the angular momentum too."""
-    from polhode.view.figures._polhodes import free_body, moments_of, rates_of
+    from polhode.view.figures._rotation import free_body, moments_of, rates_of
 
     run = run_of("tennis-racquet")
     body = free_body(run)

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 
 from polhode.base import installed_version, provenance
-from polhode.tour._claims import Told
-from polhode.tour._html import Markup, joined, tag
+from polhode.tour._claims import Told, counted, verdicts
 from polhode.tour._sections import picture, problem_of, section, summary
-from polhode.tour._verdicts import counted, verdicts
 from polhode.tour._work import Worked
-from polhode.view import math_fonts
+from polhode.view import Markup, document, json_element, math_fonts, tag
 
 FIGURES = "figures"
 CARD = (480, 300)
@@ -63,7 +60,7 @@ def front_page(all_problems: Sequence[Problem]) -> str:
         tag("main", cards, *_closing_table(everything)),
         tag("footer", *_closing(everything)),
     )
-    return _document(f"polhode: {_TITLE.lower()}", body)
+    return _page(f"polhode: {_TITLE.lower()}", body)
 
 
 def problem_page(problem: Problem, all_problems: Sequence[Problem]) -> str:
@@ -79,24 +76,12 @@ def problem_page(problem: Problem, all_problems: Sequence[Problem]) -> str:
         ),
         tag("footer", *_closing(problem.systems)),
     )
-    return _document(f"{problem.title} · polhode", body)
+    return _page(f"{problem.title} · polhode", body)
 
 
-def _document(title: str, body: Iterable[Markup]) -> str:
-    head = tag(
-        "head",
-        tag("meta", charset="utf-8"),
-        tag("meta", name="viewport", content="width=device-width, initial-scale=1"),
-        tag("meta", name="color-scheme", content="light dark"),
-        tag("title", title),
-        tag("link", rel="icon", href="data:,"),
-        tag("style", Markup(_style())),
-    )
-    return f"<!DOCTYPE html>\n{tag('html', head, tag('body', *body), lang='en')}\n"
-
-
-def _style() -> str:
-    return f"{math_fonts()}\n{files('polhode.tour').joinpath('style.css').read_text('utf-8')}"
+def _page(title: str, body: Iterable[Markup]) -> str:
+    own = files("polhode.tour").joinpath("style.css").read_text("utf-8")
+    return document(title, f"{math_fonts()}\n{own}", *body)
 
 
 def _opening(all_problems: Sequence[Problem]) -> Iterable[Markup]:
@@ -172,8 +157,7 @@ def _closing(everything: Sequence[Worked]) -> tuple[Markup, ...]:
             for worked in everything
         },
     }
-    text = json.dumps(made_with, sort_keys=True).replace("<", "\\u003c")
     return (
-        tag("p", joined(["Written by ", tag("code", "polhode tour"), f", version {version}."])),
-        tag("script", Markup(text), type="application/json", id="made-with"),
+        tag("p", "Written by ", tag("code", "polhode tour"), f", version {version}."),
+        json_element("made-with", made_with),
     )

@@ -8,9 +8,8 @@ from itertools import chain, groupby
 from pathlib import Path
 from textwrap import shorten, wrap
 
-from polhode.tour._claims import Told
-from polhode.tour._numerals import power_of_ten
-from polhode.tour._verdicts import counted
+from polhode.tour._claims import Told, counted
+from polhode.tour._formulas import power_of_ten
 from polhode.tour._work import Worked
 
 

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+import inspect
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from types import FunctionType
 
+from polhode import catalogue
 from polhode.algebra import Expr, Symbol, symbol, time
 from polhode.catalogue import Parameter
-from polhode.tour._declaration import source_of
-from polhode.tour._formulas import equation, inline, listed, with_formulas
-from polhode.tour._html import Markup, joined, raised, table, tag
-from polhode.tour._numerals import power_of_ten, scientific
+from polhode.tour._formulas import equation, listed, power_of_ten, raised, scientific, with_formulas
 from polhode.tour._work import Drawing, Worked
+from polhode.view import Markup, inline, joined, table, tag
 
 _IDEALS = {
     "Rolling": "rolls on it without slipping; it gives whatever friction that takes.",
@@ -207,7 +208,7 @@ def _numbers(worked: Worked) -> Markup:
     rows.append((inline(time), "duration", entry.duration))
     resting = [known[name] for name in run.assumed]
     also = (tag("p", "All else starts at zero."),) if resting else ()
-    return joined([table(("symbol", "meaning", "value"), rows, class_="values"), *also])
+    return joined([_wide(("symbol", "meaning", "value"), rows, "values"), *also])
 
 
 def _value(parameter: Parameter, values: Mapping[str, float]) -> Markup:
@@ -228,7 +229,7 @@ def _checks(worked: Worked) -> Markup:
         for check in worked.checks
     )
     header = ("check", "what is compared", "verdict", "difference")
-    return table(header, rows, class_="checks")
+    return _wide(header, rows, "checks")
 
 
 def _verdict(passed: bool) -> Markup:
@@ -249,10 +250,28 @@ def summary(all_worked: Iterable[Worked]) -> Markup:
         for worked in all_worked
     )
     header = ("system", "equations", "reactions", "checks", "energy drift", "constraint drift")
-    return table(header, rows, class_="numbers")
+    return _wide(header, rows, "numbers")
+
+
+def _wide(header: Iterable[str], rows: Iterable[Iterable[str]], kind: str) -> Markup:
+    """A table that scrolls sideways by itself where it is too wide."""
+    return tag("div", table(header, rows, class_=kind), class_="wide")
 
 
 def _passed(worked: Worked) -> Markup:
     all_hold = worked.passed == len(worked.checks)
     kind = "good" if all_hold else "bad"
     return tag("span", f"{worked.passed} of {len(worked.checks)}", class_=kind)
+
+
+def source_of(build: Callable[[], object]) -> str:
+    """Source of a function and of the catalogue's own functions it calls, callers last."""
+    needed = list(dict.fromkeys(reversed(list(_reached(build)))))
+    return "\n\n".join(inspect.getsource(function).rstrip() for function in needed)
+
+
+def _reached(function: object) -> Iterator[FunctionType]:
+    if isinstance(function, FunctionType) and function.__module__.startswith(catalogue.__name__):
+        yield function
+        for name in function.__code__.co_names:
+            yield from _reached(function.__globals__.get(name))

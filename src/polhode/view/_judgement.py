@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from polhode.claims import Answer, Verdict
-from polhode.view._typeset import typeset
+from polhode.view._mathml import typeset
 
 if TYPE_CHECKING:
     from polhode.claims import Judged, Note

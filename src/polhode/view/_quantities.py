@@ -60,6 +60,7 @@ _PREFIXES = (
     (1e-12, 1e-12, "p"),
 )
 _TURN = 2 * np.pi
+_DISPARATE = 25.0  # ratio of sizes that do not share an axis
 _FINE = 4001  # instants that a smooth curve is drawn through, at least
 
 
@@ -185,6 +186,38 @@ def scale_for(unit: str, largest: float) -> Scale:
         if largest >= least:
             return Scale(prefix + unit, 1 / size)
     return Scale(unit, 1.0)
+
+
+def everything(run: Trajectory) -> list[list[str]]:
+    """Coordinates, speeds and reactions."""
+    equations = run.equations
+    groups = [
+        [s.published for s in equations.coordinates],
+        [s.published for s in equations.speeds],
+        list(run.reactions),
+    ]
+    return [group for group in groups if group]
+
+
+def panels(run: Trajectory, names: Sequence[str]) -> list[list[str]]:
+    """A group of names split into what can share an axis: one unit, sizes that compare."""
+    found: list[list[tuple[PlottedQuantity, float, str]]] = []
+    for name in names:
+        one, size = quantity(run, name), largest(run.evaluate(name, instants(run)))
+        home = next((group for group in found if _fits(one, size, group)), None)
+        if home is None:
+            found.append([(one, size, name)])
+        else:
+            home.append((one, size, name))
+    return [[name for _, _, name in group] for group in found]
+
+
+def _fits(
+    one: PlottedQuantity, size: float, group: list[tuple[PlottedQuantity, float, str]]
+) -> bool:
+    sizes = [other for _, other, _ in group if other]
+    comparable = not size or all(1 / _DISPARATE < size / s < _DISPARATE for s in sizes)
+    return comparable and one.unit == group[0][0].unit
 
 
 def instants(run: Trajectory) -> Array:

@@ -12,12 +12,14 @@ from __future__ import annotations
 import base64
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
+from math import hypot
 from typing import Any
 
 import numpy as np
 
 from polhode.base import Shown
 from polhode.view._judgement import Judgement
+from polhode.view._mathml import Formula
 from polhode.view._quantities import Array
 
 Triple = tuple[float, float, float]
@@ -63,6 +65,12 @@ class BodyShape:
     across: Triple = (1.0, 0.0, 0.0)
     centre: Triple = (0.0, 0.0, 0.0)
 
+    @property
+    def reach(self) -> float:
+        """Distance from the centre of mass to the farthest point, m."""
+        halves = {"box": 0.87, "rod": 0.5, "racquet": 0.6}
+        return max(self.size) * halves.get(self.kind, 1.0) + hypot(*self.centre)
+
 
 @dataclass(frozen=True)
 class SceneBody:
@@ -79,6 +87,11 @@ class SceneBody:
     shape: BodyShape
     pose: Pose
     arms: tuple[Triple, ...]
+
+    @property
+    def reach(self) -> float:
+        """Distance from the centre of mass to the farthest point, joints included, m."""
+        return max([self.shape.reach, *(float(np.linalg.norm(arm)) for arm in self.arms)])
 
 
 @dataclass(frozen=True)
@@ -201,21 +214,6 @@ class Panel:
 
     unit: str
     series: tuple[PlotSeries, ...]
-
-
-@dataclass(frozen=True)
-class Formula:
-    """A formula in pieces of MathML, between which a line may break.
-
-    Attributes:
-        name: heading; empty for none.
-        pieces: MathML.
-        spoken: the same on one line of text.
-    """
-
-    name: str
-    pieces: tuple[str, ...]
-    spoken: str
 
 
 @dataclass(frozen=True)

@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from math import ceil, isfinite
 
 import numpy as np
+from scipy.integrate import cumulative_simpson
 
 from polhode.algebra import Vector
 from polhode.base import NumericError
 from polhode.derive import Equations
-from polhode.model import Body
+from polhode.model import Body, Contact, Plane
 from polhode.simulate import Trajectory
 from polhode.view._judgement import Judgement
-from polhode.view._quantities import Array, Groups, equations_of, grouped, refuse_an_instant
+from polhode.view._quantities import (
+    Array,
+    Groups,
+    equations_of,
+    everything,
+    grouped,
+    refuse_an_instant,
+)
 from polhode.view._scene import (
     Link,
     MotionSummary,
@@ -22,14 +30,12 @@ from polhode.view._scene import (
     Scene,
     SceneBody,
     Support,
+    Trace,
     Triple,
 )
-from polhode.view._scene_along import constants, vectors
-from polhode.view._scene_bodies import arrows_of, bodies_of
-from polhode.view._scene_joints import joints_of, links_of
-from polhode.view._scene_supports import other_traces, supports_of
+from polhode.view._scene_along import along, collapsed, constants, quaternions, vectors
+from polhode.view._scene_bodies import arrows_of, bodies_of, joints_of, links_of
 from polhode.view._scene_text import (
-    everything,
     evidence_of,
     happenings_of,
     motion_of,
@@ -39,7 +45,6 @@ from polhode.view._scene_text import (
     reactions_of,
     start_of,
 )
-from polhode.view._shapes import reach_of
 
 _TURN = 0.12  # largest angle between two frames, rad
 _LEAST, _MOST = 2000, 3600  # frames, for one body
@@ -108,7 +113,7 @@ def scenery(run: Trajectory, *, title: str = "", about: str = "") -> Scene:
     t = np.linspace(0.0, run.duration, _frames(run))
     links = links_of(run, t)
     bodies = bodies_of(run, links, t)
-    reach = max(_reach(body) for body in bodies)
+    reach = max(body.reach for body in bodies)
     supports, traces = supports_of(run, t, reach)
     up = _up(run)
     return Scene(
@@ -163,10 +168,6 @@ def _turning(equations: Equations, body: Body) -> Vector:
     return body.axes.angular_velocity
 
 
-def _reach(body: SceneBody) -> float:
-    return max([reach_of(body.shape), *(float(np.linalg.norm(arm)) for arm in body.arms)])
-
-
 def _up(run: Trajectory) -> Triple:
     """Against gravity; else off a support or out of the plane of a guide."""
     root = run.equations.system.root
@@ -197,4 +198,112 @@ def _floor(
 
 
 def _depth(body: SceneBody, up: Array) -> float:
-    return float(np.min(body.pose.place @ up)) - _BELOW * _reach(body)
+    return float(np.min(body.pose.place @ up)) - _BELOW * body.reach
+
+
+# Supports of the scene, and the paths that are left on them and in space.
+
+_ROOM = 2.6  # of a body's reach: margin of a support round the path of the contact
+_BEYOND = 1.1  # of a body's reach: where the end of its axis leaves a trace
+_MOVING = 1e-9
+
+
+def supports_of(
+    run: Trajectory, t: Array, reach: float
+) -> tuple[tuple[Support, ...], tuple[Trace, ...]]:
+    """Supports that bodies touch, each once, and the paths of the contacts."""
+    supports: dict[Plane, Support] = {}
+    traces: list[Trace] = []
+    for contact in _contacts(run):
+        plane = contact.on
+        pose = _pose(run, plane, t)
+        points = vectors(run, _touching(contact), t)
+        on_it = _carried(points, pose)
+        if plane not in supports:
+            supports[plane] = _support(contact, pose, on_it, reach)
+        traces.append(Trace("contact", f"path of {contact.name}", points))
+        if len(pose.place) > 1 or len(pose.turn) > 1:
+            number = list(supports).index(plane)
+            traces.append(Trace("contact", f"trace on {contact.name}", on_it, number))
+    return tuple(supports.values()), tuple(traces)
+
+
+def other_traces(bodies: tuple[SceneBody, ...]) -> Iterator[Trace]:
+    """Paths of centres of mass that move, and of the ends of axes about those that do not."""
+    for body in bodies:
+        pose, shape = body.pose, body.shape
+        if len(pose.place) > 1:
+            yield Trace("centre", f"centre of {body.name}", pose.place)
+        elif len(pose.turn) > 1 and shape.kind != "ball":
+            tip = np.array(shape.axis) * _BEYOND * shape.reach
+            yield Trace("axis", f"axis of {body.name}", pose.place + _turned(tip, pose.turn))
+
+
+def _contacts(run: Trajectory) -> list[Contact]:
+    """Contacts of the declaration, whatever phase they begin in."""
+    elements = run.equations.system.elements
+    found = (getattr(element, "contact", element) for element in elements)
+    return [contact for contact in found if isinstance(contact, Contact)]
+
+
+def _touching(contact: Contact) -> Callable[[Equations], Vector | None]:
+    def place(equations: Equations) -> Vector | None:
+        element = equations.system.element(contact.name)
+        if not isinstance(element, Contact):
+            return None
+        return equations.kinetics.places[contact.body] + contact.arm
+
+    return place
+
+
+def _pose(run: Trajectory, plane: Plane, t: Array) -> Pose:
+    """Of the surface, its third direction along the normal."""
+    root = plane.axes.root
+    triad = [plane.axes[label].express(root) for label in (*plane.tangents, plane.normal)]
+    entries = [direction.components[i] for i in range(3) for direction in triad]
+    turn = quaternions(along(run, lambda equations: entries, 9, t).reshape(-1, 3, 3))
+    place = vectors(run, lambda equations: plane.origin, t)
+    turning = along(run, lambda equations: [plane.turning], 1, t)[:, 0]
+    angle: Array = cumulative_simpson(turning, x=t, initial=0.0)
+    if np.ptp(angle) <= _MOVING:
+        return Pose(collapsed(place), collapsed(turn), np.zeros(0), (0.0, 0.0, 1.0))
+    return Pose(collapsed(place), turned_about_third(turn, angle), np.zeros(0), (0.0, 0.0, 1.0))
+
+
+def turned_about_third(turn: Array, angle: Array) -> Array:
+    """Attitudes turned further about their own third direction."""
+    x, y, z, w = turn.T
+    s, c = np.sin(angle / 2), np.cos(angle / 2)
+    found: Array = np.stack([c * x + s * y, c * y - s * x, c * z + s * w, c * w - s * z], axis=1)
+    return found
+
+
+def _carried(points: Array, pose: Pose) -> Array:
+    """Points as seen from a surface that moves, along its own directions."""
+    back = pose.turn * np.array([-1.0, -1.0, -1.0, 1.0])
+    return _turned(points - pose.place, back)
+
+
+def _turned(vector: Array, turn: Array) -> Array:
+    """Vectors turned by quaternions."""
+    u, w = turn[:, :3], turn[:, 3:]
+    cross = np.cross(u, vector)
+    found: Array = vector + 2 * (w * cross + np.cross(u, cross))
+    return found
+
+
+def _support(contact: Contact, pose: Pose, path: Array, reach: float) -> Support:
+    kind = type(contact.on).__name__.lower()
+    flat = path[np.isfinite(path).all(axis=1), :2]
+    low, high = (flat.min(0), flat.max(0)) if len(flat) else (np.zeros(2), np.zeros(2))
+    middle, half = (low + high) / 2, (high - low) / 2 + _ROOM * reach
+    if kind == "turntable":
+        radius = float(np.max(np.linalg.norm(flat, axis=1), initial=0.0)) + reach
+        middle, half = np.zeros(2), np.full(2, 1.08 * radius)
+    return Support(
+        contact.name,
+        kind,
+        pose,
+        (float(middle[0]), float(middle[1])),
+        (float(half[0]), float(half[1])),
+    )

@@ -14,16 +14,16 @@ from polhode.base import PURE, provenance
 from polhode.derive import Equations, is_angle, slips_along
 from polhode.model import Sliding
 from polhode.simulate import Trajectory
-from polhode.view._mathml import equation, symbol
+from polhode.view._mathml import Formula, equation, inline
 from polhode.view._quantities import (
     Array,
     equations_of,
     largest,
+    panels,
     quantity,
     scale_for,
 )
-from polhode.view._scene import Formula, Panel, PlotSeries, SceneEvent, SceneNumber
-from polhode.view.figures._history import panels
+from polhode.view._scene import Panel, PlotSeries, SceneEvent, SceneNumber
 
 _EVENTS = 40  # that are listed
 _POINTS = 1501  # of a plotted curve, at most
@@ -38,17 +38,6 @@ def panels_of(run: Trajectory, groups: Sequence[Sequence[str]]) -> tuple[Panel, 
     return tuple(_panel(run, names, t) for group in chosen for names in panels(run, group))
 
 
-def everything(run: Trajectory) -> list[list[str]]:
-    """Coordinates, speeds and reactions."""
-    equations = run.equations
-    groups = [
-        [s.published for s in equations.coordinates],
-        [s.published for s in equations.speeds],
-        list(run.reactions),
-    ]
-    return [group for group in groups if group]
-
-
 def _panel(run: Trajectory, names: Sequence[str], t: Array) -> Panel:
     values = [run.evaluate(name, t) for name in names]
     scale = scale_for(quantity(run, names[0]).unit, largest(*values))
@@ -61,9 +50,9 @@ def _panel(run: Trajectory, names: Sequence[str], t: Array) -> Panel:
 
 def _letter(run: Trajectory, name: str) -> str:
     if name == _ENERGY:
-        return symbol(Expr.generator(Symbol("E")))
+        return inline(Expr.generator(Symbol("E")))
     expression = run.quantities[name]
-    return symbol(Expr.generator(expression.symbol or Symbol(name)))
+    return inline(Expr.generator(expression.symbol or Symbol(name)))
 
 
 def motion_of(run: Trajectory) -> tuple[Formula, ...]:
@@ -138,7 +127,7 @@ def parameters_of(run: Trajectory, meanings: Mapping[str, str]) -> tuple[SceneNu
         _in_degrees(
             SceneNumber(
                 name,
-                symbol(Expr.generator(Symbol(name.rstrip("_"), SymbolKind.PARAMETER))),
+                inline(Expr.generator(Symbol(name.rstrip("_"), SymbolKind.PARAMETER))),
                 float(value),
                 "rad" if name in angles else str(dimensions.get(name, PURE)),
                 meanings.get(name, ""),

@@ -15,9 +15,9 @@ from polhode.model import Contact, Plane
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array, instants, label, largest, scale_for
 from polhode.view._scene_along import along
-from polhode.view.figures._drawn import Drawn
+from polhode.view.figures._figure import Drawn, axes_or_new
 from polhode.view.figures._history import legend_above
-from polhode.view.figures._style import COLOURS, WIDTH, axes_or_new, house_style
+from polhode.view.figures._style import COLOURS, WIDTH, house_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

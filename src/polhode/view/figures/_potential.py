@@ -11,9 +11,9 @@ from polhode.analyse import LinearIntegrals, linear_integrals, reduced
 from polhode.base import PURE, DeclarationError, to_si
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array, equations_of, instants, quantity, scale_for
-from polhode.view.figures._drawn import Drawn
+from polhode.view.figures._figure import Drawn, axes_or_new
 from polhode.view.figures._history import legend_above
-from polhode.view.figures._style import COLOURS, FAINT, MUTED, axes_or_new, house_style
+from polhode.view.figures._style import COLOURS, FAINT, MUTED, house_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from polhode.view._quantities import Array
-from polhode.view._scene import Pose, Scene, SceneBody
-from polhode.view._shapes import reach_of
+from polhode.view._scene import Pose, Scene
 
 _FIELD = np.radians(16)  # half of the angle of view, up and down
 _FOLLOWED = 3.45  # reaches of the body in view when it is followed
@@ -56,7 +55,7 @@ class Camera:
 
 def camera_of(scene: Scene, frame: float) -> Camera:
     """The view that the page opens with: from the same side, and as near as all is in view."""
-    reach = max(_reach(body) for body in scene.bodies)
+    reach = max(body.reach for body in scene.bodies)
     bodies, paths = _passed(scene), _left(scene)
     box = np.array([f(np.concatenate([bodies, paths]), axis=0) for f in (np.nanmin, np.nanmax)])
     radius = float(np.linalg.norm(box[1] - box[0])) / 2 + reach
@@ -154,7 +153,3 @@ def _tied(scene: Scene) -> Array:
     """Places in space that springs and dampers are tied to, shape (places, 3)."""
     ends = [end for link in scene.links for end in (link.start, link.end)]
     return np.reshape([end[0] for end in ends if len(end) == 1], (-1, 3))
-
-
-def _reach(body: SceneBody) -> float:
-    return max([reach_of(body.shape), *(float(np.linalg.norm(arm)) for arm in body.arms)])

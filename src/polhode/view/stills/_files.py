@@ -6,22 +6,77 @@ import io
 import json
 import tempfile
 from collections.abc import Callable, Collection, Iterator
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from polhode.base import TIME, NumericError, StoreError, Value, to_si, write_whole
+from polhode.base import TIME, DeclarationError, NumericError, StoreError, Value, to_si, write_whole
 from polhode.simulate import Trajectory
 from polhode.view._scene import Scene
 from polhode.view._scene_build import scene
 from polhode.view.figures import new_figure, save_figure
-from polhode.view.stills._asked import count_of_frames, kinds, pixels
-from polhode.view.stills._picture import SKY, picture
+from polhode.view.stills._picture import ARROWS, SKY, picture
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from PIL.Image import Image
+
+
+# What a picture or a movie is asked for with: refused by name before anything is drawn.
+
+_WIDEST = 10_000  # pixels
+_LONGEST = 5_000  # frames of a movie
+
+
+def pixels(size: tuple[int, int]) -> tuple[int, int]:
+    """Width and height that can be drawn.
+
+    Raises:
+        NumericError: for anything but two whole numbers from 1 to some thousands.
+    """
+    whole = [n for n in size if isinstance(n, int) and 0 < n <= _WIDEST]
+    if len(whole) != 2 or len(size) != 2:
+        raise NumericError(
+            f"a picture of {size} pixels",
+            expected=f"width and height, whole numbers from 1 to {_WIDEST}",
+        )
+    return whole[0], whole[1]
+
+
+def kinds(arrows: Collection[str]) -> frozenset[str]:
+    """Kinds of arrows, given by one name or by several.
+
+    Raises:
+        DeclarationError: for a kind that there is not.
+    """
+    asked = frozenset([arrows] if isinstance(arrows, str) else arrows)
+    unknown = sorted(asked - set(ARROWS))
+    if unknown:
+        raise DeclarationError(
+            f"arrows {', '.join(map(repr, unknown))}", expected=f"some of {', '.join(ARROWS)}"
+        )
+    return asked
+
+
+def count_of_frames(duration: float, speed: float, rate: float) -> int:
+    """How many frames show a motion of this duration, s.
+
+    Raises:
+        NumericError: for a speed or rate that is not positive, or for too many frames.
+    """
+    if not (speed > 0 and rate > 0 and isfinite(rate)):
+        raise NumericError(f"speed {speed} at {rate} frames per second", expected="positive ones")
+    wanted = duration / speed * rate
+    if wanted > _LONGEST:
+        raise NumericError(
+            f"a movie of {wanted:.3g} frames",
+            expected=f"at most {_LONGEST}",
+            advice=f"give a higher speed than {speed:g}, or a lower rate than {rate:g}",
+        )
+    return max(2, round(wanted))
+
 
 _DOTS = 100  # of an inch
 _SMOOTH = 2  # dots drawn for each dot of a movie

@@ -10,14 +10,14 @@ import numpy as np
 from polhode.view._quantities import Array
 from polhode.view._scene import Arrow, Scene, Trace
 from polhode.view.figures import house_style
-from polhode.view.stills._bodies import body_mesh
+from polhode.view.stills._bodies import body_mesh, joints, links
 from polhode.view.stills._camera import Camera, between, camera_of, place_at, turn_at
 from polhode.view.stills._ground import LINES, STRONG, Ground, grounds_of
-from polhode.view.stills._links import joints, links
 from polhode.view.stills._mesh import Mesh, rod_between, together
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
 
 SKY = "#f7f6f2"
 _SHADOW = "#cfccc2"
@@ -187,3 +187,29 @@ def _frame(ax: Axes) -> None:
     ax.set_xlim(-ratio, ratio)
     ax.set_ylim(-1, 1)
     ax.set_axis_off()
+
+
+# The instant at which a picture tells most of a body.
+
+_SHARES = np.linspace(0.25, 0.6, 36)  # of the motion: some of it done, and some to come
+_ENOUGH = 0.85  # of the largest outline seen: the first instant with so much of it will do
+
+
+def telling_time(scene: Scene) -> float:
+    """When most of the bodies is seen, and not their edges, s."""
+    seen = np.array([_outline(scene, share * (scene.frames - 1)) for share in _SHARES])
+    first = int(np.argmax(seen >= _ENOUGH * np.max(seen)))
+    return float(_SHARES[first]) * scene.duration
+
+
+def _outline(scene: Scene, frame: float) -> float:
+    """Area of all faces that are seen, in the picture."""
+    camera = camera_of(scene, frame)
+    area = 0.0
+    for body in scene.bodies:
+        mesh = body_mesh(body).placed(turn_at(body.pose, frame), place_at(body.pose, frame))
+        corners = camera.project(mesh.faces)
+        across, along = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+        turned = across[:, 0] * along[:, 1] - across[:, 1] * along[:, 0]
+        area += float(np.sum(turned[turned > 0])) / 2
+    return area
