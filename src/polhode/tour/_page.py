@@ -154,7 +154,7 @@ def _closing(everything: Sequence[Worked]) -> tuple[Markup, ...]:
                 "duration": worked.run.duration,
                 "integrator": worked.run.integrator,
             }
-            for worked in everything
+            for worked in sorted(everything, key=lambda worked: worked.entry.name)
         },
     }
     return (

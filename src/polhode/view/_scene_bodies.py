@@ -267,19 +267,33 @@ def _path(run: Trajectory, point: BodyPoint | Vector, t: Array) -> Array:
 def arrows_of(run: Trajectory, t: Array) -> tuple[Arrow, ...]:
     """Forces of contacts and joints, loads, torques, angular velocities and momenta."""
     system = equations_of(run).system
+    bodies = list(system.bodies)
     attached: dict[str, Body] = {}
     for equations in modes_of(run):
         for name, reaction in equations.reactions.items():
             attached.setdefault(name, reaction.body)
-    found = [_reaction_arrow(run, name, body, t) for name, body in attached.items()]
-    found += [_load_arrow(run, load, body, t) for load in system.loads for body in system.bodies]
-    found += [arrow for body in system.bodies for arrow in _body_arrows(run, body, t)]
+    found = [
+        _arrow("force", f"force at {name}", bodies.index(body), "N", *_reaction(run, name, body, t))
+        for name, body in attached.items()
+    ]
+    found += [
+        _arrow("load", f"{load.name} on {body.name}", i, "N", _force(run, load, body, t))
+        for load in system.loads
+        for i, body in enumerate(bodies)
+    ]
+    for i, body in enumerate(bodies):
+        found += [
+            _arrow(kind, f"{words} {body.name}", i, unit, values)
+            for kind, words, unit, values in _rotation(run, body, t)
+        ]
     kinds = dict.fromkeys(arrow.kind for arrow in found)
     largest = {kind: max(a.largest for a in found if a.kind == kind) for kind in kinds}
     return tuple(a for a in found if a.largest > _UNSEEN * largest[a.kind])
 
 
-def _reaction_arrow(run: Trajectory, name: str, body: Body, t: Array) -> Arrow:
+def _reaction(run: Trajectory, name: str, body: Body, t: Array) -> tuple[Array, Array]:
+    """A reaction, N, and where it acts, m."""
+
     def force(equations: Equations) -> Vector | None:
         reaction = equations.reactions.get(name)
         if reaction is None:
@@ -294,19 +308,22 @@ def _reaction_arrow(run: Trajectory, name: str, body: Body, t: Array) -> Arrow:
         place = equations.kinetics.places[body]
         return place if reaction is None else place + reaction.arm
 
-    values, feet = vectors(run, force, t), collapsed(vectors(run, foot, t))
-    return _arrow(run, "force", f"force at {name}", body, "N", values, feet)
+    return vectors(run, force, t), collapsed(vectors(run, foot, t))
 
 
-def _load_arrow(run: Trajectory, load: Load, body: Body, t: Array) -> Arrow:
+def _force(run: Trajectory, load: Load, body: Body, t: Array) -> Array:
+    """Of a load on a body, N."""
+
     def force(equations: Equations) -> Vector:
         actions = _actions(equations, body, load.name)
         return sum((a.force for a in actions), start=equations.system.root.zero)
 
-    return _arrow(run, "load", f"{load.name} on {body.name}", body, "N", vectors(run, force, t))
+    return vectors(run, force, t)
 
 
-def _body_arrows(run: Trajectory, body: Body, t: Array) -> Iterator[Arrow]:
+def _rotation(run: Trajectory, body: Body, t: Array) -> Iterator[tuple[str, str, str, Array]]:
+    """Torque, angular velocity and angular momentum: kind, words, unit and components."""
+
     def torque(equations: Equations) -> Vector:
         """Of everything that acts, about the centre of mass."""
         total = equations.system.root.zero
@@ -325,12 +342,9 @@ def _body_arrows(run: Trajectory, body: Body, t: Array) -> Iterator[Arrow]:
         angular = omega(equations).express(body.axes)
         return Vector(body.inertia.times(angular.components), body.axes)
 
-    for kind, words, unit, vector in (
-        ("torque", "torque about the centre of", "N m", torque),
-        ("omega", "angular velocity of", "rad/s", omega),
-        ("momentum", "angular momentum of", "kg m²/s", momentum),
-    ):
-        yield _arrow(run, kind, f"{words} {body.name}", body, unit, vectors(run, vector, t))
+    yield "torque", "torque about the centre of", "N m", vectors(run, torque, t)
+    yield "omega", "angular velocity of", "rad/s", vectors(run, omega, t)
+    yield "momentum", "angular momentum of", "kg m²/s", vectors(run, momentum, t)
 
 
 def _actions(equations: Equations, body: Body, only: str = "") -> list[Action]:
@@ -342,16 +356,9 @@ def _actions(equations: Equations, body: Body, only: str = "") -> list[Action]:
 
 
 def _arrow(
-    run: Trajectory,
-    kind: str,
-    name: str,
-    body: Body,
-    unit: str,
-    values: Array,
-    foot: Array = NOWHERE,
+    kind: str, name: str, body: int, unit: str, values: Array, foot: Array = NOWHERE
 ) -> Arrow:
     shown = np.nan_to_num(values, posinf=0.0, neginf=0.0)
     sizes = np.linalg.norm(shown, axis=1)
     usual, largest = float(np.quantile(sizes, _USUAL)), float(np.max(sizes))
-    number = list(equations_of(run).system.bodies).index(body)
-    return Arrow(kind, name, number, unit, foot, collapsed(shown), usual, largest)
+    return Arrow(kind, name, body, unit, foot, collapsed(shown), usual, largest)

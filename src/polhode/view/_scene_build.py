@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from math import ceil, isfinite
 
@@ -50,6 +50,9 @@ _TURN = 0.12  # largest angle between two frames, rad
 _LEAST, _MOST = 2000, 3600  # frames, for one body
 _FEWEST = 600  # for however many
 _COARSE = 601  # instants at which the turning is looked at
+_ROOM = 2.6  # of a body's reach: margin of a support round the path of the contact
+_BEYOND = 1.1  # of a body's reach: where the end of its axis leaves a trace
+_STILL = 1e-9  # rad: a support that turns less is at rest
 _BELOW = 1.15  # of the reach of everything: depth of the floor where nothing is stood on
 
 
@@ -142,70 +145,58 @@ def poses(run: Trajectory, frames: int) -> tuple[Pose, ...]:
 
 def _frames(run: Trajectory) -> int:
     """So many that nothing but a spin turns far between two of them."""
-    bodies = run.equations.system.bodies
+    system = equations_of(run).system
     coarse = np.linspace(0.0, run.duration, _COARSE)
-    fastest = max(_fastest(run, body, coarse) for body in bodies)
+    fastest = max(_fastest_turn(run, body, coarse) for body in system.bodies)
     if not isfinite(fastest):
         raise NumericError(
-            f"{equations_of(run).system.name} turns faster than numbers can be squared",
+            f"the square of the angular velocity of {system.name} is too large for a number",
             expected="a motion that can be drawn",
             advice="end it earlier, or check the sizes of the parameters and of the start",
         )
     wanted = ceil(run.duration * fastest / _TURN)
-    most = max(_MOST // len(bodies), _FEWEST)
+    most = max(_MOST // len(system.bodies), _FEWEST)
     return 1 + min(max(wanted, _LEAST), most)
 
 
-def _fastest(run: Trajectory, body: Body, t: Array) -> float:
+def _fastest_turn(run: Trajectory, body: Body, t: Array) -> float:
     """Greatest angular velocity of what poses are given of, rad/s: the axes, or a ball itself."""
-    turning = vectors(run, lambda equations: _turning(equations, body), t)
-    return float(np.max(np.linalg.norm(turning, axis=1)))
 
+    def turning(equations: Equations) -> Vector:
+        if body.fixed_axes is None:
+            return equations.kinetics.velocities[body][1]
+        return body.axes.angular_velocity
 
-def _turning(equations: Equations, body: Body) -> Vector:
-    if body.fixed_axes is None:
-        return equations.kinetics.velocities[body][1]
-    return body.axes.angular_velocity
+    return float(np.max(np.linalg.norm(vectors(run, turning, t), axis=1)))
 
 
 def _up(run: Trajectory) -> Triple:
     """Against gravity; else off a support or out of the plane of a guide."""
-    root = run.equations.system.root
-    vector = next(iter(_upright(run)), root[root.labels[2]])
-    x, y, z = constants(run, vector.express(root).components)
-    return x, y, z
-
-
-def _upright(run: Trajectory) -> list[Vector]:
-    system = run.equations.system
+    system = equations_of(run).system
     root = system.root
     loads = [load for load in system.loads if hasattr(load, "up")]
     lifted = [load.up if load.up is not None else root[root.labels[2]] for load in loads]
     supports = [element.on.up for element in system.elements if hasattr(element, "on")]
     guides = [element.normal for element in system.elements if hasattr(element, "normal")]
-    return [*lifted, *supports, *guides]
+    upright = next(iter([*lifted, *supports, *guides]), root[root.labels[2]])
+    x, y, z = constants(run, upright.express(root).components)
+    return x, y, z
 
 
 def _floor(
     bodies: Sequence[SceneBody], links: Sequence[Link], supports: Sequence[Support], up: Triple
 ) -> float | None:
-    """A height below everything, where nothing is stood on."""
+    """A height below everything; None where something is stood on."""
     if supports:
         return None
-    feet = [end for link in links for end in (link.start, link.end)]
-    lowest = [float(np.min(foot @ np.array(up))) for foot in feet]
-    return min([*lowest, *(_depth(body, np.array(up)) for body in bodies)])
+    ends = [end for link in links for end in (link.start, link.end)]
+    lowest = [float(np.min(end @ np.array(up))) for end in ends]
+    for body in bodies:
+        lowest.append(float(np.min(body.pose.place @ np.array(up))) - _BELOW * body.reach)
+    return min(lowest)
 
 
-def _depth(body: SceneBody, up: Array) -> float:
-    return float(np.min(body.pose.place @ up)) - _BELOW * body.reach
-
-
-# Supports of the scene, and the paths that are left on them and in space.
-
-_ROOM = 2.6  # of a body's reach: margin of a support round the path of the contact
-_BEYOND = 1.1  # of a body's reach: where the end of its axis leaves a trace
-_MOVING = 1e-9
+# --- supports, and the paths that are left on them and in space ---
 
 
 def supports_of(
@@ -214,11 +205,15 @@ def supports_of(
     """Supports that bodies touch, each once, and the paths of the contacts."""
     supports: dict[Plane, Support] = {}
     traces: list[Trace] = []
-    for contact in _contacts(run):
+    for element in equations_of(run).system.elements:
+        contact = getattr(element, "contact", element)  # of one that begins in flight
+        if not isinstance(contact, Contact):
+            continue
         plane = contact.on
-        pose = _pose(run, plane, t)
-        points = vectors(run, _touching(contact), t)
-        on_it = _carried(points, pose)
+        pose = _support_pose(run, plane, t)
+        points = _contact_path(run, contact, t)
+        # As seen from the support: turned back by the conjugate quaternions.
+        on_it = _turned(points - pose.place, pose.turn * np.array([-1.0, -1.0, -1.0, 1.0]))
         if plane not in supports:
             supports[plane] = _support(contact, pose, on_it, reach)
         traces.append(Trace("contact", f"path of {contact.name}", points))
@@ -239,49 +234,34 @@ def other_traces(bodies: tuple[SceneBody, ...]) -> Iterator[Trace]:
             yield Trace("axis", f"axis of {body.name}", pose.place + _turned(tip, pose.turn))
 
 
-def _contacts(run: Trajectory) -> list[Contact]:
-    """Contacts of the declaration, whatever phase they begin in."""
-    elements = run.equations.system.elements
-    found = (getattr(element, "contact", element) for element in elements)
-    return [contact for contact in found if isinstance(contact, Contact)]
+def _contact_path(run: Trajectory, contact: Contact, t: Array) -> Array:
+    """The point of contact at the given instants; not a number in flight."""
 
-
-def _touching(contact: Contact) -> Callable[[Equations], Vector | None]:
     def place(equations: Equations) -> Vector | None:
         element = equations.system.element(contact.name)
         if not isinstance(element, Contact):
             return None
         return equations.kinetics.places[contact.body] + contact.arm
 
-    return place
+    return vectors(run, place, t)
 
 
-def _pose(run: Trajectory, plane: Plane, t: Array) -> Pose:
+def _support_pose(run: Trajectory, plane: Plane, t: Array) -> Pose:
     """Of the surface, its third direction along the normal."""
     root = plane.axes.root
     triad = [plane.axes[label].express(root) for label in (*plane.tangents, plane.normal)]
     entries = [direction.components[i] for i in range(3) for direction in triad]
     turn = quaternions(along(run, lambda equations: entries, 9, t).reshape(-1, 3, 3))
     place = vectors(run, lambda equations: plane.origin, t)
-    turning = along(run, lambda equations: [plane.turning], 1, t)[:, 0]
-    angle: Array = cumulative_simpson(turning, x=t, initial=0.0)
-    if np.ptp(angle) <= _MOVING:
-        return Pose(collapsed(place), collapsed(turn), np.zeros(0), (0.0, 0.0, 1.0))
-    return Pose(collapsed(place), turned_about_third(turn, angle), np.zeros(0), (0.0, 0.0, 1.0))
-
-
-def turned_about_third(turn: Array, angle: Array) -> Array:
-    """Attitudes turned further about their own third direction."""
-    x, y, z, w = turn.T
-    s, c = np.sin(angle / 2), np.cos(angle / 2)
-    found: Array = np.stack([c * x + s * y, c * y - s * x, c * z + s * w, c * w - s * z], axis=1)
-    return found
-
-
-def _carried(points: Array, pose: Pose) -> Array:
-    """Points as seen from a surface that moves, along its own directions."""
-    back = pose.turn * np.array([-1.0, -1.0, -1.0, 1.0])
-    return _turned(points - pose.place, back)
+    rate = along(run, lambda equations: [plane.turning], 1, t)[:, 0]
+    angle: Array = cumulative_simpson(rate, x=t, initial=0.0)
+    if np.ptp(angle) <= _STILL:
+        turn = collapsed(turn)
+    else:  # turned further, by that angle about the third direction of the surface
+        x, y, z, w = turn.T
+        s, c = np.sin(angle / 2), np.cos(angle / 2)
+        turn = np.stack([c * x + s * y, c * y - s * x, c * z + s * w, c * w - s * z], axis=1)
+    return Pose(collapsed(place), turn, np.zeros(0), (0.0, 0.0, 1.0))
 
 
 def _turned(vector: Array, turn: Array) -> Array:
