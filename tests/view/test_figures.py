@@ -12,7 +12,7 @@ from polhode.base import DeclarationError, NumericError, UnitError
 from polhode.catalogue import CATALOGUE
 from polhode.view import figures as view
 from polhode.view._quantities import scale_for
-from polhode.view.figures._rotation import _VIEW as SKY
+from polhode.view.figures._rotation import _SKY as SKY
 from polhode.view.figures._rotation import View, _polhode, _separatrices
 from polhode.view.figures._style import INK, line_style
 

@@ -1,4 +1,4 @@
-"""Where the energy of a motion goes, and how well the computation keeps account of it."""
+"""Where the energy of a motion goes, what power brings it there, and how well that adds up."""
 
 from __future__ import annotations
 
@@ -23,6 +23,7 @@ ROUNDING = float(np.finfo(float).eps)
 _FLOOR = ROUNDING / 30  # what is smaller is drawn here
 _INTERVALS = 240
 _CONSTANT = 1e-12  # relative change that is rounding
+_TINY = 1e-9  # of the largest power: a share that is not drawn
 
 
 @house_style()
@@ -34,7 +35,14 @@ def energies(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     """
     axes = axes_or_new(ax, 2.0)
     t = instants(run)
-    changes, size = _changes(run, t), _size(run, t)
+    kinetic, potential, work = _shares(run, t)
+    size = _size(kinetic, potential, work)
+    changes = {r"\Delta T": kinetic - kinetic[0]}
+    if float(np.ptp(potential)):
+        changes[r"\Delta V"] = potential - potential[0]
+        changes[r"\Delta T + \Delta V"] = kinetic + potential - kinetic[0] - potential[0]
+    if largest(work) > _CONSTANT * size:
+        changes["W"] = work
     steady = largest(*changes.values()) <= _CONSTANT * size
     scale = scale_for("J", 0.1 * size if steady else largest(*changes.values()))
     lines = [
@@ -58,7 +66,9 @@ def energy_drift(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     """
     axes = axes_or_new(ax, 2.0)
     t = instants(run)
-    departure = _departure(run, t)
+    kinetic, potential, work = _shares(run, t)
+    total = kinetic + potential
+    departure: Array = np.abs(total - total[0] - work) / _size(kinetic, potential, work)
     parts = [np.max(part) for part in np.array_split(departure, _INTERVALS)]
     middles = [np.mean(part) for part in np.array_split(t, _INTERVALS)]
     tops = np.maximum(parts, _FLOOR)
@@ -72,27 +82,8 @@ def energy_drift(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     return Drawn(axes, [line])
 
 
-def _changes(run: Trajectory, t: Array) -> dict[str, Array]:
-    kinetic, potential, work = _shares(run, t)
-    changes = {r"\Delta T": kinetic - kinetic[0]}
-    if float(np.ptp(potential)):
-        changes[r"\Delta V"] = potential - potential[0]
-        changes[r"\Delta T + \Delta V"] = kinetic + potential - kinetic[0] - potential[0]
-    return changes | ({"W": work} if largest(work) > _CONSTANT * _size(run, t) else {})
-
-
-def _departure(run: Trajectory, t: Array) -> Array:
-    kinetic, potential, work = _shares(run, t)
-    total = kinetic + potential
-    departure: Array = np.abs(total - total[0] - work) / _size(run, t)
-    return departure
-
-
-def _size(run: Trajectory, t: Array) -> float:
-    return float(np.max(sum(map(np.abs, _shares(run, t))))) or 1.0
-
-
 def _shares(run: Trajectory, t: Array) -> tuple[Array, Array, Array]:
+    """Kinetic and potential energy, and the work done since the start, J."""
     energies = along(
         run, lambda equations: [equations.kinetic_energy, equations.potential_energy], 2, t
     )
@@ -100,9 +91,8 @@ def _shares(run: Trajectory, t: Array) -> tuple[Array, Array, Array]:
     return kinetic, potential, run.evaluate("work", t)
 
 
-# Where power comes from and goes to: loads, contacts and joints against the change of energy.
-
-_TINY = 1e-9  # of the largest power: a share that is not drawn
+def _size(*shares: Array) -> float:
+    return float(np.max(sum(map(np.abs, shares)))) or 1.0
 
 
 @house_style()
@@ -114,7 +104,8 @@ def power_balance(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     """
     axes = axes_or_new(ax)
     t = instants(run)
-    shares, rate = _shares_of_power(run, t), _rate(run, t)
+    shares = _powers(run, t)
+    rate = along(run, lambda equations: [equations.rate(equations.kinetic_energy)], 1, t)[:, 0]
     total = np.sum(list(shares.values()), axis=0) if shares else 0 * t
     size = largest(rate, *shares.values())
     scale = scale_for("W", size)
@@ -133,7 +124,7 @@ def power_balance(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     return Drawn(axes, lines)
 
 
-def _shares_of_power(run: Trajectory, t: Array) -> dict[str, Array]:
+def _powers(run: Trajectory, t: Array) -> dict[str, Array]:
     names = list(dict.fromkeys(name for equations in modes_of(run) for name in equations.powers))
     zero = Expr.of(0)
 
@@ -141,8 +132,3 @@ def _shares_of_power(run: Trajectory, t: Array) -> dict[str, Array]:
         return [equations.powers.get(name, zero) for name in names]
 
     return dict(zip(names, along(run, powers, len(names), t).T, strict=True))
-
-
-def _rate(run: Trajectory, t: Array) -> Array:
-    """Rate of change of the kinetic energy along the motion."""
-    return along(run, lambda equations: [equations.rate(equations.kinetic_energy)], 1, t)[:, 0]

@@ -1,4 +1,4 @@
-"""Quantities against time."""
+"""Quantities against time, by themselves and stacked; phase portraits; shades of modes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from polhode.simulate import Trajectory
 from polhode.view._quantities import (
     Array,
     Named,
-    PlottedQuantity,
     common_unit,
     everything,
     grouped,
@@ -44,6 +43,9 @@ _SHARED = {
 }
 _ROUNDING = 1e-11  # relative spread below which a quantity counts as constant
 _SLIGHT = 1e-3  # relative spread below which only the change is worth showing
+_PALE: dict[str, Any] = {"edgecolor": INK, "alpha": 0.28, "linewidth": 0, "zorder": 0}
+_HATCHES = ("", "////", "....", "xxxx")
+_PANEL, _FOOT, _LEAST = 1.35, 0.45, 2.3  # heights in inches: of a panel, below them, of a figure
 _ROOM = 1.1  # widths of the axes that a legend may take
 
 
@@ -112,9 +114,6 @@ def widen(axes: Axes, values: Array) -> None:
         axes.set_ylim(middle - room, middle + room)
 
 
-# Phase portraits: a coordinate against its rate.
-
-
 @house_style()
 def phase_portrait(run: Trajectory, name: Named, *, ax: Axes | None = None) -> Drawn:
     """The rate of a coordinate against the coordinate; a dot marks the start.
@@ -122,32 +121,21 @@ def phase_portrait(run: Trajectory, name: Named, *, ax: Axes | None = None) -> D
     Raises:
         DeclarationError: for a name that is no coordinate of the run.
     """
-    both = _with_rate(run, name)
+    coordinate = quantity(run, name)
+    rate = f"{coordinate.name}_dot"
+    if rate not in run.quantities:
+        raise DeclarationError(f"the rate of {coordinate.name}", expected="a coordinate or a speed")
     axes = axes_or_new(ax, 3.0)
     shown = []
-    for place, one in zip("xy", both, strict=True):
-        values = run.evaluate(one.name, instants(run))
-        scale = scale_for(one.unit, largest(values))
-        axes.set(**{f"{place}label": one.label(scale)})
+    for side, plotted in (("x", coordinate), ("y", quantity(run, rate))):
+        values = run.evaluate(plotted.name, instants(run))
+        scale = scale_for(plotted.unit, largest(values))
+        axes.set(**{f"{side}label": plotted.label(scale)})
         shown.append(values * scale.factor)
     (line,) = axes.plot(*shown, color=COLOURS[0])
     axes.plot(shown[0][0], shown[1][0], "o", color=COLOURS[0], markersize=4.5)
     axes.margins(0.06)
     return Drawn(axes, [line])
-
-
-def _with_rate(run: Trajectory, named: Named) -> tuple[PlottedQuantity, PlottedQuantity]:
-    one = quantity(run, named)
-    rate = f"{one.name}_dot"
-    if rate not in run.quantities:
-        raise DeclarationError(f"the rate of {one.name}", expected="a coordinate or a speed")
-    return one, quantity(run, rate)
-
-
-# Which contact mode a motion is in, as shades behind a history.
-
-_PALE: dict[str, Any] = {"edgecolor": INK, "alpha": 0.28, "linewidth": 0, "zorder": 0}
-_HATCHES = ("", "////", "....", "xxxx")
 
 
 @house_style()
@@ -156,13 +144,13 @@ def modes(run: Trajectory, *, ax: Axes) -> Drawn:
 
     Modes are told apart by shade and hatching, and named in the legend of the axes.
     """
-    stretches = [list(group) for _, group in groupby(run.segments, lambda segment: segment.mode)]
+    stays = [list(group) for _, group in groupby(run.segments, lambda segment: segment.mode)]
     names = list(dict.fromkeys(segment.mode for segment in run.segments))
     if len(names) < 2:
         return Drawn(ax, [])
     drawn: list[Polygon | Rectangle] = []
     for i, name in enumerate(names):
-        spans = [(s[0].begin, s[-1].end) for s in stretches if s[0].mode == name]
+        spans = [(s[0].begin, s[-1].end) for s in stays if s[0].mode == name]
         style = {
             **_PALE,
             "facecolor": SHADES[i % len(SHADES)],
@@ -174,13 +162,6 @@ def modes(run: Trajectory, *, ax: Axes) -> Drawn:
             for span, label in zip(spans, labels, strict=True)
         ]
     return Drawn(ax, drawn)
-
-
-# One figure of a whole run: panels of histories above one another.
-
-_PANEL = 1.35  # height in inches
-_FOOT = 0.45
-_LEAST = 2.3
 
 
 def plot(run: Trajectory, *quantities: Named | Sequence[Named]) -> Figure:

@@ -1,4 +1,4 @@
-"""What every map over two quantities has besides its shades: exact thresholds, and its gaps."""
+"""Maps over two quantities: stability of steady motions, and what becomes of motions."""
 
 from __future__ import annotations
 
@@ -37,68 +37,12 @@ if TYPE_CHECKING:
     from matplotlib.patches import Patch
 
 
-# What every map over two quantities has besides its shades: exact thresholds, and its gaps.
-
 _LONGEST = 70  # letters of LaTeX that a legend has room for
-
-
-def threshold_line(
-    axes: Axes, grid: tuple[Array, Array], values: Array, number: int, colour: str
-) -> QuadContourSet:
-    """Where a condition changes sign; lines are told apart by dashes."""
-    dashes = [DASHES[number % len(DASHES)]]
-    style: dict[str, Any] = {"colors": [colour], "linewidths": 1.7, "linestyles": dashes}
-    return axes.contour(*grid, values, [0.0], **style)
-
-
-def threshold_key(condition: Expr, number: int, colour: str) -> Line2D:
-    """The entry of such a line in the legend."""
-    from matplotlib.lines import Line2D
-
-    formula = f"${condition.latex()} = 0$"
-    label = f"threshold: {formula}" if _is_legible(formula) else "threshold of stability"
-    return Line2D([], [], color=colour, linestyle=DASHES[number % len(DASHES)], label=label)
-
-
-def gap(
-    axes: Axes, grid: tuple[Array, Array], where: NDArray[np.bool_], hatch: str, label: str
-) -> list[Patch]:
-    """Hatch what has no value, shape (up, across); its entry in the legend, if there is any."""
-    from matplotlib.colors import ListedColormap
-    from matplotlib.patches import Patch
-
-    if not np.any(where):
-        return []
-    style: dict[str, Any] = {"hatch": hatch, "edgecolor": MUTED, "linewidth": 0}
-    shown = np.ma.masked_where(~where, np.zeros(where.shape))
-    cells = axes.pcolor(*grid, shown, cmap=ListedColormap([FAINT]), shading="nearest", zorder=0)
-    cells.set(**style)
-    return [Patch(facecolor=FAINT, label=label, **style)]
-
-
-def legend(axes: Axes, handles: Sequence[Line2D | Patch]) -> None:
-    """A legend above the axes, in two columns where there is more than one entry."""
-    if handles:
-        columns = min(len(handles), 2)
-        axes.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns)
-
-
-def _is_legible(formula: str) -> bool:
-    from matplotlib.mathtext import MathTextParser
-
-    if len(formula) > _LONGEST:
-        return False
-    try:
-        MathTextParser("path").parse(formula)
-    except ValueError:  # LaTeX that matplotlib does not have
-        return False
-    return True
-
-
-# Where a steady motion is stable, over two quantities, with the exact threshold.
-
-_POINTS = 161
+_POINTS = 161  # of a stability map, along each side
+_FINE = 201  # of a threshold on a map of outcomes, likewise
 _ROUNDING = 1e-6  # relative growth that is the rounding of a double root
+
+_WORDS = {"duration": "duration (s)"}  # outputs that are no quantity of the system
 
 #: A quantity with the least and the greatest value to draw, such as ("omega_3", "0", "40 rad/s").
 Span = tuple[str | Symbol | Expr, Value, Value]
@@ -164,15 +108,16 @@ def stability_map(
     thresholds = [field.values(condition.expression) for condition in found.conditions]
     colour = COLOURS[0]
     lines = tuple(
-        threshold_line(axes, (across, up), values, i, colour) for i, values in enumerate(thresholds)
+        _threshold_line(axes, (across, up), values, i, colour)
+        for i, values in enumerate(thresholds)
     )
     keys = [
-        threshold_key(condition.expression, i, colour)
+        _threshold_key(condition.expression, i, colour)
         for i, (condition, line) in enumerate(zip(found.conditions, lines, strict=True))
         if any(len(path) for path in line.allsegs[0])
     ]
-    nowhere = gap(axes, (across, up), ~np.isfinite(growth), "////", "no such motion")
-    legend(axes, [*keys, *nowhere])
+    nowhere = _gap(axes, (across, up), ~np.isfinite(growth), "////", "no such motion")
+    _legend(axes, [*keys, *nowhere])
     axes.figure.colorbar(mesh, ax=axes, label="growth (1/s)", pad=0.03)
     axes.grid(visible=False)
     axes.set_xlabel(field.axes[0].label)
@@ -227,17 +172,17 @@ class _Field:
 
     def values(self, expression: Expr) -> Array:
         """An expression at every point, shape (up, across); not a number where not real."""
-        told = expression.subs(self._related)
+        reduced = expression.subs(self._related)
         first, second = (axis.symbol for axis in self.axes)
-        others = tuple(s for s in told.symbols() if s not in (first, second))
+        others = tuple(s for s in reduced.symbols() if s not in (first, second))
         known = self._known
         lacking = [s.published for s in others if s not in known]
         if lacking:
             raise DeclarationError(
-                f"a map of stability without a value of {', '.join(sorted(lacking))}",
-                expected="numbers for all that is not along an axis",
+                f"no value of {', '.join(sorted(lacking))} for a map of stability",
+                expected="numbers for every quantity that is not along an axis",
             )
-        function = compile_program([told], (first, second, *others)).function(arrays())
+        function = compile_program([reduced], (first, second, *others)).function(arrays())
         across, up = np.meshgrid(*(axis.values for axis in self.axes))
         with np.errstate(all="ignore"):
             (found,) = function(across, up, *(known[s] for s in others))
@@ -258,9 +203,9 @@ class _Field:
         family = self.found.family
         if len(family.relations) != 1:
             return {}
-        told = {*self._known, *(axis.symbol for axis in self.axes)}
+        given = {*self._known, *(axis.symbol for axis in self.axes)}
         (relation,) = family.relations
-        for symbol in (s for s in relation.symbols() if s not in told):
+        for symbol in (s for s in relation.symbols() if s not in given):
             quantity = Expr.generator(symbol)
             slope, rest = relation.diff(symbol), relation.subs({symbol: Expr.of(0)})
             if symbol not in slope.symbols():
@@ -304,10 +249,7 @@ def _shades() -> Colormap:
     )
 
 
-# What becomes of motions over two quantities, with exact thresholds of stability.
-
-_POINTS_of_outcome_map = 201
-_WORDS = {"duration": "duration (s)"}  # outputs that are no quantity of the system
+# --- what becomes of motions ---
 
 
 @dataclass(frozen=True)
@@ -351,13 +293,13 @@ def outcome_map(found: Found, *, ax: Axes | None = None) -> OutcomeMap:
     keys = [*(_codes(found, mesh) if found.labels else ())]
     empty = ~np.isfinite(shown)
     failed = empty & (found.failed.T if found.failed is not None else False)
-    keys += gap(axes, (across, up), failed, "////", "could not be followed")
-    keys += gap(axes, (across, up), empty & ~failed, "....", "no result")
+    keys += _gap(axes, (across, up), failed, "////", "could not be followed")
+    keys += _gap(axes, (across, up), empty & ~failed, "....", "no result")
     if not found.labels:
         axes.figure.colorbar(mesh, ax=axes, label=_label(found, found.output, scale), pad=0.03)
     lines, conditions = _thresholds(axes, found, scales)
-    keys_of_lines = [threshold_key(c.condition, i, INK) for i, c in enumerate(conditions)]
-    legend(axes, [*keys, *keys_of_lines])
+    keys_of_lines = [_threshold_key(c.condition, i, INK) for i, c in enumerate(conditions)]
+    _legend(axes, [*keys, *keys_of_lines])
     axes.grid(visible=False)
     axes.set_xlabel(_label(found, names[0], scales[0]))
     axes.set_ylabel(_label(found, names[1], scales[1]))
@@ -373,7 +315,7 @@ def _thresholds(
     shown = (grid[0] * scales[0].factor, grid[1] * scales[1].factor)
     heights = {t: t.values((first, second), found.numbers, grid) for t in found.thresholds}
     met = {t: h for t, h in heights.items() if np.min(h) < 0 < np.max(h)}
-    lines = (threshold_line(axes, shown, h, i, INK) for i, h in enumerate(met.values()))
+    lines = (_threshold_line(axes, shown, h, i, INK) for i, h in enumerate(met.values()))
     return tuple(lines), tuple(met)
 
 
@@ -408,4 +350,60 @@ def _finite(values: Array) -> Array:
 
 
 def _fine(values: Array) -> Array:
-    return np.linspace(float(np.min(values)), float(np.max(values)), _POINTS_of_outcome_map)
+    return np.linspace(float(np.min(values)), float(np.max(values)), _FINE)
+
+
+# --- thresholds, gaps and the legend of both ---
+
+
+def _threshold_line(
+    axes: Axes, grid: tuple[Array, Array], values: Array, number: int, colour: str
+) -> QuadContourSet:
+    """Where a condition changes sign; lines are told apart by dashes."""
+    dashes = [DASHES[number % len(DASHES)]]
+    style: dict[str, Any] = {"colors": [colour], "linewidths": 1.7, "linestyles": dashes}
+    return axes.contour(*grid, values, [0.0], **style)
+
+
+def _threshold_key(condition: Expr, number: int, colour: str) -> Line2D:
+    """The entry of such a line in the legend."""
+    from matplotlib.lines import Line2D
+
+    formula = f"${condition.latex()} = 0$"
+    label = f"threshold: {formula}" if _is_legible(formula) else "threshold of stability"
+    return Line2D([], [], color=colour, linestyle=DASHES[number % len(DASHES)], label=label)
+
+
+def _gap(
+    axes: Axes, grid: tuple[Array, Array], where: NDArray[np.bool_], hatch: str, label: str
+) -> list[Patch]:
+    """Hatch what has no value, shape (up, across); its entry in the legend, if there is any."""
+    from matplotlib.colors import ListedColormap
+    from matplotlib.patches import Patch
+
+    if not np.any(where):
+        return []
+    style: dict[str, Any] = {"hatch": hatch, "edgecolor": MUTED, "linewidth": 0}
+    shown = np.ma.masked_where(~where, np.zeros(where.shape))
+    cells = axes.pcolor(*grid, shown, cmap=ListedColormap([FAINT]), shading="nearest", zorder=0)
+    cells.set(**style)
+    return [Patch(facecolor=FAINT, label=label, **style)]
+
+
+def _legend(axes: Axes, handles: Sequence[Line2D | Patch]) -> None:
+    """A legend above the axes, in two columns where there is more than one entry."""
+    if handles:
+        columns = min(len(handles), 2)
+        axes.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns)
+
+
+def _is_legible(formula: str) -> bool:
+    from matplotlib.mathtext import MathTextParser
+
+    if len(formula) > _LONGEST:
+        return False
+    try:
+        MathTextParser("path").parse(formula)
+    except ValueError:  # LaTeX that matplotlib does not have
+        return False
+    return True

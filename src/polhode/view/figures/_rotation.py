@@ -21,11 +21,17 @@ if TYPE_CHECKING:
     from matplotlib.lines import Line2D
 
 
-# A transparent ball seen from a little above: what is behind shows faintly.
-
 Mask = NDArray[np.bool_]
 
 _BEHIND = 0.28  # opacity of what is hidden
+_CIRCLE = np.linspace(0, 2 * np.pi, 361)
+_ROUND = np.linspace(0, 2 * np.pi, 241)
+_FAMILY = 4  # polhodes drawn about each stable axis
+_NODES = 8  # of a quadrature, between two instants
+_SIGNS = (-1, 1)
+
+
+# --- a transparent surface seen from a little above: what is behind shows faintly ---
 
 
 @dataclass(frozen=True)
@@ -97,10 +103,11 @@ def bare(axes: Axes) -> None:
     axes.autoscale_view()
 
 
-# Where the axis of a top points: its trace on the unit sphere.
+_SKY = View(azimuth=-60, elevation=28)
+_BODY = View(azimuth=38, elevation=24)
 
-_VIEW = View(azimuth=-60, elevation=28)
-_CIRCLE = np.linspace(0, 2 * np.pi, 361)
+
+# --- the axis of a top ---
 
 
 @house_style()
@@ -126,7 +133,7 @@ def nutation(run: Trajectory, *, axis: Vector | None = None, ax: Axes | None = N
     for height in (float(np.min(points[2])), float(np.max(points[2]))):
         _draw(axes, _parallel(height), color=MUTED, linewidth=0.8, linestyle=(0, (4, 3)))
     trace = _draw(axes, points, color=COLOURS[0], linewidth=1.4)
-    start = _VIEW.project(points[:, :1])
+    start = _SKY.project(points[:, :1])
     axes.plot(*start, "o", color=COLOURS[0], markersize=4.5, zorder=3)
     bare(axes)
     return Drawn(axes, trace)
@@ -152,7 +159,7 @@ def _globe(axes: Axes, vertical: str) -> None:
         )
         _draw(axes, meridian, color=FAINT, linewidth=0.6)
     axes.plot(np.cos(_CIRCLE), np.sin(_CIRCLE), color=MUTED, linewidth=0.8)
-    arrow(axes, _VIEW, np.array([[0.0, 0.0], [0.0, 0.0], [1.0, 1.25]]), f"${vertical}$")
+    arrow(axes, _SKY, np.array([[0.0, 0.0], [0.0, 0.0], [1.0, 1.25]]), f"${vertical}$")
 
 
 def _parallel(height: float) -> Array:
@@ -161,14 +168,10 @@ def _parallel(height: float) -> Array:
 
 
 def _draw(axes: Axes, points: Array, **style: object) -> tuple[Line2D, Line2D]:
-    return draw_on(axes, _VIEW, points, points, **style)
+    return draw_on(axes, _SKY, points, points, **style)
 
 
-# Polhodes: where the angular velocity pierces the inertia ellipsoid.
-
-_VIEW_of_polhodes = View(azimuth=38, elevation=24)
-_ROUND = np.linspace(0, 2 * np.pi, 241)
-_FAMILY = 4  # polhodes drawn about each stable axis
+# --- a free body: polhodes and the herpolhode ---
 
 
 @house_style()
@@ -238,9 +241,6 @@ def _family(moments: Array) -> list[Array]:
     ]
 
 
-_SIGNS = (-1, 1)
-
-
 def _polhode(moments: Array, ratio: float) -> Array:
     """One of the two closed curves with L²/2T equal to `ratio`, on the unit ball, shape (3, n).
 
@@ -275,38 +275,32 @@ def _separatrices(moments: Array) -> list[Array]:
 def _on_ellipsoid(
     axes: Axes, ball: Array, stretch: Array, **style: object
 ) -> tuple[Line2D, Line2D]:
-    return draw_on(axes, _VIEW_of_polhodes, ball * stretch, ball / stretch, **style)
+    return draw_on(axes, _BODY, ball * stretch, ball / stretch, **style)
 
 
 def _outline(axes: Axes, stretch: Array) -> None:
     """The rim of the ellipsoid as seen: where its normal is square to the line of sight."""
-    normal = _VIEW_of_polhodes.towards[:, None] / stretch
+    normal = _BODY.towards[:, None] / stretch
     normal = (normal / np.linalg.norm(normal)).ravel()
     first = np.cross(normal, [0.0, 0.0, 1.0])
     first = first / np.linalg.norm(first)
     second = np.cross(normal, first)
     rim = first[:, None] * np.cos(_ROUND) + second[:, None] * np.sin(_ROUND)
     axes.fill(
-        *_VIEW_of_polhodes.project(rim * stretch),
+        *_BODY.project(rim * stretch),
         facecolor=FAINT,
         edgecolor=MUTED,
         alpha=0.35,
         zorder=0,
     )
-    axes.plot(*_VIEW_of_polhodes.project(rim * stretch), color=MUTED, linewidth=0.8)
+    axes.plot(*_BODY.project(rim * stretch), color=MUTED, linewidth=0.8)
 
 
 def _principal_axes(axes: Axes, stretch: Array, labels: tuple[str, ...]) -> None:
     for i, name in enumerate(labels):
         along = np.zeros((3, 2))
         along[i] = stretch[i, 0], stretch[i, 0] + 0.22
-        arrow(axes, _VIEW_of_polhodes, along, name)
-
-
-# Herpolhode: what the angular velocity of a free body draws on the invariable plane.
-
-_NODES = 8  # of a quadrature, between two instants
-_CIRCLE_of_herpolhode = np.linspace(0, 2 * np.pi, 241)
+        arrow(axes, _BODY, along, name)
 
 
 @house_style()
@@ -325,7 +319,7 @@ def herpolhode(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     axes.plot(*path[:, 0], "o", color=COLOURS[0], markersize=4.5, zorder=3)
     distances = np.hypot(*path)
     for radius in (float(np.min(distances)), float(np.max(distances))):
-        circle = radius * np.array([np.cos(_CIRCLE_of_herpolhode), np.sin(_CIRCLE_of_herpolhode)])
+        circle = radius * np.array([np.cos(_ROUND), np.sin(_ROUND)])
         axes.plot(*circle, color=MUTED, linewidth=0.8, linestyle=(0, (4, 3)))
     axes.plot(0, 0, "+", color=MUTED, markersize=8)
     axes.set_aspect("equal")
