@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from types import FunctionType
 
 from polhode import catalogue
 from polhode.algebra import Expr, Symbol, symbol, time
-from polhode.catalogue import Parameter
 from polhode.tour._formulas import equation, listed, power_of_ten, raised, scientific, with_formulas
 from polhode.tour._work import Drawing, Worked
 from polhode.view import Markup, inline, joined, table, tag
@@ -30,36 +29,33 @@ ZERO = Expr.constant(0)
 def section(worked: Worked, figures: Markup, level: int) -> Markup:
     """All of one system, under a heading of its level (1 for that of the page)."""
     entry = worked.entry
+    declaration = tag("pre", tag("code", source_of(entry.build)), tabindex="0")
+    parts: dict[str, Iterable[Markup]] = {
+        "In motion": [player(worked)],
+        "Declaration": [declaration],
+        "Assumptions": _assumptions(worked),
+        "Coordinates and speeds": _kinematics(worked),
+        "Equations of motion": (equation(row, ZERO) for row in worked.equations.motion),
+        "Reactions": _reactions(worked),
+        "Energy": _energy(worked),
+        "Conserved": _conserved(worked),
+        "The default run": [_numbers(worked), figures],
+        "Checks": [_checks(worked)],
+    }
+    # Each part under a heading, but for those that are empty.
+    shown = {title: joined(content) for title, content in parts.items()}
     return tag(
         "section",
         tag(f"h{level}", entry.title),
         tag("p", tag("code", f"polhode run {entry.name}", class_="command")),
         tag("p", with_formulas(entry.about)),
-        *_headed(_parts(worked, figures), level + 1),
+        *(
+            joined([tag(f"h{level + 1}", title, class_="part"), content])
+            for title, content in shown.items()
+            if content
+        ),
         id=anchor(worked),
     )
-
-
-def _parts(worked: Worked, figures: Markup) -> Iterator[tuple[str, Iterable[Markup]]]:
-    yield "In motion", [player(worked)]
-    yield "Declaration", [tag("pre", tag("code", source_of(worked.entry.build)), tabindex="0")]
-    yield "Assumptions", _assumptions(worked)
-    yield "Coordinates and speeds", _kinematics(worked)
-    yield "Equations of motion", (equation(row, ZERO) for row in worked.equations.motion)
-    yield "Reactions", _reactions(worked)
-    yield "Energy", _energy(worked)
-    yield "Conserved", _conserved(worked)
-    yield "The default run", [_numbers(worked), figures]
-    yield "Checks", [_checks(worked)]
-
-
-def _headed(parts: Iterable[tuple[str, Iterable[Markup]]], level: int) -> Iterator[Markup]:
-    """Each part under a heading, but for those that are empty."""
-    for title, content in parts:
-        shown = joined(content)
-        if shown:
-            yield tag(f"h{level}", title, class_="part")
-            yield shown
 
 
 def anchor(worked: Worked) -> str:
@@ -93,7 +89,9 @@ def player(worked: Worked) -> Markup:
 
 def picture(worked: Worked, drawing: Drawing, folder: str) -> Markup:
     """A figure with its caption; a page in the dark shows its dark twin."""
-    width, height = _size(drawing.svg)
+    # Width and height in the units of the drawing.
+    box = drawing.svg.partition('viewBox="')[2].partition('"')[0].split()
+    width, height = (f"{float(side):.0f}" for side in box[2:4])
     image = tag(
         "img",
         src=f"{folder}/{drawing.name}.svg",
@@ -110,24 +108,18 @@ def picture(worked: Worked, drawing: Drawing, folder: str) -> Markup:
     return tag("figure", tag("picture", dark, image), tag("figcaption", drawing.caption))
 
 
-def _size(svg: str) -> tuple[str, str]:
-    """Width and height in the units of the drawing."""
-    box = svg.partition('viewBox="')[2].partition('"')[0].split()
-    return f"{float(box[2]):.0f}", f"{float(box[3]):.0f}"
-
-
 def _assumptions(worked: Worked) -> Iterator[Markup]:
     system, equations = worked.equations.system, worked.equations
-    told: list[Markup] = [
+    items: list[Markup] = [
         tag("li", tag("em", element.name), f": the {element.bodies[0].name} {ideal}")
         for element in system.elements
         for ideal in [_IDEALS[type(element).__name__]]
     ]
-    told += [
+    items += [
         tag("li", inline(positive), " is taken to be positive.")
         for positive in equations.assumed_positive
     ]
-    yield tag("ul", tag("li", "All bodies are rigid."), *told)
+    yield tag("ul", tag("li", "All bodies are rigid."), *items)
 
 
 def _kinematics(worked: Worked) -> Iterator[Markup]:
@@ -140,9 +132,9 @@ def _kinematics(worked: Worked) -> Iterator[Markup]:
         listed(equations.speeds),
         ".",
     )
-    told = {s: e for s, e in equations.kinematics.items() if s not in equations.speeds}
-    told |= equations.dependent
-    yield from (equation(Expr.generator(s), e) for s, e in told.items())
+    rates = {s: e for s, e in equations.kinematics.items() if s not in equations.speeds}
+    rates |= equations.dependent
+    yield from (equation(Expr.generator(s), e) for s, e in rates.items())
 
 
 def _reactions(worked: Worked) -> Iterator[Markup]:
@@ -195,9 +187,11 @@ def _numbers(worked: Worked) -> Markup:
     known = run.quantities
     rows: list[tuple[str, ...]] = []
     for parameter in entry.parameters:
-        name = parameter.name
-        meaning, value = _raised(parameter.meaning), _value(parameter, run.parameters)
-        rows.append((inline(known.get(name, symbol(name))), meaning, value))
+        name, value = parameter.name, parameter.default
+        if "*" in value and name in run.parameters:  # it follows from other parameters
+            value = f"{run.parameters[name]:.3g} {parameter.unit}"
+        letter = inline(known.get(name, symbol(name)))
+        rows.append((letter, _raised(parameter.meaning), _raised(value)))
     rows += [
         (inline(known[name]), "at the start", _raised(value)) for name, value in entry.start.items()
     ]
@@ -211,13 +205,6 @@ def _numbers(worked: Worked) -> Markup:
     return joined([_wide(("symbol", "meaning", "value"), rows, "values"), *also])
 
 
-def _value(parameter: Parameter, values: Mapping[str, float]) -> Markup:
-    """The default as it is written, or its value where it follows from other parameters."""
-    if "*" not in parameter.default or parameter.name not in values:
-        return _raised(parameter.default)
-    return _raised(f"{values[parameter.name]:.3g} {parameter.unit}")
-
-
 def _raised(text: str) -> Markup:
     """Powers raised, as in m/s² and 10⁻⁵."""
     return raised(scientific(text.replace("^2", "²").replace("^3", "³")))
@@ -225,15 +212,20 @@ def _raised(text: str) -> Markup:
 
 def _checks(worked: Worked) -> Markup:
     rows = (
-        (check.name, check.how, _verdict(check.passed), raised(check.found))
+        (
+            check.name,
+            check.how,
+            _mark("holds" if check.passed else "fails", check.passed),
+            raised(check.found),
+        )
         for check in worked.checks
     )
     header = ("check", "what is compared", "verdict", "difference")
     return _wide(header, rows, "checks")
 
 
-def _verdict(passed: bool) -> Markup:
-    return tag("span", "holds", class_="good") if passed else tag("span", "fails", class_="bad")
+def _mark(words: str, passed: bool) -> Markup:
+    return tag("span", words, class_="good" if passed else "bad")
 
 
 def summary(all_worked: Iterable[Worked]) -> Markup:
@@ -243,7 +235,7 @@ def summary(all_worked: Iterable[Worked]) -> Markup:
             tag("a", worked.entry.title, href=f"{problem_of(worked)}.html#{anchor(worked)}"),
             str(len(worked.equations.motion)),
             str(len(worked.equations.components)),
-            _passed(worked),
+            _mark(f"{worked.passed} of {len(worked.checks)}", worked.passed == len(worked.checks)),
             raised(power_of_ten(worked.run.drift.energy)),
             raised(power_of_ten(worked.constraint_drift, "m")),
         )
@@ -256,12 +248,6 @@ def summary(all_worked: Iterable[Worked]) -> Markup:
 def _wide(header: Iterable[str], rows: Iterable[Iterable[str]], kind: str) -> Markup:
     """A table that scrolls sideways by itself where it is too wide."""
     return tag("div", table(header, rows, class_=kind), class_="wide")
-
-
-def _passed(worked: Worked) -> Markup:
-    all_hold = worked.passed == len(worked.checks)
-    kind = "good" if all_hold else "bad"
-    return tag("span", f"{worked.passed} of {len(worked.checks)}", class_=kind)
 
 
 def source_of(build: Callable[[], object]) -> str:
