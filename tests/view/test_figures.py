@@ -349,7 +349,7 @@ def test_in_flight_there_are_no_forces_to_draw(bouncing):
         DeclarationError, match="expected a motion on which something takes a force"
     ):
         view.reaction_ranges(run)
-    with pytest.raises(DeclarationError, match="the force of 'floor', which takes none"):
+    with pytest.raises(DeclarationError, match="'floor' takes no force along the motion"):
         view.reactions(run, "floor")
 
 
@@ -397,7 +397,7 @@ def test_a_motion_that_ends_as_it_begins_is_told():
     run = ph.simulate(entry.build(), numbers, start, "1 s")
     assert run.duration == 0
     for draw in (ph.scene, ph.plot, view.energies, view.support_trace):
-        with pytest.raises(NumericError, match=r"ends as it begins \(goes flat\)"):
+        with pytest.raises(NumericError, match=r"ends at its start \(goes flat\)"):
             draw(run)
 
 

@@ -129,7 +129,12 @@ def quantity(run: Trajectory, named: Named) -> PlottedQuantity:
         )
     expression = run.quantities[name]
     symbol = expression.symbol or Symbol(name)
-    dimension = _dimension(run, name, expression)
+    modes = [equations for equations in modes_of(run) if name in equations.components]
+    if modes:  # a reaction
+        couples = [line.name for line in modes[0].lines if line.restraint.is_couple]
+        dimension = ENERGY if name in couples else FORCE
+    else:
+        dimension = dimension_of(expression, equations_of(run).dimensions) or PURE
     angle = dimension == PURE and is_angle(equations_of(run), symbol)
     return PlottedQuantity(name, math(Expr.generator(symbol)), si_unit(dimension, angle=angle))
 
@@ -201,23 +206,18 @@ def everything(run: Trajectory) -> list[list[str]]:
 
 def panels(run: Trajectory, names: Sequence[str]) -> list[list[str]]:
     """A group of names split into what can share an axis: one unit, sizes that compare."""
-    found: list[list[tuple[PlottedQuantity, float, str]]] = []
+    found: list[list[tuple[str, str, float]]] = []
     for name in names:
-        one, size = quantity(run, name), largest(run.evaluate(name, instants(run)))
-        home = next((group for group in found if _fits(one, size, group)), None)
-        if home is None:
-            found.append([(one, size, name)])
+        unit, size = quantity(run, name).unit, largest(run.evaluate(name, instants(run)))
+        for group in found:
+            sizes = [other for _, _, other in group if other]
+            comparable = not size or all(1 / _DISPARATE < size / s < _DISPARATE for s in sizes)
+            if comparable and unit == group[0][1]:
+                group.append((name, unit, size))
+                break
         else:
-            home.append((one, size, name))
-    return [[name for _, _, name in group] for group in found]
-
-
-def _fits(
-    one: PlottedQuantity, size: float, group: list[tuple[PlottedQuantity, float, str]]
-) -> bool:
-    sizes = [other for _, other, _ in group if other]
-    comparable = not size or all(1 / _DISPARATE < size / s < _DISPARATE for s in sizes)
-    return comparable and one.unit == group[0][0].unit
+            found.append([(name, unit, size)])
+    return [[name for name, _, _ in group] for group in found]
 
 
 def instants(run: Trajectory) -> Array:
@@ -242,22 +242,13 @@ def refuse_an_instant(run: Trajectory) -> None:
     if run.duration <= 0:
         kinds = [event.kind for event in run.events[1:-1]]
         raise NumericError(
-            f"a motion of {run.equations.system.name} that ends as it begins"
-            f" ({', '.join(kinds) or 'at once'})",
-            expected="one that lasts, to be drawn",
-            advice="start elsewhere",
+            f"the motion of {run.equations.system.name} ends at its start"
+            f" ({', '.join(kinds) or 'no event'})",
+            expected="a motion of some duration, to be drawn",
+            advice="start from another state",
         )
 
 
 def largest(*values: Array) -> float:
     """Largest size among all values."""
     return float(max((np.max(np.abs(v), initial=0.0) for v in values), default=0.0))
-
-
-def _dimension(run: Trajectory, name: str, expression: Expr) -> Dimension:
-    """Known for a reaction from what it is, and otherwise from the expression."""
-    for equations in modes_of(run):
-        if name in equations.components:
-            couples = [line.name for line in equations.lines if line.restraint.is_couple]
-            return ENERGY if name in couples else FORCE
-    return dimension_of(expression, equations_of(run).dimensions) or PURE

@@ -272,7 +272,7 @@ class Scene(Shown):
         bodies, joints, links, supports, arrows, traces, panels: what is drawn.
         motion, reactions: the equations.
         parameters, start: numbers it was made with.
-        evidence: how far what must stay constant has drifted, relative.
+        evidence: relative drift of conserved quantities.
         happenings: events.
         doubt: what speaks against the motion; empty where nothing does.
         judgements: verdicts on claims.

@@ -65,7 +65,7 @@ def _dress(axes: Axes) -> None:
         text.set(fontfamily=RULES["font.family"], math_fontfamily=RULES["mathtext.fontset"])
 
 
-# What was drawn in a figure, which a notebook shows as the figure.
+# --- what was drawn, which a notebook shows as the figure it is in ---
 
 
 class InFigure(ABC):
@@ -112,7 +112,7 @@ class Drawn(InFigure, tuple[Any, ...]):
         return f"drawn: {kinds or 'nothing'}"
 
 
-# Figures as files: written whole or not at all, the same bytes from the same picture.
+# --- files: written whole or not at all, the same bytes from the same picture ---
 
 # Dates are left out, so that equal pictures are equal files.
 _METADATA: dict[str, dict[str, Any]] = {
@@ -125,14 +125,14 @@ _ABOUT = {".svg": "Description", ".pdf": "Subject", ".png": "Description"}
 
 def origin_of(run: Trajectory) -> str:
     """What a picture of a run was made with, as a JSON document."""
-    told = {
+    made_with = {
         "system": run.equations.system.name,
         "mode": run.mode,
         "parameters": dict(run.parameters),
         "assumed": dict(run.assumed),
         "integrator": run.integrator,
     }
-    return json.dumps({**provenance(), **told}, sort_keys=True)
+    return json.dumps({**provenance(), **made_with}, sort_keys=True)
 
 
 def save_figure(figure: Figure, path: str | Path, *, origin: str = "") -> None:

@@ -67,7 +67,7 @@ def history(run: Trajectory, *names: Named, ax: Axes | None = None) -> Drawn:
     shown = _SHARED.get(unit, ", ".join(q.symbol for q in quantities))
     if len(values) == 1:
         shown = quantities[0].symbol
-        if _hardly_changes(values[0]):
+        if _ROUNDING * largest(values[0]) < np.ptp(values[0]) < _SLIGHT * largest(values[0]):
             values = [values[0] - values[0][0]]
             shown = f"${shown.strip('$')} - {shown.strip('$')}(0)$"
     scale = scale_for(unit, largest(*values))
@@ -99,11 +99,6 @@ def legend_above(axes: Axes) -> None:
 
 def _legend(axes: Axes, columns: int) -> Legend:
     return axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=columns)
-
-
-def _hardly_changes(values: Array) -> bool:
-    spread, size = float(np.ptp(values)), largest(values)
-    return _ROUNDING * size < spread < _SLIGHT * size
 
 
 def widen(axes: Axes, values: Array) -> None:

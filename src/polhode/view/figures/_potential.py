@@ -55,19 +55,15 @@ def effective_potential(
     for turn in np.degrees(turning_points(angles, heights, energy)):
         axes.axvline(turn, color=MUTED, linewidth=0.6, linestyle=(0, (2, 2)))
         axes.plot(turn, level, "o", color=COLOURS[1], zorder=3)
-    axes.set_ylim(*_window(curve, level))
+    # The axes show the well, not the walls beside it.
+    bottom, top = float(np.min(curve)), float(np.max(curve))
+    rise = max(level - bottom, 1e-3 * (top - bottom))
+    top = min(top, bottom + _HIGH * rise)
+    axes.set_ylim(bottom - 0.08 * (top - bottom), top)
     axes.set_xlabel(f"{quantity(run, tilt.published).symbol} (deg)")
     axes.set_ylabel(f"energy ({scale.unit})")
     legend_above(axes)
     return Drawn(axes, [line])
-
-
-def _window(curve: Array, level: float) -> tuple[float, float]:
-    """Heights of the axes: the well, not the walls beside it."""
-    bottom, top = float(np.min(curve)), float(np.max(curve))
-    rise = max(level - bottom, 1e-3 * (top - bottom))
-    top = min(top, bottom + _HIGH * rise)
-    return bottom - 0.08 * (top - bottom), top
 
 
 def potential(run: Trajectory, angles: Array) -> Array:
@@ -90,9 +86,9 @@ def _speeds(run: Trajectory, found: LinearIntegrals, angles: Array) -> Array:
     start = {name: float(run.evaluate(name, 0.0)) for name in (tilt, *names)}
     rows = np.empty((len(angles), len(names)))
     first = int(np.argmin(np.abs(angles - start[tilt])))
-    for order in (range(first, len(angles)), range(first - 1, -1, -1)):
+    for outwards in (range(first, len(angles)), range(first - 1, -1, -1)):
         state = start
-        for i in order:
+        for i in outwards:
             rows[i] = found.values(run.parameters, state, float(angles[i]))
             state = {tilt: float(angles[i]), **dict(zip(names, rows[i], strict=True))}
     return rows.T

@@ -1,4 +1,4 @@
-"""Reactions along a motion, and the range each of them covers."""
+"""Reactions along a motion, the range each of them covers, and the friction that rolling needs."""
 
 from __future__ import annotations
 
@@ -28,6 +28,8 @@ from polhode.view.figures._style import COLOURS, MUTED, house_style, line_style,
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+_ROOM = 1.15  # height of the axes against the greatest value
+
 
 @house_style()
 def reactions(
@@ -54,7 +56,7 @@ def reactions(
     names = dict.fromkeys(r.name for r in restraints if not r.is_couple)
     if not names:
         raise DeclarationError(
-            f"the force of {element.name!r}, which takes none",
+            f"{element.name!r} takes no force along the motion",
             expected="a contact or joint that holds a point",
         )
     return history(run, *names, ax=ax)
@@ -113,7 +115,10 @@ def reaction_ranges(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
 
 def _forces(run: Trajectory) -> dict[str, Array]:
     """Components of all contact modes along the motion, by name."""
-    names = list(dict.fromkeys(name for e in modes_of(run) for name in _force_names(e)))
+    couples = {line.name for e in modes_of(run) for line in e.lines if line.restraint.is_couple}
+    names = [
+        n for n in dict.fromkeys(n for e in modes_of(run) for n in e.least) if n not in couples
+    ]
     if not names:
         raise DeclarationError(
             f"forces of contacts and joints on {run.system.name}",
@@ -125,16 +130,6 @@ def _forces(run: Trajectory) -> dict[str, Array]:
         return [equations.least.get(name, zero) for name in names]
 
     return dict(zip(names, along(run, least, len(names), instants(run)).T, strict=True))
-
-
-def _force_names(equations: Equations) -> list[str]:
-    couples = {line.name for line in equations.lines if line.restraint.is_couple}
-    return [name for name in equations.least if name not in couples]
-
-
-# How rough a support must be for a body to roll as it does, and how rough it is.
-
-_ROOM = 1.15  # height of the axes against the greatest value
 
 
 @house_style()
@@ -156,7 +151,10 @@ def friction_needed(run: Trajectory, contact: str = "", *, ax: Axes | None = Non
     axes = axes_or_new(ax, 2.2)
     t = instants(run)
     touching = _contact(run, contact)
-    needed = _ratio(run, touching, t)
+    components = {id(equations): _components(equations, touching) for equations in modes_of(run)}
+    normal, *tangential = along(run, lambda equations: components[id(equations)], 3, t).T
+    with np.errstate(divide="ignore", invalid="ignore"):
+        needed: Array = np.hypot(*tangential) / np.abs(normal)  # not a number in flight
     lines = axes.plot(t, needed, color=COLOURS[0], label=r"$\mu$ needed")
     greatest = float(np.nanmax(needed))
     if isinstance(touching, Coulomb):
@@ -182,15 +180,6 @@ def _contact(run: Trajectory, name: str) -> Contact:
         f"the friction needed by {run.system.name}",
         expected="a system with a Rolling or Coulomb contact",
     )
-
-
-def _ratio(run: Trajectory, contact: Contact, t: Array) -> Array:
-    """Tangential over normal force; not a number where nothing touches."""
-    known = {id(equations): _components(equations, contact) for equations in modes_of(run)}
-    normal, *tangential = along(run, lambda equations: known[id(equations)], 3, t).T
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ratio: Array = np.hypot(*tangential) / np.abs(normal)
-    return ratio
 
 
 def _components(equations: Equations, contact: Contact) -> list[Expr] | None:

@@ -56,7 +56,11 @@ class Camera:
 def camera_of(scene: Scene, frame: float) -> Camera:
     """The view that the page opens with: from the same side, and as near as all is in view."""
     reach = max(body.reach for body in scene.bodies)
-    bodies, paths = _passed(scene), _left(scene)
+    frames = np.linspace(0, scene.frames - 1, _SAMPLES)
+    bodies = np.array([place_at(body.pose, f) for body in scene.bodies for f in frames])
+    # Points that are held or tied, and those of the paths that are left behind.
+    fixed = [arrow.foot[0] for arrow in scene.arrows if len(arrow.foot) == 1]
+    paths = np.concatenate([np.reshape(fixed, (-1, 3)), _tied(scene), *_paths(scene)])
     box = np.array([f(np.concatenate([bodies, paths]), axis=0) for f in (np.nanmin, np.nanmax)])
     radius = float(np.linalg.norm(box[1] - box[0])) / 2 + reach
     follows = radius > _FAR * reach and not len(_tied(scene))
@@ -121,18 +125,6 @@ def rotation(quaternion: Array) -> Array:
             [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
         ]
     )
-
-
-def _passed(scene: Scene) -> Array:
-    """Places that bodies pass through."""
-    frames = np.linspace(0, scene.frames - 1, _SAMPLES)
-    return np.array([place_at(b.pose, f) for b in scene.bodies for f in frames])
-
-
-def _left(scene: Scene) -> Array:
-    """Points that are held, and those of the paths that are left behind."""
-    fixed = [arrow.foot[0] for arrow in scene.arrows if len(arrow.foot) == 1]
-    return np.concatenate([np.reshape(fixed, (-1, 3)), _tied(scene), *_paths(scene)])
 
 
 def _paths(scene: Scene) -> Iterator[Array]:

@@ -24,60 +24,8 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 
-# What a picture or a movie is asked for with: refused by name before anything is drawn.
-
 _WIDEST = 10_000  # pixels
 _LONGEST = 5_000  # frames of a movie
-
-
-def pixels(size: tuple[int, int]) -> tuple[int, int]:
-    """Width and height that can be drawn.
-
-    Raises:
-        NumericError: for anything but two whole numbers from 1 to some thousands.
-    """
-    whole = [n for n in size if isinstance(n, int) and 0 < n <= _WIDEST]
-    if len(whole) != 2 or len(size) != 2:
-        raise NumericError(
-            f"a picture of {size} pixels",
-            expected=f"width and height, whole numbers from 1 to {_WIDEST}",
-        )
-    return whole[0], whole[1]
-
-
-def kinds(arrows: Collection[str]) -> frozenset[str]:
-    """Kinds of arrows, given by one name or by several.
-
-    Raises:
-        DeclarationError: for a kind that there is not.
-    """
-    asked = frozenset([arrows] if isinstance(arrows, str) else arrows)
-    unknown = sorted(asked - set(ARROWS))
-    if unknown:
-        raise DeclarationError(
-            f"arrows {', '.join(map(repr, unknown))}", expected=f"some of {', '.join(ARROWS)}"
-        )
-    return asked
-
-
-def count_of_frames(duration: float, speed: float, rate: float) -> int:
-    """How many frames show a motion of this duration, s.
-
-    Raises:
-        NumericError: for a speed or rate that is not positive, or for too many frames.
-    """
-    if not (speed > 0 and rate > 0 and isfinite(rate)):
-        raise NumericError(f"speed {speed} at {rate} frames per second", expected="positive ones")
-    wanted = duration / speed * rate
-    if wanted > _LONGEST:
-        raise NumericError(
-            f"a movie of {wanted:.3g} frames",
-            expected=f"at most {_LONGEST}",
-            advice=f"give a higher speed than {speed:g}, or a lower rate than {rate:g}",
-        )
-    return max(2, round(wanted))
-
-
 _DOTS = 100  # of an inch
 _SMOOTH = 2  # dots drawn for each dot of a movie
 _GIF_LEAST, _GIF_MOST = 0.01, 50  # frames per second
@@ -109,10 +57,15 @@ def still(
         StoreError: for another ending, or where the file cannot be written.
     """
     target = Path(path)
-    wide_high, drawn = pixels(size), kinds(arrows)
+    wide_high, drawn = _pixels(size), _kinds(arrows)
     seconds = to_si(time, TIME, "time")
     shown = _scene(run)
-    figure = _drawn(shown, _frame(shown, seconds), wide_high, drawn)
+    if not 0 <= seconds <= shown.duration:
+        raise NumericError(
+            f"a picture at {seconds:g} s", expected=f"a time from 0 to {shown.duration:g} s"
+        )
+    frame = seconds / shown.duration * (shown.frames - 1)
+    figure = _drawn(shown, frame, wide_high, drawn)
     save_figure(figure, target, origin=json.dumps(dict(shown.origin), sort_keys=True))
 
 
@@ -148,8 +101,8 @@ def movie(
     write = _WRITERS.get(target.suffix.lower())
     if write is None:
         raise StoreError(f"a movie as {target.name}", expected="a name that ends in .gif or .mp4")
-    wide_high, drawn = pixels(size), kinds(arrows)
-    count = count_of_frames(run.duration, speed, rate)
+    wide_high, drawn = _pixels(size), _kinds(arrows)
+    count = _count_of_frames(run.duration, speed, rate)
     shown = _scene(run)
     instants = np.arange(count) / count * (shown.frames - 1)
     images = (_image(shown, float(frame), wide_high, drawn) for frame in instants)
@@ -158,14 +111,6 @@ def movie(
 
 def _scene(run: Trajectory | Scene) -> Scene:
     return run if isinstance(run, Scene) else scene(run)
-
-
-def _frame(shown: Scene, time: float) -> float:
-    if not 0 <= time <= shown.duration:
-        raise NumericError(
-            f"a picture at {time:g} s", expected=f"a time from 0 to {shown.duration:g} s"
-        )
-    return time / shown.duration * (shown.frames - 1)
 
 
 def _drawn(shown: Scene, frame: float, size: tuple[int, int], arrows: Collection[str]) -> Figure:
@@ -235,3 +180,54 @@ _WRITERS: dict[str, Callable[[Iterator[Image], float, tuple[int, int]], bytes]] 
     ".gif": _gif,
     ".mp4": _mp4,
 }
+
+
+# --- arguments, checked before anything is drawn ---
+
+
+def _pixels(size: tuple[int, int]) -> tuple[int, int]:
+    """Width and height that can be drawn.
+
+    Raises:
+        NumericError: for anything but two whole numbers from 1 to some thousands.
+    """
+    whole = [n for n in size if isinstance(n, int) and 0 < n <= _WIDEST]
+    if len(whole) != 2 or len(size) != 2:
+        raise NumericError(
+            f"a picture of {size} pixels",
+            expected=f"width and height, whole numbers from 1 to {_WIDEST}",
+        )
+    return whole[0], whole[1]
+
+
+def _kinds(arrows: Collection[str]) -> frozenset[str]:
+    """Kinds of arrows, given by one name or by several.
+
+    Raises:
+        DeclarationError: for a kind that there is not.
+    """
+    asked = frozenset([arrows] if isinstance(arrows, str) else arrows)
+    unknown = sorted(asked - set(ARROWS))
+    if unknown:
+        raise DeclarationError(
+            f"arrows {', '.join(map(repr, unknown))}", expected=f"some of {', '.join(ARROWS)}"
+        )
+    return asked
+
+
+def _count_of_frames(duration: float, speed: float, rate: float) -> int:
+    """How many frames show a motion of this duration, s.
+
+    Raises:
+        NumericError: for a speed or rate that is not positive, or for too many frames.
+    """
+    if not (speed > 0 and rate > 0 and isfinite(rate)):
+        raise NumericError(f"speed {speed} at {rate} frames per second", expected="positive ones")
+    wanted = duration / speed * rate
+    if wanted > _LONGEST:
+        raise NumericError(
+            f"a movie of {wanted:.3g} frames",
+            expected=f"at most {_LONGEST}",
+            advice=f"give a higher speed than {speed:g}, or a lower rate than {rate:g}",
+        )
+    return max(2, round(wanted))
