@@ -38,7 +38,7 @@ class Check:
 
 
 def decided(name: str, how: str, residuals: Iterable[Expr]) -> Check:
-    """A check that expressions vanish identically, which the algebra decides."""
+    """A check that expressions vanish identically, decided exactly."""
     left = [residual for residual in residuals if not residual.is_zero]
     return Check(name, how, not left, left[0].pretty() if left else "exactly zero")
 
@@ -49,7 +49,7 @@ def measured(name: str, how: str, defect: float) -> Check:
 
 
 def exact_checks(equations: Equations) -> Iterator[Check]:
-    """Checks that the algebra decides."""
+    """Checks that are decided exactly."""
     yield decided(
         "Power balance",
         "dE/dt along the motion is the power of supports, motors and drives",
@@ -85,7 +85,7 @@ def numeric_checks(
     )
     yield measured(
         "Constraints of the run",
-        "distance covered against the integral of the velocity the constraints leave",
+        "displacement against the integral of the constrained velocity",
         travel.relative,
     )
     yield measured(
@@ -108,8 +108,8 @@ def numeric_checks(
 
 # --- second formulations ---
 #
-# The derivation balances forces and projects them. Here the same motion is asked of scalars alone:
-# the Lagrangian, or Gibbs' energy of acceleration.
+# The derivation balances forces and projects them. Here the same motion is derived from scalars
+# alone: the Lagrangian, or Gibbs' energy of acceleration.
 
 
 def is_conservative(equations: Equations) -> bool:
@@ -222,9 +222,7 @@ def angular_momentum_balance(run: Trajectory, equations: Equations) -> MomentumB
 
 
 def displacement_balance(run: Trajectory, equations: Equations) -> MomentumBalance:
-    """Place of every centre of mass against the integral of the velocity that the constraints
-    leave it, m.
-    """
+    """Displacement of every centre of mass against the integral of its constrained velocity, m."""
     motion = equations.kinetics
     return _worst(
         _account(run, body.axes.root, place, motion.velocities[body][0])
@@ -253,7 +251,7 @@ def _account(run: Trajectory, root: Frame, gained: Vector, rate: Vector) -> Mome
 
 
 def _force_and_torque(equations: Equations, body: Body) -> tuple[Vector, Vector]:
-    """Of all loads and reactions on a body, the torque about its centre of mass."""
+    """Resultant of all loads and reactions on a body, the torque about its centre of mass."""
     motion = equations.kinetics
     system = equations.system
     force = torque = body.axes.zero

@@ -90,7 +90,7 @@ class TourReport:
         )
 
     def audit_table(self) -> str:
-        """How the claims about each problem fared, then those that fail, with corrections."""
+        """Verdicts on the claims about each problem, then those that fail, with corrections."""
         grouped: dict[str, list[JudgedClaim]] = {}
         for claim in self.claims:
             grouped.setdefault(claim.problem, []).append(claim)

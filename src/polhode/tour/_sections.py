@@ -147,7 +147,7 @@ def _reactions(worked: Worked) -> Iterator[Markup]:
         names = equations.undetermined
         yield tag(
             "p",
-            "Newton’s laws leave open ",
+            "Newton’s laws do not determine ",
             listed(map(Symbol, names)),
             ". The choice with the smallest sum of squares, of forces and then of couples, is",
         )
@@ -155,7 +155,7 @@ def _reactions(worked: Worked) -> Iterator[Markup]:
 
 
 def _assigned(values: dict[str, Expr]) -> Iterator[Markup]:
-    """What each component is; those that stay open as themselves are left out."""
+    """The value of each component; those left undetermined are omitted."""
     named = ((Expr.generator(Symbol(name)), value) for name, value in values.items())
     return (equation(name, value) for name, value in named if value != name)
 
@@ -169,7 +169,7 @@ def _energy(worked: Worked) -> Iterator[Markup]:
         yield tag("p", "Supports or motors do work at the rate")
         yield equation(symbol("P"), equations.power)
     else:
-        yield tag("p", "Nothing does work but what the potential accounts for.")
+        yield tag("p", "Only the forces of the potential do work.")
 
 
 def _conserved(worked: Worked) -> Iterator[Markup]:

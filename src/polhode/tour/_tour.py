@@ -1,4 +1,4 @@
-"""Working through the whole catalogue, and the site of it."""
+"""The whole catalogue worked through, and written as a site."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from polhode.tour._page import CARD, FIGURES, Problem, front_page, problem_page,
 from polhode.tour._report import TourReport, row_of, text_of
 from polhode.tour._sections import stem
 from polhode.tour._work import work_through
-from polhode.view import page_of, still, telling_time
+from polhode.view import clearest_time, page_of, still
 from polhode.view.figures import for_dark_pages
 
 
@@ -70,7 +70,7 @@ def _write_pages(directory: Path, all_problems: Sequence[Problem]) -> Path:
     for problem in all_problems:
         shown = problem.systems[0].scene
         card = directory / FIGURES / f"{problem.name}-card.png"
-        still(shown, card, time=telling_time(shown), size=CARD)
+        still(shown, card, time=clearest_time(shown), size=CARD)
         for worked in problem.systems:
             # The page in three dimensions, with the verdicts on what is claimed of the system.
             name = worked.entry.name

@@ -88,7 +88,7 @@ def work_through(entry: CatalogueEntry) -> Worked:
 def default_run(
     entry: CatalogueEntry, equations: Equations, conserved: Iterable[Invariant] = ()
 ) -> Trajectory:
-    """The run of the catalogue's default numbers, with an eye on what it should conserve."""
+    """The run of the catalogue's default numbers, with the drift of its integrals."""
     numbers = numbers_of(entry, equations)
     return simulate(
         equations,

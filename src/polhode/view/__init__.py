@@ -32,7 +32,7 @@ from polhode.view.figures._figure import save_figure as save_figure
 from polhode.view.figures._figure import svg_of as svg_of
 from polhode.view.figures._history import figure_of_run as figure_of_run
 from polhode.view.figures._history import plot as plot
+from polhode.view.stills import clearest_time as clearest_time
 from polhode.view.stills import movie as movie
 from polhode.view.stills import picture as picture
 from polhode.view.stills import still as still
-from polhode.view.stills import telling_time as telling_time

@@ -51,14 +51,14 @@ class Judgement:
 
     @classmethod
     def of(cls, latex: str, verdict: Verdict) -> Judgement:
-        """What `polhode.check` said of an equation."""
+        """From the verdict of `polhode.check` on an equation."""
         put_right = typeset(verdict.correction.latex) if verdict.correction else ""
         notes = tuple(NoteShown("note", note) for note in verdict.notes)
         return cls(latex, verdict.answer.value, verdict.reason, typeset(latex), put_right, notes)
 
     @classmethod
     def on(cls, judged: Judged) -> Judgement:
-        """What `polhode.audit` said of a claim of a document."""
+        """From the verdict of `polhode.audit` on a claim of a document."""
         claim, verdict = judged.claim, judged.verdict
         said = cls.of(claim.latex, verdict)
         return replace(

@@ -85,7 +85,7 @@ def _built(name: str) -> str:
         return files("polhode.view").joinpath(_FRONT_END, name).read_text("utf-8").strip()
     except OSError as error:
         raise StoreError(
-            f"the front end of pages is not there ({name})",
+            f"{name}, a part of the front end of pages, is missing",
             expected="a package whose front end was built when it was installed",
             advice="install polhode again; from a checkout, run python build_frontend.py",
         ) from error

@@ -1,4 +1,4 @@
-"""What quantities of a motion are called in print, and the units they are shown in."""
+"""Quantities of a motion: their names in print, and the units they are shown in."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ def label(symbol: str, scale: Scale) -> str:
 
 
 def grouped(wanted: Groups) -> list[list[str]]:
-    """What is to share a panel, as published names: groups, or names by themselves."""
+    """The quantities of each panel, by their published names, from groups and single names."""
     several = [wanted] if isinstance(wanted, str) else wanted
     groups = [
         [one] if isinstance(one, str) or not isinstance(one, Sequence) else list(one)
@@ -107,7 +107,7 @@ def grouped(wanted: Groups) -> list[list[str]]:
 
 
 def published(name: Named) -> str:
-    """The published name of a quantity that is given by it, or as a symbol of the system."""
+    """The published name of a quantity, given as a name or as a symbol of the system."""
     symbol = name.symbol if isinstance(name, Expr) else name
     return symbol.published if isinstance(symbol, Symbol) else str(symbol or name)
 
@@ -168,11 +168,11 @@ def common_unit(quantities: Sequence[PlottedQuantity]) -> str:
     """
     units = dict.fromkeys(q.unit for q in quantities)
     if not units:
-        raise DeclarationError("a plot of nothing", expected="names of quantities")
+        raise DeclarationError("no quantities to plot", expected="names of quantities")
     if len(units) > 1:
         named = ", ".join(f"{q.name} in {q.unit or 'no unit'}" for q in quantities)
         raise UnitError(
-            f"{named} on one axis",
+            f"{named} cannot share an axis",
             expected="quantities of one unit",
             advice="give each a panel of its own",
         )
@@ -180,7 +180,7 @@ def common_unit(quantities: Sequence[PlottedQuantity]) -> str:
 
 
 def scale_for(unit: str, largest: float) -> Scale:
-    """A unit in which the largest value is neither tiny nor huge."""
+    """The unit in which the largest value is neither tiny nor huge."""
     if unit == "rad":
         return Scale("turns", 1 / _TURN) if largest > 5 * _TURN else Scale("deg", 360 / _TURN)
     if not unit or unit.startswith("kg"):
@@ -221,20 +221,20 @@ def panels(run: Trajectory, names: Sequence[str]) -> list[list[str]]:
 
 
 def instants(run: Trajectory) -> Array:
-    """Times to draw curves through: the samples, or finer ones over the same stretch, s.
+    """Times to draw curves through: the samples, or finer ones over the same interval, s.
 
     Raises:
         NumericError: for a motion that does not last.
     """
-    refuse_an_instant(run)
+    require_duration(run)
     if len(run.t) >= _FINE:
         return run.t
     fine: Array = np.linspace(run.t[0], run.t[-1], _FINE)
     return fine
 
 
-def refuse_an_instant(run: Trajectory) -> None:
-    """Refuse a motion that ends as it begins, such as that of a disk that lies flat.
+def require_duration(run: Trajectory) -> None:
+    """Refuse a motion of no duration, such as that of a disk that already lies flat.
 
     Raises:
         NumericError: for a motion that does not last.

@@ -1,4 +1,4 @@
-"""The scene: one plain structure that says all there is to see of a motion.
+"""The scene: one plain structure with everything that there is to see of a motion.
 
 The page, the notebook and the maker of stills all draw a `Scene` and nothing else. Lengths are in
 metres, times in seconds, vectors along the directions of the root frame; attitudes are unit
@@ -274,7 +274,7 @@ class Scene(Shown):
         parameters, start: numbers it was made with.
         evidence: relative drift of conserved quantities.
         happenings: events.
-        doubt: what speaks against the motion; empty where nothing does.
+        doubt: why the motion may be wrong; empty where nothing suggests it.
         judgements: verdicts on claims.
         origin: schema, versions, declaration and seed.
     """
@@ -321,19 +321,19 @@ def in_base64(numbers: bytes) -> str:
     return base64.b64encode(numbers).decode("ascii")
 
 
-def plain(value: Any, told: Callable[[bytes], object] = in_base64) -> Any:
+def plain(value: Any, encode: Callable[[bytes], object] = in_base64) -> Any:
     """A part of a scene as plain data.
 
     Args:
         value: the part.
-        told: what stands for the numbers of an array, which come as little-endian float32.
+        encode: gives what stands for the numbers of an array, which come as little-endian float32.
     """
     if is_dataclass(value):
-        return {f.name: plain(getattr(value, f.name), told) for f in fields(value)}
+        return {f.name: plain(getattr(value, f.name), encode) for f in fields(value)}
     if isinstance(value, np.ndarray):
-        return {"shape": list(value.shape), "float32": told(value.astype("<f4").tobytes())}
+        return {"shape": list(value.shape), "float32": encode(value.astype("<f4").tobytes())}
     if isinstance(value, tuple | list):
-        return [plain(item, told) for item in value]
+        return [plain(item, encode) for item in value]
     if isinstance(value, Mapping):
-        return {str(key): plain(item, told) for key, item in value.items()}
+        return {str(key): plain(item, encode) for key, item in value.items()}
     return value

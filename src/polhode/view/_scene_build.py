@@ -1,4 +1,4 @@
-"""Making a scene of a motion."""
+"""Building the scene of a motion: its bodies, the supports they stand on, and what is to read."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from polhode.view._quantities import (
     equations_of,
     everything,
     grouped,
-    refuse_an_instant,
+    require_duration,
 )
 from polhode.view._scene import (
     Link,
@@ -92,7 +92,7 @@ def account(
     meanings: Mapping[str, str] | None = None,
 ) -> MotionSummary:
     """What there is to read of a motion: the arguments and errors are those of `scene`."""
-    refuse_an_instant(run)
+    require_duration(run)
     return MotionSummary(
         panels=panels_of(run, grouped(plots) or everything(run)),
         motion=motion_of(run),
@@ -106,12 +106,12 @@ def account(
 
 
 def scenery(run: Trajectory, *, title: str = "", about: str = "") -> Scene:
-    """What there is to look at: a scene without an account, which takes its time.
+    """What there is to look at: a scene without formulas, numbers and plots, which take longer.
 
     Raises:
         NumericError: for a motion beyond all numbers, or that does not last.
     """
-    refuse_an_instant(run)
+    require_duration(run)
     equations = equations_of(run)
     t = np.linspace(0.0, run.duration, _frames(run))
     links = links_of(run, t)
@@ -138,13 +138,13 @@ def scenery(run: Trajectory, *, title: str = "", about: str = "") -> Scene:
 
 
 def poses(run: Trajectory, frames: int) -> tuple[Pose, ...]:
-    """Where the bodies are at equally spaced instants: little else is made while one waits."""
+    """Where the bodies are at equally spaced instants, and nothing else, so that it is quick."""
     t = np.linspace(0.0, run.duration, frames)
     return tuple(body.pose for body in bodies_of(run, (), t))
 
 
 def _frames(run: Trajectory) -> int:
-    """So many that nothing but a spin turns far between two of them."""
+    """How many are needed so that only a spin turns far between two of them."""
     system = equations_of(run).system
     coarse = np.linspace(0.0, run.duration, _COARSE)
     fastest = max(_fastest_turn(run, body, coarse) for body in system.bodies)

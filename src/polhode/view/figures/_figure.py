@@ -65,13 +65,13 @@ def _dress(axes: Axes) -> None:
         text.set(fontfamily=RULES["font.family"], math_fontfamily=RULES["mathtext.fontset"])
 
 
-# --- what was drawn, which a notebook shows as the figure it is in ---
+# --- results of drawing, which a notebook shows as the figure they are in ---
 
 
 class InFigure(ABC):
     """Something drawn that a notebook shows as the figure it is in.
 
-    One in axes of the user's own is shown as text: whoever made the axes shows their figure.
+    In axes of the user's own it is shown as text, since the notebook shows their figure anyway.
     """
 
     @property
@@ -152,7 +152,8 @@ def save_figure(figure: Figure, path: str | Path, *, origin: str = "") -> None:
     kind = target.suffix.lower()
     if kind not in _METADATA:
         raise StoreError(
-            f"a figure as {target.name}", expected="a name that ends in .svg, .pdf or .png"
+            f"cannot write a figure as {target.name}",
+            expected="a name that ends in .svg, .pdf or .png",
         )
     write_whole(target, _rendered(figure, kind, origin))
 

@@ -68,7 +68,7 @@ def _contact(run: Trajectory) -> Contact:
         if isinstance(element, Contact):
             return element
     raise DeclarationError(
-        f"a path on the support of {run.system.name}",
+        f"no body of {run.system.name} touches a support",
         expected="a system with a Rolling, Smooth or Coulomb contact",
     )
 

@@ -119,7 +119,10 @@ def phase_portrait(run: Trajectory, name: Named, *, ax: Axes | None = None) -> D
     coordinate = quantity(run, name)
     rate = f"{coordinate.name}_dot"
     if rate not in run.quantities:
-        raise DeclarationError(f"the rate of {coordinate.name}", expected="a coordinate or a speed")
+        raise DeclarationError(
+            f"{coordinate.name} has no rate among the quantities",
+            expected="a coordinate or a speed",
+        )
     axes = axes_or_new(ax, 3.0)
     shown = []
     for side, plotted in (("x", coordinate), ("y", quantity(run, rate))):

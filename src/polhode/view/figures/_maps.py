@@ -80,8 +80,8 @@ def stability_map(
 ) -> StabilityMap:
     """Growth of departures from a steady motion over two quantities, and the exact threshold.
 
-    White is stable. The line is where the conditions that `ph.stability` derives change sign;
-    the shade behind it is computed without them, from the exponents at every point.
+    White is stable. On the line the conditions that `ph.stability` derives change sign; the shade
+    is computed without them, from the exponents at every point.
 
     Args:
         family: from `ph.steady`.
@@ -163,7 +163,7 @@ def _dimension(equations: Equations, symbol: Symbol) -> Dimension:
 
 @dataclass(frozen=True)
 class _Field:
-    """Expressions on the family, as numbers all over the map."""
+    """Values over the map of expressions on the family."""
 
     found: Stability
     axes: tuple[_MapAxis, _MapAxis]
@@ -309,7 +309,7 @@ def outcome_map(found: Found, *, ax: Axes | None = None) -> OutcomeMap:
 def _thresholds(
     axes: Axes, found: Found, scales: list[Scale]
 ) -> tuple[tuple[QuadContourSet, ...], tuple[Threshold, ...]]:
-    """Those that run through the map."""
+    """Thresholds that run through the map."""
     (first, across), (second, up) = found.axes.items()
     grid = np.array(np.meshgrid(_fine(across), _fine(up)))
     shown = (grid[0] * scales[0].factor, grid[1] * scales[1].factor)

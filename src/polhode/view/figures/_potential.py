@@ -1,4 +1,4 @@
-"""Effective potential: the energy that a tilt alone costs, with what is conserved kept constant."""
+"""Effective potential of a tilt: the energy with the other speeds eliminated by their integrals."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ def effective_potential(
 ) -> Drawn:
     """Effective potential of the tilt of a motion, with the energy and its turning points, J.
 
-    It is the energy of the same motion without the rate of the tilt: every other speed as it is
-    at that tilt, by the integrals that are linear in the speeds. The tilt swings where the curve
+    It is the energy without the rate of the tilt, the other speeds following from the tilt by
+    the integrals that are linear in the speeds. The tilt swings where the curve
     is below the energy (the line), between the turning points (dots).
 
     Args:
@@ -107,7 +107,7 @@ def _tilt(run: Trajectory) -> Symbol:
     """The one coordinate that the motion reduces to."""
     equations = equations_of(run)
     if equations.rate(equations.energy):
-        raise _refused(run, "a system whose energy stays the same")
+        raise _refused(run, "a system whose energy is conserved")
     system = reduced(equations)
     found = linear_integrals(equations)
     known = found.speeds if found is not None else ()
@@ -121,7 +121,7 @@ def _tilt(run: Trajectory) -> Symbol:
 
 
 def _refused(run: Trajectory, expected: str) -> DeclarationError:
-    return DeclarationError(f"the effective potential of {run.system.name}", expected=expected)
+    return DeclarationError(f"{run.system.name} has no effective potential", expected=expected)
 
 
 def _range(run: Trajectory, tilt: Symbol, between: tuple[str, str] | None) -> Array:

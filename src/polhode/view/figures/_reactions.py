@@ -121,7 +121,7 @@ def _forces(run: Trajectory) -> dict[str, Array]:
     ]
     if not names:
         raise DeclarationError(
-            f"forces of contacts and joints on {run.system.name}",
+            f"no contact or joint of {run.system.name} takes a force",
             expected="a motion on which something takes a force",
         )
     zero = Expr.of(0)
@@ -177,7 +177,7 @@ def _contact(run: Trajectory, name: str) -> Contact:
         if isinstance(element, Rolling | Coulomb):
             return element
     raise DeclarationError(
-        f"the friction needed by {run.system.name}",
+        f"{run.system.name} has no contact with friction",
         expected="a system with a Rolling or Coulomb contact",
     )
 

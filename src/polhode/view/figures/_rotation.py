@@ -79,7 +79,7 @@ def draw_on(
 
 
 def _grown(mask: Mask) -> Mask:
-    """One sample longer at each end, so that front and back meet."""
+    """A mask one sample longer at each end, so that front and back meet."""
     grown: Mask = mask | np.roll(mask, 1)
     grown[0] = mask[0]
     return grown
@@ -144,9 +144,9 @@ def _spin_axis(run: Trajectory) -> Vector:
         if isinstance(body.spin, About | Relative):
             return body.axes[body.spin.axis]
     raise DeclarationError(
-        f"the axis of {run.system.name}",
-        expected="a body that spins about one of its axes",
-        advice="say which axis to follow, as axis=body.axes['3']",
+        f"no body of {run.system.name} spins about one of its axes",
+        expected="a body with a spin axis, or the axis itself",
+        advice="name the axis to follow, as axis=body.axes['3']",
     )
 
 
@@ -205,12 +205,12 @@ def polhodes(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
 
 
 def free_body(run: Trajectory) -> Body:
-    """The body whose angular velocity is told along its own axes."""
+    """The body whose speeds are the components of its angular velocity along its own axes."""
     for body in equations_of(run).system.bodies:
         if isinstance(body.spin, Components):
             return body
     raise DeclarationError(
-        f"the polhodes of {run.equations.system.name}",
+        f"{run.equations.system.name} has no free body to draw polhodes of",
         expected="a body whose speeds are the components of its angular velocity (Components)",
     )
 
@@ -226,7 +226,7 @@ def moments_of(run: Trajectory, body: Body) -> Array:
     moments = np.diag(inertia)
     if np.any(inertia - np.diag(moments)) or len(set(moments)) < 3:
         raise DeclarationError(
-            f"polhodes of {body.name}",
+            f"the moments of inertia of {body.name} have no polhodes to draw",
             expected="three different moments of inertia along principal axes",
         )
     return moments
@@ -279,7 +279,7 @@ def _on_ellipsoid(
 
 
 def _outline(axes: Axes, stretch: Array) -> None:
-    """The rim of the ellipsoid as seen: where its normal is square to the line of sight."""
+    """The outline of the ellipsoid: where its normal is perpendicular to the line of sight."""
     normal = _BODY.towards[:, None] / stretch
     normal = (normal / np.linalg.norm(normal)).ravel()
     first = np.cross(normal, [0.0, 0.0, 1.0])
@@ -305,7 +305,7 @@ def _principal_axes(axes: Axes, stretch: Array, labels: tuple[str, ...]) -> None
 
 @house_style()
 def herpolhode(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
-    """Path of the tip of ω on the plane square to the constant angular momentum, rad/s.
+    """Path of the tip of ω on the plane perpendicular to the constant angular momentum, rad/s.
 
     Dashed circles are the least and greatest distance from the angular momentum (the cross); a
     dot marks the start, which is drawn to the right (Poinsot 1834).
@@ -330,7 +330,7 @@ def herpolhode(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
 
 
 def invariable_path(run: Trajectory) -> Array:
-    """The angular velocity square to the angular momentum, along fixed directions, shape (2, n).
+    """The angular velocity perpendicular to the angular momentum, in fixed axes, shape (2, n).
 
     With w that part of ω, it turns about the angular momentum at the rate n·(w × dw/dt)/w²,
     dw/dt being taken in space.
@@ -347,7 +347,7 @@ def invariable_path(run: Trajectory) -> Array:
 
 
 def _across(run: Trajectory, t: Array) -> tuple[Array, Array]:
-    """What of ω is square to the angular momentum, along the body's axes, and the normal."""
+    """The part of ω perpendicular to the angular momentum, in body axes, and the normal."""
     body = free_body(run)
     rates = rates_of(run, body, t)
     momentum = moments_of(run, body)[:, None] * rates

@@ -79,7 +79,7 @@ RULES: Any = {
 
 @contextmanager
 def house_style() -> Iterator[None]:
-    """Everything drawn or saved within looks as figures of this house do; also a decorator."""
+    """The style of these figures for all that is drawn or saved within; also a decorator."""
     from matplotlib import rc_context
 
     with rc_context(RULES):
@@ -96,7 +96,7 @@ def line_style(number: int) -> dict[str, Any]:
 
 
 def worded(name: str) -> str:
-    """A name that somebody gave, as a legend shows it: no formula, and not hidden."""
+    """A user's name as a legend shows it: taken neither for a formula nor for a hidden entry."""
     plain = name.replace("$", r"\$")
     return f" {plain}" if plain.startswith("_") else plain
 

@@ -1,4 +1,4 @@
-"""Bodies of a scene as meshes, with marks so that a spin is seen."""
+"""Bodies, joints and links of a scene as meshes; marks on the bodies show their spin."""
 
 from __future__ import annotations
 
@@ -200,7 +200,7 @@ _LINKS: dict[str, Callable[[Link, float], Mesh]] = {
 
 
 def joints(scene: Scene, frame: float) -> Iterator[Mesh]:
-    """What bodies turn on, where that is not their middle."""
+    """Joints that are not at the centre of mass of a body."""
     for joint in scene.joints:
         if any(joint.place):
             pose = scene.bodies[joint.body].pose

@@ -83,7 +83,7 @@ def camera_of(scene: Scene, frame: float) -> Camera:
 
 
 def _needed(view: Camera, points: Array, radius: float) -> float:
-    """How far away, along its direction, a view has all balls about some points in it, m."""
+    """Distance, along its direction, from which a view contains all balls about some points, m."""
     right, above, away = ((points - view.target) @ view.axes.T).T
     across = np.maximum(np.abs(right), np.abs(above)) + radius
     return float(np.nanmax(across / np.tan(_FIELD) - away, initial=0.0))
@@ -128,7 +128,7 @@ def rotation(quaternion: Array) -> Array:
 
 
 def _paths(scene: Scene) -> Iterator[Array]:
-    """Points of what is left behind; on a support that moves, where they lie while it does."""
+    """Points of the traces; those on a moving support at several instants."""
     for trace in scene.traces:
         points = trace.points[:: max(1, len(trace.points) // _SAMPLES)]
         if trace.support < 0:

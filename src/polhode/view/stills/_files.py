@@ -52,7 +52,7 @@ def still(
         arrows: kinds of arrows to draw: force, load, torque, omega, momentum.
 
     Raises:
-        DeclarationError: for a kind of arrow that there is not.
+        DeclarationError: for an unknown kind of arrow.
         NumericError: for a time outside the motion, or a size that cannot be drawn.
         StoreError: for another ending, or where the file cannot be written.
     """
@@ -62,7 +62,8 @@ def still(
     shown = _scene(run)
     if not 0 <= seconds <= shown.duration:
         raise NumericError(
-            f"a picture at {seconds:g} s", expected=f"a time from 0 to {shown.duration:g} s"
+            f"{seconds:g} s is outside the motion",
+            expected=f"a time from 0 to {shown.duration:g} s",
         )
     frame = seconds / shown.duration * (shown.frames - 1)
     figure = _drawn(shown, frame, wide_high, drawn)
@@ -91,7 +92,7 @@ def movie(
         arrows: kinds of arrows to draw: force, load, torque, omega, momentum.
 
     Raises:
-        DeclarationError: for a kind of arrow that there is not.
+        DeclarationError: for an unknown kind of arrow.
         NumericError: for a speed or rate that is not positive, for more than some thousands of
             frames, or a size that cannot be drawn.
         StoreError: for another ending, where ffmpeg is not there, or where the file cannot be
@@ -100,7 +101,9 @@ def movie(
     target = Path(path)
     write = _WRITERS.get(target.suffix.lower())
     if write is None:
-        raise StoreError(f"a movie as {target.name}", expected="a name that ends in .gif or .mp4")
+        raise StoreError(
+            f"cannot write a movie as {target.name}", expected="a name that ends in .gif or .mp4"
+        )
     wide_high, drawn = _pixels(size), _kinds(arrows)
     count = _count_of_frames(run.duration, speed, rate)
     shown = _scene(run)
@@ -139,8 +142,8 @@ def _gif(images: Iterator[Image], rate: float, size: tuple[int, int]) -> bytes:
 
     if not _GIF_LEAST <= rate <= _GIF_MOST:
         raise NumericError(
-            f"a GIF with {rate:g} frames per second",
-            expected=f"{_GIF_LEAST} to {_GIF_MOST}, which browsers show as they are meant",
+            f"{rate:g} frames per second is no rate for a GIF",
+            expected=f"{_GIF_LEAST} to {_GIF_MOST}, which browsers play at the right speed",
             advice="write an .mp4, or give another rate",
         )
     first, *others = (image.quantize(128, dither=Image.Dither.NONE) for image in images)
@@ -162,7 +165,7 @@ def _mp4(images: Iterator[Image], rate: float, size: tuple[int, int]) -> bytes:
         from imageio_ffmpeg import write_frames
     except ImportError as error:
         raise StoreError(
-            "a movie as MP4, where no ffmpeg is installed",
+            "an MP4 needs ffmpeg, which is not installed",
             expected="the extra `movie`",
             advice="pip install 'polhode[movie]', or write a .gif",
         ) from error
@@ -194,7 +197,7 @@ def _pixels(size: tuple[int, int]) -> tuple[int, int]:
     whole = [n for n in size if isinstance(n, int) and 0 < n <= _WIDEST]
     if len(whole) != 2 or len(size) != 2:
         raise NumericError(
-            f"a picture of {size} pixels",
+            f"{size} pixels is no size of a picture",
             expected=f"width and height, whole numbers from 1 to {_WIDEST}",
         )
     return whole[0], whole[1]
@@ -204,13 +207,14 @@ def _kinds(arrows: Collection[str]) -> frozenset[str]:
     """Kinds of arrows, given by one name or by several.
 
     Raises:
-        DeclarationError: for a kind that there is not.
+        DeclarationError: for an unknown kind.
     """
     asked = frozenset([arrows] if isinstance(arrows, str) else arrows)
     unknown = sorted(asked - set(ARROWS))
     if unknown:
         raise DeclarationError(
-            f"arrows {', '.join(map(repr, unknown))}", expected=f"some of {', '.join(ARROWS)}"
+            f"no arrows are called {', '.join(map(repr, unknown))}",
+            expected=f"some of {', '.join(ARROWS)}",
         )
     return asked
 
@@ -222,12 +226,14 @@ def _count_of_frames(duration: float, speed: float, rate: float) -> int:
         NumericError: for a speed or rate that is not positive, or for too many frames.
     """
     if not (speed > 0 and rate > 0 and isfinite(rate)):
-        raise NumericError(f"speed {speed} at {rate} frames per second", expected="positive ones")
-    wanted = duration / speed * rate
-    if wanted > _LONGEST:
         raise NumericError(
-            f"a movie of {wanted:.3g} frames",
+            f"a speed of {speed} at {rate} frames per second", expected="positive numbers"
+        )
+    frames = duration / speed * rate
+    if frames > _LONGEST:
+        raise NumericError(
+            f"the movie would have {frames:.3g} frames",
             expected=f"at most {_LONGEST}",
             advice=f"give a higher speed than {speed:g}, or a lower rate than {rate:g}",
         )
-    return max(2, round(wanted))
+    return max(2, round(frames))

@@ -174,8 +174,8 @@ def _draw_arrow(
     ax.annotate("", tip, tail, arrowprops=style, zorder=4)
 
 
-def telling_time(scene: Scene) -> float:
-    """When most of the bodies is seen, and not their edges, s."""
+def clearest_time(scene: Scene) -> float:
+    """A time at which the bodies show most of their faces, and not their edges, s."""
     seen = np.array([_outline(scene, share * (scene.frames - 1)) for share in _SHARES])
     first = int(np.argmax(seen >= _ENOUGH * np.max(seen)))
     return float(_SHARES[first]) * scene.duration
