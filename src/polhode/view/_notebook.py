@@ -27,7 +27,7 @@ from polhode.analyse import (
 )
 from polhode.base import NumericError
 from polhode.derive import Automaton, Equations, Reaction, lettered
-from polhode.model import Body, FieldwiseRepr, Frame, System, brief
+from polhode.model import FieldwiseRepr, Frame, System, brief
 from polhode.simulate import Drift, Trajectory
 from polhode.study import Ensemble, Fit, Linearised, Sensitivities
 from polhode.view._html import Markup, joined, table, tag
@@ -118,18 +118,17 @@ def _number(value: float) -> str:
 
 @html_of.register
 def _(thing: System) -> str:
-    bodies = table(("", "mass", "inertia"), map(_body, thing.bodies), caption="bodies")
+    bodies = []
+    for body in thing.bodies:
+        inertia = body.inertia.rows
+        off = any(inertia[i][j] for i in range(3) for j in range(3) if i != j)
+        entries = [e for row in inertia for e in row] if off else [inertia[i][i] for i in range(3)]
+        bodies.append((body.name, inline(body.mass), joined(map(inline, entries), ", ")))
+    shown = table(("", "mass", "inertia"), bodies, caption="bodies")
     parts = [(element.name, type(element).__name__) for element in thing.elements]
     parts += [(load.name, type(load).__name__) for load in thing.loads]
     others = table(("", ""), parts, caption="what acts on them") if parts else ""
-    return _framed(tag("strong", thing.name), bodies, others)
-
-
-def _body(body: Body) -> tuple[str, ...]:
-    inertia = body.inertia.rows
-    off = any(inertia[i][j] for i in range(3) for j in range(3) if i != j)
-    entries = [e for row in inertia for e in row] if off else [inertia[i][i] for i in range(3)]
-    return body.name, inline(body.mass), joined(map(inline, entries), ", ")
+    return _framed(tag("strong", thing.name), shown, others)
 
 
 @html_of.register
@@ -143,19 +142,17 @@ def _(thing: FieldwiseRepr) -> str:
 @html_of.register
 def _(thing: Frame) -> str:
     """The turns that lead to it from the laboratory, the first one first."""
-    steps = [(str(f), _part(f.angle), _turned_about(f)) for f in reversed(thing.lineage[:-1])]
+    steps = []
+    for frame in reversed(thing.lineage[:-1]):
+        # The direction turned about: its label where it is one of the parent's.
+        labels = frame.parent.labels if frame.parent else frame.labels
+        along = [label for label, part in zip(labels, frame.axis, strict=True) if part == 1]
+        steps.append((str(frame), _part(frame.angle), along[0] if along else _listed(frame.axis)))
     title = tag("strong", f"Frame {thing}")
     if not steps:
         return _framed(title)
     turns = table(("", "turned by, rad", "about"), steps)
     return _framed(title, tag("p", f"out of {thing.root}"), turns)
-
-
-def _turned_about(frame: Frame) -> str:
-    """The direction turned about: its label where it is one of the parent's."""
-    labels = frame.parent.labels if frame.parent else frame.labels
-    chosen = [label for label, part in zip(labels, frame.axis, strict=True) if part == 1]
-    return chosen[0] if chosen else _listed(frame.axis)
 
 
 @singledispatch

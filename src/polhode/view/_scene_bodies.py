@@ -168,6 +168,7 @@ def _equivalent(body: Body, run: Trajectory) -> BodyShape:
 def _wheel(mass: float, moments: Array, directions: tuple[Triple, Triple]) -> BodyShape:
     """A cylinder, or a wheel with spokes where it has no thickness."""
     across, about = moments[0], moments[2]
+    # A uniform cylinder has m r²/2 about its axis and m (3 r² + h²)/12 across it.
     radius = float(np.sqrt(2 * about / mass))
     squared = 12 * across / mass - 3 * radius**2
     if squared > (_FLAT * radius) ** 2:
@@ -179,6 +180,7 @@ def _wheel(mass: float, moments: Array, directions: tuple[Triple, Triple]) -> Bo
 def _slab(mass: float, moments: Array, turned: Array) -> BodyShape:
     """A box, or a racquet where it is a long lamina."""
     total = float(np.sum(moments))
+    # A uniform box with sides a, b, c has m (b² + c²)/12 along a, and so on round.
     squares = np.clip(6 * (total - 2 * moments) / mass, 0, None)
     order = np.argsort(-squares)
     long, wide, thick = (float(side) for side in np.sqrt(squares[order]))

@@ -217,6 +217,8 @@ class _Field:
 
 def _growth(found: Stability, field: _Field) -> Array:
     """Greatest real part of the exponents at every point, 1/s."""
+    # An even polynomial is solved for the square of the exponent: growth is then exactly zero for
+    # a centre, where the roots of the full polynomial would be rounded off the imaginary axis.
     step = 2 if found.is_even else 1
     coefficients = np.array([field.values(c) for c in found.oscillating[::step]])
     flat = coefficients.reshape(len(coefficients), -1)

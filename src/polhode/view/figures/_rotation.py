@@ -129,7 +129,15 @@ def nutation(run: Trajectory, *, axis: Vector | None = None, ax: Axes | None = N
     direction = (axis or _spin_axis(run)).express(root)
     t = instants(run)
     points = np.array([run.evaluate(component, t) for component in direction.components])
-    _globe(axes, root.labels[2])
+    for height in np.sin(np.radians([-60, -30, 0, 30, 60])):
+        _draw(axes, _parallel(height), color=FAINT, linewidth=0.6)
+    for turn in np.radians(np.arange(0, 180, 30)):
+        meridian = np.array(
+            [np.cos(turn) * np.sin(_CIRCLE), np.sin(turn) * np.sin(_CIRCLE), np.cos(_CIRCLE)]
+        )
+        _draw(axes, meridian, color=FAINT, linewidth=0.6)
+    axes.plot(np.cos(_CIRCLE), np.sin(_CIRCLE), color=MUTED, linewidth=0.8)
+    arrow(axes, _SKY, np.array([[0.0, 0.0], [0.0, 0.0], [1.0, 1.25]]), f"${root.labels[2]}$")
     for height in (float(np.min(points[2])), float(np.max(points[2]))):
         _draw(axes, _parallel(height), color=MUTED, linewidth=0.8, linestyle=(0, (4, 3)))
     trace = _draw(axes, points, color=COLOURS[0], linewidth=1.4)
@@ -148,18 +156,6 @@ def _spin_axis(run: Trajectory) -> Vector:
         expected="a body with a spin axis, or the axis itself",
         advice="name the axis to follow, as axis=body.axes['3']",
     )
-
-
-def _globe(axes: Axes, vertical: str) -> None:
-    for height in np.sin(np.radians([-60, -30, 0, 30, 60])):
-        _draw(axes, _parallel(height), color=FAINT, linewidth=0.6)
-    for turn in np.radians(np.arange(0, 180, 30)):
-        meridian = np.array(
-            [np.cos(turn) * np.sin(_CIRCLE), np.sin(turn) * np.sin(_CIRCLE), np.cos(_CIRCLE)]
-        )
-        _draw(axes, meridian, color=FAINT, linewidth=0.6)
-    axes.plot(np.cos(_CIRCLE), np.sin(_CIRCLE), color=MUTED, linewidth=0.8)
-    arrow(axes, _SKY, np.array([[0.0, 0.0], [0.0, 0.0], [1.0, 1.25]]), f"${vertical}$")
 
 
 def _parallel(height: float) -> Array:
@@ -199,7 +195,10 @@ def polhodes(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
         _on_ellipsoid(axes, curve, stretch, **style)
     own = _on_ellipsoid(axes, unit, stretch, color=COLOURS[0], linewidth=2.0, alpha=1.0)
     _outline(axes, stretch)
-    _principal_axes(axes, stretch, body.axes.labels)
+    for i, name in enumerate(body.axes.labels):
+        along = np.zeros((3, 2))
+        along[i] = stretch[i, 0], stretch[i, 0] + 0.22
+        arrow(axes, _BODY, along, name)
     bare(axes)
     return Drawn(axes, own)
 
@@ -294,13 +293,6 @@ def _outline(axes: Axes, stretch: Array) -> None:
         zorder=0,
     )
     axes.plot(*_BODY.project(rim * stretch), color=MUTED, linewidth=0.8)
-
-
-def _principal_axes(axes: Axes, stretch: Array, labels: tuple[str, ...]) -> None:
-    for i, name in enumerate(labels):
-        along = np.zeros((3, 2))
-        along[i] = stretch[i, 0], stretch[i, 0] + 0.22
-        arrow(axes, _BODY, along, name)
 
 
 @house_style()

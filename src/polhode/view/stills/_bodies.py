@@ -130,10 +130,6 @@ def _rod(length: float, radius: float) -> Mesh:
     return together([bar, *ends])
 
 
-def _box(long: float, wide: float, thick: float) -> Mesh:
-    return box((wide, thick, long), (BLUE, BLUE, LIGHT, DEEP, ACCENT, METAL))
-
-
 def _racquet(length: float, width: float, thick: float) -> Mesh:
     head = 0.27 * length
     middle = np.array([0.0, 0.0, 0.5 * length - head])
@@ -157,7 +153,9 @@ _SHAPES: dict[str, Callable[..., Mesh]] = {
     "hoop": _hoop,
     "wheel": _wheel,
     "rod": _rod,
-    "box": _box,
+    "box": lambda long, wide, thick: box(
+        (wide, thick, long), (BLUE, BLUE, LIGHT, DEEP, ACCENT, METAL)
+    ),
     "racquet": _racquet,
 }
 
@@ -177,10 +175,6 @@ def links(scene: Scene, frame: float) -> list[Mesh]:
     return [*drawn, *tied]
 
 
-def _spring(link: Link, frame: float) -> Mesh:
-    return coil(between(link.start, frame), between(link.end, frame), link.thick, METAL)
-
-
 def _damper(link: Link, frame: float) -> Mesh:
     start, end = between(link.start, frame), between(link.end, frame)
     middle = max(len(link.start), len(link.end)) / 2
@@ -194,7 +188,9 @@ def _damper(link: Link, frame: float) -> Mesh:
 
 
 _LINKS: dict[str, Callable[[Link, float], Mesh]] = {
-    "spring": _spring,
+    "spring": lambda link, frame: coil(
+        between(link.start, frame), between(link.end, frame), link.thick, METAL
+    ),
     "damper": _damper,
 }
 
