@@ -1,6 +1,7 @@
-"""LaTeX of a text as MathML, as a text would print it."""
+"""Formulas as MathML, spaced as a text would print them."""
 
-from polhode.view import typeset
+import polhode as ph
+from polhode.view import inline, typeset
 
 
 def test_functions_stand_apart_from_what_they_are_of():
@@ -11,3 +12,9 @@ def test_functions_stand_apart_from_what_they_are_of():
         "</mrow></math>"
     )
     assert thin not in typeset(r"a + b\omega")
+
+
+def test_a_bracket_stands_close_to_its_function():
+    a, b = ph.symbols("a b")
+    assert "mspace" not in inline(ph.sin(a + b))
+    assert "mspace" in inline(ph.sin(a))
