@@ -20,22 +20,22 @@ from polhode.simulate._absolute_values import (
     nearer,
     overshoots,
     passages_of,
+    refuse_vanishing,
     sides_at,
     told_change,
 )
 from polhode.simulate._dynamics import WORK, Dynamics, EquationsOfMotion
 from polhode.simulate._event import ModeSwitch
-from polhode.simulate._lengths import refuse_vanishing
 from polhode.simulate._segment import Segment, TrajectoryPiece, state_at
 from polhode.simulate._start import read_start
 from polhode.simulate._task import AS_DECLARED, InitialState, MotionResult, Task, timed
 from polhode.simulate._values import idle_parameters, read_parameters
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion, prescribed_motion
+from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._driver import integrate, stuck
 from polhode.simulate.integrate._flow import Flow, flow_of
-from polhode.simulate.integrate._step_count import StepCount
-from polhode.simulate.integrate._stepping import Array, Integrator, Stepper
-from polhode.simulate.integrate._stop_criteria import Stop, StopCriteria
+from polhode.simulate.integrate._stepping import Integrator, Stepper
+from polhode.simulate.integrate._stop_criteria import StepCount, Stop, StopCriteria
 
 _LOOK = 400  # steps after which absolute values are looked at
 

@@ -12,8 +12,7 @@ from polhode.algebra import Expr
 from polhode.base import Shown
 from polhode.simulate._dynamics import WORK
 from polhode.simulate._segment import Segment
-from polhode.simulate.integrate._ascending import ascending
-from polhode.simulate.integrate._stepping import Array
+from polhode.simulate.integrate._arrays import Array, ascending
 
 _MOST_CHECKED = 20_000  # instants of a segment that are looked at
 _FEW = 64  # the same, where it is only asked whether the motion can be believed

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+import weakref
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
-from typing import Any, Protocol
+from typing import Any, Generic, Protocol, TypeVar
 
 from polhode.algebra import (
     ONE,
@@ -27,7 +28,6 @@ from polhode.algebra import (
     with_roots,
 )
 from polhode.base import DeclarationError, NumericError
-from polhode.simulate._memory import Memory
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 
 
@@ -69,6 +69,39 @@ class EquationsOfMotion(Protocol):
 CLOCK = time.symbol or Symbol("t", SymbolKind.TIME)
 #: Stands for the work done by everything that is not in the potential, J.
 WORK = Symbol("work done", SymbolKind.COORDINATE)
+
+Made = TypeVar("Made")
+
+_MOST = 2048  # results kept of one object
+
+
+class Memory(Generic[Made]):
+    """Results by the object they come from, and by what was asked of it.
+
+    The object is known by its identity; results must not hold on to it, or it would live on.
+    """
+
+    def __init__(self) -> None:
+        self._of: dict[int, dict[Hashable, Made]] = {}
+
+    def recall(self, owner: object, asked: Hashable, make: Callable[[], Made]) -> Made:
+        """The result that was made before, or else that of `make`, which is then kept."""
+        results = self._results(owner)
+        found = results.get(asked)
+        if found is None:
+            found = make()
+            if len(results) >= _MOST:
+                results.clear()
+            results[asked] = found
+        return found
+
+    def _results(self, owner: object) -> dict[Hashable, Made]:
+        place = id(owner)
+        if place not in self._of:
+            self._of[place] = {}
+            weakref.finalize(owner, self._of.pop, place, None)
+        return self._of[place]
+
 
 _programs: Memory[Program] = Memory()
 
@@ -321,3 +354,41 @@ class Dynamics:
             )
         meaning = self.meaning(lower)
         return meaning.dt() if meaning is not None else None
+
+
+# -- what can be read from a motion, by published name ---------------------------------------------
+
+_MOVING = (SymbolKind.COORDINATE, SymbolKind.SPEED)
+
+
+def moving(dynamics: Dynamics) -> dict[str, Expr]:
+    """Coordinates, speeds and rates, by published name; also those of other modes that follow."""
+    equations = dynamics.equations
+    own = (*equations.coordinates, *equations.speeds, *equations.kinematics, *equations.dependent)
+    lifted = {s.published: value for s, value in dynamics.lifted.items() if s.kind in _MOVING}
+    return {symbol.published: Expr.generator(symbol) for symbol in own} | lifted
+
+
+def readable(dynamics: Dynamics, invariants: Mapping[str, Expr]) -> dict[str, Expr]:
+    """Quantities of one contact mode, by published name."""
+    equations = dynamics.equations
+    rates = (*equations.speeds, *equations.kinematics, *equations.dependent)
+    moving = (*equations.coordinates, *rates, *(rate.derivative() for rate in rates))
+    carried = (symbol for symbol in dynamics.carried if symbol != WORK)
+    symbols = (CLOCK, *moving, *carried, *dynamics.parameters, *equations.functions)
+    powers = getattr(equations, "powers", {})
+    return {
+        **{symbol.published: Expr.generator(symbol) for symbol in symbols},
+        **{f"power_{name}": power for name, power in powers.items()},
+        **equations.components,
+        "energy": equations.energy,
+        "power": equations.power,
+        "work": Expr.generator(WORK),
+        **{symbol.published: value for symbol, value in dynamics.lifted.items()},
+        **invariants,
+    }
+
+
+def quantity_names(equations: EquationsOfMotion, lifted: Mapping[Symbol, Expr]) -> set[str]:
+    """What can be read by name in a contact mode."""
+    return set(readable(Dynamics(equations, {}, lifted=lifted), {}))

@@ -10,13 +10,10 @@ import numpy as np
 
 from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError
-from polhode.simulate._dynamics import CLOCK, Dynamics
-from polhode.simulate._readable import moving
-from polhode.simulate.integrate._ascending import ascending, occurring
+from polhode.simulate._dynamics import CLOCK, Dynamics, moving
+from polhode.simulate.integrate._arrays import Array, ascending, occurring, rows
 from polhode.simulate.integrate._driver import SegmentSolution
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
-from polhode.simulate.integrate._rows import rows
-from polhode.simulate.integrate._stepping import Array
 
 _RECENT = 4  # sets of times whose states are remembered
 _FEW = 10_000  # times in one of them, at most

@@ -13,12 +13,11 @@ import numpy as np
 from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError, Shown, look_up
 from polhode.simulate._drift import Drift, drift_of
-from polhode.simulate._dynamics import Dynamics, EquationsOfMotion
+from polhode.simulate._dynamics import Dynamics, EquationsOfMotion, readable
 from polhode.simulate._event import Event, placed
-from polhode.simulate._readable import readable
 from polhode.simulate._segment import Segment
 from polhode.simulate.files._csv import write_csv
-from polhode.simulate.integrate._ascending import occurring
+from polhode.simulate.integrate._arrays import occurring
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._stepping import Array
 

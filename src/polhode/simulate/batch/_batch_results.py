@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from polhode.algebra import Symbol
 from polhode.simulate.batch._batch_segment import BatchSegment, Quantity
 from polhode.simulate.batch._forcing_intervals import ForcingIntervals
-from polhode.simulate.integrate._stepping import Array
+from polhode.simulate.integrate._arrays import Array
 
 LAST = -1
 """The look at the end of a motion, whenever that is."""

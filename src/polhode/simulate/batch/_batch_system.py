@@ -2,30 +2,122 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Protocol
 
-from polhode.algebra import Symbol
+import numpy as np
+from numpy.typing import NDArray
+
+from polhode.algebra import Expr, Matrix, Symbol
 from polhode.derive import Automaton
 from polhode.model import Contact, Coulomb
-from polhode.simulate._dynamics import Dynamics, EquationsOfMotion
-from polhode.simulate._names import Name
-from polhode.simulate._readable import readable
+from polhode.simulate._dynamics import Dynamics, EquationsOfMotion, readable
+from polhode.simulate._names import Name, by_name, published
 from polhode.simulate._task import AS_DECLARED, Task
-from polhode.simulate._values import idle_parameters, read_parameters
+from polhode.simulate._values import idle_parameters, read_parameters, read_values
 from polhode.simulate.batch._batch_results import BatchResults
-from polhode.simulate.batch._batch_scheduler import BatchScheduler
-from polhode.simulate.batch._batch_segment import BatchSegment, Quantity
-from polhode.simulate.batch._endings import endings_of, sides_of, vanishings_of
+from polhode.simulate.batch._batch_scheduler import BatchScheduler, SingleTrajectoryStepper
+from polhode.simulate.batch._batch_segment import (
+    BatchSegment,
+    Quantity,
+    endings_of,
+    sides_of,
+    vanishings_of,
+)
 from polhode.simulate.batch._forcing_intervals import ForcingIntervals
-from polhode.simulate.batch._mode_batch import ModeBatch, Phases, Starts
-from polhode.simulate.batch._single_trajectory import SingleTrajectoryStepper
-from polhode.simulate.contact._checks import check_numbers
+from polhode.simulate.batch._mode_batch import Group, ModeBatch, Phases, Starts
 from polhode.simulate.contact._hybrid_system import HybridSystem
+from polhode.simulate.contact._through_modes import can_be_followed, check_numbers
 from polhode.simulate.forcing._prescribed_motion import prescribed_motion
-from polhode.simulate.integrate._stepping import Integrator
+from polhode.simulate.integrate._arrays import Array, rows
+from polhode.simulate.integrate._stepping import Integrator, chosen
+
+# -- start values of many motions, and whether they are in any doubt -------------------------------
+
+_ROUNDING = 1e-9  # relative, of principal moments that a flat body is at the limit of
+
+Mask = NDArray[np.bool_]
+
+
+def filled(
+    symbols: Sequence[Symbol],
+    common: Mapping[Symbol, float],
+    columns: Mapping[str, Array],
+    count: int,
+) -> dict[Symbol, Array]:
+    """Values of symbols for every motion: what differs, what is common, or zero."""
+    return {
+        s: np.asarray(columns.get(s.published, np.full(count, common.get(s, 0.0))), dtype=float)
+        for s in symbols
+    }
+
+
+@dataclass(frozen=True)
+class BatchStart:
+    """Many motions at time 0.
+
+    Attributes:
+        dynamics: the equations of the mode in which they start.
+        states: by symbol, shape (motions,).
+        constants: of all parameters, likewise.
+        contacts: whose coefficients count.
+    """
+
+    dynamics: Dynamics
+    states: Mapping[Symbol, Array]
+    constants: Mapping[Symbol, Array]
+    contacts: Sequence[Contact]
+
+    @property
+    def _count(self) -> int:
+        return len(next(iter((*self.states.values(), *self.constants.values()))))
+
+    def possible(self) -> Mask:
+        """Numbers that bodies and contacts can have."""
+        fine = np.ones(self._count, dtype=bool)
+        for symbol, values in self.constants.items():
+            fine &= np.isfinite(values) & ((values > 0) | (not symbol.positive))
+        for body in getattr(self.dynamics.equations.system, "bodies", ()):
+            fine &= self._values([body.mass])[0] > 0
+            first, second, third = self._moments(body.inertia, fine).T
+            fine &= (first >= 0) & (first + second >= third * (1 - _ROUNDING))
+        for contact in self.contacts:
+            (restitution,) = self._values([contact.restitution])
+            fine &= (restitution >= 0) & (restitution <= 1)
+            if isinstance(contact, Coulomb):
+                kinetic, static = self._values([contact.mu, contact.mu_static])
+                fine &= (kinetic >= 0) & (static >= kinetic)
+        return fine
+
+    def regular(self) -> Mask:
+        """Starts from which all rates are finite, with a positive definite mass matrix."""
+        fine = np.all(np.isfinite(self._values(self.dynamics.rates)), axis=0)
+        mass = self.dynamics.equations.mass
+        if mass == mass.T:
+            fine &= self._moments(mass, fine)[:, 0] > 0
+        return np.asarray(fine)
+
+    def _moments(self, matrix: Matrix, fine: Mask) -> Array:
+        """Eigenvalues of a symmetric matrix for every motion, rising; shape (motions, size)."""
+        size = len(matrix.rows)
+        entries = self._values([e for row in matrix.rows for e in row])
+        usual = np.where(fine & np.all(np.isfinite(entries), axis=0), entries, _unit(size)).T
+        return np.asarray(np.linalg.eigvalsh(usual.reshape(-1, size, size)))
+
+    def _values(self, expressions: Sequence[Expr]) -> Array:
+        """Shape (expressions, motions)."""
+        states = [self.states[s] for s in self.dynamics.states]
+        constants = [self.constants[s] for s in self.dynamics.parameters]
+        with np.errstate(all="ignore"):
+            found = self.dynamics.function(expressions)(*states, *constants, 0.0)
+        values: Array = rows(found, self._count)
+        return values
+
+
+def _unit(size: int) -> Array:
+    return np.eye(size).reshape(-1, 1)
 
 
 @dataclass(frozen=True)
@@ -218,3 +310,105 @@ def all_modes(modes: Automaton, plan: Plan, integrator: Integrator) -> AllModes:
     machine = HybridSystem(modes, drive, numbers, integrator, plan.tolerance)
     check_numbers(machine)
     return AllModes(machine, plan, numbers, ForcingIntervals(drive, plan.duration))
+
+
+# -- the whole batch -------------------------------------------------------------------------------
+#
+# A motion about which there is any doubt is left out, to be integrated by itself.
+
+
+@dataclass(frozen=True)
+class BatchSolution:
+    """Many motions.
+
+    Attributes:
+        kept: which of them are complete; the others are to be followed by themselves.
+        seen: where they were, and what happened to them.
+    """
+
+    kept: NDArray[np.bool_]
+    seen: BatchResults
+
+
+class SingleModeBatch:
+    """Many motions of one system at once.
+
+    Args:
+        subject: what is followed.
+        start: SI start values of one motion, where all of them are states of the first mode.
+    """
+
+    def __init__(self, subject: BatchSystem, start: Mapping[Symbol, float] | None) -> None:
+        self._subject = subject
+        self._start = start
+
+    @property
+    def keeps_to_one_mode(self) -> bool:
+        """Whether nobody looks after the contacts."""
+        return not self._subject.contacts
+
+    def follow(
+        self,
+        count: int,
+        columns: Mapping[str, Array],
+        times: Array,
+        starts: Starts,
+    ) -> BatchSolution:
+        """All motions together.
+
+        Args:
+            count: of motions.
+            columns: SI values of what differs, by published name, shape (motions,).
+            times: of the looks, s, increasing from 0 to the duration.
+            starts: start values of one motion, as `simulate` takes them.
+        """
+        subject, dynamics = self._subject, self._subject.dynamics
+        constants = filled(tuple(subject.numbers), subject.numbers, columns, count)
+        states = filled(dynamics.states, self._start or {}, columns, count)
+        at_once = subject.stretches.from_then(np.zeros(count))
+        begun = BatchStart(dynamics, states, constants | at_once, subject.contacts)
+        possible = begun.possible()
+        usual = possible & begun.regular() & (self._start is not None)
+        first = subject.stay(subject.phases).mode
+        sightings = BatchResults.of(count, times, constants, subject.stretches, first)
+        company = subject.company(sightings, starts)
+        company.together(subject.phases, _group(np.flatnonzero(usual), states))
+        for row in np.flatnonzero(possible & ~usual).tolist():
+            company.start(row)
+        company.run()
+        possible[sorted(company.lost)] = False
+        return BatchSolution(possible, company.sightings)
+
+
+def _group(rows: NDArray[np.intp], states: Mapping[Symbol, Array]) -> Group:
+    """Motions at their start."""
+    rest = np.zeros(len(rows))
+    own = {s: values[rows] for s, values in states.items()}
+    return Group(rows, rest, own, rest, [None] * len(rows), [0] * len(rows))
+
+
+def abreast(subject: Automaton | EquationsOfMotion, plan: Plan) -> SingleModeBatch | None:
+    """A system for many motions; None where they cannot be followed at once.
+
+    Raises:
+        DeclarationError: for numbers that are not known, missing or impossible.
+    """
+    integrator = chosen()
+    if integrator.name != "heyoka":
+        return None
+    if isinstance(subject, Automaton) and not (subject.contacts and can_be_followed(subject)):
+        subject = subject.together.equations
+    found: BatchSystem | None
+    if isinstance(subject, Automaton):
+        found = all_modes(subject, plan, integrator)
+    else:
+        found = one_mode(subject, plan)
+    if found is None or found.dynamics.undecided:
+        return None  # absolute values are followed from side to side, one motion by itself
+    names = by_name(found.dynamics.states)
+    start: dict[Name, Any] = {published(name): value for name, value in plan.start.items()}
+    if not start.keys() <= names.keys():
+        return SingleModeBatch(found, None)
+    dimensions = getattr(found.dynamics.equations, "dimensions", {})
+    values = read_values(start, names, "state of this mode", dimensions, found.numbers)
+    return SingleModeBatch(found, values)

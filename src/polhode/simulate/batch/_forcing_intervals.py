@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from polhode.algebra import Symbol
 from polhode.simulate.forcing._pieces import Pieces
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion
-from polhode.simulate.integrate._stepping import Array
+from polhode.simulate.integrate._arrays import Array
 
 _SMOOTH = 1e-9  # change of an acceleration, over the largest one, that no force notices
 

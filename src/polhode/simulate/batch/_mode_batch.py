@@ -15,9 +15,9 @@ from polhode.model import Phase
 from polhode.simulate._names import Name
 from polhode.simulate.batch._batch_results import LAST, BatchResults, Rows
 from polhode.simulate.batch._batch_segment import STILL, BatchSegment
-from polhode.simulate.batch._batch_stage import NONE, BatchArrivals, BatchStage
+from polhode.simulate.batch._lanes import NONE, BatchArrivals, BatchStage
 from polhode.simulate.contact._mode_state import ModeState
-from polhode.simulate.integrate._stepping import Array
+from polhode.simulate.integrate._arrays import Array
 
 _AT_ONCE = 4096  # motions that are taken up together: memory is bounded, lanes are full
 _LANDED = 1e-10  # slip speed, relative to the velocities around, that is none

@@ -1,18 +1,48 @@
-"""Where bodies and supports meet, in numbers."""
+"""The state that all contact modes share, and the kinematics of every contact in it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from polhode.algebra import Expr, linear_parts
 from polhode.derive import Automaton, Mode, Touch
-from polhode.simulate.contact._state import Function, State
-from polhode.simulate.integrate._number_types import NumberType
-from polhode.simulate.integrate._stepping import Array
+from polhode.simulate.integrate._arrays import Array
+from polhode.simulate.integrate._number_types import DOUBLES, NumberType
+
+#: Of a state, a time, and the values of extra symbols.
+Function = Callable[[Array, float, Sequence[float]], Array]
+
+
+@dataclass(frozen=True)
+class State:
+    """A state in the one language that all modes share: that of the mode in which nothing touches.
+
+    Attributes:
+        coordinates: of that mode.
+        speeds: of that mode.
+        work: done so far by everything that is not in the potential, J.
+    """
+
+    time: float
+    coordinates: Array
+    speeds: Array
+    work: float = 0.0
+
+    def rounded(self) -> State:
+        """The same in doubles."""
+        double = DOUBLES.array
+        return State(
+            float(self.time), double(self.coordinates), double(self.speeds), float(self.work)
+        )
+
+    def kicked(self, change: Array, work: Any) -> State:
+        """After an instant in which the speeds jumped and work was done."""
+        return replace(self, speeds=self.speeds + change, work=self.work + work)
+
 
 _ROUNDING = 16  # steps of rounding of the coordinates: a distance from an edge that is none
 
@@ -136,3 +166,39 @@ def _support_velocity(mode: Mode, touch: Touch) -> tuple[Expr, ...]:
     velocity = motion.resolve(contact.on.velocity(place).express(contact.on.axes))
     labels = (*contact.on.tangents, contact.on.normal)
     return tuple(velocity.dot(contact.on.axes[label]) for label in labels)
+
+
+# -- the first instants of a contact that has opened -----------------------------------------------
+
+STILL = 1e-14  # approach, relative to the velocities it is the difference of, that is none
+
+
+@dataclass(frozen=True)
+class LiftOff:
+    """A contact that opens.
+
+    Attributes:
+        speed: of opening, at first, m/s.
+        still: what of it is rounding, m/s.
+    """
+
+    speed: float
+    still: float
+
+    def mean(self, heights: Array, passed: Array) -> Array:
+        """The mean speed of opening, whose fall through zero is that of the height.
+
+        The height itself begins at zero. So does the mean where a contact opens without speed: it
+        is then held off by the rounding that it begins with.
+
+        Args:
+            passed: since then, s; zero where nothing can be told from a height yet.
+        """
+        now = passed == 0
+        mean = np.where(now, self.speed, heights / np.where(now, 1.0, passed))
+        return np.asarray(mean + self.still if abs(self.speed) <= self.still else mean)
+
+
+def fall_of(height: Any, rise: Any, fall: Any) -> Any:
+    """How long something that rises from a height, and falls ever faster, is above the ground."""
+    return (rise + max(rise * rise - 2 * height * fall, 0) ** 0.5) / -fall

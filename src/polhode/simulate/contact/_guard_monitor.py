@@ -16,15 +16,14 @@ from polhode.simulate._absolute_values import from_zero
 from polhode.simulate._dynamics import CLOCK
 from polhode.simulate._segment import TrajectoryPiece
 from polhode.simulate.contact._carried import gap_symbol, room_symbol
-from polhode.simulate.contact._contact_kinematics import ContactKinematics
+from polhode.simulate.contact._contact_kinematics import STILL, ContactKinematics, LiftOff
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
-from polhode.simulate.contact._lift_off import STILL, LiftOff
 from polhode.simulate.contact._mode_state import ModeState, beyond
 from polhode.simulate.contact._select_mode import painleve
 from polhode.simulate.contact._transition import index_of
+from polhode.simulate.integrate._arrays import Array, rows
 from polhode.simulate.integrate._crossing import first_fall
-from polhode.simulate.integrate._rows import rows
-from polhode.simulate.integrate._stepping import Array, broken
+from polhode.simulate.integrate._stepping import broken
 from polhode.simulate.integrate._stop_criteria import Stop
 
 _JAMMED = 1e-6  # of what sliding has in reserve before it jams: as good as none

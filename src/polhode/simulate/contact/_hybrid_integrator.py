@@ -18,28 +18,25 @@ from polhode.simulate._absolute_values import (
     Sides,
     nearer,
     overshoots,
+    refuse_vanishing,
     sides_at,
     told_change,
 )
 from polhode.simulate._absolute_values import beyond as beyond_side
 from polhode.simulate._dynamics import WORK
 from polhode.simulate._event import ModeSwitch
-from polhode.simulate._lengths import refuse_vanishing
 from polhode.simulate._segment import Segment, TrajectoryPiece, state_at
 from polhode.simulate.contact._carried import gap_symbol, room_symbol, slip_symbols
-from polhode.simulate.contact._contact_kinematics import ContactKinematics
+from polhode.simulate.contact._contact_kinematics import ContactKinematics, State, fall_of
 from polhode.simulate.contact._guard_monitor import GuardMonitor
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
-from polhode.simulate.contact._lift_off import fall_of
 from polhode.simulate.contact._mode_state import ModeState, beyond, directions_of, state_on
-from polhode.simulate.contact._slip_direction import onset
-from polhode.simulate.contact._state import State
+from polhode.simulate.contact._slip_onset import onset
 from polhode.simulate.contact._transition import ModeExit, Transitions
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion
+from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._driver import integrate
-from polhode.simulate.integrate._step_count import StepCount
-from polhode.simulate.integrate._stepping import Array
-from polhode.simulate.integrate._stop_criteria import Stop, StopCriteria
+from polhode.simulate.integrate._stop_criteria import StepCount, Stop, StopCriteria
 
 _LOOK = 400  # steps after which the guards are looked at
 VANISHED = 1e-14  # slip speed, relative to the velocities around, that is none

@@ -15,13 +15,12 @@ from polhode.model import Contact, Phase, Sliding
 from polhode.simulate._absolute_values import Here, Sides, passages_of, sides_at
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate.contact._carried import dynamics_of
-from polhode.simulate.contact._contact_kinematics import Touching
-from polhode.simulate.contact._state import Function, State
+from polhode.simulate.contact._contact_kinematics import Function, State, Touching
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion
+from polhode.simulate.integrate._arrays import Array, rows
 from polhode.simulate.integrate._flow import Flow, flow_of
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
-from polhode.simulate.integrate._rows import rows
-from polhode.simulate.integrate._stepping import Array, Integrator, Stepper
+from polhode.simulate.integrate._stepping import Integrator, Stepper
 
 Constants = Mapping[Symbol, float]
 

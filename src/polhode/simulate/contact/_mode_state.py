@@ -12,11 +12,10 @@ from polhode.algebra import Symbol
 from polhode.model import Phase
 from polhode.simulate._dynamics import WORK
 from polhode.simulate.contact._carried import gap_symbol, room_symbol, slip_symbols
-from polhode.simulate.contact._contact_kinematics import ContactKinematics
+from polhode.simulate.contact._contact_kinematics import ContactKinematics, State
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
-from polhode.simulate.contact._state import State
+from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
-from polhode.simulate.integrate._stepping import Array
 
 
 @dataclass(frozen=True)

@@ -11,11 +11,10 @@ import numpy as np
 
 from polhode.base import NumericError
 from polhode.model import FLIGHT, FRICTIONLESS, ROLLING, SLIDING, Contact, Coulomb, Phase, Rolling
-from polhode.simulate.contact._contact_kinematics import ContactKinematics
+from polhode.simulate.contact._contact_kinematics import ContactKinematics, State
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
 from polhode.simulate.contact._mode_state import ModeState, directions_of, entered
-from polhode.simulate.contact._state import State
-from polhode.simulate.integrate._stepping import Array
+from polhode.simulate.integrate._arrays import Array
 
 STILL = 1e-12  # slip, relative to the velocities it is the difference of, that is none
 _TOLERANCE = 1e-11  # relative, of forces at a limit

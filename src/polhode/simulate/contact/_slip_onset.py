@@ -7,7 +7,7 @@ at Radau's points, which include the end of a step and not its beginning.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache as once
 
@@ -16,9 +16,19 @@ from numpy.polynomial import legendre
 from numpy.typing import NDArray
 from threadpoolctl import ThreadpoolController
 
+from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError
+from polhode.model import Contact
+from polhode.simulate._dynamics import CLOCK, WORK
+from polhode.simulate._segment import TrajectoryPiece
+from polhode.simulate.contact._carried import slip_symbols
+from polhode.simulate.contact._hybrid_system import CompiledMode
+from polhode.simulate.contact._mode_state import ModeState
+from polhode.simulate.contact._select_mode import rates_along
+from polhode.simulate.integrate._arrays import Array, rows
 from polhode.simulate.integrate._crossing import bisected
-from polhode.simulate.integrate._stepping import Array
+from polhode.simulate.integrate._driver import SegmentSolution
+from polhode.simulate.integrate._stop_criteria import Stop
 
 _STAGES = 9
 _RESOLVED = 1e-14  # last coefficients of a step, relative to the largest
@@ -268,3 +278,124 @@ def _system(
     stage = np.arange(count)
     full[:, stage, :, stage] += np.transpose(inner, (2, 0, 1))
     return residual, full.reshape(states * count, states * count)
+
+
+# -- the equations, in the speed and direction of each slip ----------------------------------------
+
+
+@dataclass(frozen=True)
+class PolarShape:
+    """What has to be computed of slips that begin, and what of.
+
+    Attributes:
+        starting: the contacts, by their places in the declaration.
+        symbols: all other states.
+        polars: slip velocities of those contacts, two of each.
+        given: of each of them, cosine and sine of the direction of its slip, and its size.
+        wanted: rates of the other states, then of the slip velocities.
+    """
+
+    starting: tuple[int, ...]
+    symbols: tuple[Symbol, ...]
+    polars: tuple[Symbol, ...]
+    given: tuple[Symbol, ...]
+    wanted: tuple[Expr, ...]
+
+
+def polar_shape(mode: CompiledMode, entry: ModeState, contacts: Sequence[Contact]) -> PolarShape:
+    """The same for a mode in which some contacts begin to slip.
+
+    Args:
+        contacts: of the automaton.
+    """
+    starting = tuple(sorted(entry.onset))
+    touching = [contacts[i] for i in starting]
+    polars = tuple(symbol for contact in touching for symbol in slip_symbols(contact))
+    own = tuple(s for s in mode.dynamics.states if s not in polars and s != WORK)
+    rates = dict(zip(mode.dynamics.states, mode.dynamics.rates, strict=True))
+    slips = [slip for i in starting for slip in mode.slip_changes[2 * i : 2 * i + 2]]
+    turning = [mode.sliding_at(contact) for contact in touching]
+    return PolarShape(
+        starting,
+        (*own, WORK),
+        polars,
+        tuple(s for e in turning for s in (*e.direction, e.slip_speed)),
+        (*(rates[s] for s in own), mode.mode.equations.power, *slips),
+    )
+
+
+# -- the first piece of a motion on which contacts begin to slip -----------------------------------
+
+_BARELY = 1e-150  # m/s, of a slip that has a direction but no speed yet: its square is a number
+_STIFF = 30.0  # ratio of the times of slipping and of turning the slip that explicit steps bear
+
+
+def onset(
+    mode: CompiledMode,
+    entry: ModeState,
+    state: dict[Symbol, float],
+    span: tuple[float, float],
+    contacts: Sequence[Contact],
+) -> TrajectoryPiece:
+    """As far as the slip velocities have to be followed as sizes and directions.
+
+    Args:
+        mode: sliding.
+        entry: with the directions in which slips begin.
+        state: at the beginning.
+        span: from when, and until when at most, s.
+        contacts: of the automaton.
+    """
+    shape = polar_shape(mode, entry, contacts)
+    starting, symbols, polars = shape.starting, shape.symbols, shape.polars
+    arguments = (*symbols, *shape.given, *mode.dynamics.parameters, CLOCK)
+    function = mode.dynamics.function(shape.wanted, arguments)
+    constants = mode.parameters
+    first = len(symbols)
+
+    def polar(states: Array, times: Array) -> Array:
+        sizes, psis = states[first::2], states[first + 1 :: 2]
+        c, s = np.cos(psis), np.sin(psis)
+        directions = np.stack([c, s, sizes], axis=1).reshape(-1, len(times))
+        found = function(*states[:first], *directions, *constants, times)
+        values: Array = rows(found, len(times), states.dtype)
+        along, across = values[first::2].copy(), values[first + 1 :: 2].copy()
+        values[first::2] = along * c + across * s
+        values[first + 1 :: 2] = across * c - along * s
+        return values
+
+    angles = [entry.onset[i] for i in starting]
+    start = np.array([*(state[s] for s in symbols), *(x for psi in angles for x in (0.0, psi))])
+    pulls = [_pulls(mode, entry, i) for i in starting]
+    grips = np.array([grip for grip, _ in pulls])
+
+    def enough(elapsed: float, reached: Array) -> bool:
+        return bool(np.all(grips * elapsed < _STIFF * reached[first::2]))
+
+    pull = max(pull for _, pull in pulls)
+    found = slip_onset(polar, start, *span, pull, enough, len(starting))
+    all_symbols = (*symbols, *polars)
+
+    def at(times: Array) -> Array:
+        values = found.at(times)
+        sizes, psis = np.maximum(values[first::2], _BARELY), values[first + 1 :: 2].copy()
+        values[first::2], values[first + 1 :: 2] = sizes * np.cos(psis), sizes * np.sin(psis)
+        return values
+
+    def rest_at(time: float) -> Array:
+        values = dict(zip(all_symbols, at(np.array([time]))[:, 0].tolist(), strict=True))
+        return mode.flow.rest(values, constants, time)
+
+    stop, vanished = Stop.PAUSE, None
+    if found.vanished is not None:
+        stop, vanished = Stop.VANISHED, sorted(entry.slips).index(starting[found.vanished])
+    times = np.append(found.times[:-1], found.end)
+    solution = SegmentSolution(all_symbols, {}, times, stop, vanished, at, _rest_at=rest_at)
+    return TrajectoryPiece(entry.place.time, found.end, solution, constants)
+
+
+def _pulls(mode: CompiledMode, entry: ModeState, i: int) -> tuple[float, float]:
+    """How strongly friction pulls at a slip velocity, and that or what else does so, m/s²."""
+    along, against = rates_along(mode, entry, i, i, np.array([0.0, np.pi])).T
+    grip, rest = (float(np.hypot(*change)) / 2 for change in (along - against, along + against))
+    return grip, max(grip, rest)

@@ -10,7 +10,7 @@ import numpy as np
 from polhode.base import NumericError
 from polhode.derive import Guard
 from polhode.model import Contact, Coulomb, Rolling
-from polhode.simulate.contact._contact_kinematics import ContactKinematics
+from polhode.simulate.contact._contact_kinematics import STILL, ContactKinematics, State, fall_of
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._impact import (
     Impact,
@@ -19,12 +19,10 @@ from polhode.simulate.contact._impact import (
     rough_impact,
     smooth_impact,
 )
-from polhode.simulate.contact._lift_off import STILL, fall_of
 from polhode.simulate.contact._mode_state import ModeState, beyond
 from polhode.simulate.contact._select_mode import ContactStatus, select_mode
-from polhode.simulate.contact._state import State
+from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._number_types import NumberType
-from polhode.simulate.integrate._stepping import Array
 
 _REBOUND = 1e-13  # of the hardest landing: a rebound that is none
 _INSTANT = 32  # steps of rounding of the time: a hop that is over sooner is none

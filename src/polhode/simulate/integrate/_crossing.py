@@ -13,8 +13,8 @@ from itertools import count, pairwise
 import numpy as np
 from numpy.polynomial import legendre
 
+from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._quadrature import resolved
-from polhode.simulate.integrate._stepping import Array
 
 #: Of the largest value a guard has: a dip below zero that is no deeper is rounding.
 NOISE = 1e-13

@@ -12,14 +12,60 @@ from numpy.typing import NDArray
 
 from polhode.algebra import Symbol
 from polhode.base import NumericError, Progress
-from polhode.simulate.integrate._ascending import ascending, occurring
+from polhode.simulate.integrate._arrays import Array, ascending, occurring
 from polhode.simulate.integrate._crossing import bisected
 from polhode.simulate.integrate._flow import Flow, Stage
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._quadrature import integral
-from polhode.simulate.integrate._steady import Constant, is_steady
-from polhode.simulate.integrate._stepping import Array, Leg, Stepper, broken, looks_along
+from polhode.simulate.integrate._stepping import Leg, Stepper, broken, looks_along
 from polhode.simulate.integrate._stop_criteria import StepWatch, Stop, StopCriteria
+
+# -- motions that begin in equilibrium, to the last digit of where they begin ------------------
+
+_APART = 1e-6  # of a state, or of one: how far off slopes are measured
+
+
+@dataclass(frozen=True)
+class Constant:
+    """A solution that does not change.
+
+    Attributes:
+        times: where it begins and ends, s.
+        state: all along.
+    """
+
+    times: Array
+    state: Array
+    broken: bool = False
+
+    def at(self, times: Array) -> Array:
+        """States, shape (states, times)."""
+        return np.repeat(self.state[:, None], len(times), axis=1)
+
+
+def is_steady(flow: Flow, parameters: Array, state: Array) -> bool:
+    """Whether rates of the core are zero but for the rounding of where it is.
+
+    An angle of 90° has no double: the rates of a disk that stands upright are what the last digit
+    of that angle makes of them, and in an unstable equilibrium they would grow without limit.
+    Rates that are zero need no such care.
+    """
+    core = flow.core
+    size = len(state)
+    if flow.degree > 0:
+        return False
+    apart = _APART * np.maximum(np.abs(state), 1.0)
+    columns = np.repeat(state[:, None], size + 1, axis=1)
+    columns[:, 1:] += np.diag(apart)
+    others = [0.0] * (len(core.program.arguments) - size - len(parameters) - 1)
+    with np.errstate(all="ignore"):
+        found = core.rates(*columns, *others, *parameters, 0.0)
+    rates = np.array([np.broadcast_to(np.asarray(rate, dtype=float), size + 1) for rate in found])
+    slopes = np.abs(rates[:, 1:] - rates[:, :1]) / apart
+    rounding = slopes @ np.where(state == 0, 0.0, np.spacing(np.abs(state)))
+    now = np.abs(rates[:, 0])
+    return bool(np.any(now > 0) and np.all(now <= rounding))
+
 
 _FEW = 10_000  # times for which states are remembered
 _ROUNDING = 8 * float(np.finfo(float).eps)

@@ -2,26 +2,140 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 import flint
+import numpy as np
 
-from polhode.simulate.integrate._balls import (
-    arithmetic,
-    at,
-    ball,
-    by_step,
-    cap,
-    clocked,
-    limbs_in,
-    order_of,
-    series_of,
-    step_of,
-    term,
-    working,
-)
+from polhode.algebra import Arithmetic, Op, Program, Symbol, SymbolKind
+from polhode.simulate.integrate._number_types import NumberType, fraction_of
 from polhode.simulate.integrate._series import InitialValueProblem, SeriesCallback, TaylorSolution
 from polhode.simulate.integrate._stepping import broken
+
+# -- power series of python-flint's balls ------------------------------------------------------
+#
+# Order and step are chosen as in Jorba and Zou, Experimental Mathematics 14 (2005).
+
+_SPARE = 32  # bits carried beyond those asked for
+
+
+def order_of(numbers: NumberType) -> int:
+    """Of the series that reach farthest for what they cost."""
+    return math.ceil(numbers.bits * math.log(2) / 2) + 1
+
+
+def series_of(numbers: NumberType, times: list[Any], steps: list[Any]) -> TaylorSolution:
+    """What was found, as sums of doubles: of every step, state and power the limbs."""
+    limbs = np.array(steps).transpose(3, 0, 2, 1)  # from (steps, states, order + 1, limbs)
+    joined = np.array([limbs_in([time], numbers)[0] for time in times]).T
+    return TaylorSolution(numbers, numbers.joined(list(joined)), limbs)
+
+
+def clocked(symbols: Sequence[Symbol], constants: Sequence[Any], now: Any) -> list[Any]:
+    """Parameters and the time, as series."""
+    values = iter(constants)
+    clock = flint.arb_series([now, 1])
+    return [
+        flint.arb_series([next(values)]) if symbol.kind is SymbolKind.PARAMETER else clock
+        for symbol in symbols
+    ]
+
+
+def term(series: Any, place: int) -> Any:
+    """One coefficient of a series."""
+    return series[place] if isinstance(series, flint.arb_series) else flint.arb(0)
+
+
+def step_of(rows: list[list[Any]], order: int) -> Any:
+    """Length of a step after which the series are still exact; None where they are not finite."""
+    if not all(value.is_finite() for row in rows for value in row):
+        return None
+    size = max([flint.arb(1), *(abs(row[0]) for row in rows)])
+    radii = []
+    for k in (order - 1, order):
+        last = max(abs(row[k]) for row in rows)
+        radii.append((size / last).root(k) if last > 0 else flint.arb(2) ** 40)
+    factor = math.exp(-2 - 0.7 / (order - 1))
+    return (min(radii) * factor).mid()
+
+
+def at(row: list[Any], step: Any) -> Any:
+    """Where a series leads."""
+    total = row[-1]
+    for coefficient in row[-2::-1]:
+        total = coefficient + total * step
+    return total.mid()
+
+
+def by_step(row: list[Any], step: Any) -> list[Any]:
+    """Coefficients of the powers of the share of a step."""
+    return [value * step**k for k, value in enumerate(row)]
+
+
+def limbs_in(row: list[Any], numbers: NumberType) -> list[list[float]]:
+    """Coefficients as sums of doubles."""
+    found = []
+    for value in row:
+        parts = []
+        for _ in range(numbers.limbs):
+            parts.append(float(value))
+            value = value - parts[-1]
+        found.append(parts)
+    return found
+
+
+def ball(value: Any) -> Any:
+    """A number of any sort, rounded once."""
+    exact: Fraction = fraction_of(value)
+    return flint.arb(flint.fmpq(exact.numerator, exact.denominator)).mid()
+
+
+def arithmetic() -> Arithmetic:
+    """How such series are computed with."""
+
+    def constant(value: Fraction) -> Any:
+        return flint.arb_series([flint.arb(flint.fmpq(value.numerator, value.denominator))])
+
+    return Arithmetic(
+        constant,
+        flint.arb_series([flint.arb.pi()]),
+        {
+            Op.SQRT: lambda x: x.sqrt(),
+            Op.SIN: lambda x: x.sin(),
+            Op.COS: lambda x: x.cos(),
+            Op.EXP: lambda x: x.exp(),
+            Op.SINH: lambda x: (x.exp() - (-x).exp()) / 2,
+            Op.COSH: lambda x: (x.exp() + (-x).exp()) / 2,
+        },
+    )
+
+
+@contextmanager
+def working(numbers: NumberType, order: int) -> Iterator[None]:
+    """Within it, balls have bits to spare, and series end after a power."""
+    before = flint.ctx.prec
+    flint.ctx.prec = numbers.bits + _SPARE
+    try:
+        with cap(order + 1):
+            yield
+    finally:
+        flint.ctx.prec = before
+
+
+@contextmanager
+def cap(terms: int) -> Iterator[None]:
+    """Within it, series end after so many terms."""
+    before = flint.ctx.cap
+    flint.ctx.cap = terms
+    try:
+        yield
+    finally:
+        flint.ctx.cap = before
 
 
 class PowerSeries:
@@ -71,3 +185,147 @@ def _lengthened(rates: Any, given: list[Any], state: list[Any], order: int) -> l
         for row, rate in zip(rows, found, strict=True):
             row.append((term(rate, known - 1) / known).mid())
     return rows
+
+
+# -- slips from the instant at which they begin, as power series of the time since then --------
+#
+# With the slip velocity s = ρ (cos ψ, sin ψ) the equations ρ' = ṡ·ŝ and ρ ψ' = ṡ·ŝ' are singular at
+# ρ = 0. With ρ = ρ₁ τ + ρ₂ τ² + … and G = ṡ·ŝ', which vanishes at first, the coefficients of ψ
+# follow one after the other from (n ρ₁ − ∂G/∂ψ) ψₙ = Gₙ − Σ ρₖ (n + 1 − k) ψₙ₊₁₋ₖ (k ≥ 2, Gₙ
+# without ψₙ). Where slip begins gently, ρ₁ = 0, the point is irregular and the series asymptotic:
+# it is used only as far as its terms fall to the rounding of the numbers.
+
+_GROWING = 64  # places within a step at which the slips are looked at
+_HALVES = 200
+_BARELY = 500  # bits
+
+
+@dataclass(frozen=True)
+class SlipSeries:
+    """Slips that begin.
+
+    Attributes:
+        program: rates of the other states and of the slip velocities, of the other states, of
+            cosine, sine and size of every slip, of parameters and time.
+        others: which parameters, and the time.
+        numbers: what it is to be computed in.
+        constants: of the parameters.
+        start: of the other states.
+        angles: of the slips to come.
+        begin: s.
+        end: s, at the latest.
+    """
+
+    program: Program
+    others: Sequence[Symbol]
+    numbers: NumberType
+    constants: Sequence[Any]
+    start: Sequence[Any]
+    angles: Sequence[Any]
+    begin: Any
+    end: Any
+
+    def series(self) -> TaylorSolution | None:
+        """The other states and the slip velocities over one step; None where no slip grows."""
+        order = order_of(self.numbers)
+        with working(self.numbers, order):
+            return _Lengthening(self, order).series()
+
+
+class _Lengthening:
+    """The coefficients of all states, which are found one after the other."""
+
+    def __init__(self, beginning: SlipSeries, order: int) -> None:
+        self._numbers = beginning.numbers
+        self._order = order
+        self._begin, self._end = ball(beginning.begin), ball(beginning.end)
+        self._rates = beginning.program.function(arithmetic())
+        constants = [ball(value) for value in beginning.constants]
+        self._given = clocked(beginning.others, constants, self._begin)
+        self._states = [[ball(value)] for value in beginning.start]
+        self._angles = [[ball(value)] for value in beginning.angles]
+        self._sizes = [[flint.arb(0)] for _ in beginning.angles]
+
+    def series(self) -> TaylorSolution | None:
+        felt = self._felt()
+        for known in range(self._order):
+            self._lengthen(known)
+            self._turn(known + 1, felt)
+        rows = [*self._states, *self._sizes, *self._angles]
+        step = step_of(rows, self._order)
+        step = None if step is None else self._growing(min(step, self._end - self._begin))
+        if step is None:
+            return None
+        every = [*self._states, *self._slips()]
+        steps = [[limbs_in(by_step(row, step), self._numbers) for row in every]]
+        return series_of(self._numbers, [self._begin, (self._begin + step).mid()], steps)
+
+    def _felt(self) -> list[Any]:
+        """How the turning of each slip changes with its direction."""
+        turned = [[*row, flint.arb(1)] for row in self._angles]
+        with cap(2):
+            (_, _, now), (_, _, then) = self._found(self._angles), self._found(turned)
+            return [term(y, 1) - term(x, 1) for x, y in zip(now, then, strict=True)]
+
+    def _turn(self, known: int, felt: Sequence[Any]) -> None:
+        """The next coefficient of every direction."""
+        with cap(known + 1):
+            _, _, across = self._found(self._angles)
+        for sizes, angles, turning, own in zip(
+            self._sizes, self._angles, across, felt, strict=True
+        ):
+            behind = sum(
+                (sizes[k] * ((known + 1 - k) * angles[known + 1 - k]) for k in range(2, known + 1)),
+                flint.arb(0),
+            )
+            angles.append(((term(turning, known) - behind) / (known * sizes[1] - own)).mid())
+
+    def _lengthen(self, known: int) -> None:
+        """The next coefficient of everything else."""
+        with cap(known + 1):
+            rates, along, _ = self._found(self._angles)
+        for row, rate in zip([*self._states, *self._sizes], [*rates, *along], strict=True):
+            row.append((term(rate, known) / (known + 1)).mid())
+
+    def _found(self, angles: Sequence[list[Any]]) -> tuple[list[Any], list[Any], list[Any]]:
+        """Rates of the other states, and of every slip along and across itself."""
+        units = [_unit(row) for row in angles]
+        sizes = [flint.arb_series(row) for row in self._sizes]
+        directions = [x for unit, size in zip(units, sizes, strict=True) for x in (*unit, size)]
+        states = [flint.arb_series(row) for row in self._states]
+        found = self._rates(*states, *directions, *self._given)
+        slips = found[len(states) :]
+        pairs = list(zip(slips[::2], slips[1::2], units, strict=True))
+        along = [x * cos + y * sin for x, y, (cos, sin) in pairs]
+        across = [y * cos - x * sin for x, y, (cos, sin) in pairs]
+        return list(found[: len(states)]), along, across
+
+    def _growing(self, step: Any) -> Any:
+        """A step within which every slip grows from nothing without vanishing again, if any."""
+        shares = np.arange(1, _GROWING + 1) / _GROWING
+        for _ in range(_HALVES):
+            rows = [[float(value) for value in by_step(row, step)[1:]] for row in self._sizes]
+            scale = [max(map(abs, row)) for row in rows]
+            means = [np.polynomial.polynomial.polyval(shares, row) for row in rows]
+            if all(np.min(mean) > 0 and s > 0 for mean, s in zip(means, scale, strict=True)):
+                return step
+            step = step / 2
+        return None
+
+    def _slips(self) -> list[list[Any]]:
+        """Slip velocities along the two tangents of each support.
+
+        They begin with a direction, and with less of a speed than their digits tell from none.
+        """
+        found, barely = [], flint.arb(2) ** -max(_BARELY, 2 * self._numbers.bits)
+        for sizes, angles in zip(self._sizes, self._angles, strict=True):
+            size = flint.arb_series([barely, *sizes[1:]])
+            for part in _unit(angles):
+                series = size * part
+                found.append([term(series, k).mid() for k in range(self._order + 1)])
+        return found
+
+
+def _unit(angles: Sequence[Any]) -> tuple[Any, Any]:
+    angle = flint.arb_series(list(angles))
+    return angle.cos(), angle.sin()

@@ -10,18 +10,99 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import lcm, pi
+from math import inf, lcm, pi
 
 import numpy as np
-from numpy.typing import NDArray
 
-from polhode.algebra import Compiled, Expr, Op, Program, Symbol, SymbolKind, arrays
+from polhode.algebra import ZERO, Compiled, Expr, Op, Program, Symbol, SymbolKind, arrays
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
-from polhode.simulate.integrate._foresight import degree_in
-from polhode.simulate.integrate._primitives import primitive
-from polhode.simulate.integrate._rows import rows
+from polhode.simulate.integrate._arrays import Array, rows
 
-Array = NDArray[np.float64]
+# -- how the time itself occurs: steps foresee a polynomial of it, but not a pulse -------------
+
+
+def degree_in(program: Program, argument: Symbol) -> float:
+    """The highest degree to which any step of a program is a polynomial of an argument.
+
+    Zero where the argument does not occur; infinite where a step is no polynomial of it.
+    """
+    place = program.arguments.index(argument)
+    degrees = list[float]()
+    for step in program.instructions:
+        own = [degrees[operand] for operand in step.operands]
+        degrees.append(1.0 if (step.op, step.value) == (Op.ARG, place) else _degree(step.op, own))
+    return max(degrees, default=0.0)
+
+
+def _degree(op: Op, own: list[float]) -> float:
+    match op:
+        case Op.MUL:
+            return sum(own)
+        case Op.DIV:
+            return inf if own[1] else own[0]
+        case Op.ADD | Op.SUB | Op.NEG:
+            return max(own)
+        case _:
+            return inf if any(own) else 0.0
+
+
+# -- the part of a coordinate or a speed that is a function of time alone -----------------------
+#
+# A body that keeps to a shaken support goes where the support goes: if its velocity were summed up
+# over many periods, rounding would carry it away from there.
+
+
+@dataclass(frozen=True)
+class Primitive:
+    """A rate, taken apart.
+
+    Attributes:
+        known: an expression of prescribed functions of time, whose derivative is part of the rate.
+        rest: of the rate.
+    """
+
+    known: Expr
+    rest: Expr
+
+
+def primitive(dynamics: Dynamics, state: Symbol, rate: Expr) -> Primitive:
+    """The part of a state's rate that is a constant times the rates of prescribed functions."""
+    full = _written_out(dynamics, state)
+    if full is None:
+        return Primitive(ZERO, rate)
+    driving = [s for s in full.generators if isinstance(s, Symbol) and _is_rate(s)]
+    known = ZERO
+    for symbol in driving:
+        coefficient = full.diff(symbol)
+        if _is_constant(coefficient):
+            known = known + coefficient * Expr.generator(_integrated(symbol))
+            full = full - coefficient * Expr.generator(symbol)
+    return Primitive(known, full) if known else Primitive(ZERO, rate)
+
+
+def _written_out(dynamics: Dynamics, state: Symbol) -> Expr | None:
+    """The rate of a coordinate, or of a speed that has a row of the equations to itself."""
+    equations, own = dynamics.equations, state.derivative()
+    if own in equations.kinematics:
+        return dynamics.on_side(equations.kinematics[own].subs(equations.dependent))
+    if own not in dynamics.accelerations.unknowns:
+        return None
+    row = dynamics.accelerations.unknowns.index(own)
+    masses = dynamics.accelerations.matrix.rows[row]
+    alone = not any(mass for k, mass in enumerate(masses) if k != row)
+    return dynamics.accelerations.right[row] / masses[row] if alone else None
+
+
+def _is_rate(symbol: Symbol) -> bool:
+    return symbol.kind is SymbolKind.FUNCTION and symbol.order > 0
+
+
+def _integrated(symbol: Symbol) -> Symbol:
+    return Symbol(symbol.name, symbol.kind, symbol.order - 1)
+
+
+def _is_constant(coefficient: Expr) -> bool:
+    return all(s.kind is SymbolKind.PARAMETER for s in coefficient.symbols())
 
 
 @dataclass(frozen=True)

@@ -20,9 +20,16 @@ import numpy as np
 
 from polhode.algebra import Arithmetic, Program, SymbolKind
 from polhode.base import StoreError, cache
+from polhode.simulate.integrate._arrays import Array, evaluated, pieces_at, powers_of
 from polhode.simulate.integrate._flow import Flow
+from polhode.simulate.integrate._number_types import LongDoubles, NumberType, number
+from polhode.simulate.integrate._series import (
+    InitialValueProblem,
+    SeriesCallback,
+    TaylorSolution,
+    limbs_of,
+)
 from polhode.simulate.integrate._stepping import (
-    Array,
     Leg,
     StepCallback,
     Stepper,
@@ -30,7 +37,85 @@ from polhode.simulate.integrate._stepping import (
     longest_step,
     looks_along,
 )
-from polhode.simulate.integrate._taylor import TaylorSteps
+
+# -- a solution as Taylor series, step by step -------------------------------------------------
+
+_MISSED = 2  # steps of rounding by which the sum of the steps may miss their end
+
+
+class TaylorSteps:
+    """Steps as they are made.
+
+    Args:
+        begin: of the first of them, s.
+    """
+
+    def __init__(self, begin: float) -> None:
+        self._times = [(begin, 0.0)]
+        self._lengths = list[float]()
+        self._series = list[Array]()
+
+    @property
+    def count(self) -> int:
+        """How many there are."""
+        return len(self._series)
+
+    def add(self, end: tuple[float, float], length: float, series: Array) -> None:
+        """One more.
+
+        Args:
+            end: the sum of these, s.
+            length: s.
+            series: Taylor coefficients about its beginning, shape (states, order + 1).
+        """
+        self._times.append(end)
+        self._lengths.append(length)
+        self._series.append(series.copy())
+
+    def leg(self, goal: float, *, broken: bool) -> TaylorLeg:
+        """All of them together.
+
+        Args:
+            goal: where they were to end, s: there they do where only rounding is in between, for
+                what happens at that instant would be passed over.
+        """
+        times, rests = np.array(self._times).T
+        if abs(times[-1] - goal) <= _MISSED * np.spacing(abs(goal)):
+            times[-1], rests[-1] = goal, 0.0
+        lengths = np.array(self._lengths)
+        shares = np.array(self._series)
+        with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+            powers = powers_of(lengths, shares.shape[2] - 1).T
+            np.multiply(
+                shares[:, :, 1:], powers[:, None], out=shares[:, :, 1:], where=shares[:, :, 1:] != 0
+            )
+        return TaylorLeg(times, rests, lengths, shares, broken)
+
+
+@dataclass(frozen=True)
+class TaylorLeg:
+    """Taylor series one after the other.
+
+    Attributes:
+        times: where the steps begin, and where the last one ends, s, shape (steps + 1,).
+        rests: what these leave over of the same in twice as many digits, s.
+        lengths: of the steps, s.
+        shares: coefficients of the powers of the share of a step, shape (steps, states, order + 1).
+        broken: whether it cannot be continued.
+    """
+
+    times: Array
+    rests: Array
+    lengths: Array
+    shares: Array
+    broken: bool
+
+    def at(self, times: Array) -> Array:
+        """States, shape (states, times)."""
+        which = pieces_at(self.times, times)
+        passed = (times - self.times[which]) - self.rests[which]
+        return evaluated(self.shares, which, passed / self.lengths[which])
+
 
 _LONG = 3000  # operations
 
@@ -162,3 +247,85 @@ def _without_sympy() -> Iterator[None]:
         yield
     finally:
         del sys.modules["sympy"]
+
+
+# -- in long doubles, quadruple and any precision -----------------------------------------------
+
+_SPARE_DIGITS = 8
+_QUADRUPLE_BITS = 113
+
+
+class TaylorSeries:
+    """Adaptive Taylor series, kept as they are."""
+
+    name = "heyoka"
+
+    def integrate(self, launch: InitialValueProblem, watch: SeriesCallback) -> TaylorSolution:
+        """The motion up to its end, until `watch` says no, or as far as it goes."""
+        numbers = launch.numbers
+        taylor = copy(_compiled_in(launch.program, len(launch.start), numbers))
+        read = _HeyokaNumbers(numbers)
+        taylor.time = read(launch.begin)
+        taylor.state[:] = [read(value) for value in launch.start]
+        taylor.pars[:] = [read(value) for value in launch.constants[: len(taylor.pars)]]
+        _, *_, output, _ = taylor.propagate_until(
+            read(launch.end),
+            c_output=True,
+            callback=lambda t: watch(float(t.time), float(t.last_h), t.state),
+        )
+        if output is None:
+            raise broken(float(taylor.time))
+        times = numbers.joined(list(limbs_of(np.asarray(output.times), numbers.limbs)))
+        limbs = limbs_of(_by_step(output), numbers.limbs).transpose(0, 1, 3, 2)
+        return TaylorSolution(numbers, times, limbs)
+
+
+def _by_step(output: Any) -> Any:
+    """Coefficients of the powers of the share of each step, which neither grow nor vanish.
+
+    Shape (steps, states, order + 1).
+    """
+    times, coefficients = np.asarray(output.times), np.array(output.tcs)
+    steps = (times[1:] - times[:-1])[:, None]
+    power = steps
+    for k in range(1, coefficients.shape[2]):
+        coefficients[:, :, k] = coefficients[:, :, k] * power
+        power = power * steps
+    return coefficients
+
+
+@lru_cache(maxsize=32)
+def _compiled_in(program: Program, size: int, numbers: NumberType) -> Any:
+    """An integrator that is only ever copied."""
+    read = _HeyokaNumbers(numbers)
+    return library().taylor_adaptive(
+        rates_of(program, size, read),
+        [read(0)] * size,
+        opt_level=0,
+        compact_mode=True,  # at such orders the code would be endless, written out
+        **read.kind,
+    )
+
+
+class _HeyokaNumbers:
+    """Makes numbers of one precision as heyoka knows them."""
+
+    def __init__(self, numbers: NumberType) -> None:
+        self._numbers = numbers
+        self._make, self.kind = _kind_of(numbers)
+
+    def __call__(self, value: Fraction | Any) -> Any:
+        exact = self._numbers.exact
+        digits = int(exact.dps) + _SPARE_DIGITS
+        return self._make(exact.nstr(number(exact, value), digits, strip_zeros=False))
+
+
+def _kind_of(numbers: NumberType) -> tuple[Callable[[str], Any], dict[str, Any]]:
+    """What makes such a number from text, and how heyoka is told of them."""
+    heyoka = library()
+    if isinstance(numbers, LongDoubles):
+        return np.longdouble, {"fp_type": np.longdouble}
+    if numbers.bits == _QUADRUPLE_BITS and hasattr(heyoka, "real128"):
+        return heyoka.real128, {"fp_type": heyoka.real128}
+    settings = {"fp_type": heyoka.real, "prec": numbers.bits}
+    return (lambda text: heyoka.real(text, numbers.bits)), settings

@@ -7,11 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 
-from polhode.simulate.integrate._polynomials import evaluated, pieces_at
-
-Array = NDArray[np.float64]
+from polhode.simulate.integrate._arrays import Array, evaluated, pieces_at
 
 _NODES, _WEIGHTS = legendre.leggauss(16)
 _ORDERS = np.arange(len(_NODES))

@@ -9,9 +9,9 @@ import numpy as np
 from scipy.integrate import DOP853, OdeSolution
 
 from polhode.algebra import Compiled
+from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._flow import Flow
 from polhode.simulate.integrate._stepping import (
-    Array,
     Leg,
     StepCallback,
     Stepper,

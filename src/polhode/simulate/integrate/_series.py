@@ -10,9 +10,8 @@ from typing import Any, Protocol
 import numpy as np
 
 from polhode.algebra import Program
-from polhode.simulate.integrate._ascending import occurring
+from polhode.simulate.integrate._arrays import occurring, pieces_at
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
-from polhode.simulate.integrate._polynomials import pieces_at
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,16 +1,14 @@
-"""What an integrator is to the rest: it steps along a flow, and is looked on."""
+"""What an integrator is, and which one is used."""
 
 from __future__ import annotations
 
+import os
+from importlib.util import find_spec
 from typing import Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
-from polhode.base import NumericError
+from polhode.base import DeclarationError, NumericError
+from polhode.simulate.integrate._arrays import Array as Array
 from polhode.simulate.integrate._flow import Flow
-
-Array = NDArray[np.float64]
 
 #: Steps at least over a stretch that a pulse may drive, so that it is not stepped over.
 LOOKS = 64
@@ -92,3 +90,30 @@ def broken(time: float) -> NumericError:
         expected="finite accelerations",
         advice="it runs into a singular position there: end before, or start elsewhere",
     )
+
+
+# -- the only place where a library is chosen --------------------------------------------------
+
+CHOICE = "POLHODE_INTEGRATOR"
+"""Environment variable that names the integrator to use."""
+
+
+def chosen() -> Integrator:
+    """heyoka's Taylor method where it is installed, else SciPy's DOP853.
+
+    Raises:
+        DeclarationError: where POLHODE_INTEGRATOR asks for one that is not there.
+    """
+    there = ["heyoka", "scipy"] if find_spec("heyoka") else ["scipy"]
+    name = os.environ.get(CHOICE) or there[0]
+    if name not in there:
+        raise DeclarationError(
+            f"{CHOICE} = {name!r}", expected=f"one of {', '.join(there)}", advice="or unset it"
+        )
+    if name == "heyoka":
+        from polhode.simulate.integrate._heyoka import Taylor
+
+        return Taylor()
+    from polhode.simulate.integrate._scipy import DormandPrince
+
+    return DormandPrince()

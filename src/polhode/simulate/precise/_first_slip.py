@@ -10,9 +10,9 @@ from polhode.model import Contact
 from polhode.simulate._dynamics import CLOCK
 from polhode.simulate.contact._hybrid_system import CompiledMode
 from polhode.simulate.contact._mode_state import ModeState
-from polhode.simulate.contact._polar import polar_shape
+from polhode.simulate.contact._slip_onset import polar_shape
+from polhode.simulate.integrate._flint import SlipSeries
 from polhode.simulate.integrate._number_types import NumberType
-from polhode.simulate.integrate._slip_series import SlipSeries
 from polhode.simulate.integrate._stop_criteria import Stop
 from polhode.simulate.precise._precise_piece import PrecisePiece, StateValues
 

@@ -16,18 +16,18 @@ from polhode.simulate._absolute_values import (
     from_zero,
     nearer,
     passages_of,
+    refuse_vanishing,
     sides_at,
     told_change,
 )
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
 from polhode.simulate._event import ModeSwitch
-from polhode.simulate._lengths import refuse_vanishing
 from polhode.simulate._segment import Segment, TrajectoryPiece
 from polhode.simulate._task import AS_DECLARED
 from polhode.simulate.contact._hybrid_integrator import HybridSolution
+from polhode.simulate.integrate._arrays import Array, rows
 from polhode.simulate.integrate._crossing import first_fall
-from polhode.simulate.integrate._rows import rows
-from polhode.simulate.integrate._stepping import Array, broken
+from polhode.simulate.integrate._stepping import broken
 from polhode.simulate.integrate._stop_criteria import Stop, StopCriteria
 from polhode.simulate.precise._given import Given
 from polhode.simulate.precise._landing import PiecePoint, fallen

@@ -12,11 +12,12 @@ from polhode.algebra import Symbol
 from polhode.base import Progress
 from polhode.simulate._dynamics import Dynamics
 from polhode.simulate._segment import TrajectoryPiece
+from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._driver import SegmentSolution
 from polhode.simulate.integrate._flow import Flow, flow_of
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._series import InitialValueProblem, SeriesIntegrator, TaylorSolution
-from polhode.simulate.integrate._stepping import Array, looks_along
+from polhode.simulate.integrate._stepping import looks_along
 from polhode.simulate.integrate._stop_criteria import StepWatch, Stop, StopCriteria
 
 StateValues = Mapping[Symbol, Any]

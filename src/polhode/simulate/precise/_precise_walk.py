@@ -8,9 +8,14 @@ from typing import Any
 
 from polhode.base import Progress
 from polhode.derive import Guard
-from polhode.simulate._absolute_values import SideChange, nearer, sides_at, told_change
+from polhode.simulate._absolute_values import (
+    SideChange,
+    nearer,
+    refuse_vanishing,
+    sides_at,
+    told_change,
+)
 from polhode.simulate._event import ModeSwitch
-from polhode.simulate._lengths import refuse_vanishing
 from polhode.simulate._segment import Segment, TrajectoryPiece
 from polhode.simulate.contact._carried import slip_symbols
 from polhode.simulate.contact._guard_monitor import GuardMonitor

@@ -8,15 +8,14 @@ from typing import Any
 
 from polhode.algebra import Expr
 from polhode.base import DeclarationError, Progress
-from polhode.simulate._event import Event, events_of, placed
+from polhode.simulate._event import Event, events_of, passages, placed
 from polhode.simulate._segment import Segment
 from polhode.simulate._task import Guarded, MotionResult, Task
 from polhode.simulate._trajectory import Trajectory
-from polhode.simulate._watching import passages
+from polhode.simulate.contact._contact_kinematics import State
 from polhode.simulate.contact._hybrid_integrator import HybridSolution
 from polhode.simulate.contact._hybrid_system import HybridSystem
-from polhode.simulate.contact._initial_mode import begun_at
-from polhode.simulate.contact._state import State
+from polhode.simulate.contact._through_modes import begun_at
 from polhode.simulate.forcing._pieces import Pieces
 from polhode.simulate.integrate._number_types import NumberType
 from polhode.simulate.integrate._series import SeriesIntegrator
@@ -87,7 +86,7 @@ def _refuse_samples(forcing: Mapping[Any, Any], numbers: NumberType) -> None:
 
 def _integrator(name: str) -> SeriesIntegrator:
     if name == "heyoka":
-        from polhode.simulate.integrate._heyoka_series import TaylorSeries
+        from polhode.simulate.integrate._heyoka import TaylorSeries
 
         return TaylorSeries()
     from polhode.simulate.integrate._flint import PowerSeries

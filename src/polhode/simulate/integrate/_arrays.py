@@ -1,8 +1,9 @@
-"""Polynomials in powers, one after the other, read at many places at once."""
+"""Arrays: values in rows, times in order, and piecewise polynomials at many places."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +11,29 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 _AT_ONCE = 4096  # places: the coefficients of more would fill the memory
+
+
+def rows(values: Sequence[Any], size: int, dtype: Any = float) -> Any:
+    """Values, each an array of a size or one number for all of it, shape (values, size)."""
+    found = np.empty((len(values), size), dtype)
+    for row, value in zip(found, values, strict=True):
+        row[:] = value
+    return found
+
+
+def ascending(times: Sequence[Array]) -> Array:
+    """All of them, in order and each once; `np.unique` would load all of `numpy.ma` for it."""
+    every: Array = np.sort(np.concatenate(times))
+    first: Array = every[np.append([True], every[1:] != every[:-1])]
+    return first
+
+
+def occurring(which: NDArray[np.signedinteger[Any]]) -> NDArray[np.intp]:
+    """Which of the whole numbers from 0 on occur, in order."""
+    return np.flatnonzero(np.bincount(which))
+
+
+# -- piecewise polynomials ---------------------------------------------------------------------
 
 
 def evaluated(coefficients: Array, which: NDArray[np.intp], places: Array) -> Array:

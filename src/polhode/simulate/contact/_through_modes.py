@@ -1,25 +1,120 @@
-"""Follows a motion through all contact modes, as the forces demand."""
+"""Follows a motion through all its contact modes: checks, the first mode, and the whole run."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from polhode.algebra import Symbol
-from polhode.base import ConstraintError, Progress
+from polhode.base import ConstraintError, DeclarationError, NumericError, Progress
 from polhode.derive import Automaton
-from polhode.model import FLIGHT, FRICTIONLESS, Apart, Coulomb, Phase
+from polhode.model import FLIGHT, FRICTIONLESS, Apart, Contact, Coulomb, Phase
 from polhode.simulate._dynamics import Dynamics
 from polhode.simulate._names import published
 from polhode.simulate._start import read_start
 from polhode.simulate._task import Guarded, InitialState, MotionResult, Task, timed
 from polhode.simulate._values import idle_parameters, read_parameters
-from polhode.simulate.contact._checks import check_numbers
+from polhode.simulate.contact._contact_kinematics import STILL, State
 from polhode.simulate.contact._hybrid_integrator import HybridIntegrator
 from polhode.simulate.contact._hybrid_system import HybridSystem
-from polhode.simulate.contact._initial_mode import begun_at
 from polhode.simulate.contact._mode_state import ModeState
-from polhode.simulate.contact._state import State
+from polhode.simulate.contact._select_mode import ContactStatus, select_mode
 from polhode.simulate.forcing._prescribed_motion import prescribed_motion
+
+_LEAST, _MOST = 1e-9, 1e9  # of friction: beyond, its forces drown in rounding, or drown all else
+
+
+def can_be_followed(modes: Automaton) -> bool:
+    """Whether the forces that tell when contacts change are determined.
+
+    Raises:
+        NumericError: where they are not, and friction makes the motion depend on them.
+    """
+    loose = set(modes.together.equations.undetermined)
+    held = [contact for contact in modes.contacts if loose & set(_components(contact))]
+    rubbing = [contact.name for contact in held if isinstance(contact, Coulomb)]
+    if rubbing:
+        raise NumericError(
+            f"undetermined forces at {', '.join(rubbing)}, on which friction depends",
+            expected="contacts whose normal and friction forces Newton's laws determine",
+            advice="declare the contacts Rolling or Smooth, or take one of them away",
+        )
+    return not held
+
+
+def _components(contact: Contact) -> list[str]:
+    return [contact.component(label) for label in (*contact.on.tangents, contact.on.normal)]
+
+
+def check_numbers(machine: HybridSystem) -> None:
+    """Refuse coefficients that no contact can have.
+
+    Raises:
+        DeclarationError: with the contact and the value.
+    """
+    for contact in machine.automaton.contacts:
+        restitution = machine.value(contact.restitution)
+        if not 0 <= restitution <= 1:
+            raise _impossible("restitution", restitution, contact, "a number from 0 to 1")
+        if isinstance(contact, Coulomb):
+            _check_friction(machine, contact)
+
+
+def _check_friction(machine: HybridSystem, contact: Coulomb) -> None:
+    kinetic, static = (machine.value(mu) for mu in (contact.mu, contact.mu_static))
+    if kinetic < 0:
+        raise _impossible("friction coefficient mu", kinetic, contact, "zero or more")
+    for what, value in (("mu", kinetic), ("mu_static", static)):
+        if value and not _LEAST <= value <= _MOST:
+            expected = f"zero, or a number from {_LEAST:g} to {_MOST:g}"
+            raise _impossible(f"friction coefficient {what}", value, contact, expected)
+    if static < kinetic:
+        raise _impossible(
+            "friction coefficient mu_static", static, contact, f"no less than mu = {kinetic:g}"
+        )
+
+
+def _impossible(what: str, value: float, contact: Contact, expected: str) -> DeclarationError:
+    return DeclarationError(f"{what} = {value:g} of contact {contact.name!r}", expected=expected)
+
+
+# -- the first contact mode ------------------------------------------------------------------------
+
+_ROUNDING = 1e-12  # height above a support, over the size of the place, that is none
+
+
+def begun_at(machine: HybridSystem, place: State, apart: frozenset[int]) -> ModeState:
+    """The first mode of a motion.
+
+    Args:
+        apart: contacts that start at a given height. Where that is none, and does not change, they
+            may touch.
+
+    Raises:
+        ConstraintError: for a body that starts within its support.
+        NumericError: where no mode is possible.
+    """
+    meetings = machine.touching.at(place, machine.touching.beyond(place))
+    rounding = _ROUNDING * max((abs(float(q)) for q in place.coordinates), default=0.0)
+    for i in apart:
+        if meetings[i].gap < -rounding:
+            raise _below(machine.automaton.contacts[i], -meetings[i].gap)
+    met = {i for i in apart if meetings[i].gap <= rounding}
+    resting = {i for i in met if abs(meetings[i].velocity[2]) <= STILL * meetings[i].scale}
+    entry = select_mode(machine, place, ContactStatus(apart - resting))
+    return replace(entry, gaps={i: 0.0 for i in met if entry.phases[i].flies})
+
+
+def _below(contact: Contact, depth: float) -> ConstraintError:
+    height = contact.on.normal + contact.body.tag
+    return ConstraintError(
+        f"{contact.body.name} starts {depth:g} m below its support",
+        expected=f"a height {height} at which it touches or is above",
+        advice=f"leave out {height} to start in contact",
+    )
+
+
+# -- the whole motion ------------------------------------------------------------------------------
 
 
 class ThroughModes:
