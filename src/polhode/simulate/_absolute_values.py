@@ -17,7 +17,7 @@ import numpy as np
 from polhode.algebra import ZERO, Expr, SquareRoot, Symbol, SymbolKind
 from polhode.base import DeclarationError, NumericError
 from polhode.derive import Guard
-from polhode.simulate._dynamics import CLOCK, Dynamics, EquationsOfMotion, sign_symbol
+from polhode.simulate._dynamics import CLOCK, Dynamics, sign_symbol
 from polhode.simulate._segment import TrajectoryPiece, values_of
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._crossing import first_fall
@@ -204,31 +204,27 @@ def _alike(one: Dynamics, other: Dynamics, here: Here, expressions: Sequence[Exp
 
 
 def _refuse_jump(above: Dynamics, below: Dynamics, here: Here, root: SquareRoot) -> None:
-    """Refuse velocities that jump: what would make them jump is an impulse that nobody gave."""
+    """Refuse positions and velocities that jump: that would take an impulse, which is not given."""
     equations = above.equations
     own = [*equations.kinematics.values(), *equations.dependent.values()]
     own += [entry for row in equations.mass.rows for entry in row]
-    own += _places_and_velocities(equations)
-    feeling = [e for e in own if _is_driven(e) or above.on_side(e) != below.on_side(e)]
-    if feeling and not _alike(above, below, here, feeling):
+    motion = getattr(equations, "kinetics", None)
+    if motion is not None:  # positions and velocities of all bodies
+        velocities = (vector for pair in motion.velocities.values() for vector in pair)
+        vectors = (*motion.places.values(), *velocities)
+        own += [component for vector in vectors for component in vector.components]
+
+    def may_jump(expression: Expr) -> bool:
+        driven = any(symbol.kind is SymbolKind.FUNCTION for symbol in expression.symbols())
+        return driven or above.on_side(expression) != below.on_side(expression)
+
+    suspects = [expression for expression in own if may_jump(expression)]
+    if suspects and not _alike(above, below, here, suspects):
         raise NumericError(
             f"a place or velocity that jumps where {_named(root)} is zero, at t = {_told(here)} s",
             expected="positions and prescribed motions without corners",
             advice="round the corner off, or end the motion before that time",
         )
-
-
-def _places_and_velocities(equations: EquationsOfMotion) -> list[Expr]:
-    """Of all bodies, where the equations know of bodies."""
-    motion = getattr(equations, "kinetics", None)
-    if motion is None:
-        return []
-    velocities = (vector for pair in motion.velocities.values() for vector in pair)
-    return [c for vector in (*motion.places.values(), *velocities) for c in vector.components]
-
-
-def _is_driven(expression: Expr) -> bool:
-    return any(symbol.kind is SymbolKind.FUNCTION for symbol in expression.symbols())
 
 
 # -- along a motion --------------------------------------------------------------------------------
@@ -313,7 +309,7 @@ def nearer(steps: Any, end: Any, numbers: NumberType = DOUBLES) -> Any | None:
     return begin + _NEARER * wanted
 
 
-def beyond(
+def sides_after(
     dynamics: Dynamics, here: Here, sides: Sides, passage: SideChange
 ) -> dict[SquareRoot, int]:
     """The sides that follow where one ends; `dynamics` without any.
@@ -326,7 +322,7 @@ def beyond(
     return sides_at(dynamics, here, sides, passage.root)
 
 
-def told_change(passage: SideChange, after: Sides) -> str:
+def name_of_change(passage: SideChange, after: Sides) -> str:
     """What an event at the end of a side is called."""
     if passage.leaves:
         return "leaves zero"
@@ -413,7 +409,14 @@ def refuse_vanishing(dynamics: Dynamics, part: TrajectoryPiece) -> None:
     for k, step in zip(*np.nonzero(least < _SMALL * largest), strict=True):
         when = _lowest(radicands, int(k), times[step], values[k, step])
         if radicands(np.array([when]))[k, 0] < _NOTHING * largest[k, step]:
-            raise _vanishes(roots[k], when)
+            raise NumericError(
+                f"sqrt({roots[k].radicand}) vanishes at t = {when:.9g} s, and has no direction "
+                "there",
+                expected="a length that stays positive: what follows is not determined",
+                advice="start elsewhere, or give the line that the motion keeps to one "
+                "coordinate: an absolute value is followed through zero; declare dry friction as "
+                "ph.Coulomb",
+            )
 
 
 def _lowest(functions: Callable[[Array], Array], k: int, times: Array, values: Array) -> float:
@@ -425,12 +428,3 @@ def _lowest(functions: Callable[[Array], Array], k: int, times: Array, values: A
         first, second = functions(np.array([left + third, right - third]))[k]
         left, right = (left, right - third) if first < second else (left + third, right)
     return float((left + right) / 2)
-
-
-def _vanishes(root: SquareRoot, time: float) -> NumericError:
-    return NumericError(
-        f"sqrt({root.radicand}) vanishes at t = {time:.9g} s, and has no direction there",
-        expected="a length that stays positive: what follows is not determined",
-        advice="start elsewhere, or give the line that the motion keeps to one coordinate: an "
-        "absolute value is followed through zero; declare dry friction as ph.Coulomb",
-    )

@@ -101,19 +101,15 @@ class _Look:
 
 
 def _energy(looks: Sequence[_Look]) -> float:
-    found = [_energies(look) for look in looks]
+    found = []
+    for look in looks:
+        equations = look.segment.dynamics.equations
+        potential_energy = equations.energy.subs(dict.fromkeys(equations.speeds, 0))
+        found.append(look.values([equations.energy, potential_energy, Expr.generator(WORK)]))
     total, potential, work = (np.concatenate(part) for part in zip(*found, strict=True))
     done = work - work[0]
     scale = np.max(np.abs(total - potential) + np.abs(potential) + np.abs(done))
     return _relative(np.max(np.abs(total - total[0] - done)), scale)
-
-
-def _energies(look: _Look) -> tuple[Array, Array, Array]:
-    """Energy, potential energy and work done."""
-    equations = look.segment.dynamics.equations
-    at_rest = equations.energy.subs(dict.fromkeys(equations.speeds, 0))
-    total, potential, work = look.values([equations.energy, at_rest, Expr.generator(WORK)])
-    return total, potential, work
 
 
 def _constancy(invariant: Expr, looks: Sequence[_Look]) -> float:

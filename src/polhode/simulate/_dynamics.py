@@ -86,7 +86,11 @@ class Memory(Generic[Made]):
 
     def recall(self, owner: object, asked: Hashable, make: Callable[[], Made]) -> Made:
         """The result that was made before, or else that of `make`, which is then kept."""
-        results = self._results(owner)
+        place = id(owner)
+        if place not in self._of:
+            self._of[place] = {}
+            weakref.finalize(owner, self._of.pop, place, None)
+        results = self._of[place]
         found = results.get(asked)
         if found is None:
             found = make()
@@ -94,13 +98,6 @@ class Memory(Generic[Made]):
                 results.clear()
             results[asked] = found
         return found
-
-    def _results(self, owner: object) -> dict[Hashable, Made]:
-        place = id(owner)
-        if place not in self._of:
-            self._of[place] = {}
-            weakref.finalize(owner, self._of.pop, place, None)
-        return self._of[place]
 
 
 _programs: Memory[Program] = Memory()

@@ -106,19 +106,17 @@ def events_of(motion: SegmentedMotion) -> tuple[Event, ...]:
 def placed(events: Iterable[Event], segments: Sequence[Segment]) -> tuple[Event, ...]:
     """Events of a motion, each between the segments that meet at it."""
     begins = [segment.begin for segment in segments]
-    return tuple(_placed(event, segments, begins) for event in events)
-
-
-def _placed(event: Event, segments: Sequence[Segment], begins: list[float]) -> Event:
-    first, last = bisect_left(begins, event.time), bisect_right(begins, event.time)
-    near = segments[max(first - 1, 0) : last]
-    left = next((s for s in near if s.mode == event.before), near[0])
-    entered = next((s for s in reversed(near) if s.mode == event.after), near[-1])
-    return replace(
-        event,
-        _left=None if event.before is None else left,
-        _entered=None if event.after is None else entered,
-    )
+    found = []
+    for event in events:
+        first, last = bisect_left(begins, event.time), bisect_right(begins, event.time)
+        near = segments[max(first - 1, 0) : last]
+        left = entered = None
+        if event.before is not None:
+            left = next((s for s in near if s.mode == event.before), near[0])
+        if event.after is not None:
+            entered = next((s for s in reversed(near) if s.mode == event.after), near[-1])
+        found.append(replace(event, _left=left, _entered=entered))
+    return tuple(found)
 
 
 # -- events that were asked for: expressions that pass through zero --------------------------------
@@ -155,7 +153,11 @@ def passages(segments: Sequence[Segment], expression: Expr) -> Iterator[EventCro
     """
     lasting = [k for k, s in enumerate(segments) if s.end - s.begin > _INSTANT * np.spacing(s.end)]
     before = dict(pairwise(lasting))
-    seams = {(i, k) for i, k in before.items() if _goes_on(segments[i], segments[k])}
+    seams = {  # where only the side of an absolute value changes
+        (i, k)
+        for i, k in before.items()
+        if segments[i].mode == segments[k].mode and segments[i].dynamics is not segments[k].dynamics
+    }
     begun, ended = {k for _, k in seams}, {i for i, _ in seams}
     for i, k in seams:
         if _changes(segments[i], segments[k], expression):
@@ -167,11 +169,6 @@ def passages(segments: Sequence[Segment], expression: Expr) -> Iterator[EventCro
             early, late = time <= begin + near, time >= end - near
             if not ((early and k in begun) or (late and k in ended)):
                 yield EventCrossing(time, k, begins=False)
-
-
-def _goes_on(before: Segment, after: Segment) -> bool:
-    """Whether only the side of an absolute value differs."""
-    return before.mode == after.mode and before.dynamics is not after.dynamics
 
 
 def _changes(before: Segment, after: Segment, expression: Expr) -> bool:

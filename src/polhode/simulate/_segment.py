@@ -115,18 +115,14 @@ def values_of(
         with np.errstate(all="ignore"):
             values = function(*part.states(times), *part.constants, times)
     except ArithmeticError as error:
-        raise _undefined(times) from error
+        raise NumericError(
+            f"a quantity without a finite value between {float(times[0]):g} s and "
+            f"{float(times[-1]):g} s",
+            expected="one that is defined at every requested time",
+            advice="ask for it at other times",
+        ) from error
     found: Array = rows(values, len(times), numbers.dtype)
     return found
-
-
-def _undefined(times: Array) -> NumericError:
-    return NumericError(
-        f"a quantity without a finite value between {float(times[0]):g} s and "
-        f"{float(times[-1]):g} s",
-        expected="one that is defined at every instant that is asked for",
-        advice="ask for it at other times",
-    )
 
 
 def state_at(part: TrajectoryPiece, time: float) -> dict[Symbol, float]:

@@ -126,13 +126,15 @@ class Experiment:
         self._events = events or {}
         self._integrator = chosen()
         self._prepared: Prepared | None = None
+        if tolerance is not None and not 0 < tolerance < 1:
+            raise NumericError(f"a tolerance of {tolerance}", expected="one between 0 and 1")
         self._plan = Task(
             given={},
             start={},
             forcing=forcing or {},
             end=self.duration,
             integrator=self._integrator,
-            tolerance=_tolerance(tolerance),
+            tolerance=tolerance,
             near_flat=near_flat,
             seconds={},
             until=frozenset(until),
@@ -234,12 +236,6 @@ def _samples(samples: int | ArrayLike, duration: float) -> Array:
             f"sample times {times!r}", expected=f"a list of times from 0 to {duration:g} s"
         )
     return times
-
-
-def _tolerance(tolerance: float | None) -> float | None:
-    if tolerance is not None and not 0 < tolerance < 1:
-        raise NumericError(f"a tolerance of {tolerance}", expected="one between 0 and 1")
-    return tolerance
 
 
 @contextmanager

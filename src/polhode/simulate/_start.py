@@ -169,16 +169,12 @@ def read_start(dynamics: Dynamics, given: Mapping[Name, Any], parameters: Number
     state = [configuration[q] for q in equations.coordinates]
     state += [speeds.get(u, 0.0) for u in equations.speeds]
     start = Start(np.array(state), assumed)
-    _check(_settled(dynamics, start, parameters), start, parameters)
+    if dynamics.undecided:
+        known = dict(zip(dynamics.states, start.state, strict=True))
+        here = Here(known, list(parameters.values()), 0.0)
+        dynamics = dynamics.on(sides_at(dynamics, here))
+    _check(dynamics, start, parameters)
     return start
-
-
-def _settled(dynamics: Dynamics, start: Start, parameters: Numbers) -> Dynamics:
-    """The equations on the sides of absolute values that the motion starts on."""
-    if not dynamics.undecided:
-        return dynamics
-    state = dict(zip(dynamics.states, start.state, strict=True))
-    return dynamics.on(sides_at(dynamics, Here(state, list(parameters.values()), 0.0)))
 
 
 class _Relations:
@@ -206,7 +202,14 @@ class _Relations:
         self._constant = at(np.zeros(len(self._unknowns)))
         columns = [at(unit) - self._constant for unit in np.eye(len(self._unknowns))]
         self._matrix = np.reshape(columns, (len(self._unknowns), len(self._given))).T
-        self._check_finite()
+        finite = np.isfinite(self._constant) & np.isfinite(self._matrix).all(axis=1)
+        for symbol, good in zip(self._given, finite, strict=True):
+            if not good:
+                raise NumericError(
+                    f"{symbol.published} is not defined at the start",
+                    expected="coordinates where the kinematic relations are regular",
+                    advice="start away from the singular position (such as theta = 0)",
+                )
 
     def solution(self) -> dict[Symbol, float]:
         """Independent speeds that the given values fix, with the others at rest."""
@@ -215,7 +218,11 @@ class _Relations:
         right = np.array(list(self._given.values()))[rows] - self._constant[rows]
         found = np.zeros(len(self._unknowns))
         found[pivots] = np.linalg.solve(matrix, right)
-        self._check_agreement(rows, found)
+        implied = self._constant + self._matrix @ found
+        scale = np.abs(self._constant) + np.abs(self._matrix) @ np.abs(found)
+        for i, (symbol, value) in enumerate(self._given.items()):
+            if abs(value - implied[i]) > _AGREE * max(scale[i], abs(value)):
+                raise self._contradiction(symbol, value, float(implied[i]), rows)
         return {self._unknowns[j]: float(found[j]) for j in pivots}
 
     def _independent(self) -> tuple[list[int], list[int]]:
@@ -232,13 +239,6 @@ class _Relations:
             pivots.append(j)
         return rows, pivots
 
-    def _check_agreement(self, rows: list[int], speeds: Array) -> None:
-        implied = self._constant + self._matrix @ speeds
-        scale = np.abs(self._constant) + np.abs(self._matrix) @ np.abs(speeds)
-        for i, (symbol, value) in enumerate(self._given.items()):
-            if abs(value - implied[i]) > _AGREE * max(scale[i], abs(value)):
-                raise self._contradiction(symbol, value, float(implied[i]), rows)
-
     def _contradiction(
         self, symbol: Symbol, value: float, implied: float, rows: list[int]
     ) -> ConstraintError:
@@ -249,16 +249,6 @@ class _Relations:
             expected=f"{implied:.12g}, {cause}",
             advice=f"leave {symbol.published} out, or change the others",
         )
-
-    def _check_finite(self) -> None:
-        finite = np.isfinite(self._constant) & np.isfinite(self._matrix).all(axis=1)
-        for symbol, good in zip(self._given, finite, strict=True):
-            if not good:
-                raise NumericError(
-                    f"{symbol.published} is not defined at the start",
-                    expected="coordinates where the kinematic relations are regular",
-                    advice="start away from the singular position (such as theta = 0)",
-                )
 
 
 def _check(dynamics: Dynamics, start: Start, parameters: Numbers) -> None:
@@ -283,12 +273,8 @@ def _check(dynamics: Dynamics, start: Start, parameters: Numbers) -> None:
             expected="a start away from singular positions",
             advice="give every angle, and none where the axes coincide (such as theta = 0)",
         )
-    _check_mass_matrix(dynamics, point)
-
-
-def _check_mass_matrix(dynamics: Dynamics, point: Sequence[float]) -> None:
-    matrix = dynamics.equations.mass
-    if matrix != matrix.T:
+    matrix = equations.mass
+    if matrix != matrix.T:  # sliding friction makes it so
         return
     entries = _evaluated(dynamics, [e for row in matrix.rows for e in row], point)
     if np.any(np.linalg.eigvalsh(np.reshape(entries, matrix.shape)) <= 0):

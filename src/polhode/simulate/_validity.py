@@ -83,7 +83,8 @@ def doubt_about(run: Trajectory, tolerance: float | None) -> str:
     """
     numbers = run.segments[0].numbers
     rounding = 2.0 ** (1 - numbers.bits)
-    step = max(rounding, tolerance or 0.0, _tightest(run, rounding))
+    tightest = max(rounding, _TIGHTEST.get(run.integrator, 0.0)) if rounding > 1e-17 else rounding
+    step = max(rounding, tolerance or 0.0, tightest)
     steps = sum(len(segment.steps) for segment in run.segments)
     allowed = _LOST * rounding + _PER_STEP * step * steps
     for what, size in imbalance_of(run.segments).items():
@@ -99,10 +100,6 @@ def doubt_about(run: Trajectory, tolerance: float | None) -> str:
             )
         return told
     return ""
-
-
-def _tightest(run: Trajectory, rounding: float) -> float:
-    return max(rounding, _TIGHTEST.get(run.integrator, 0.0)) if rounding > 1e-17 else rounding
 
 
 def refuse_doubt(run: Trajectory) -> None:

@@ -5,7 +5,7 @@ Motions that leave a mode wait until those that are in the same next mode are ta
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -23,11 +23,13 @@ from polhode.simulate.batch._batch_segment import BatchSegment
 from polhode.simulate.batch._forcing_intervals import ForcingIntervals
 from polhode.simulate.batch._mode_batch import BatchExit, Group, ModeBatch, Phases, Starts, Stays
 from polhode.simulate.contact._guard_monitor import GuardMonitor
-from polhode.simulate.contact._hybrid_integrator import HybridIntegrator, HybridSolution, leaving
+from polhode.simulate.contact._hybrid_integrator import HybridIntegrator, HybridSolution
 from polhode.simulate.contact._hybrid_system import HybridSystem
-from polhode.simulate.contact._mode_state import ModeState, state_on
+from polhode.simulate.contact._mode_pieces import double_pieces, leaving
+from polhode.simulate.contact._mode_state import ModeState, beyond, state_on
 from polhode.simulate.contact._slip_onset import onset
 from polhode.simulate.contact._through_modes import check_numbers, first_entry
+from polhode.simulate.contact._transition import Transitions
 
 # -- one motion, from mode to mode -----------------------------------------------------------------
 
@@ -53,7 +55,7 @@ class Entered:
     guard: Guard | None = None
 
 
-class SingleTrajectoryStepper(HybridIntegrator):
+class SingleTrajectoryStepper:
     """Follows single motions over what cannot be done for many at once.
 
     Args:
@@ -63,8 +65,9 @@ class SingleTrajectoryStepper(HybridIntegrator):
     """
 
     def __init__(self, machine: HybridSystem, task: Task, stretches: ForcingIntervals) -> None:
-        super().__init__(machine, task.near_flat, SilentProgress(), task.until)
+        self._machine = machine
         self._task = task
+        self._transitions = Transitions(machine)
         self._stretches = stretches
 
     def first(self, start: Mapping[Name, Any]) -> ModeState:
@@ -106,19 +109,19 @@ class SingleTrajectoryStepper(HybridIntegrator):
         if not entry.onset:
             return Entered(entry, begin, state)
         contacts = self._machine.automaton.contacts
-        lookout = GuardMonitor(self._machine, self._near_flat, mode, entry)
+        lookout = GuardMonitor(self._machine, self._task.near_flat, mode, entry)
         span = (begin, self._machine.drive.until(begin, end))
         part, guard = lookout.cut(onset(mode, entry, state, span, contacts))
         return Entered(entry, part.end, state_at(part, part.end), part, guard)
 
     def speed_scale(self, entry: ModeState) -> float:
         """Size of the velocities that a slip is the difference of, m/s."""
-        return self._speed_scale(entry)
+        return self._machine.touching.scale(entry.place, beyond(entry.phases)) or 1.0
 
     def to_the_end(self, entry: ModeState, end: float) -> HybridSolution:
         """All the rest, step by step."""
-        walk = HybridIntegrator(self._machine, self._near_flat, self._progress, self._until)
-        return walk.along(entry, end)
+        pieces = double_pieces(self._machine, self._task.near_flat, SilentProgress())
+        return HybridIntegrator(self._machine, pieces, self._task.until).integrate(entry, end)
 
 
 _MOST_CHANGES = 1000  # of one motion, before it is left to itself
@@ -153,7 +156,17 @@ class BatchScheduler(ModeBatch):
         """Follow all that wait, until nobody does."""
         while self._waiting:
             phases = max(self._waiting, key=lambda p: len(self._waiting[p]))
-            self.together(phases, _group(self._waiting.pop(phases)))
+            waiting = self._waiting.pop(phases)
+            states = [w.entered.state for w in waiting]
+            group = Group(
+                np.array([w.row for w in waiting]),
+                np.array([w.entered.time for w in waiting]),
+                {s: np.array([state[s] for state in states]) for s in states[0]},
+                np.array([w.scale for w in waiting]),
+                [w.entered.entry for w in waiting],
+                [w.changes for w in waiting],
+            )
+            self.together(phases, group)
 
     def start(self, row: int) -> None:
         def begin() -> None:
@@ -218,15 +231,3 @@ class BatchScheduler(ModeBatch):
         times = self.sightings.times[:-1]
         for look in np.flatnonzero((part.begin <= times) & (times < part.end)):
             self.sightings.note_one(int(look), stay, row, state_at(part, float(times[look])))
-
-
-def _group(waiting: Sequence[_Waiting]) -> Group:
-    states = [w.entered.state for w in waiting]
-    return Group(
-        np.array([w.row for w in waiting]),
-        np.array([w.entered.time for w in waiting]),
-        {s: np.array([state[s] for state in states]) for s in states[0]},
-        np.array([w.scale for w in waiting]),
-        [w.entered.entry for w in waiting],
-        [w.changes for w in waiting],
-    )

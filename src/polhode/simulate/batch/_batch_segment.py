@@ -59,17 +59,15 @@ def _endings(mode: CompiledMode, near_flat: float, until: Collection[str]) -> It
         if guard.kind != "sticks":
             yield Ending(guard.positive, kind, name, guard)
             continue
-        slips = _slips(mode, guard)
+        contacts = (touch.contact for touch in mode.mode.touches)
+        slips = next(
+            slip_symbols(c) for c in contacts if guard.contact and c.name == guard.contact.name
+        )
         if set(slips) <= set(mode.flow.core.symbols):
             first, second = (Expr.generator(s) for s in slips)
             speed = sqrt(first * first + second * second)
             yield Ending(speed, kind, name, guard, slips=slips)
     yield from vanishings_of(mode.dynamics, name)
-
-
-def _slips(mode: CompiledMode, guard: Guard) -> tuple[Symbol, Symbol]:
-    contacts = (touch.contact for touch in mode.mode.touches)
-    return next(slip_symbols(c) for c in contacts if guard.contact and c.name == guard.contact.name)
 
 
 def vanishings_of(dynamics: Dynamics, mode: str) -> Iterator[Ending]:
@@ -224,7 +222,7 @@ class BatchSegment:
         return rates | {WORK: dynamics.equations.power}
 
     def _needed(self, quantities: Collection[Quantity]) -> tuple[Symbol, ...]:
-        """The states that what is asked for depends on, and those that these depend on."""
+        """The states that some quantities and the endings depend on, directly or through rates."""
         rates = self._rates
         asked = [self._expression(quantity) for quantity in quantities]
         wanted = self._read([*asked, *(ending.positive for ending in self.endings)])
@@ -242,6 +240,8 @@ class BatchSegment:
     @cached_property
     def lanes(self) -> Lanes:
         """The compiled equations."""
+        dynamics = self.dynamics
+        motions = (dynamics.prescribed.get(f, ZERO) for f in dynamics.equations.functions)
         return Lanes(
             self.dynamics,
             self.states,
@@ -250,12 +250,6 @@ class BatchSegment:
             self._square,
             self._tolerance,
             self._stretches,
-            driven=self._is_driven,
+            # The time since a knot of a prescribed motion does not count.
+            driven=any(CLOCK in motion.symbols() for motion in motions),
         )
-
-    @property
-    def _is_driven(self) -> bool:
-        """Whether the time itself occurs, and not only that since a knot."""
-        dynamics = self.dynamics
-        motions = (dynamics.prescribed.get(f, ZERO) for f in dynamics.equations.functions)
-        return any(CLOCK in motion.symbols() for motion in motions)

@@ -103,8 +103,9 @@ class BatchStart:
         """Eigenvalues of a symmetric matrix for every motion, rising; shape (motions, size)."""
         size = len(matrix.rows)
         entries = self._values([e for row in matrix.rows for e in row])
-        usual = np.where(fine & np.all(np.isfinite(entries), axis=0), entries, _unit(size)).T
-        return np.asarray(np.linalg.eigvalsh(usual.reshape(-1, size, size)))
+        finite = fine & np.all(np.isfinite(entries), axis=0)
+        matrices = np.where(finite, entries, np.eye(size).reshape(-1, 1)).T
+        return np.asarray(np.linalg.eigvalsh(matrices.reshape(-1, size, size)))
 
     def _values(self, expressions: Sequence[Expr]) -> Array:
         """Shape (expressions, motions)."""
@@ -114,10 +115,6 @@ class BatchStart:
             found = self.dynamics.function(expressions)(*states, *constants, 0.0)
         values: Array = rows(found, self._count)
         return values
-
-
-def _unit(size: int) -> Array:
-    return np.eye(size).reshape(-1, 1)
 
 
 @dataclass(frozen=True)
@@ -263,22 +260,19 @@ class AllModes:
 
     def stay(self, phases: Phases) -> BatchSegment:
         if phases not in self._known:
-            self._known[phases] = self._made(phases)
+            mode, plan = self.machine.mode(phases), self.plan
+            self._known[phases] = BatchSegment(
+                mode.dynamics,
+                mode.mode.name,
+                endings_of(mode, plan.near_flat, plan.until),
+                plan.quantities,
+                readable(self.dynamics, {}),
+                plan.tolerance,
+                self.stretches,
+                whole=self.goes_on,
+                square=mode.mode.equations.mass if mode.can_jam else None,
+            )
         return self._known[phases]
-
-    def _made(self, phases: Phases) -> BatchSegment:
-        mode, plan = self.machine.mode(phases), self.plan
-        return BatchSegment(
-            mode.dynamics,
-            mode.mode.name,
-            endings_of(mode, plan.near_flat, plan.until),
-            plan.quantities,
-            readable(self.dynamics, {}),
-            plan.tolerance,
-            self.stretches,
-            whole=self.goes_on,
-            square=mode.mode.equations.mass if mode.can_jam else None,
-        )
 
     def company(self, sightings: BatchResults, starts: Starts) -> ModeBatch:
         if not self.goes_on:
@@ -372,19 +366,15 @@ class SingleModeBatch:
         first = subject.stay(subject.phases).mode
         sightings = BatchResults.of(count, times, constants, subject.stretches, first)
         company = subject.company(sightings, starts)
-        company.together(subject.phases, _group(np.flatnonzero(usual), states))
+        rows = np.flatnonzero(usual)
+        zero, own = np.zeros(len(rows)), {s: values[rows] for s, values in states.items()}
+        group = Group(rows, zero, own, zero, [None] * len(rows), [0] * len(rows))
+        company.together(subject.phases, group)
         for row in np.flatnonzero(possible & ~usual).tolist():
             company.start(row)
         company.run()
         possible[sorted(company.lost)] = False
         return BatchSolution(possible, company.sightings)
-
-
-def _group(rows: NDArray[np.intp], states: Mapping[Symbol, Array]) -> Group:
-    """Motions at their start."""
-    rest = np.zeros(len(rows))
-    own = {s: values[rows] for s, values in states.items()}
-    return Group(rows, rest, own, rest, [None] * len(rows), [0] * len(rows))
 
 
 def abreast(subject: Automaton | EquationsOfMotion, plan: Plan) -> SingleModeBatch | None:

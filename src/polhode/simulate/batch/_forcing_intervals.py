@@ -87,16 +87,12 @@ def _abrupt(pieces: Pieces) -> Iterator[float]:
     """Knots at which the second derivative changes."""
     knots = pieces.knots
     after = pieces.acceleration(knots)
-    before = np.concatenate([[0.0], _ends(pieces)])
-    largest = max(float(np.max(np.abs(after))), float(np.max(np.abs(before))))
-    yield from knots[np.abs(after - before) > _SMOOTH * largest].tolist()
-
-
-def _ends(pieces: Pieces) -> Array:
-    """Second derivatives at the ends of all pieces."""
     powers = np.arange(2, pieces.coefficients.shape[1])
     factors = powers * (powers - 1) * np.diff(pieces.knots)[:, None] ** (powers - 2)
-    return np.asarray(np.sum(pieces.coefficients[:, 2:] * factors, axis=1))
+    at_ends = np.sum(pieces.coefficients[:, 2:] * factors, axis=1)
+    before = np.concatenate([[0.0], at_ends])
+    largest = max(float(np.max(np.abs(after))), float(np.max(np.abs(before))))
+    yield from knots[np.abs(after - before) > _SMOOTH * largest].tolist()
 
 
 @dataclass(frozen=True)

@@ -197,22 +197,15 @@ class BatchIntegrator:
         while any(row is not None for row in self._rows):
             self._taylor.propagate_until(self._target, max_delta_t=self._longest, max_steps=_BURST)
             self._bursts += 1
-            for lane in np.flatnonzero(self._lost()).tolist():
-                self._give_up(lane, queue)
+            endless = self._bursts > _MOST_STEPS // _BURST
+            lost = endless | ~np.isfinite(self._state).all(axis=0)
+            for lane in np.flatnonzero(lost).tolist():
+                row = self._rows[lane]
+                if row is not None:
+                    self._work.found.good[row] = False  # to be integrated by itself
+                self._take_up(lane, queue)
             for lane in np.flatnonzero(self._time == self._target).tolist():
                 self._arrive(lane, queue)
-
-    def _lost(self) -> NDArray[np.bool_]:
-        """The lanes with motions that cannot be continued."""
-        endless = self._bursts > _MOST_STEPS // _BURST
-        return np.asarray(endless | ~np.isfinite(self._state).all(axis=0))
-
-    def _give_up(self, lane: int, queue: Iterator[int]) -> None:
-        """Leave a motion to whoever follows it by itself."""
-        row = self._rows[lane]
-        if row is not None:
-            self._work.found.good[row] = False
-        self._take_up(lane, queue)
 
     def _arrive(self, lane: int, queue: Iterator[int]) -> None:
         """A motion has come to a time, and may be over."""
@@ -223,16 +216,12 @@ class BatchIntegrator:
             self._finish(lane, row)
             self._take_up(lane, queue)
         else:
-            self._note(lane, row, place)
+            look = self._work.plan.looks[place]
+            if look >= 0:
+                self._work.found.states[look, :, row] = self._state[:, lane]
             self._head_for(lane, place + 1)
             if self._work.plan.abrupt[place]:
                 self._look_again(lane, row, queue)
-
-    def _note(self, lane: int, row: int, place: int) -> None:
-        """Keep where a motion is, if that was asked for."""
-        look = self._work.plan.looks[place]
-        if look >= 0:
-            self._work.found.states[look, :, row] = self._state[:, lane]
 
     def _look_again(self, lane: int, row: int, queue: Iterator[int]) -> None:
         """Where forces jump, a guard may fall unseen by the integrator."""
@@ -255,7 +244,7 @@ class BatchIntegrator:
         return bool(places.guards and self._constants[places.going, lane] == 0.0)
 
     def _finish(self, lane: int, row: int) -> None:
-        """Keep where a motion ends."""
+        """Record where a motion ends."""
         found, places = self._work.found, self._work.places
         found.states[-1, :, row] = self._state[:, lane]
         if self._is_stopped(lane):
@@ -356,14 +345,10 @@ class Lanes:
         """How far the guards are above their least values, shape (guards, motions)."""
         found = self.values(self._sides, launch)
         if self._square is not None:
-            found = np.vstack([found, determinant(self._matrix(launch))])
+            entries = self.values([e for row in self._square.rows for e in row], launch)
+            matrix = entries.reshape(*self._square.shape, -1)
+            found = np.vstack([found, determinant([list(row) for row in matrix])])
         return np.asarray(found - launch.least)
-
-    def _matrix(self, launch: BatchStage) -> list[list[Any]]:
-        size = len(self._square.rows) if self._square else 0
-        entries = [e for row in self._square.rows for e in row] if self._square else []
-        found = self.values(entries, launch)
-        return [list(found[i * size : (i + 1) * size]) for i in range(size)]
 
     def follow(self, launch: BatchStage, times: Array) -> BatchArrivals:
         """Integrate to every one of some times.

@@ -114,7 +114,11 @@ class ModeBatch:
     def _abreast(self, phases: Phases, group: Group, launch: BatchStage, which: Rows) -> None:
         stay, rows, launch = self._stays(phases), group.rows[which], launch.some(which)
         found = self._landed(stay, rows, launch, stay.follow(launch, self.sightings.times[1:]))
-        self._note(stay, rows, launch, found)
+        starts = np.flatnonzero(launch.begin == 0.0)
+        self.sightings.note(0, stay, rows[starts], launch.states[:, starts])
+        for look, time in enumerate(self.sightings.times[1:-1]):
+            there = np.flatnonzero((launch.begin <= time) & (time < found.end))
+            self.sightings.note(look + 1, stay, rows[there], found.states[look][:, there])
         self.lost |= set(rows[~found.good].tolist())
         on = found.good & (found.guard == NONE)
         over = found.end >= self.sightings.times[-1]
@@ -170,16 +174,6 @@ class ModeBatch:
             miss = np.hypot(*(slip + left * change))
             good[here] &= miss <= _LANDED / STILL * launch.least[k, here]
         return replace(found, states=states, end=end, good=good)
-
-    def _note(
-        self, stay: BatchSegment, rows: Rows, launch: BatchStage, found: BatchArrivals
-    ) -> None:
-        """States at the looks before the last."""
-        starts = np.flatnonzero(launch.begin == 0.0)
-        self.sightings.note(0, stay, rows[starts], launch.states[:, starts])
-        for look, time in enumerate(self.sightings.times[1:-1]):
-            there = np.flatnonzero((launch.begin <= time) & (time < found.end))
-            self.sightings.note(look + 1, stay, rows[there], found.states[look][:, there])
 
     def _finish(
         self,

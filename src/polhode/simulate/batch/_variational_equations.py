@@ -147,7 +147,8 @@ class VariationalEquations:
         Raises:
             NumericError: where the motion cannot be continued.
         """
-        whole = np.concatenate([start, self._at_start.ravel()])
+        slopes_at_start = np.array([self._slopes(s)[:, 0] for s in self._dynamics.states])
+        whole = np.concatenate([start, slopes_at_start.ravel()])
         values = np.empty((len(self._quantities.outputs), len(times)))
         slopes = np.empty((len(values), len(self._by), len(times)))
         begins = [stretch.begin for stretch in stretches]
@@ -176,11 +177,6 @@ class VariationalEquations:
     def _slopes(self, symbol: Symbol) -> Array:
         """Derivatives of a quantity that is given, shape (by, 1)."""
         return np.array([[float(symbol == other)] for other in self._by])
-
-    @property
-    def _at_start(self) -> Array:
-        """Derivatives of the states at the start, shape (states, by)."""
-        return np.array([self._slopes(s)[:, 0] for s in self._dynamics.states])
 
     def _path(self, whole: Array, stretch: ConstantInterval, times: Array) -> Array:
         """States and then their derivatives, shape (states × (1 + by), times)."""

@@ -18,7 +18,14 @@ def dynamics_of(
 ) -> Dynamics:
     """The equations of a contact mode with what is carried along, and all shared states."""
     carried, meanings = _carried(mode)
-    known = {**mode.lifted, **_silent(modes, mode), **_slips(mode, carried)}
+    known = dict(mode.lifted)
+    # Reactions of open contacts are zero.
+    reactions, own = modes.together.equations.components, mode.equations.components
+    known |= {Symbol(name): ZERO for name in reactions if name not in own}
+    # Slip velocities of closed contacts follow from the state unless they are integrated.
+    for touch, phase in zip(mode.touches, mode.phases, strict=True):
+        slips = () if phase.flies else zip(slip_symbols(touch.contact), touch.slip, strict=True)
+        known |= {symbol: slip for symbol, slip in slips if symbol not in carried}
     return Dynamics(mode.equations, prescribed, tuple(constants), carried, meanings, known)
 
 
@@ -38,19 +45,6 @@ def gap_symbol(contact: Contact) -> Symbol:
 def room_symbol(contact: Contact) -> Symbol:
     """The distance to the edge of its support of a body that touches, carried along."""
     return Symbol(f"room_{contact.spelled}", SymbolKind.COORDINATE)
-
-
-def _silent(modes: Automaton, mode: Mode) -> dict[Symbol, Expr]:
-    """Reactions of contacts that are open, by name: nothing."""
-    own = mode.equations.components
-    return {Symbol(n): ZERO for n in modes.together.equations.components if n not in own}
-
-
-def _slips(mode: Mode, carried: Mapping[Symbol, Expr]) -> dict[Symbol, Expr]:
-    """Slip velocities of the contacts that are closed, where they follow from the state."""
-    closed = (t for t, phase in zip(mode.touches, mode.phases, strict=True) if not phase.flies)
-    slips = (zip(slip_symbols(t.contact), t.slip, strict=True) for t in closed)
-    return {symbol: slip for pair in slips for symbol, slip in pair if symbol not in carried}
 
 
 def _carried(mode: Mode) -> tuple[dict[Symbol, Expr], dict[Symbol, Expr]]:

@@ -87,6 +87,10 @@ class Touching:
         there = self._meetings(self._there, place)
         return [there[i] if i in beyond else meeting for i, meeting in enumerate(here)]
 
+    def scale(self, place: State, beyond: frozenset[int]) -> Any:
+        """Size of the velocities that slips are the difference of, m/s."""
+        return max((meeting.scale for meeting in self.at(place, beyond)), default=0.0)
+
     def beyond(self, place: State) -> frozenset[int]:
         """The contacts that are beyond the edge of their support, or are about to be."""
         if not self._edges:

@@ -81,18 +81,13 @@ def entered(
     none = machine.numbers.array(np.zeros(2))
     slips = {i: none if i in starting else meetings[i].velocity[:2] for i in sliding}
     onset = dict.fromkeys(sorted(starting), 0.0)
-    rooms = _rooms(mode, meetings)
-    return ModeState(phases, after, coordinates, speeds, onset, slips, rooms=rooms)
-
-
-def _rooms(mode: CompiledMode, meetings: Sequence[ContactKinematics]) -> dict[int, Any]:
-    """How far contacts that touch are from the edges of their supports."""
     there = zip(mode.mode.touches, mode.mode.phases, meetings, strict=True)
-    return {
+    rooms = {
         i: meeting.room(is_beyond=phase.is_beyond)
         for i, (touch, phase, meeting) in enumerate(there)
         if touch.reserve and not phase.flies
     }
+    return ModeState(phases, after, coordinates, speeds, onset, slips, rooms=rooms)
 
 
 def _after(

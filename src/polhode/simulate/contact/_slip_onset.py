@@ -7,9 +7,10 @@ at Radau's points, which include the end of a step and not its beginning.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache as once
+from typing import Any
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -84,14 +85,8 @@ class SlipOnset:
         step = np.clip(np.searchsorted(self.times, times, "right") - 1, 0, len(self.series) - 1)
         left, right = self.times[step], self.times[step + 1]
         place = (2 * times - left - right) / (right - left)
-        return _values(place, self.series[step])
-
-
-def _values(place: Array, series: Array) -> Array:
-    """Legendre series, one per place: series (places, orders, states) to (states, places)."""
-    return np.asarray(
-        legendre.legval(place[None, :], np.transpose(series, (1, 2, 0)), tensor=False)
-    )
+        by_order = np.transpose(self.series[step], (1, 2, 0))  # (orders, states, times)
+        return np.asarray(legendre.legval(place[None, :], by_order, tensor=False))
 
 
 Indices = NDArray[np.intp]
@@ -333,7 +328,7 @@ _STIFF = 30.0  # ratio of the times of slipping and of turning the slip that exp
 def onset(
     mode: CompiledMode,
     entry: ModeState,
-    state: dict[Symbol, float],
+    state: Mapping[Symbol, Any],
     span: tuple[float, float],
     contacts: Sequence[Contact],
 ) -> TrajectoryPiece:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 
-from polhode.algebra import Symbol
 from polhode.base import ConstraintError, DeclarationError, NumericError, Progress
 from polhode.derive import Automaton
 from polhode.model import FLIGHT, FRICTIONLESS, Apart, Contact, Coulomb, Phase
@@ -17,6 +15,7 @@ from polhode.simulate._values import idle_parameters, read_parameters
 from polhode.simulate.contact._contact_kinematics import STILL, State
 from polhode.simulate.contact._hybrid_integrator import HybridIntegrator
 from polhode.simulate.contact._hybrid_system import HybridSystem
+from polhode.simulate.contact._mode_pieces import double_pieces
 from polhode.simulate.contact._mode_state import ModeState
 from polhode.simulate.contact._select_mode import ContactStatus, select_mode
 from polhode.simulate.forcing._prescribed_motion import prescribed_motion
@@ -31,7 +30,11 @@ def can_be_followed(modes: Automaton) -> bool:
         NumericError: where they are not, and friction makes the motion depend on them.
     """
     loose = set(modes.together.equations.undetermined)
-    held = [contact for contact in modes.contacts if loose & set(_components(contact))]
+    held = []
+    for contact in modes.contacts:
+        labels = (*contact.on.tangents, contact.on.normal)
+        if loose & {contact.component(label) for label in labels}:
+            held.append(contact)
     rubbing = [contact.name for contact in held if isinstance(contact, Coulomb)]
     if rubbing:
         raise NumericError(
@@ -40,10 +43,6 @@ def can_be_followed(modes: Automaton) -> bool:
             advice="declare the contacts Rolling or Smooth, or take one of them away",
         )
     return not held
-
-
-def _components(contact: Contact) -> list[str]:
-    return [contact.component(label) for label in (*contact.on.tangents, contact.on.normal)]
 
 
 def check_numbers(machine: HybridSystem) -> None:
@@ -57,21 +56,16 @@ def check_numbers(machine: HybridSystem) -> None:
         if not 0 <= restitution <= 1:
             raise _impossible("restitution", restitution, contact, "a number from 0 to 1")
         if isinstance(contact, Coulomb):
-            _check_friction(machine, contact)
-
-
-def _check_friction(machine: HybridSystem, contact: Coulomb) -> None:
-    kinetic, static = (machine.value(mu) for mu in (contact.mu, contact.mu_static))
-    if kinetic < 0:
-        raise _impossible("friction coefficient mu", kinetic, contact, "zero or more")
-    for what, value in (("mu", kinetic), ("mu_static", static)):
-        if value and not _LEAST <= value <= _MOST:
-            expected = f"zero, or a number from {_LEAST:g} to {_MOST:g}"
-            raise _impossible(f"friction coefficient {what}", value, contact, expected)
-    if static < kinetic:
-        raise _impossible(
-            "friction coefficient mu_static", static, contact, f"no less than mu = {kinetic:g}"
-        )
+            kinetic, static = (machine.value(mu) for mu in (contact.mu, contact.mu_static))
+            if kinetic < 0:
+                raise _impossible("friction coefficient mu", kinetic, contact, "zero or more")
+            for what, value in (("mu", kinetic), ("mu_static", static)):
+                if value and not _LEAST <= value <= _MOST:
+                    expected = f"zero, or a number from {_LEAST:g} to {_MOST:g}"
+                    raise _impossible(f"friction coefficient {what}", value, contact, expected)
+            if static < kinetic:
+                expected = f"no less than mu = {kinetic:g}"
+                raise _impossible("friction coefficient mu_static", static, contact, expected)
 
 
 def _impossible(what: str, value: float, contact: Contact, expected: str) -> DeclarationError:
@@ -98,20 +92,17 @@ def begun_at(machine: HybridSystem, place: State, apart: frozenset[int]) -> Mode
     rounding = _ROUNDING * max((abs(float(q)) for q in place.coordinates), default=0.0)
     for i in apart:
         if meetings[i].gap < -rounding:
-            raise _below(machine.automaton.contacts[i], -meetings[i].gap)
+            contact = machine.automaton.contacts[i]
+            height = contact.on.normal + contact.body.tag
+            raise ConstraintError(
+                f"{contact.body.name} starts {-meetings[i].gap:g} m below its support",
+                expected=f"a height {height} at which it touches or is above",
+                advice=f"leave out {height} to start in contact",
+            )
     met = {i for i in apart if meetings[i].gap <= rounding}
     resting = {i for i in met if abs(meetings[i].velocity[2]) <= STILL * meetings[i].scale}
     entry = select_mode(machine, place, ContactStatus(apart - resting))
     return replace(entry, gaps={i: 0.0 for i in met if entry.phases[i].flies})
-
-
-def _below(contact: Contact, depth: float) -> ConstraintError:
-    height = contact.on.normal + contact.body.tag
-    return ConstraintError(
-        f"{contact.body.name} starts {depth:g} m below its support",
-        expected=f"a height {height} at which it touches or is above",
-        advice=f"leave out {height} to start in contact",
-    )
 
 
 # -- the whole motion ------------------------------------------------------------------------------
@@ -132,19 +123,24 @@ class ThroughModes:
 
     def follow(self, task: Task, progress: Progress) -> MotionResult:
         numbers = read_parameters(self._dynamics, task.given, self._drive.constants(0.0))
-        machine = self._with(numbers, task)
+        machine = self._machine or HybridSystem(
+            self._modes, self._drive, numbers, task.integrator, task.tolerance
+        )
+        self._machine = machine  # what it has compiled serves further runs
+        machine.take(numbers)
         check_numbers(machine)
         with timed(task, "compile"):
-            walk = HybridIntegrator(machine, task.near_flat, progress, task.until)
+            pieces = double_pieces(machine, task.near_flat, progress)
+            integrator = HybridIntegrator(machine, pieces, task.until)
             place, begun, apart = _begin(machine, task)
             first = begun_at(machine, place, apart)
             machine.mode(first.phases).stepper  # noqa: B018
         with timed(task, "integrate"):
-            course = walk.along(first, task.end)
+            solution = integrator.integrate(first, task.end)
         return MotionResult(
-            course.segments,
-            course.changes,
-            course.ending,
+            solution.segments,
+            solution.changes,
+            solution.ending,
             {symbol.published: value for symbol, value in numbers.items()},
             begun.start.assumed,
             unguarded=False,
@@ -152,15 +148,6 @@ class ThroughModes:
             drive=self._drive,
             guarded=Guarded(machine, apart),
         )
-
-    def _with(self, numbers: Mapping[Symbol, float], task: Task) -> HybridSystem:
-        """The machine with these numbers; what it has compiled stays."""
-        if self._machine is None:
-            self._machine = HybridSystem(
-                self._modes, self._drive, numbers, task.integrator, task.tolerance
-            )
-        self._machine.take(numbers)
-        return self._machine
 
 
 def first_entry(machine: HybridSystem, task: Task) -> tuple[ModeState, InitialState]:
@@ -197,22 +184,17 @@ def _read_on_surfaces(
     machine: HybridSystem, apart: frozenset[int], task: Task, *, slips: bool
 ) -> tuple[State, InitialState]:
     """The start as it is read on the supports, or where they end on what is beyond their edges."""
-    phases = _phases(machine.automaton, apart, slips=slips)
-    place, begun = _read(machine, phases, task)
+    phases = list[Phase]()
+    for i, option in enumerate(machine.automaton.options):
+        # A slip can be read without friction: start values do not depend on forces.
+        closed = FRICTIONLESS if slips and FRICTIONLESS in option else next(iter(option))
+        phases.append(FLIGHT if i in apart else closed)
+    place, begun = _read(machine, tuple(phases), task)
     beyond = machine.touching.beyond(place) - apart
     if not beyond:
         return place, begun
     there = (p.beyond() if i in beyond else p for i, p in enumerate(phases))
     return _read(machine, tuple(there), task)
-
-
-def _phases(modes: Automaton, apart: frozenset[int], *, slips: bool) -> tuple[Phase, ...]:
-    """Phases in which the start values are read: friction does not matter to them."""
-    found = []
-    for i, option in enumerate(modes.options):
-        free = FRICTIONLESS if slips and FRICTIONLESS in option else next(iter(option))
-        found.append(FLIGHT if i in apart else free)
-    return tuple(found)
 
 
 def _read(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -62,7 +61,13 @@ class Transitions:
         self._machine.move_on(leaving.place.time)
         kind, entry, opened = self._next(before, leaving)
         rooms = {i: _room(before, leaving, entry, i) for i in entry.rooms}
-        return kind, replace(entry, gaps=_gaps(before, leaving, entry, opened), rooms=rooms)
+        # Heights of open contacts: as integrated, and zero for those that have just opened.
+        gaps = {
+            k: leaving.gaps[k] if before.phases[k].flies and k != opened else 0.0
+            for k, phase in enumerate(entry.phases)
+            if phase.flies
+        }
+        return kind, replace(entry, gaps=gaps, rooms=rooms)
 
     def _next(self, before: ModeState, leaving: ModeExit) -> tuple[str, ModeState, int | None]:
         """Also the contact that opens again at once, if one does."""
@@ -75,10 +80,12 @@ class Transitions:
         if guard.kind == "touches down":
             return *self._land(before, place, i), i
         far = beyond(before.phases)
+        # Contacts that have begun to slip at this very instant are slipping, though without speed.
+        starting = frozenset(before.onset) if before.place.time == place.time else frozenset()
         known = {
             "lifts off": ContactStatus(apart | {i}, still - {i}, beyond=far),
             "crosses the edge": ContactStatus(apart, still - {i}, beyond=far ^ {i}),
-            "slips": ContactStatus(apart, still - {i}, _starting(before, place) | {i}, far),
+            "slips": ContactStatus(apart, still - {i}, starting | {i}, far),
             "sticks": ContactStatus(apart, still | {i}, beyond=far),
         }
         entry = select_mode(self._machine, place, known[guard.kind])
@@ -96,7 +103,14 @@ class Transitions:
         mass = machine.apart.mass(place)
         for k, phase in enumerate(before.phases):
             if not phase.flies and _feel(meetings[k], meetings[i], mass, numbers):
-                raise _shared(contact.name, machine.automaton.contacts[k].name, place.time)
+                other = machine.automaton.contacts[k].name
+                raise NumericError(
+                    f"{contact.name} lands at t = {float(place.time):.9g} s while {other}, which "
+                    "feels it, touches",
+                    expected="one contact of connected bodies at a time: shared shocks are not "
+                    "determined",
+                    advice="end the motion before that time",
+                )
         meeting = meetings[i]
         slow = numbers.finer(STILL) * meeting.scale
         if meeting.velocity[2] > slow:
@@ -116,19 +130,15 @@ class Transitions:
         self._hardest[i] = hardest
         if shock.velocity[2] > numbers.finer(_REBOUND) * hardest:
             bounced = select_mode(machine, after, ContactStatus(apart, still, beyond=far))
-            if self._rises(bounced, i, shock.velocity[2]):
+            time = bounced.place.time
+            fall = machine.mode(bounced.phases).closing_rates(bounced.state, time)[i]
+            hop = fall_of(0.0, shock.velocity[2], fall) if fall < 0 else np.inf
+            if hop > _INSTANT * numbers.spacing(time):
                 return "bounces", bounced
         stuck = still | {i} if shock.sticks else still
         return "touches down", select_mode(
             machine, after, ContactStatus(apart - {i}, stuck, beyond=far)
         )
-
-    def _rises(self, bounced: ModeState, i: int, speed: Any) -> bool:
-        """Whether a contact that bounces is open for longer than the rounding of the time."""
-        time = bounced.place.time
-        fall = self._machine.mode(bounced.phases).closing_rates(bounced.state, time)[i]
-        hop = fall_of(0.0, speed, fall) if fall < 0 else np.inf
-        return bool(hop > _INSTANT * self._machine.numbers.spacing(time))
 
     def _shock(self, contact: Contact, felt: Array, velocity: Array, time: float) -> Impact:
         numbers = self._machine.numbers
@@ -141,22 +151,6 @@ class Transitions:
         if isinstance(contact, Rolling):
             return rough_impact(felt, velocity, restitution, numbers)
         return smooth_impact(felt, velocity, restitution)
-
-
-def _starting(before: ModeState, place: State) -> frozenset[int]:
-    """The contacts that have begun to slip at this very instant."""
-    return frozenset(before.onset) if before.place.time == place.time else frozenset()
-
-
-def _gaps(
-    before: ModeState, leaving: ModeExit, entry: ModeState, landed: int | None
-) -> dict[int, float]:
-    """Heights of open contacts: as they were followed, and none where they have just opened."""
-    return {
-        k: leaving.gaps[k] if before.phases[k].flies and k != landed else 0.0
-        for k, phase in enumerate(entry.phases)
-        if phase.flies
-    }
 
 
 def _room(before: ModeState, leaving: ModeExit, entry: ModeState, i: int) -> float:
@@ -177,14 +171,6 @@ def _feel(
     shared = one.arms @ numbers.solved(mass, other.arms.T)
     own = one.arms @ numbers.solved(mass, one.arms.T)
     return bool(np.max(np.abs(shared)) > _UNFELT * np.max(np.abs(own)))
-
-
-def _shared(lands: str, touches: str, time: float) -> NumericError:
-    return NumericError(
-        f"{lands} lands at t = {float(time):.9g} s while {touches}, which feels it, touches",
-        expected="one contact of connected bodies at a time: shared shocks are not determined",
-        advice="end the motion before that time",
-    )
 
 
 def index_of(guard: Guard, machine: HybridSystem) -> int:

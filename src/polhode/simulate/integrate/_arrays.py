@@ -49,7 +49,9 @@ def evaluated(coefficients: Array, which: NDArray[np.intp], places: Array) -> Ar
     found = np.empty((coefficients.shape[1], len(places)))
     for here in _portions(len(places)):
         asked = which[here]
-        together = _together(asked)
+        changes = np.flatnonzero(np.diff(asked)) + 1
+        # the largest size of groups of neighbours, all alike, that read one polynomial each
+        together = int(np.gcd.reduce(np.append(changes, len(asked))))
         chosen = coefficients[asked[::together]]
         powers = powers_of(places[here], chosen.shape[2] - 1)
         powers = powers.reshape(len(powers), -1, together).swapaxes(0, 1)
@@ -69,12 +71,6 @@ def powers_of(values: Array, count: int) -> Array:
         np.multiply(powers[: len(new)], powers[known - 1], out=new)
         known += len(new)
     return powers
-
-
-def _together(which: NDArray[np.intp]) -> int:
-    """The most neighbours of whom it is true, all along, that they have the same polynomial."""
-    changes = np.flatnonzero(np.diff(which)) + 1
-    return int(np.gcd.reduce(np.append(changes, len(which))))
 
 
 def pieces_at(knots: Array, times: Array) -> NDArray[np.intp]:

@@ -288,17 +288,14 @@ def _summed(
     def rates(times: Array) -> Array:
         return flow.values(stage.rates, inner(times), parameters, times)
 
-    found = integral(rates, steps, _noise(stage, flow, inner(steps), parameters, steps))
-    return lambda times: start[:, None] + found.at(times)
-
-
-def _noise(stage: Stage, flow: Flow, states: Array, parameters: Array, times: Array) -> Array:
-    """What rates are uncertain by: how they change with the rounding of the states."""
+    # Rates are as uncertain as they change with the rounding of the states.
+    states = inner(steps)
     moved = states * (1.0 + _ROUNDING * np.where(np.arange(len(states)) % 2, -1.0, 1.0)[:, None])
     with np.errstate(all="ignore"):
-        here, there = (flow.values(stage.rates, s, parameters, times) for s in (states, moved))
+        here, there = (flow.values(stage.rates, s, parameters, steps) for s in (states, moved))
         noise = np.max(np.abs(there - here), axis=1, initial=0.0)
-    return np.where(np.isfinite(noise), noise, 0.0)
+    found = integral(rates, steps, np.where(np.isfinite(noise), noise, 0.0))
+    return lambda times: start[:, None] + found.at(times)
 
 
 class _Remembered:

@@ -161,7 +161,13 @@ def _integrated(launch: InitialValueProblem, order: int, watch: SeriesCallback) 
     going = True
     while going and now < end:
         given = clocked(others, constants, now)
-        series = _lengthened(rates, given, state, order)
+        # Coefficients by rising power: the series of the rates up to a term gives the next term.
+        series = [[value] for value in state]
+        for known in range(1, order + 1):
+            with cap(known):
+                found = rates(*(flint.arb_series(row) for row in series), *given)
+            for row, rate in zip(series, found, strict=True):
+                row.append((term(rate, known - 1) / known).mid())
         step = step_of(series, order)
         if step is None:
             if not steps:
@@ -174,17 +180,6 @@ def _integrated(launch: InitialValueProblem, order: int, watch: SeriesCallback) 
         times.append(now)
         going = watch(float(now), float(step), state)
     return series_of(numbers, times, steps)
-
-
-def _lengthened(rates: Any, given: list[Any], state: list[Any], order: int) -> list[list[Any]]:
-    """Coefficients of every state by rising power: each term gives the next one."""
-    rows = [[value] for value in state]
-    for known in range(1, order + 1):
-        with cap(known):
-            found = rates(*(flint.arb_series(row) for row in rows), *given)
-        for row, rate in zip(rows, found, strict=True):
-            row.append((term(rate, known - 1) / known).mid())
-    return rows
 
 
 # -- slips from the instant at which they begin, as power series of the time since then --------
@@ -249,7 +244,10 @@ class _Lengthening:
     def series(self) -> TaylorSolution | None:
         felt = self._felt()
         for known in range(self._order):
-            self._lengthen(known)
+            with cap(known + 1):
+                rates, along, _ = self._found(self._angles)
+            for row, rate in zip([*self._states, *self._sizes], [*rates, *along], strict=True):
+                row.append((term(rate, known) / (known + 1)).mid())
             self._turn(known + 1, felt)
         rows = [*self._states, *self._sizes, *self._angles]
         step = step_of(rows, self._order)
@@ -280,13 +278,6 @@ class _Lengthening:
             )
             angles.append(((term(turning, known) - behind) / (known * sizes[1] - own)).mid())
 
-    def _lengthen(self, known: int) -> None:
-        """The next coefficient of everything else."""
-        with cap(known + 1):
-            rates, along, _ = self._found(self._angles)
-        for row, rate in zip([*self._states, *self._sizes], [*rates, *along], strict=True):
-            row.append((term(rate, known) / (known + 1)).mid())
-
     def _found(self, angles: Sequence[list[Any]]) -> tuple[list[Any], list[Any], list[Any]]:
         """Rates of the other states, and of every slip along and across itself."""
         units = [_unit(row) for row in angles]
@@ -315,7 +306,7 @@ class _Lengthening:
     def _slips(self) -> list[list[Any]]:
         """Slip velocities along the two tangents of each support.
 
-        They begin with a direction, and with less of a speed than their digits tell from none.
+        At first they have a direction, and a speed too small to be told from zero.
         """
         found, barely = [], flint.arb(2) ** -max(_BARELY, 2 * self._numbers.bits)
         for sizes, angles in zip(self._sizes, self._angles, strict=True):

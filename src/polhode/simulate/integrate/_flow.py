@@ -70,12 +70,14 @@ def primitive(dynamics: Dynamics, state: Symbol, rate: Expr) -> Primitive:
     full = _written_out(dynamics, state)
     if full is None:
         return Primitive(ZERO, rate)
-    driving = [s for s in full.generators if isinstance(s, Symbol) and _is_rate(s)]
+    symbols = [s for s in full.generators if isinstance(s, Symbol)]
+    driving_rates = [s for s in symbols if s.kind is SymbolKind.FUNCTION and s.order > 0]
     known = ZERO
-    for symbol in driving:
+    for symbol in driving_rates:
         coefficient = full.diff(symbol)
-        if _is_constant(coefficient):
-            known = known + coefficient * Expr.generator(_integrated(symbol))
+        if all(s.kind is SymbolKind.PARAMETER for s in coefficient.symbols()):
+            integrated = Symbol(symbol.name, symbol.kind, symbol.order - 1)
+            known = known + coefficient * Expr.generator(integrated)
             full = full - coefficient * Expr.generator(symbol)
     return Primitive(known, full) if known else Primitive(ZERO, rate)
 
@@ -91,18 +93,6 @@ def _written_out(dynamics: Dynamics, state: Symbol) -> Expr | None:
     masses = dynamics.accelerations.matrix.rows[row]
     alone = not any(mass for k, mass in enumerate(masses) if k != row)
     return dynamics.accelerations.right[row] / masses[row] if alone else None
-
-
-def _is_rate(symbol: Symbol) -> bool:
-    return symbol.kind is SymbolKind.FUNCTION and symbol.order > 0
-
-
-def _integrated(symbol: Symbol) -> Symbol:
-    return Symbol(symbol.name, symbol.kind, symbol.order - 1)
-
-
-def _is_constant(coefficient: Expr) -> bool:
-    return all(s.kind is SymbolKind.PARAMETER for s in coefficient.symbols())
 
 
 @dataclass(frozen=True)

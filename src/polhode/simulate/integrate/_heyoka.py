@@ -276,22 +276,16 @@ class TaylorSeries:
         if output is None:
             raise broken(float(taylor.time))
         times = numbers.joined(list(limbs_of(np.asarray(output.times), numbers.limbs)))
-        limbs = limbs_of(_by_step(output), numbers.limbs).transpose(0, 1, 3, 2)
+        # Powers of the share of a step: their coefficients neither grow nor vanish.
+        coefficients = np.array(output.tcs)  # shape (steps, states, order + 1)
+        ends = np.asarray(output.times)
+        lengths = (ends[1:] - ends[:-1])[:, None]
+        power = lengths
+        for k in range(1, coefficients.shape[2]):
+            coefficients[:, :, k] = coefficients[:, :, k] * power
+            power = power * lengths
+        limbs = limbs_of(coefficients, numbers.limbs).transpose(0, 1, 3, 2)
         return TaylorSolution(numbers, times, limbs)
-
-
-def _by_step(output: Any) -> Any:
-    """Coefficients of the powers of the share of each step, which neither grow nor vanish.
-
-    Shape (steps, states, order + 1).
-    """
-    times, coefficients = np.asarray(output.times), np.array(output.tcs)
-    steps = (times[1:] - times[:-1])[:, None]
-    power = steps
-    for k in range(1, coefficients.shape[2]):
-        coefficients[:, :, k] = coefficients[:, :, k] * power
-        power = power * steps
-    return coefficients
 
 
 @lru_cache(maxsize=32)

@@ -253,7 +253,13 @@ def numbers_for(precision: Precision) -> NumberType:
     if precision == "quadruple":
         return _QUADRUPLE
     if precision == "extended":
-        return _long_doubles()
+        if LongDoubles.bits <= _DOUBLE_BITS:
+            raise NumericError(
+                "extended precision, on a machine whose long double is a double",
+                expected="double, quadruple, or a number of decimal digits",
+                advice="ask for quadruple, which is computed without it",
+            )
+        return LongDoubles()
     if isinstance(precision, str) and precision.isdecimal() and len(precision) < _FEWEST:
         precision = int(precision)
     if isinstance(precision, bool) or not isinstance(precision, int):
@@ -261,16 +267,6 @@ def numbers_for(precision: Precision) -> NumberType:
     if not _FEWEST <= precision <= _MOST:
         raise _unknown(precision)
     return ManyDigits(f"{precision} digits", math.ceil(precision * math.log2(10)) + 4)
-
-
-def _long_doubles() -> LongDoubles:
-    if LongDoubles.bits <= _DOUBLE_BITS:
-        raise NumericError(
-            "extended precision, on a machine whose long double is a double",
-            expected="double, quadruple, or a number of decimal digits",
-            advice="ask for quadruple, which is computed without it",
-        )
-    return LongDoubles()
 
 
 def _unknown(precision: object) -> NumericError:
@@ -320,14 +316,11 @@ def fraction_of(value: Any) -> Fraction:
 def solution(context: Any, matrix: Any, right: Any) -> Any:
     """Of linear equations, for one right side or the columns of a matrix."""
     columns = [right.tolist()] if np.ndim(right) == 1 else np.transpose(right).tolist()
-    found = [_column(context, matrix, column) for column in columns]
+    if not np.size(right):
+        return np.empty(np.shape(right), dtype=object)
+    square = context.matrix(matrix.tolist())
+    found = [list(context.lu_solve(square, context.matrix(column))) for column in columns]
     return np.array(found, dtype=object).T.reshape(np.shape(right))
-
-
-def _column(context: Any, matrix: Any, right: list[Any]) -> list[Any]:
-    if not right:
-        return []
-    return list(context.lu_solve(context.matrix(matrix.tolist()), context.matrix(right)))
 
 
 def least_solution(context: Any, matrix: Any, right: Any, dependent: Any) -> Any:

@@ -86,7 +86,10 @@ def resolved(
     done: list[tuple[Array, Array, Array]] = []
     scale = np.zeros((1, 1, 1))
     while len(left):
-        coefficients = _coefficients(function, left, right)
+        times = (left[:, None] + right[:, None] + (right - left)[:, None] * _NODES) / 2
+        values = function(times.ravel())
+        values = values.reshape(len(values), len(left), len(_NODES))
+        coefficients = values @ _ANALYSIS.T  # shape (functions, pieces, order)
         largest = np.max(np.abs(coefficients), axis=(1, 2), keepdims=True)
         scale = np.maximum(scale, largest)
         tails = np.abs(coefficients[:, :, -2:]) / np.where(scale > 0, scale, 1.0)
@@ -103,10 +106,3 @@ def resolved(
     left, right = np.concatenate(lefts), np.concatenate(rights)
     order = np.argsort(left)
     return left[order], right[order], np.concatenate(parts, axis=1)[:, order]
-
-
-def _coefficients(function: Callable[[Array], Array], left: Array, right: Array) -> Array:
-    """Legendre coefficients on every piece, shape (functions, pieces, order)."""
-    times = (left[:, None] + right[:, None] + (right - left)[:, None] * _NODES) / 2
-    values = function(times.ravel())
-    return np.asarray(values.reshape(len(values), len(left), len(_NODES)) @ _ANALYSIS.T)

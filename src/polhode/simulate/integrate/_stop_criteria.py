@@ -44,36 +44,29 @@ class StepCount:
         if self._steps == 0:
             self._begin = begin
         if self._kept + size > MOST_KEPT:
-            raise _endless(time, self._steps)
+            raise NumericError(
+                f"{self._steps} steps are not enough to go beyond t = {time:.9g} s",
+                expected="a motion without singular positions, over a duration that can be kept "
+                "in memory",
+                advice="end before that time, or start elsewhere",
+            )
         self._steps += 1
         self._kept += size
         passed = time - self._begin
         expected = _GLANCES.get(self._steps)
         if expected and hurries and end - time > expected / self._steps * passed:
             most = int(MOST_KEPT / self._kept * self._steps)
-            raise _hopeless(end, self._steps, most, passed)
+            raise NumericError(
+                f"a motion up to t = {end:g} s, of which {self._steps} steps cover {passed:.3g} s",
+                expected=f"a duration that {most} steps can cover",
+                advice=f"try {most / self._steps * passed / 100:.0e} s",
+            )
 
 
-def _endless(time: float, most: int) -> NumericError:
-    """The motion takes more steps than can be kept."""
-    return NumericError(
-        f"{most} steps are not enough to go beyond t = {time:.9g} s",
-        expected="a motion without singular positions, over a duration that can be kept in memory",
-        advice="end before that time, or start elsewhere",
-    )
-
-
-def _hopeless(end: float, steps: int, most: int, passed: float) -> NumericError:
-    """The end is out of reach."""
-    return NumericError(
-        f"a motion up to t = {end:g} s, of which {steps} steps cover {passed:.3g} s",
-        expected=f"a duration that {most} steps can cover",
-        advice=f"try {most / steps * passed / 100:.0e} s",
-    )
-
+# -- why an integration stops ----------------------------------------------------------------------
 
 _SMALLEST = 1e-14  # length of a step, over the time and the longest, at a singular position
-_ALMOST = 100.0  # times the length at which a vector has vanished: there it turns round
+_ALMOST = 100.0  # times the length at which a vector has vanished: there it reverses
 
 
 class Stop(Enum):
@@ -191,16 +184,14 @@ class StepWatch:
         self._watched.tally.count(self._span, time, self._size, hurries=hurries)
         if self._vanishing.at(state):
             return Stop.VANISHED
-        if self._is_short(time, step) and time < self._span[1]:
+        if step < inf:
+            self._longest = max(self._longest, step)
+        is_short = step < self._smallest * max(abs(time), self._longest)
+        if is_short and time < self._span[1]:
             return Stop.VANISHED if self._vanishing.is_near else Stop.STUCK
         if self._steps >= self._watched.pause or self._watched.over(time, state):
             return Stop.PAUSE
         return None
-
-    def _is_short(self, time: float, step: float) -> bool:
-        if step < inf:
-            self._longest = max(self._longest, step)
-        return step < self._smallest * max(abs(time), self._longest)
 
 
 def _is_shorter(one: list[float], other: list[float]) -> bool:

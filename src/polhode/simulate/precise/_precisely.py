@@ -13,7 +13,7 @@ from polhode.simulate._segment import Segment
 from polhode.simulate._task import Guarded, MotionResult, Task
 from polhode.simulate._trajectory import Trajectory
 from polhode.simulate.contact._contact_kinematics import State
-from polhode.simulate.contact._hybrid_integrator import HybridSolution
+from polhode.simulate.contact._hybrid_integrator import HybridIntegrator, HybridSolution
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._through_modes import begun_at
 from polhode.simulate.forcing._pieces import Pieces
@@ -21,8 +21,8 @@ from polhode.simulate.integrate._number_types import NumberType
 from polhode.simulate.integrate._series import SeriesIntegrator
 from polhode.simulate.precise._given import Given, exactly, read_exactly
 from polhode.simulate.precise._precise_declared import as_declared
-from polhode.simulate.precise._precise_piece import PieceIntegrator
-from polhode.simulate.precise._precise_walk import PreciseWalk
+from polhode.simulate.precise._precise_modes import precise_pieces
+from polhode.simulate.precise._precise_piece import SeriesStepper
 from polhode.simulate.precise._wanted import Wanted
 
 
@@ -46,12 +46,12 @@ def precisely(
     given = read_exactly(motion.begun, known, task, numbers)
     duration = exactly(wanted.duration, numbers)
     end = numbers.array([duration])[0]
-    steps = PieceIntegrator(_integrator(task.integrator.name), numbers, end, progress)
+    steps = SeriesStepper(_integrator(task.integrator.name), numbers, end, progress)
     if motion.guarded is None:
         course = as_declared(motion.begun.dynamics, given, steps)
         events = _events_beside(rough, course)
     else:
-        course = _through_modes(motion.guarded, given, steps, task, progress)
+        course = _through_modes(motion.guarded, given, steps, task)
         events = events_of(course)
     end = course.segments[-1].end
     run = replace(
@@ -98,7 +98,7 @@ def _integrator(name: str) -> SeriesIntegrator:
 
 
 def _through_modes(
-    guarded: Guarded, given: Given, steps: PieceIntegrator, task: Task, progress: Progress
+    guarded: Guarded, given: Given, steps: SeriesStepper, task: Task
 ) -> HybridSolution:
     """Through all contact modes, as the forces demand."""
     rough, numbers = guarded.machine, steps.numbers.careful
@@ -112,8 +112,8 @@ def _through_modes(
     )
     zero = given.context.mpf(0)
     first = begun_at(machine, State(zero, coordinates, speeds, zero), guarded.apart)
-    walk = PreciseWalk(machine, steps, task.near_flat, progress, task.until)
-    return walk.along(first, steps.end)
+    pieces = precise_pieces(machine, task.near_flat, steps)
+    return HybridIntegrator(machine, pieces, task.until).integrate(first, steps.end)
 
 
 # -- samples and events ------------------------------------------------------------------------

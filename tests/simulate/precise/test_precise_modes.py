@@ -9,7 +9,7 @@ import polhode as ph
 from polhode.simulate import Trajectory
 from polhode.simulate.integrate._number_types import fraction_of
 from simulate.contact import balls, blocks, disks
-from simulate.precise.test_precision import Impatient
+from simulate.precise.test_precise_declared import Impatient
 
 DIGITS = mpmath.MPContext()
 DIGITS.dps = 120

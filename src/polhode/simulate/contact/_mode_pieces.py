@@ -1,0 +1,300 @@
+"""Integrates a contact mode piece by piece: where slip ends, where a guard falls, where to look.
+
+What all types of numbers share is in `ModePieces`; `DoublePieces` integrates in double precision.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from polhode.algebra import Symbol
+from polhode.base import Progress
+from polhode.derive import Guard
+from polhode.simulate._absolute_values import (
+    Here,
+    SideChange,
+    Sides,
+    nearer,
+    overshoots,
+    refuse_vanishing,
+    sides_at,
+)
+from polhode.simulate._dynamics import WORK, Dynamics
+from polhode.simulate._mode_integration import PieceEnd, StateValues
+from polhode.simulate._segment import TrajectoryPiece, state_at
+from polhode.simulate.contact._carried import gap_symbol, room_symbol, slip_symbols
+from polhode.simulate.contact._contact_kinematics import State, fall_of
+from polhode.simulate.contact._guard_monitor import GuardMonitor
+from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
+from polhode.simulate.contact._mode_state import ModeState, beyond, directions_of, state_on
+from polhode.simulate.contact._slip_onset import onset
+from polhode.simulate.contact._transition import ModeExit
+from polhode.simulate.integrate._arrays import Array
+from polhode.simulate.integrate._driver import integrate
+from polhode.simulate.integrate._stop_criteria import StepCount, Stop, StopCriteria
+
+#: Slip speed, relative to the velocities around, below which a slip has ended.
+VANISHED = 1e-14
+#: The same at an instant at which the slip velocity reverses: there its rounding is larger.
+LANDED = 1e-10
+_LOOK = 400  # steps after which the guards are looked at
+_INSTANT = 32  # steps of rounding of the time: a shorter hop is none
+_BEGUN = 1e-9  # of the time: sooner, a slip that begins cannot be told from rounding
+
+
+class ModePieces(ABC):
+    """Pieces of a motion within one contact mode.
+
+    Args:
+        machine: the modes.
+        entry: where this one is entered.
+        near_flat: value at which an expression that must stay positive, such as sin θ, counts as
+            zero.
+
+    Attributes:
+        start: all states where the mode is entered.
+    """
+
+    def __init__(self, machine: HybridSystem, entry: ModeState, near_flat: float) -> None:
+        self._machine = machine
+        self._entry = entry
+        self._near_flat = near_flat
+        self._whole = machine.mode(entry.phases)
+        self.start: StateValues = state_on(machine, entry)
+        here = self._whole.here(self.start, entry.place.time)
+        self.put_on(sides_at(self._whole.dynamics, here))
+        self._has_begun = False
+
+    @property
+    def name(self) -> str:
+        return self._whole.mode.name
+
+    @property
+    def whole(self) -> Dynamics:
+        return self._whole.dynamics
+
+    @property
+    def dynamics(self) -> Dynamics:
+        return self._mode.dynamics
+
+    def put_on(self, sides: Sides) -> None:
+        self._mode = self._whole.on(sides)
+        self._monitor = GuardMonitor(self._machine, self._near_flat, self._mode, self._entry)
+
+    def here(self, state: StateValues, time: Any) -> Here:
+        self._machine.move_on(time)
+        return self._whole.here(state, time)
+
+    @abstractmethod
+    def instant(self, time: Any) -> Any:
+        """A time in the numbers in which trajectories keep it."""
+
+    def next(
+        self, state: StateValues, now: Any, end: Any, before: TrajectoryPiece | None
+    ) -> PieceEnd:
+        drive = self._machine.drive
+        self._machine.move_on(now)
+        limit = drive.until(now, end)
+        if self._has_begun:
+            found = self._piece(state, (now, limit), before)
+        else:
+            limit = min(limit, now + max(self._hop(), self._shortest()))
+            first = self._slip_onset if self._entry.onset else self._piece
+            found = first(state, (now, limit), before)
+        self._has_begun = True
+        if now < found.time and found.time in drive.breaks and not self._stands(found):
+            found = replace(found, guard=None)
+        interrupted = found.piece.solution.stop is Stop.INTERRUPTED
+        return replace(found, is_last=interrupted or found.time in drive.jerks)
+
+    def _stands(self, found: PieceEnd) -> bool:
+        """Whether the guard at a change of the forcing is up to what was before.
+
+        Whether a body slips or lifts off there is up to the forces that hold from there on.
+        """
+        guard, jerks = found.guard, self._machine.drive.jerks
+        if isinstance(guard, SideChange):
+            return True
+        kind = guard.kind if guard is not None else ""
+        return kind == "near-flat" or (kind == "sticks" and found.time not in jerks)
+
+    @abstractmethod
+    def _slip_onset(
+        self, state: StateValues, span: tuple[Any, Any], before: TrajectoryPiece | None
+    ) -> PieceEnd:
+        """The piece on which slips begin, as far as their directions have to be integrated."""
+
+    @abstractmethod
+    def _piece(
+        self, state: StateValues, span: tuple[Any, Any], before: TrajectoryPiece | None
+    ) -> PieceEnd:
+        """Any other piece: up to the first guard that falls, or to the end of a span."""
+
+    # -- the first piece must not leap over a contact that soon closes again ---------------------
+
+    def _shortest(self) -> Any:
+        return _INSTANT * self._machine.numbers.spacing(self._entry.place.time)
+
+    def _hop(self) -> Any:
+        """How soon a contact that has opened may close again, or one return to an edge, s.
+
+        A short hop within a long step would be lost in the rounding of the long one.
+        """
+        hops = [fall_of(*hop) for hop in self._hops() if hop[2] < 0]
+        return 1.5 * min((hop for hop in hops if hop > 0), default=np.inf)
+
+    def _hops(self) -> Iterator[tuple[Any, Any, Any]]:
+        """Heights and distances to an edge with their first and second rates."""
+        entry, mode = self._entry, self._mode
+        if not (entry.gaps or entry.rooms):
+            return
+        state, now = entry.state, entry.place.time
+        meetings = self._machine.touching.at(entry.place, beyond(entry.phases))
+        if entry.gaps:
+            falls = mode.closing_rates(state, now)
+            yield from ((gap, meetings[i].velocity[2], falls[i]) for i, gap in entry.gaps.items())
+        if entry.rooms:
+            bends = mode.room_rates(state, now, directions_of(entry, self._machine.numbers))
+            for i, room in entry.rooms.items():
+                is_beyond = entry.phases[i].is_beyond
+                yield room, meetings[i].leaving(is_beyond=is_beyond), bends[i]
+
+    # -- what both ends and goes on from a piece --------------------------------------------------
+
+    def speed_scale(self, state: StateValues, now: Any) -> Any:
+        """Size of the velocities that slips are the difference of, m/s."""
+        place = place_of(self._mode, state, now)
+        return self._machine.touching.scale(place, beyond(self._entry.phases))
+
+    def slips_in(self, symbols: Sequence[Symbol]) -> tuple[tuple[int, ...], ...]:
+        """Places of the slip velocities among some states, of those slips that are among them."""
+        contacts = self._machine.automaton.contacts
+        pairs = [slip_symbols(contacts[i]) for i in sorted(self._entry.slips)]
+        carried = [pair for pair in pairs if set(pair) <= set(symbols)]
+        return tuple(tuple(symbols.index(s) for s in pair) for pair in carried)
+
+    def exit(self, found: PieceEnd) -> ModeExit:
+        """How the mode is left."""
+        return leaving(self._mode, found.guard, found.state, found.time, self._entry.place.work)
+
+
+class DoublePieces(ModePieces):
+    """Pieces in double precision.
+
+    Args:
+        machine, entry, near_flat: as in `ModePieces`.
+        progress: told of every step.
+        tally: of the steps of the whole motion.
+    """
+
+    def __init__(
+        self,
+        machine: HybridSystem,
+        entry: ModeState,
+        near_flat: float,
+        progress: Progress,
+        tally: StepCount,
+    ) -> None:
+        super().__init__(machine, entry, near_flat)
+        self._progress = progress
+        self._tally = tally
+        self._scale = 0.0
+
+    def instant(self, time: float) -> float:
+        return time
+
+    def _shortest(self) -> float:
+        begin = self._entry.place.time
+        return _BEGUN * begin if self._entry.onset else float(super()._shortest())
+
+    def _slip_onset(
+        self, state: StateValues, span: tuple[float, float], before: TrajectoryPiece | None
+    ) -> PieceEnd:
+        contacts = self._machine.automaton.contacts
+        piece = onset(self._mode, self._entry, state, span, contacts)
+        return _ended(*self._monitor.cut(piece))
+
+    def _piece(
+        self, state: StateValues, span: tuple[float, float], before: TrajectoryPiece | None
+    ) -> PieceEnd:
+        now = span[0]
+        rest = before.solution.rest(now) if before else self._mode.rest(state, now)
+        if self._entry.slips:
+            self._scale = max(self._scale, self.speed_scale(state, now))
+        watched = self._watched(self._scale or 1.0)
+        return _ended(*self._up_to(rest, span, watched))
+
+    def _up_to(
+        self, rest: Array, span: tuple[float, float], watched: StopCriteria
+    ) -> tuple[TrajectoryPiece, Guard | None]:
+        """Up to the end of a span, or to the first guard that falls."""
+        flow, constants = self._mode.flow, self._mode.parameters
+        solution = integrate(
+            flow, self._mode.stepper, constants, rest, span, self._progress, watched
+        )
+        whole = TrajectoryPiece(span[0], float(solution.steps[-1]), solution, constants)
+        piece, guard = self._monitor.cut(whole)
+        again = nearer(solution.steps, piece.end) if isinstance(guard, SideChange) else None
+        if again is not None:
+            return self._up_to(rest, (span[0], again), watched)
+        refuse_vanishing(self._mode.dynamics, piece)
+        return piece, guard
+
+    def _watched(self, scale: float) -> StopCriteria:
+        """What stops an integration: slips that end, too many steps, or reason to look."""
+        mode, near_flat = self._mode, self._near_flat
+        if not (mode.mode.guards or mode.passages):
+            return StopCriteria(tally=self._tally)
+        looks = list[Callable[[float, Sequence[float]], bool]]()
+        # Beyond flat, or beyond the end of a side of an absolute value, the equations do not hold:
+        # what follows there may take any number of steps, and does not count.
+        if any(guard.kind == "near-flat" for guard in mode.mode.guards):
+            positive, constants = mode.sides, mode.parameters.tolist()
+            looks.append(lambda time, state: min(positive(*state, *constants, time)) < near_flat)
+        if mode.passages:
+            looks.append(overshoots(mode.dynamics, mode.passages, mode.flow, mode.parameters))
+
+        def over(time: float, state: Sequence[float]) -> bool:
+            return any(look(time, state) for look in looks)
+
+        vectors = self.slips_in(mode.flow.core.symbols)
+        return StopCriteria(_LOOK, vectors, VANISHED * scale, LANDED * scale, over, self._tally)
+
+
+def double_pieces(
+    machine: HybridSystem, near_flat: float, progress: Progress
+) -> Callable[[ModeState], DoublePieces]:
+    """What integrates the modes of one motion in double precision, from where each is entered."""
+    tally = StepCount()
+    return lambda entry: DoublePieces(machine, entry, near_flat, progress, tally)
+
+
+def _ended(piece: TrajectoryPiece, guard: Guard | None) -> PieceEnd:
+    return PieceEnd(piece, state_at(piece, piece.end), piece.end, guard)
+
+
+def leaving(
+    mode: CompiledMode,
+    guard: Guard | None,
+    state: StateValues,
+    time: Any,
+    work: Any,
+) -> ModeExit:
+    """How a mode is left in a state of it; the work is as before where none is done."""
+    contacts = [touch.contact for touch in mode.mode.touches]
+    gaps, rooms = (
+        {i: state[s] for i, contact in enumerate(contacts) if (s := symbol(contact)) in state}
+        for symbol in (gap_symbol, room_symbol)
+    )
+    return ModeExit(guard, place_of(mode, state, time, work), gaps, rooms)
+
+
+def place_of(mode: CompiledMode, state: StateValues, time: Any, work: Any = 0.0) -> State:
+    """The state that all modes share, of a state of one mode; the work if that has none."""
+    own = {s: state[s] for s in mode.dynamics.states if s not in mode.dynamics.carried}
+    return mode.lifted(time, own, state.get(WORK, work))
