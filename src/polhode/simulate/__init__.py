@@ -16,7 +16,7 @@ from polhode.simulate._validity import refuse_doubt as refuse_doubt
 from polhode.simulate._values import idle_parameters as idle_parameters
 from polhode.simulate._values import read_parameters as read_parameters
 from polhode.simulate._values import refuse_missing as refuse_missing
-from polhode.simulate.contact._carried import slip_symbols as slip_symbols
+from polhode.simulate.contact._auxiliary_states import slip_symbols as slip_symbols
 from polhode.simulate.files._saved import load as load
 from polhode.simulate.forcing._approximation import Approximation as Approximation
 from polhode.simulate.forcing._callable import approximated as approximated

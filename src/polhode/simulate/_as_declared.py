@@ -110,7 +110,7 @@ class _SmoothEquations:
     def stepper(self) -> Stepper:
         return self._integrator.prepare(self.flow, self._tolerance)
 
-    def watched(self, constants: Array, tally: StepCount) -> StopCriteria:
+    def criteria(self, constants: Array, tally: StepCount) -> StopCriteria:
         """What stops an integration for a look."""
         if not self.passages:
             return StopCriteria()
@@ -166,9 +166,9 @@ class _DeclaredPieces:
     ) -> tuple[TrajectoryPiece, SideChange | None]:
         """Up to the end of a span, or of a side."""
         equations, constants = self.equations, self._constants
-        watched = equations.watched(constants, self._tally)
+        criteria = equations.criteria(constants, self._tally)
         solution = integrate(
-            equations.flow, equations.stepper, constants, rest, span, self._progress, watched
+            equations.flow, equations.stepper, constants, rest, span, self._progress, criteria
         )
         reached = span[1] if solution.stop is Stop.TIME else float(solution.steps[-1])
         whole = TrajectoryPiece(span[0], reached, solution, constants)

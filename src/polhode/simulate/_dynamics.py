@@ -128,7 +128,7 @@ class Dynamics:
         equations: exact equations of motion.
         prescribed: every prescribed function as an expression of time.
         idle: parameters of the declaration that dropped out of the equations but have values.
-        carried: quantities that are integrated although they follow from the others, with their
+        auxiliary: quantities that are integrated although they follow from the others, with their
             rates: near zero they would drown in the rounding of what they follow from.
         meanings: what other symbols of the equations stand for.
         lifted: coordinates and speeds of other modes that follow from those of this one.
@@ -139,7 +139,7 @@ class Dynamics:
     equations: EquationsOfMotion
     prescribed: Mapping[Symbol, Expr]
     idle: tuple[Symbol, ...] = ()
-    carried: Mapping[Symbol, Expr] = field(default_factory=dict)
+    auxiliary: Mapping[Symbol, Expr] = field(default_factory=dict)
     meanings: Mapping[Symbol, Expr] = field(default_factory=dict)
     lifted: Mapping[Symbol, Expr] = field(default_factory=dict)
     sides: Mapping[SquareRoot, int] = field(default_factory=dict)
@@ -147,12 +147,12 @@ class Dynamics:
     @cached_property
     def states(self) -> tuple[Symbol, ...]:
         """Coordinates, independent speeds, and what is carried besides."""
-        return (*self.equations.coordinates, *self.equations.speeds, *self.carried)
+        return (*self.equations.coordinates, *self.equations.speeds, *self.auxiliary)
 
     @cached_property
-    def without_carried(self) -> Dynamics:
+    def without_auxiliary(self) -> Dynamics:
         """The same equations on coordinates and speeds alone, for modes in which nothing slides."""
-        return replace(self, carried={}, meanings={})
+        return replace(self, auxiliary={}, meanings={})
 
     @cached_property
     def parameters(self) -> tuple[Symbol, ...]:
@@ -172,7 +172,7 @@ class Dynamics:
         own = (*equations.coordinates, *equations.speeds)
         return (
             *(Expr.generator(symbol.derivative()) for symbol in own),
-            *self.carried.values(),
+            *self.auxiliary.values(),
         )
 
     @cached_property
@@ -270,7 +270,7 @@ class Dynamics:
         equations = self.equations
         entries = (entry for row in equations.mass.rows for entry in row)
         relations = (*equations.kinematics.values(), *equations.dependent.values())
-        driven = (*self.prescribed.values(), *self.carried.values())
+        driven = (*self.prescribed.values(), *self.auxiliary.values())
         own = (*entries, *equations.forcing, equations.power, *relations, *driven)
         return tuple(root for root in roots_in(map(self._put_in, own)) if _varies(root))
 
@@ -371,8 +371,8 @@ def readable(dynamics: Dynamics, invariants: Mapping[str, Expr]) -> dict[str, Ex
     equations = dynamics.equations
     rates = (*equations.speeds, *equations.kinematics, *equations.dependent)
     moving = (*equations.coordinates, *rates, *(rate.derivative() for rate in rates))
-    carried = (symbol for symbol in dynamics.carried if symbol != WORK)
-    symbols = (CLOCK, *moving, *carried, *dynamics.parameters, *equations.functions)
+    auxiliary = (symbol for symbol in dynamics.auxiliary if symbol != WORK)
+    symbols = (CLOCK, *moving, *auxiliary, *dynamics.parameters, *equations.functions)
     powers = getattr(equations, "powers", {})
     return {
         **{symbol.published: Expr.generator(symbol) for symbol in symbols},

@@ -51,11 +51,11 @@ class Guarded:
     """What follows a motion through its contact modes.
 
     Attributes:
-        machine: the modes, with numbers.
+        hybrid: the modes, with numbers.
         apart: contacts that start at a given height.
     """
 
-    machine: HybridSystem
+    hybrid: HybridSystem
     apart: frozenset[int]
 
 

@@ -41,7 +41,7 @@ class BatchResults:
     Attributes:
         times: of the looks, s; the last of them is the time at which every motion has ended.
         constants: of all parameters, shape (motions,).
-        stretches: of prescribed motions.
+        intervals: of prescribed motions.
         end: of every motion, s.
         first: modes that they start in.
         last: modes that they end in.
@@ -49,14 +49,14 @@ class BatchResults:
 
     times: Array
     constants: Mapping[Symbol, Array]
-    stretches: ForcingIntervals
+    intervals: ForcingIntervals
     end: Array
     first: list[str]
     last: list[str]
-    _seen: dict[int, dict[int, list[tuple[BatchSegment, Rows, Array]]]] = field(
+    _recorded: dict[int, dict[int, list[tuple[BatchSegment, Rows, Array]]]] = field(
         default_factory=dict
     )
-    _happened: list[tuple[int, float, str]] = field(default_factory=list)
+    _events: list[tuple[int, float, str]] = field(default_factory=list)
 
     @classmethod
     def of(
@@ -64,65 +64,65 @@ class BatchResults:
         count: int,
         times: Array,
         constants: Mapping[Symbol, Array],
-        stretches: ForcingIntervals,
+        intervals: ForcingIntervals,
         mode: str,
     ) -> BatchResults:
         """Of motions that nothing has happened to so far."""
         end = np.full(count, times[-1])
-        return cls(times, constants, stretches, end, [mode] * count, [mode] * count)
+        return cls(times, constants, intervals, end, [mode] * count, [mode] * count)
 
     def constants_from(self, rows: Rows, times: Array) -> dict[Symbol, Array]:
         """All constants of some motions, as they are from some times on."""
-        return self._constants_of(rows) | self.stretches.from_then(times)
+        return self._constants_of(rows) | self.intervals.from_then(times)
 
     def constants_until(self, rows: Rows, times: Array) -> dict[Symbol, Array]:
         """The same as they are up to some times."""
-        return self._constants_of(rows) | self.stretches.until_then(times)
+        return self._constants_of(rows) | self.intervals.until_then(times)
 
     def _constants_of(self, rows: Rows) -> dict[Symbol, Array]:
         return {symbol: values[rows] for symbol, values in self.constants.items()}
 
-    def note(self, look: int, stay: BatchSegment, rows: Rows, states: Array) -> None:
+    def record(self, sample: int, batch_segment: BatchSegment, rows: Rows, states: Array) -> None:
         """States of some motions, shape (states, rows)."""
-        by_mode = self._seen.setdefault(look, {})
-        by_mode.setdefault(id(stay), []).append((stay, rows, states))
+        by_mode = self._recorded.setdefault(sample, {})
+        by_mode.setdefault(id(batch_segment), []).append((batch_segment, rows, states))
 
-    def note_one(
-        self, look: int, stay: BatchSegment, row: int, state: Mapping[Symbol, float]
+    def record_one(
+        self, sample: int, batch_segment: BatchSegment, row: int, state: Mapping[Symbol, float]
     ) -> None:
         """The state of one motion."""
-        states = np.array([[state.get(symbol, 0.0)] for symbol in stay.states])
-        self.note(look, stay, np.array([row]), states)
+        states = np.array([[state.get(symbol, 0.0)] for symbol in batch_segment.states])
+        self.record(sample, batch_segment, np.array([row]), states)
 
-    def happened(self, row: int, time: float, kind: str) -> None:
+    def record_event(self, row: int, time: float, kind: str) -> None:
         """Something happened to a motion."""
-        self._happened.append((row, time, kind))
+        self._events.append((row, time, kind))
 
     def finish(self, row: int, time: float, mode: str) -> None:
         """A motion has come to its end."""
         self.end[row] = time
         self.last[row] = mode
 
-    def values(self, quantity: Quantity, look: int) -> Array:
+    def values(self, quantity: Quantity, sample: int) -> Array:
         """A quantity at a look, shape (motions,); not-a-number where a motion was not seen."""
         found = np.full(len(self.end), np.nan)
-        clock = self.end if look == LAST else np.full(len(self.end), self.times[look])
-        constants = self.constants_until if look == LAST else self.constants_from
-        for stay, rows, states in self._by_mode(look):
-            seen = dict(zip(stay.states, states, strict=True))
+        clock = self.end if sample == LAST else np.full(len(self.end), self.times[sample])
+        constants = self.constants_until if sample == LAST else self.constants_from
+        for batch_segment, rows, states in self._by_mode(sample):
+            seen = dict(zip(batch_segment.states, states, strict=True))
             known = constants(rows, clock[rows])
-            found[rows] = stay.values(quantity, clock[rows], seen, known)
+            found[rows] = batch_segment.values(quantity, clock[rows], seen, known)
         return found
 
-    def _by_mode(self, look: int) -> Iterator[tuple[BatchSegment, Rows, Array]]:
-        for parts in self._seen.get(look, {}).values():
+    def _by_mode(self, sample: int) -> Iterator[tuple[BatchSegment, Rows, Array]]:
+        for parts in self._recorded.get(sample, {}).values():
             rows = np.concatenate([rows for _, rows, _ in parts])
             yield parts[0][0], rows, np.concatenate([x for *_, x in parts], axis=1)
 
     def events(self) -> Events:
         """All that happened, motion by motion."""
-        kinds = tuple(dict.fromkeys(kind for *_, kind in self._happened))
-        told = sorted(self._happened, key=lambda one: one[:2])
+        kinds = tuple(dict.fromkeys(kind for *_, kind in self._events))
+        told = sorted(self._events, key=lambda one: one[:2])
         rows = np.array([row for row, *_ in told], dtype=np.intp)
         places = np.arange(len(rows)) - np.searchsorted(rows, rows, "left")
         shape = (len(self.end), int(np.max(places, initial=-1)) + 1)

@@ -16,7 +16,7 @@ from polhode.simulate._dynamics import CLOCK, WORK, Dynamics, readable
 from polhode.simulate._task import AS_DECLARED
 from polhode.simulate.batch._forcing_intervals import ForcingIntervals
 from polhode.simulate.batch._lanes import BatchArrivals, BatchStage, Lanes
-from polhode.simulate.contact._carried import slip_symbols
+from polhode.simulate.contact._auxiliary_states import slip_symbols
 from polhode.simulate.contact._hybrid_system import CompiledMode
 from polhode.simulate.integrate._arrays import Array, rows
 
@@ -104,7 +104,7 @@ class BatchSegment:
         quantities: that are to be read.
         names: of all quantities of the system: those that this mode does not have are zero in it.
         tolerance: relative, of one step.
-        stretches: of prescribed motions.
+        intervals: of prescribed motions.
         whole: whether other modes follow, that need all states, or only what is read counts.
         square: a matrix that must stay regular.
     """
@@ -117,7 +117,7 @@ class BatchSegment:
         quantities: Collection[Quantity],
         names: Collection[str],
         tolerance: float | None,
-        stretches: ForcingIntervals,
+        intervals: ForcingIntervals,
         *,
         whole: bool = False,
         square: Matrix | None = None,
@@ -128,7 +128,7 @@ class BatchSegment:
         self._square = square
         self._names = names
         self._tolerance = tolerance
-        self._stretches = stretches
+        self._intervals = intervals
         self._whole = whole
         self.states = self._needed(quantities)
 
@@ -137,7 +137,7 @@ class BatchSegment:
         """The guard that only tells that a motion cannot be followed."""
         return len(self.endings)
 
-    def launch(
+    def stage(
         self,
         begin: Array,
         states: Mapping[Symbol, Array],
@@ -160,7 +160,7 @@ class BatchSegment:
             rows([states.get(s, rest) for s in self.states], len(begin)),
             self.ordered(constants, len(begin)),
             rows([*least, *jams], len(begin)),
-            self._stretches.until_jerk(begin),
+            self._intervals.until_jerk(begin),
         )
         if jams:
             found.least[-1] = _NEARLY * np.abs(self.lanes.guarded(found)[-1])
@@ -171,23 +171,23 @@ class BatchSegment:
         values: Array = rows([constants[s] for s in self.dynamics.parameters], count)
         return values
 
-    def clear(self, launch: BatchStage) -> NDArray[np.bool_]:
+    def clear(self, stage: BatchStage) -> NDArray[np.bool_]:
         """Motions that are taken up where all is finite, and no guard is anywhere near its fall."""
         with np.errstate(all="ignore"):
-            above = self.lanes.guarded(launch)
-        rates = self.lanes.values([self._rates[s] for s in self.states], launch)
+            above = self.lanes.guarded(stage)
+        rates = self.lanes.values([self._rates[s] for s in self.states], stage)
         sizes = np.where(np.isfinite(above), np.abs(above), 0.0)
         least = _CLEAR * np.max(sizes, axis=1, initial=0.0, keepdims=True)
         finite = np.all(np.isfinite(rates), axis=0)
         return np.asarray(finite & np.all(above > least, axis=0), dtype=bool)
 
-    def follow(self, launch: BatchStage, times: Array) -> BatchArrivals:
+    def follow(self, stage: BatchStage, times: Array) -> BatchArrivals:
         """All motions to every one of some times, as far as they go."""
-        return self.lanes.follow(launch, times)
+        return self.lanes.follow(stage, times)
 
-    def rates(self, launch: BatchStage) -> Array:
+    def rates(self, stage: BatchStage) -> Array:
         """Of the states where motions are taken up, shape (states, motions)."""
-        return self.lanes.values([self._rates[s] for s in self.states], launch)
+        return self.lanes.values([self._rates[s] for s in self.states], stage)
 
     def values(
         self,
@@ -197,7 +197,7 @@ class BatchSegment:
         constants: Mapping[Symbol, Array],
     ) -> Array:
         """A quantity of many motions, each at its own time; shape (motions,)."""
-        there = self.launch(times, states, constants, np.zeros(len(times)))
+        there = self.stage(times, states, constants, np.zeros(len(times)))
         (found,) = self.lanes.values([self._expression(quantity)], there)
         return np.asarray(found, dtype=float)
 
@@ -249,7 +249,7 @@ class BatchSegment:
             [ending.positive for ending in self.endings],
             self._square,
             self._tolerance,
-            self._stretches,
+            self._intervals,
             # The time since a knot of a prescribed motion does not count.
             driven=any(CLOCK in motion.symbols() for motion in motions),
         )

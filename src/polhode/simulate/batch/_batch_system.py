@@ -160,7 +160,7 @@ class BatchSystem(Protocol):
     """What is followed many times over."""
 
     @property
-    def stretches(self) -> ForcingIntervals:
+    def intervals(self) -> ForcingIntervals:
         """Of its prescribed motions."""
         ...
 
@@ -184,11 +184,11 @@ class BatchSystem(Protocol):
         """All parameters of one motion."""
         ...
 
-    def stay(self, phases: Phases) -> BatchSegment:
+    def batch_segment(self, phases: Phases) -> BatchSegment:
         """What motions do in a mode."""
         ...
 
-    def company(self, sightings: BatchResults, starts: Starts) -> ModeBatch:
+    def batch(self, results: BatchResults, starts: Starts) -> ModeBatch:
         """What follows them."""
         ...
 
@@ -200,15 +200,15 @@ class OneMode:
     dynamics: Dynamics
     numbers: Mapping[Symbol, float]
     plan: Plan
-    stretches: ForcingIntervals
+    intervals: ForcingIntervals
     phases: Phases = ()
     contacts: tuple[Contact, ...] = ()
 
-    def stay(self, phases: Phases) -> BatchSegment:
-        return self._stay
+    def batch_segment(self, phases: Phases) -> BatchSegment:
+        return self._only_segment
 
     @cached_property
-    def _stay(self) -> BatchSegment:
+    def _only_segment(self) -> BatchSegment:
         plan, sides = self.plan, self.dynamics.equations.assumed_positive
         return BatchSegment(
             self.dynamics,
@@ -217,34 +217,34 @@ class OneMode:
             plan.quantities,
             (),
             plan.tolerance,
-            self.stretches,
+            self.intervals,
         )
 
-    def company(self, sightings: BatchResults, starts: Starts) -> ModeBatch:
-        return ModeBatch(self.stay, sightings)
+    def batch(self, results: BatchResults, starts: Starts) -> ModeBatch:
+        return ModeBatch(self.batch_segment, results)
 
 
 @dataclass(frozen=True)
 class AllModes:
     """A system that goes from contact mode to contact mode."""
 
-    machine: HybridSystem
+    hybrid: HybridSystem
     plan: Plan
     numbers: Mapping[Symbol, float]
-    stretches: ForcingIntervals
+    intervals: ForcingIntervals
     _known: dict[Phases, BatchSegment] = field(default_factory=dict)
 
     @property
     def phases(self) -> Phases:
-        return self.machine.automaton.together.phases
+        return self.hybrid.automaton.together.phases
 
     @property
     def dynamics(self) -> Dynamics:
-        return self.machine.mode(self.phases).dynamics
+        return self.hybrid.mode(self.phases).dynamics
 
     @property
     def contacts(self) -> tuple[Contact, ...]:
-        return self.machine.automaton.contacts
+        return self.hybrid.automaton.contacts
 
     @cached_property
     def goes_on(self) -> bool:
@@ -252,15 +252,15 @@ class AllModes:
 
         Where nothing rubs or jerks they hardly ever leave it, and need not be known in full.
         """
-        if len(self.stretches.jerks):
+        if len(self.intervals.jerks):
             return True
         rubs = any(isinstance(contact, Coulomb) for contact in self.contacts)
-        endings = endings_of(self.machine.mode(self.phases), 0.0, self.plan.until)
+        endings = endings_of(self.hybrid.mode(self.phases), 0.0, self.plan.until)
         return rubs and not all(ending.kind for ending in endings)
 
-    def stay(self, phases: Phases) -> BatchSegment:
+    def batch_segment(self, phases: Phases) -> BatchSegment:
         if phases not in self._known:
-            mode, plan = self.machine.mode(phases), self.plan
+            mode, plan = self.hybrid.mode(phases), self.plan
             self._known[phases] = BatchSegment(
                 mode.dynamics,
                 mode.mode.name,
@@ -268,30 +268,30 @@ class AllModes:
                 plan.quantities,
                 readable(self.dynamics, {}),
                 plan.tolerance,
-                self.stretches,
+                self.intervals,
                 whole=self.goes_on,
                 square=mode.mode.equations.mass if mode.can_jam else None,
             )
         return self._known[phases]
 
-    def company(self, sightings: BatchResults, starts: Starts) -> ModeBatch:
+    def batch(self, results: BatchResults, starts: Starts) -> ModeBatch:
         if not self.goes_on:
-            return ModeBatch(self.stay, sightings)
-        pilot = SingleTrajectoryStepper(
-            self.machine, self.plan.task(self.machine.integrator), self.stretches
+            return ModeBatch(self.batch_segment, results)
+        stepper = SingleTrajectoryStepper(
+            self.hybrid, self.plan.task(self.hybrid.integrator), self.intervals
         )
-        return BatchScheduler(self.stay, sightings, pilot, starts)
+        return BatchScheduler(self.batch_segment, results, stepper, starts)
 
 
 def one_mode(equations: EquationsOfMotion, plan: Plan) -> OneMode | None:
     """Equations that are kept to; None where their supports jerk on the way, or loops close."""
     drive = prescribed_motion(equations.functions, plan.forcing, plan.duration)
-    stretches = ForcingIntervals(drive, plan.duration)
-    if len(stretches.jerks) or equations.closures:
+    intervals = ForcingIntervals(drive, plan.duration)
+    if len(intervals.jerks) or equations.closures:
         return None
     dynamics = Dynamics(equations, drive.expressions, idle_parameters(equations, plan.parameters))
     numbers = read_parameters(dynamics, plan.parameters, drive.constants(0.0))
-    return OneMode(dynamics, numbers, plan, stretches)
+    return OneMode(dynamics, numbers, plan, intervals)
 
 
 def all_modes(modes: Automaton, plan: Plan, integrator: Integrator) -> AllModes:
@@ -301,9 +301,9 @@ def all_modes(modes: Automaton, plan: Plan, integrator: Integrator) -> AllModes:
     idle = idle_parameters(equations, plan.parameters)
     common = Dynamics(equations, drive.expressions, (*modes.parameters, *idle))
     numbers = read_parameters(common, plan.parameters, drive.constants(0.0))
-    machine = HybridSystem(modes, drive, numbers, integrator, plan.tolerance)
-    check_numbers(machine)
-    return AllModes(machine, plan, numbers, ForcingIntervals(drive, plan.duration))
+    hybrid = HybridSystem(modes, drive, numbers, integrator, plan.tolerance)
+    check_numbers(hybrid)
+    return AllModes(hybrid, plan, numbers, ForcingIntervals(drive, plan.duration))
 
 
 # -- the whole batch -------------------------------------------------------------------------------
@@ -359,22 +359,22 @@ class SingleModeBatch:
         subject, dynamics = self._subject, self._subject.dynamics
         constants = filled(tuple(subject.numbers), subject.numbers, columns, count)
         states = filled(dynamics.states, self._start or {}, columns, count)
-        at_once = subject.stretches.from_then(np.zeros(count))
+        at_once = subject.intervals.from_then(np.zeros(count))
         begun = BatchStart(dynamics, states, constants | at_once, subject.contacts)
         possible = begun.possible()
         usual = possible & begun.regular() & (self._start is not None)
-        first = subject.stay(subject.phases).mode
-        sightings = BatchResults.of(count, times, constants, subject.stretches, first)
-        company = subject.company(sightings, starts)
+        first = subject.batch_segment(subject.phases).mode
+        results = BatchResults.of(count, times, constants, subject.intervals, first)
+        batch = subject.batch(results, starts)
         rows = np.flatnonzero(usual)
         zero, own = np.zeros(len(rows)), {s: values[rows] for s, values in states.items()}
         group = Group(rows, zero, own, zero, [None] * len(rows), [0] * len(rows))
-        company.together(subject.phases, group)
+        batch.together(subject.phases, group)
         for row in np.flatnonzero(possible & ~usual).tolist():
-            company.start(row)
-        company.run()
-        possible[sorted(company.lost)] = False
-        return BatchSolution(possible, company.sightings)
+            batch.start(row)
+        batch.run()
+        possible[sorted(batch.lost)] = False
+        return BatchSolution(possible, batch.results)
 
 
 def abreast(subject: Automaton | EquationsOfMotion, plan: Plan) -> SingleModeBatch | None:

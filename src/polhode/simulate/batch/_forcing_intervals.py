@@ -67,12 +67,12 @@ class ForcingIntervals:
         """Coefficients that hold up to some times."""
         return self._held(np.searchsorted(self.breaks, times, "left"))
 
-    def _held(self, stretches: NDArray[np.intp]) -> dict[Symbol, Array]:
-        return dict(zip(self.symbols, self.table(stretches), strict=True))
+    def _held(self, intervals: NDArray[np.intp]) -> dict[Symbol, Array]:
+        return dict(zip(self.symbols, self.table(intervals), strict=True))
 
-    def table(self, stretches: NDArray[np.intp]) -> Array:
+    def table(self, intervals: NDArray[np.intp]) -> Array:
         """Coefficients of some stretches, by their places; shape (symbols, stretches)."""
-        return self._table[:, stretches]
+        return self._table[:, intervals]
 
     def begun_before(self, time: float) -> float:
         """Beginning of the stretch that lasts until a time, s."""
@@ -101,24 +101,24 @@ class PauseTimes:
 
     Attributes:
         times: s, rising.
-        looks: place of each among the times that were asked for, or -1.
+        samples: place of each among the times that were asked for, or -1.
         held: coefficients that hold up to each, shape (symbols, times), in their order.
         abrupt: where forces may jump.
     """
 
     times: Array
-    looks: list[int]
+    samples: list[int]
     held: Array
     abrupt: list[bool]
 
     @classmethod
-    def of(cls, asked: Array, stretches: ForcingIntervals) -> PauseTimes:
+    def of(cls, asked: Array, intervals: ForcingIntervals) -> PauseTimes:
         """Of the times that were asked for, and those of the prescribed motions."""
-        times = np.union1d(asked, stretches.breaks)
+        times = np.union1d(asked, intervals.breaks)
         places = {time: place for place, time in enumerate(asked.tolist())}
         return cls(
             times,
             [places.get(time, -1) for time in times.tolist()],
-            stretches.table(np.searchsorted(stretches.breaks, times, "left")),
-            [time in stretches.abrupt for time in times.tolist()],
+            intervals.table(np.searchsorted(intervals.breaks, times, "left")),
+            [time in intervals.abrupt for time in times.tolist()],
         )

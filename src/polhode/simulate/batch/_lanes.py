@@ -82,12 +82,12 @@ class BatchArrivals:
     good: NDArray[np.bool_]
 
     @classmethod
-    def none_yet(cls, times: Array, launch: BatchStage) -> BatchArrivals:
+    def none_yet(cls, times: Array, stage: BatchStage) -> BatchArrivals:
         """Of motions that have yet to be followed."""
-        count = launch.count
+        count = stage.count
         return cls(
-            np.full((len(times), len(launch.states), count), np.nan),
-            launch.end.copy(),
+            np.full((len(times), len(stage.states), count), np.nan),
+            stage.end.copy(),
             np.full(count, NONE, dtype=np.intp),
             np.ones(count, dtype=bool),
         )
@@ -143,7 +143,7 @@ class BatchTask:
     """What is to be done, by several crews.
 
     Attributes:
-        launch: the motions.
+        stage: the motions.
         constants: all parameters of the integrator, shape (parameters, motions).
         plan: when motions pause.
         moving: places among the parameters of the coefficients in the plan.
@@ -152,7 +152,7 @@ class BatchTask:
         found: where what is found goes.
     """
 
-    launch: BatchStage
+    stage: BatchStage
     constants: Array
     plan: PauseTimes
     moving: NDArray[np.intp]
@@ -163,7 +163,7 @@ class BatchTask:
     @cached_property
     def places(self) -> ParameterLayout:
         """Where among the constants what is."""
-        return ParameterLayout(len(self.launch.parameters), len(self.launch.least))
+        return ParameterLayout(len(self.stage.parameters), len(self.stage.least))
 
 
 class BatchIntegrator:
@@ -212,23 +212,23 @@ class BatchIntegrator:
         row, place = self._rows[lane], self._next[lane]
         if row is None:
             self._bursts[lane] = 0
-        elif self._is_stopped(lane) or self._target[lane] >= self._work.launch.end[row]:
+        elif self._is_stopped(lane) or self._target[lane] >= self._work.stage.end[row]:
             self._finish(lane, row)
             self._take_up(lane, queue)
         else:
-            look = self._work.plan.looks[place]
-            if look >= 0:
-                self._work.found.states[look, :, row] = self._state[:, lane]
+            sample = self._work.plan.samples[place]
+            if sample >= 0:
+                self._work.found.states[sample, :, row] = self._state[:, lane]
             self._head_for(lane, place + 1)
             if self._work.plan.abrupt[place]:
-                self._look_again(lane, row, queue)
+                self._check_guards(lane, row, queue)
 
-    def _look_again(self, lane: int, row: int, queue: Iterator[int]) -> None:
+    def _check_guards(self, lane: int, row: int, queue: Iterator[int]) -> None:
         """Where forces jump, a guard may fall unseen by the integrator."""
         found, places = self._work.found, self._work.places
         if not places.guards:
             return
-        here = self._work.launch.some(np.array([row])).moved(
+        here = self._work.stage.some(np.array([row])).moved(
             self._time[[lane]], self._state[:, [lane]], self._constants[: places.own, [lane]]
         )
         fallen = self._work.guarded(here)[:, 0] < 0
@@ -254,14 +254,14 @@ class BatchIntegrator:
 
     def _take_up(self, lane: int, queue: Iterator[int]) -> None:
         """Put the next motion into a lane; where there is none, it rests where the first starts."""
-        taylor, launch = self._taylor, self._work.launch
+        taylor, stage = self._taylor, self._work.stage
         row = next(queue, None)
         self._rows[lane] = row
         chosen = row or 0
         late, early = (part.copy() for part in self._dtime)
-        late[lane], early[lane] = launch.begin[chosen], 0.0
+        late[lane], early[lane] = stage.begin[chosen], 0.0
         taylor.set_dtime(late, early)
-        self._state[:, lane] = launch.states[:, chosen]
+        self._state[:, lane] = stage.states[:, chosen]
         self._constants[:, lane] = self._work.constants[: len(self._constants), chosen]
         if self._work.places.guards:
             taylor.reset_cooldowns(lane)
@@ -295,7 +295,7 @@ class Lanes:
         guards: fall through a least value where a motion ends.
         square: a matrix whose determinant is one more guard, the last.
         tolerance: relative, of one step.
-        stretches: of prescribed motions.
+        intervals: of prescribed motions.
         driven: whether the time itself occurs.
     """
 
@@ -307,7 +307,7 @@ class Lanes:
         guards: Sequence[Expr],
         square: Matrix | None,
         tolerance: float | None,
-        stretches: ForcingIntervals,
+        intervals: ForcingIntervals,
         *,
         driven: bool,
     ) -> None:
@@ -320,7 +320,7 @@ class Lanes:
         self._sides = tuple(guards)
         self._square = square
         self._tolerance = np.finfo(float).eps if tolerance is None else tolerance
-        self._stretches = stretches
+        self._intervals = intervals
         self._fewest = LOOKS if driven else 1
 
     @property
@@ -333,51 +333,51 @@ class Lanes:
         """How many guards there are."""
         return len(self._sides) + (self._square is not None)
 
-    def values(self, expressions: Sequence[Expr], launch: BatchStage) -> Array:
+    def values(self, expressions: Sequence[Expr], stage: BatchStage) -> Array:
         """Of many motions where they are taken up, shape (expressions, motions)."""
         function = self._dynamics.function(expressions, self.arguments)
         with np.errstate(all="ignore"):
-            found = function(*launch.states, *self._rest, *launch.parameters, launch.begin)
-        values: Array = rows(found, launch.count)
+            found = function(*stage.states, *self._rest, *stage.parameters, stage.begin)
+        values: Array = rows(found, stage.count)
         return values
 
-    def guarded(self, launch: BatchStage) -> Array:
+    def guarded(self, stage: BatchStage) -> Array:
         """How far the guards are above their least values, shape (guards, motions)."""
-        found = self.values(self._sides, launch)
+        found = self.values(self._sides, stage)
         if self._square is not None:
-            entries = self.values([e for row in self._square.rows for e in row], launch)
+            entries = self.values([e for row in self._square.rows for e in row], stage)
             matrix = entries.reshape(*self._square.shape, -1)
             found = np.vstack([found, determinant([list(row) for row in matrix])])
-        return np.asarray(found - launch.least)
+        return np.asarray(found - stage.least)
 
-    def follow(self, launch: BatchStage, times: Array) -> BatchArrivals:
+    def follow(self, stage: BatchStage, times: Array) -> BatchArrivals:
         """Integrate to every one of some times.
 
         Args:
             times: s, increasing, the last of them after every beginning.
         """
-        found = BatchArrivals.none_yet(times, launch)
-        plan = PauseTimes.of(times, self._stretches)
-        symbols = self._stretches.symbols
+        found = BatchArrivals.none_yet(times, stage)
+        plan = PauseTimes.of(times, self._intervals)
+        symbols = self._intervals.symbols
         moving = np.array([self._dynamics.parameters.index(s) for s in symbols], dtype=np.intp)
-        constants = self._constants(launch)
-        work = BatchTask(launch, constants, plan, moving, self._fewest, self.guarded, found)
-        queue = iter(range(launch.count))
-        threads = min(os.cpu_count() or 1, -(-launch.count // self.width))
+        constants = self._constants(stage)
+        work = BatchTask(stage, constants, plan, moving, self._fewest, self.guarded, found)
+        queue = iter(range(stage.count))
+        threads = min(os.cpu_count() or 1, -(-stage.count // self.width))
         if threads:
-            crews = [BatchIntegrator(copy(self._compiled), work) for _ in range(threads)]
+            integrators = [BatchIntegrator(copy(self._compiled), work) for _ in range(threads)]
             with ThreadPoolExecutor(threads) as pool:
-                list(pool.map(lambda crew: crew.follow(queue), crews))
+                list(pool.map(lambda integrator: integrator.follow(queue), integrators))
         return found
 
-    def _constants(self, launch: BatchStage) -> Array:
+    def _constants(self, stage: BatchStage) -> Array:
         """All parameters of the compiled equations, shape (parameters, motions)."""
         if not self.guards:
-            return launch.parameters
-        sizes = np.abs(self.guarded(launch))
+            return stage.parameters
+        sizes = np.abs(self.guarded(stage))
         unit = 1 / np.where(sizes > 0, sizes, 1.0)
-        going = np.ones((1, launch.count))
-        return np.vstack([launch.parameters, unit, unit * launch.least, going])
+        going = np.ones((1, stage.count))
+        return np.vstack([stage.parameters, unit, unit * stage.least, going])
 
     @cached_property
     def _compiled(self) -> Any:

@@ -132,13 +132,13 @@ class VariationalEquations:
         self._quantities = dynamics.program(quantities, arguments)
 
     def follow(
-        self, start: Array, stretches: Sequence[ConstantInterval], times: Array
+        self, start: Array, intervals: Sequence[ConstantInterval], times: Array
     ) -> tuple[Array, Array]:
         """Quantities and their derivatives along one motion.
 
         Args:
-            start: of all states, where the first stretch begins.
-            stretches: one after the other, from the start on.
+            start: of all states, where the first interval begins.
+            intervals: one after the other, from the start on.
             times: s, within them.
 
         Returns:
@@ -151,20 +151,20 @@ class VariationalEquations:
         whole = np.concatenate([start, slopes_at_start.ravel()])
         values = np.empty((len(self._quantities.outputs), len(times)))
         slopes = np.empty((len(values), len(self._by), len(times)))
-        begins = [stretch.begin for stretch in stretches]
+        begins = [interval.begin for interval in intervals]
         which = np.clip(np.searchsorted(begins, times, "right") - 1, 0, None)
-        for i, stretch in enumerate(stretches):
+        for i, interval in enumerate(intervals):
             here = which == i
-            path = self._path(whole, stretch, np.append(times[here], stretch.end))
+            path = self._path(whole, interval, np.append(times[here], interval.end))
             whole = path[:, -1]
-            values[:, here], slopes[:, :, here] = self._read(path[:, :-1], stretch, times[here])
+            values[:, here], slopes[:, :, here] = self._read(path[:, :-1], interval, times[here])
         return values, slopes
 
-    def _read(self, path: Array, stretch: ConstantInterval, times: Array) -> tuple[Array, Array]:
+    def _read(self, path: Array, interval: ConstantInterval, times: Array) -> tuple[Array, Array]:
         size = len(self._dynamics.states)
         slopes = path[size:].reshape(size, len(self._by), len(times))
         numbers = [Dual(x, s) for x, s in zip(path[:size], slopes, strict=True)]
-        constants = [_constant(p, self._slopes(s)) for s, p in self._valued(stretch.constants)]
+        constants = [_constant(p, self._slopes(s)) for s, p in self._valued(interval.constants)]
         found = self._quantities.function(duals(arrays()))(*numbers, *constants, times)
         values = rows([_parts(q)[0] for q in found], len(times))
         shape = (len(self._by), len(times))
@@ -178,13 +178,13 @@ class VariationalEquations:
         """Derivatives of a quantity that is given, shape (by, 1)."""
         return np.array([[float(symbol == other)] for other in self._by])
 
-    def _path(self, whole: Array, stretch: ConstantInterval, times: Array) -> Array:
+    def _path(self, whole: Array, interval: ConstantInterval, times: Array) -> Array:
         """States and then their derivatives, shape (states × (1 + by), times)."""
         solved = self._taylor if chosen().name == "heyoka" else self._runge_kutta
-        grid = np.unique(np.append(stretch.begin, times))
-        found = solved(whole, stretch.constants, grid)
+        grid = np.unique(np.append(interval.begin, times))
+        found = solved(whole, interval.constants, grid)
         if not np.all(np.isfinite(found)):
-            raise broken(stretch.end)
+            raise broken(interval.end)
         return found[:, np.searchsorted(grid, times)]
 
     def _taylor(self, whole: Array, parameters: Array, grid: Array) -> Array:

@@ -39,7 +39,7 @@ class State:
             float(self.time), double(self.coordinates), double(self.speeds), float(self.work)
         )
 
-    def kicked(self, change: Array, work: Any) -> State:
+    def with_impulse(self, change: Array, work: Any) -> State:
         """After an instant in which the speeds jumped and work was done."""
         return replace(self, speeds=self.speeds + change, work=self.work + work)
 
@@ -79,45 +79,45 @@ class Touching:
             ]
         )
 
-    def at(self, place: State, beyond: frozenset[int]) -> list[ContactKinematics]:
+    def at(self, shared: State, beyond: frozenset[int]) -> list[ContactKinematics]:
         """Every contact, at one instant; some of them beyond the edge of their support."""
-        here = self._meetings(self._here, place)
+        here = self._points(self._here, shared)
         if not beyond:
             return here
-        there = self._meetings(self._there, place)
-        return [there[i] if i in beyond else meeting for i, meeting in enumerate(here)]
+        there = self._points(self._there, shared)
+        return [there[i] if i in beyond else point for i, point in enumerate(here)]
 
-    def scale(self, place: State, beyond: frozenset[int]) -> Any:
+    def scale(self, shared: State, beyond: frozenset[int]) -> Any:
         """Size of the velocities that slips are the difference of, m/s."""
-        return max((meeting.scale for meeting in self.at(place, beyond)), default=0.0)
+        return max((point.scale for point in self.at(shared, beyond)), default=0.0)
 
-    def beyond(self, place: State) -> frozenset[int]:
+    def beyond(self, shared: State) -> frozenset[int]:
         """The contacts that are beyond the edge of their support, or are about to be."""
         if not self._edges:
             return frozenset()
-        rounding = _ROUNDING * self._numbers.spacing(max(abs(q) for q in place.coordinates))
-        found = enumerate(self._meetings(self._here, place))
-        return frozenset(i for i, meeting in found if meeting.is_beyond(rounding))
+        rounding = _ROUNDING * self._numbers.spacing(max(abs(q) for q in shared.coordinates))
+        found = enumerate(self._points(self._here, shared))
+        return frozenset(i for i, point in found if point.is_beyond(rounding))
 
-    def _meetings(self, function: Function, place: State) -> list[ContactKinematics]:
-        state = np.concatenate([place.coordinates, place.speeds])
-        found = function(state, place.time, ())
+    def _points(self, function: Function, shared: State) -> list[ContactKinematics]:
+        state = np.concatenate([shared.coordinates, shared.speeds])
+        found = function(state, shared.time, ())
         count = self._shape[0]
         gaps, reserves, drifts = found[: 3 * count].reshape(3, count)
         supports, rests = found[3 * count : 9 * count].reshape(2, count, 3)
-        arms = found[9 * count :].reshape(self._shape)
+        jacobian = found[9 * count :].reshape(self._shape)
         return [
             ContactKinematics(
                 gap,
                 reserve,
                 drift,
-                rest + arm @ place.speeds,
+                rest + arm @ shared.speeds,
                 arm,
                 support,
-                np.max(np.abs(rest) + np.abs(arm) @ np.abs(place.speeds), initial=0.0),
+                np.max(np.abs(rest) + np.abs(arm) @ np.abs(shared.speeds), initial=0.0),
             )
             for gap, reserve, drift, support, rest, arm in zip(
-                gaps, reserves, drifts, supports, rests, arms, strict=True
+                gaps, reserves, drifts, supports, rests, jacobian, strict=True
             )
         ]
 
@@ -131,7 +131,7 @@ class ContactKinematics:
         reserve: how far it is on this side of the support's edge, m.
         drift: rate of that, m/s.
         velocity: of the body's point against the support: along it twice, and away from it, m/s.
-        arms: the same per unit of every shared speed, shape (3, speeds).
+        jacobian: the same per unit of every shared speed, shape (3, speeds).
         support: velocity of the support there, in inertial space, m/s.
         scale: size of what the velocity is the sum of, m/s.
     """
@@ -140,7 +140,7 @@ class ContactKinematics:
     reserve: float
     drift: float
     velocity: Array
-    arms: Array
+    jacobian: Array
     support: Array
     scale: float
 

@@ -15,7 +15,7 @@ from polhode.derive import Guard
 from polhode.simulate._absolute_values import from_zero
 from polhode.simulate._dynamics import CLOCK
 from polhode.simulate._segment import TrajectoryPiece
-from polhode.simulate.contact._carried import gap_symbol, room_symbol
+from polhode.simulate.contact._auxiliary_states import gap_symbol, room_symbol
 from polhode.simulate.contact._contact_kinematics import STILL, ContactKinematics, LiftOff
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
 from polhode.simulate.contact._mode_state import ModeState, beyond
@@ -102,25 +102,25 @@ class GuardMonitor:
     """Looks at the guards of a mode along a stretch of the motion.
 
     Attributes:
-        machine: the modes.
+        hybrid: the modes.
         near_flat: value at which an expression that must stay positive counts as gone.
         mode: the one that the motion is in.
         entry: where it was entered.
     """
 
-    machine: HybridSystem
+    hybrid: HybridSystem
     near_flat: float
     mode: CompiledMode
     entry: ModeState
 
     @cached_property
-    def meetings(self) -> list[ContactKinematics]:
+    def points(self) -> list[ContactKinematics]:
         """What meets where the mode is entered."""
-        return self.machine.touching.at(self.entry.place, beyond(self.entry.phases))
+        return self.hybrid.touching.at(self.entry.shared, beyond(self.entry.phases))
 
     def cut(self, part: TrajectoryPiece) -> tuple[TrajectoryPiece, Guard | None]:
         """The part up to the first guard that falls, and that guard."""
-        seen = _Seen(part, self.entry.place.time)
+        seen = _Seen(part, self.entry.shared.time)
         fall = self.first_fall(seen)
         if fall is not None:
             return replace(part, end=fall[0]), fall[1]
@@ -190,15 +190,15 @@ class GuardMonitor:
         """The guards of contacts that have just opened or crossed an edge, and how these rise."""
         found, entry = {}, self.entry
         for k, guard in enumerate(watched):
-            i = index_of(guard, self.machine)
+            i = index_of(guard, self.hybrid)
             if i < 0:
                 continue
-            meeting, is_beyond = self.meetings[i], entry.phases[i].is_beyond
-            still = float(self.machine.numbers.finer(STILL) * meeting.scale)
+            point, is_beyond = self.points[i], entry.phases[i].is_beyond
+            still = float(self.hybrid.numbers.finer(STILL) * point.scale)
             if guard.kind == "touches down" and entry.gaps.get(i) == 0.0:
-                found[k] = LiftOff(float(meeting.velocity[2]), still)
+                found[k] = LiftOff(float(point.velocity[2]), still)
             if guard.kind == "crosses the edge" and entry.rooms[i] == 0.0:
-                found[k] = LiftOff(float(meeting.leaving(is_beyond=is_beyond)), still)
+                found[k] = LiftOff(float(point.leaving(is_beyond=is_beyond)), still)
         return found
 
     def looked_at(self, guard: Guard) -> Expr:
@@ -216,7 +216,7 @@ class GuardMonitor:
         if vanished is None:
             return None
         i = sorted(self.entry.slips)[vanished]
-        name = self.machine.automaton.contacts[i].name
+        name = self.hybrid.automaton.contacts[i].name
         return next(
             g
             for g in self.mode.mode.guards

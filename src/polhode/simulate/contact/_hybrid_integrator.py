@@ -41,24 +41,24 @@ class HybridIntegrator:
     """Follows one motion from mode to mode.
 
     Args:
-        machine: the modes.
+        hybrid: the modes.
         pieces: integrates a mode from where it is entered, in the numbers of the machine.
         until: events that end the motion.
     """
 
     def __init__(
         self,
-        machine: HybridSystem,
+        hybrid: HybridSystem,
         pieces: Callable[[ModeState], ModePieces],
         until: frozenset[str] = frozenset(),
     ) -> None:
-        self._machine = machine
+        self._hybrid = hybrid
         self._pieces = pieces
         self._until = until
         self._segments: list[Segment] = []
         self._changes: list[ModeSwitch] = []
         self._instants: list[float] = []
-        self._transitions = Transitions(machine)
+        self._transitions = Transitions(hybrid)
         self._side_changes = SideChangeCount()
 
     def integrate(self, entry: ModeState, end: float) -> HybridSolution:
@@ -67,7 +67,7 @@ class HybridIntegrator:
         Raises:
             NumericError: where it cannot be continued.
         """
-        while (begin := entry.place.time) < end:
+        while (begin := entry.shared.time) < end:
             pieces = self._pieces(entry)
             run = integrate_mode(pieces, pieces.start, begin, end, self._side_changes)
             self._segments.extend(run.segments)
@@ -80,7 +80,7 @@ class HybridIntegrator:
                 return HybridSolution(tuple(self._segments), (*self._changes, last), last.after)
             kind, entry = self._transitions.next(entry, pieces.exit(run.last))
             time, before = run.segments[-1].end, pieces.name
-            after = self._machine.mode(entry.phases).mode.name
+            after = self._hybrid.mode(entry.phases).mode.name
             self._changes.append(ModeSwitch(time, kind, before, after))
             self._instants.append(now)
             if len(self._changes) > _MOST_EVENTS:
@@ -103,9 +103,9 @@ class HybridIntegrator:
         passed = last[-1] - last[0]
         if len(last) < _MOST_AT_ONCE or passed > _NO_TIME * end:
             return False
-        instant = 8 * self._machine.numbers.spacing(last[-1])
-        contacts = self._machine.automaton.contacts
-        rebounds = any(self._machine.value(contact.restitution) > 0 for contact in contacts)
+        instant = 8 * self._hybrid.numbers.spacing(last[-1])
+        contacts = self._hybrid.automaton.contacts
+        rebounds = any(self._hybrid.value(contact.restitution) > 0 for contact in contacts)
         return bool(passed <= instant) or not rebounds
 
     def _undecided(self, time: float, modes: set[str]) -> NumericError:
@@ -113,7 +113,7 @@ class HybridIntegrator:
         # without friction it would close again; nor can it hold, for it would have to pull
         # (Painlevé). Limited friction may bring a ball back to an edge from either side.
         names = sorted(modes) if len(modes) > 1 else [*modes, "contact"]
-        unlimited = any(isinstance(c, Rolling) for c in self._machine.automaton.contacts)
+        unlimited = any(isinstance(c, Rolling) for c in self._hybrid.automaton.contacts)
         give = "give the contact a friction coefficient mu, or " if unlimited else ""
         return NumericError(
             f"at t = {float(time):.9g} s no mode can follow: {' and '.join(names)} exclude each "

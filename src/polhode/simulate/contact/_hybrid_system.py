@@ -14,7 +14,7 @@ from polhode.derive import Automaton, Mode
 from polhode.model import Contact, Phase, Sliding
 from polhode.simulate._absolute_values import Here, Sides, passages_of, sides_at
 from polhode.simulate._dynamics import CLOCK, Dynamics
-from polhode.simulate.contact._carried import dynamics_of
+from polhode.simulate.contact._auxiliary_states import dynamics_of
 from polhode.simulate.contact._contact_kinematics import Function, State, Touching
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion
 from polhode.simulate.integrate._arrays import Array, rows
@@ -35,7 +35,7 @@ class HybridSystem:
         integrator: what integrates them.
         tolerance: of its steps.
         numbers: what is computed with.
-        rough: the same machine in doubles; None for that itself.
+        in_doubles: the same machine in doubles; None for that itself.
     """
 
     def __init__(
@@ -46,10 +46,10 @@ class HybridSystem:
         integrator: Integrator,
         tolerance: float | None,
         numbers: NumberType = DOUBLES,
-        rough: HybridSystem | None = None,
+        in_doubles: HybridSystem | None = None,
     ) -> None:
         self.numbers = numbers
-        self.rough = rough or self
+        self.in_doubles = in_doubles or self
         self.automaton = automaton
         self.drive = drive
         self.take(constants)
@@ -99,14 +99,14 @@ class HybridSystem:
 class CompiledMode:
     """One contact mode with numbers."""
 
-    def __init__(self, machine: HybridSystem, mode: Mode, dynamics: Dynamics | None = None) -> None:
+    def __init__(self, hybrid: HybridSystem, mode: Mode, dynamics: Dynamics | None = None) -> None:
         self.mode = mode
-        self._machine = machine
-        self._numbers = machine.numbers
+        self._hybrid = hybrid
+        self._numbers = hybrid.numbers
         self._last: tuple[Constants, Array, list[float]] = ({}, np.empty(0), [])
         self._faces: dict[int, CompiledMode] = {}
         self.dynamics = dynamics or dynamics_of(
-            machine.automaton, mode, machine.drive.expressions, machine.constants
+            hybrid.automaton, mode, hybrid.drive.expressions, hybrid.constants
         )
         self.passages = passages_of(self.dynamics)
 
@@ -116,7 +116,7 @@ class CompiledMode:
         if dynamics is self.dynamics:
             return self
         if id(dynamics) not in self._faces:
-            self._faces[id(dynamics)] = CompiledMode(self._machine, self.mode, dynamics)
+            self._faces[id(dynamics)] = CompiledMode(self._hybrid, self.mode, dynamics)
         return self._faces[id(dynamics)]
 
     def here(self, state: Mapping[Symbol, Any], time: Any) -> Here:
@@ -131,8 +131,8 @@ class CompiledMode:
     @property
     def _taken(self) -> tuple[Constants, Array, list[float]]:
         """What the constants were read from; the constants as an array, and as a list."""
-        if self._last[0] is not self._machine.constants:
-            known = self._machine.constants
+        if self._last[0] is not self._hybrid.constants:
+            known = self._hybrid.constants
             values = self._numbers.array([known[s] for s in self.dynamics.parameters])
             self._last = (known, values, values.tolist())
         return self._last
@@ -140,12 +140,12 @@ class CompiledMode:
     @cached_property
     def flow(self) -> Flow:
         """What is integrated."""
-        return flow_of(self.dynamics, reduced=self._machine.integrator.dense)
+        return flow_of(self.dynamics, reduced=self._hybrid.integrator.dense)
 
     @cached_property
     def stepper(self) -> Stepper:
         """The compiled flow."""
-        return self._machine.integrator.prepare(self.flow, self._machine.tolerance)
+        return self._hybrid.integrator.prepare(self.flow, self._hybrid.tolerance)
 
     def rest(self, state: Mapping[Symbol, float], time: float) -> Array:
         """A state as the flow takes it: less what is known of it as functions of time."""
@@ -160,7 +160,7 @@ class CompiledMode:
 
     def function(self, expressions: Iterable[Expr], extra: Sequence[Symbol] = ()) -> Function:
         """Expressions as a function of the state, the time and values of extra symbols."""
-        states = tuple(s for s in self.dynamics.states if s not in self.dynamics.carried)
+        states = tuple(s for s in self.dynamics.states if s not in self.dynamics.auxiliary)
         known = (*states, *extra, *self.dynamics.parameters, CLOCK)
         if self.dynamics.undecided:
             return self._function_by_sides(tuple(expressions), states, tuple(extra))
@@ -195,23 +195,23 @@ class CompiledMode:
 
     @cached_property
     def _lift(self) -> Function:
-        apart = self._machine.automaton.apart.equations
+        apart = self._hybrid.automaton.apart.equations
         wanted = (*apart.coordinates, *apart.speeds)
         lifted = self.mode.lifted
         return self.function([lifted.get(s, Expr.generator(s)) for s in wanted])
 
     def lifted(self, time: float, state: Mapping[Symbol, float], work: float) -> State:
         """The shared state of a state of this mode."""
-        own = [s for s in self.dynamics.states if s not in self.dynamics.carried]
+        own = [s for s in self.dynamics.states if s not in self.dynamics.auxiliary]
         values = self._lift(self._numbers.array([state[s] for s in own]), time, ())
-        size = len(self._machine.automaton.apart.equations.coordinates)
+        size = len(self._hybrid.automaton.apart.equations.coordinates)
         return State(time, values[:size], values[size:], work)
 
     @cached_property
     def _projection(self) -> Function:
         """Shared speeds as this mode has them: what they are at rest, and per speed of its own."""
         motion = self.mode.equations.kinetics
-        apart = self._machine.automaton.apart.equations
+        apart = self._hybrid.automaton.apart.equations
         parts = [
             linear_parts(
                 motion.on_speeds(self.mode.lifted.get(s, Expr.generator(s))), motion.speeds
@@ -220,35 +220,35 @@ class CompiledMode:
         ]
         return self.function([rest for _, rest in parts] + [c for row, _ in parts for c in row])
 
-    def entered(self, place: State) -> tuple[Array, Array]:
+    def entered(self, shared: State) -> tuple[Array, Array]:
         """Coordinates and speeds of this mode, and the impulse-free projection on its motions.
 
         What the constraints take away is taken by impulses along their reactions: momentum along
         every motion that remains is kept, M P u = M (u_shared − rest) along P.
         """
-        apart = self._machine.apart
+        apart = self._hybrid.apart
         names = apart.mode.equations.coordinates
-        values = dict(zip(names, place.coordinates, strict=True))
+        values = dict(zip(names, shared.coordinates, strict=True))
         numbers = self._numbers
         coordinates = numbers.array([values[s] for s in self.mode.equations.coordinates])
         size = len(self.mode.equations.speeds)
         state = np.concatenate([coordinates, numbers.array(np.zeros(size))])
-        found = self._projection(state, place.time, ())
-        rest, columns = found[: len(place.speeds)], found[len(place.speeds) :]
-        allowed = columns.reshape(len(place.speeds), size)
-        momentum = apart.mass(place) @ (place.speeds - rest)
-        reduced = allowed.T @ apart.mass(place) @ allowed
+        found = self._projection(state, shared.time, ())
+        rest, columns = found[: len(shared.speeds)], found[len(shared.speeds) :]
+        allowed = columns.reshape(len(shared.speeds), size)
+        momentum = apart.mass(shared) @ (shared.speeds - rest)
+        reduced = allowed.T @ apart.mass(shared) @ allowed
         return coordinates, numbers.solved(reduced, allowed.T @ momentum)
 
     @cached_property
     def _mass(self) -> Function:
         return self.function([e for row in self.mode.equations.mass.rows for e in row])
 
-    def mass(self, place: State) -> Array:
+    def mass(self, shared: State) -> Array:
         """The mass matrix, of the mode in which nothing touches."""
-        size = len(place.speeds)
-        state = np.concatenate([place.coordinates, place.speeds])
-        return self._mass(state, place.time, ()).reshape(size, size)
+        size = len(shared.speeds)
+        state = np.concatenate([shared.coordinates, shared.speeds])
+        return self._mass(state, shared.time, ()).reshape(size, size)
 
     # -- forces and slips -----------------------------------------------------------------------
 
@@ -339,7 +339,7 @@ class CompiledMode:
 
     def slip_rates_along(self, state: Array, time: float, directions: Sequence[Any]) -> Array:
         """The same for arrays of directions, shape (contacts, 2, directions)."""
-        states = tuple(s for s in self.dynamics.states if s not in self.dynamics.carried)
+        states = tuple(s for s in self.dynamics.states if s not in self.dynamics.auxiliary)
         known = (*states, *self.directions, *self.dynamics.parameters, CLOCK)
         function = self.dynamics.function(self.slip_changes, known)
         with np.errstate(all="ignore"):

@@ -56,13 +56,13 @@ class SlipReversal:
     """Slip against friction, from a velocity of the size of one.
 
     Attributes:
-        felt: inverse inertia felt at the point of contact.
+        inverse_mass: inverse inertia felt at the point of contact.
         kinetic: friction coefficient.
         velocity: of that point before.
         budget: work of restitution; None during compression, which ends with the approach.
     """
 
-    felt: Array
+    inverse_mass: Array
     kinetic: Any
     velocity: Array
     budget: Any
@@ -81,7 +81,7 @@ class SlipReversal:
         def rates(_: float, y: Array) -> Array:
             size, c, s = np.exp(y[0]), np.cos(y[1]), np.sin(y[1])
             force = np.array([-self.kinetic * c, -self.kinetic * s, 1.0])
-            x, across, up = self.felt @ force
+            x, across, up = self.inverse_mass @ force
             along, turning = x * c + across * s, across * c - x * s
             return np.array([along, turning, size * up, *(size * force), size * y[2]])
 
@@ -111,7 +111,7 @@ class SlipReversal:
         """States: velocity, impulse, work of the normal impulse."""
         from polhode.simulate.integrate._flint import PowerSeries
 
-        constants = [*self.felt.ravel().tolist(), self.kinetic]
+        constants = [*self.inverse_mass.ravel().tolist(), self.kinetic]
         start = [*self.velocity.tolist(), 0, 0, 0, 0]
         least = float(numbers.finer(STICKS))
 
@@ -119,8 +119,8 @@ class SlipReversal:
             x, y, z, *_, work = map(float, state)
             return hypot(x, y) > least and self._left(z, work) < 0
 
-        launch = InitialValueProblem(_program(), numbers, constants, start, 0, _LONGEST)
-        series = PowerSeries().integrate(launch, goes_on)
+        problem = InitialValueProblem(_program(), numbers, constants, start, 0, _LONGEST)
+        series = PowerSeries().integrate(problem, goes_on)
         share, over = self._end(series)
         last = series.state(series.steps - 1, share)
         return SlipReversalResult(last[:3], last[3:6], last[6], over)
@@ -151,16 +151,16 @@ def _program() -> Program:
     states = [
         Symbol(name, SymbolKind.SPEED) for name in ("x", "y", "z", "p_x", "p_y", "p_z", "work")
     ]
-    felt = [[Symbol(f"w_{i}{j}", SymbolKind.PARAMETER) for j in range(3)] for i in range(3)]
+    inverse_mass = [[Symbol(f"w_{i}{j}", SymbolKind.PARAMETER) for j in range(3)] for i in range(3)]
     kinetic = Symbol("mu", SymbolKind.PARAMETER)
     x, y, z = map(Expr.generator, states[:3])
     size = sqrt(x * x + y * y)
     force = [-Expr.generator(kinetic) * x, -Expr.generator(kinetic) * y, size]
     rates = [
         sum((Expr.generator(w) * f for w, f in zip(row, force, strict=True)), Expr.of(0))
-        for row in felt
+        for row in inverse_mass
     ]
-    arguments = (*states, *(w for row in felt for w in row), kinetic)
+    arguments = (*states, *(w for row in inverse_mass for w in row), kinetic)
     return compile_program([*rates, *force, size * z], arguments)
 
 
@@ -193,20 +193,20 @@ class Roughness:
     restitution: Any
 
 
-def smooth_impact(felt: Array, velocity: Array, restitution: Any) -> Impact:
+def smooth_impact(inverse_mass: Array, velocity: Array, restitution: Any) -> Impact:
     """A shock without friction."""
-    impulse = np.array([0.0, 0.0, -(1 + restitution) * velocity[2] / felt[2, 2]])
-    return Impact(impulse, velocity + felt @ impulse, sticks=False)
+    impulse = np.array([0.0, 0.0, -(1 + restitution) * velocity[2] / inverse_mass[2, 2]])
+    return Impact(impulse, velocity + inverse_mass @ impulse, sticks=False)
 
 
 def rough_impact(
-    felt: Array, velocity: Array, restitution: Any, numbers: NumberType = DOUBLES
+    inverse_mass: Array, velocity: Array, restitution: Any, numbers: NumberType = DOUBLES
 ) -> Impact:
     """A shock on a support that allows no slip at all.
 
     What it gives back is a part of the energy that the point of contact brought, no more.
     """
-    inertia = _inverse(felt, numbers)
+    inertia = _inverse(inverse_mass, numbers)
     brought = velocity @ inertia @ velocity
     rebound = min(restitution * -velocity[2], (brought / inertia[2, 2]) ** 0.5)
     after = np.array([0.0, 0.0, rebound])
@@ -214,7 +214,7 @@ def rough_impact(
 
 
 def coulomb_impact(
-    felt: Array,
+    inverse_mass: Array,
     velocity: Array,
     roughness: Roughness,
     where: str = "a contact",
@@ -223,7 +223,7 @@ def coulomb_impact(
     """A shock with Coulomb's friction and Stronge's restitution.
 
     Args:
-        felt: inverse inertia felt at the point of contact, 1/kg.
+        inverse_mass: inverse inertia felt at the point of contact, 1/kg.
         velocity: of that point before, m/s.
         where: what an error calls the contact and the instant.
         numbers: what is computed with.
@@ -231,7 +231,7 @@ def coulomb_impact(
     Raises:
         NumericError: where friction jams and the shock never ends, or slip has no one direction.
     """
-    course = _ImpactCourse(felt, velocity, roughness, where, numbers)
+    course = _ImpactCourse(inverse_mass, velocity, roughness, where, numbers)
     while not course.done:
         course.advance()
     return Impact(course.impulse, course.velocity, course.sticks)
@@ -241,10 +241,15 @@ class _ImpactCourse:
     """The course of a shock over the normal impulse, phase by phase."""
 
     def __init__(
-        self, felt: Array, velocity: Array, roughness: Roughness, where: str, numbers: NumberType
+        self,
+        inverse_mass: Array,
+        velocity: Array,
+        roughness: Roughness,
+        where: str,
+        numbers: NumberType,
     ) -> None:
         self.where = where
-        self.felt = felt
+        self.inverse_mass = inverse_mass
         self.roughness = roughness
         self.velocity = velocity.copy()
         self.impulse = numbers.array(np.zeros(3))
@@ -274,19 +279,19 @@ class _ImpactCourse:
 
     def _hold(self) -> None:
         """Without slip: friction as it is needed, if the static limit allows; else it slips on."""
-        inertia = _inverse(self.felt, self._numbers)
+        inertia = _inverse(self.inverse_mass, self._numbers)
         needed = inertia[:, 2] / inertia[2, 2]
         self.velocity[:2] = 0.0
         if self._numbers.size(needed[:2]) <= self.roughness.static:
             self.sticks = True
             self._straight(needed)
             return
-        direction = _onset(self.felt, self.roughness.kinetic, self.where, self._numbers)
+        direction = _onset(self.inverse_mass, self.roughness.kinetic, self.where, self._numbers)
         self._straight(np.array([*(-self.roughness.kinetic * direction), 1.0]))
 
     def _straight(self, force: Array) -> None:
         """A constant force per normal impulse, until compression or restitution ends."""
-        rate = self.felt @ force
+        rate = self.inverse_mass @ force
         start = self.velocity[2]
         if self._compressing:
             length = -start / rate[2]
@@ -317,7 +322,9 @@ class _ImpactCourse:
         unit, bounce = self._scale, self.roughness.restitution**2
         budget = None if self._compressing else bounce * self._stored / unit**2
         start = self.velocity / unit
-        turn = SlipReversal(self.felt, self.roughness.kinetic, start, budget).turned(self._numbers)
+        turn = SlipReversal(self.inverse_mass, self.roughness.kinetic, start, budget).turned(
+            self._numbers
+        )
         self.velocity = unit * turn.velocity
         self.impulse = self.impulse + unit * turn.impulse
         work = unit**2 * turn.work
@@ -330,7 +337,7 @@ class _ImpactCourse:
     def _slide_straight(self) -> None:
         """Where friction cannot turn the slip, everything is linear in the impulse."""
         direction, force = self._resisted()
-        rate = self.felt @ force
+        rate = self.inverse_mass @ force
         slowing = -(rate[:2] @ direction)
         size = self._numbers.size(self.velocity[:2])
         to_stick = size / slowing if slowing > 0 else np.inf
@@ -352,9 +359,11 @@ class _ImpactCourse:
     def _turns(self) -> bool:
         """Whether friction turns the slip that it opposes."""
         direction, force = self._resisted()
-        rate = self.felt @ force
+        rate = self.inverse_mass @ force
         across = rate[1] * direction[0] - rate[0] * direction[1]
-        return bool(abs(across) > self._numbers.finer(_STRAIGHT) * np.max(np.abs(self.felt)))
+        return bool(
+            abs(across) > self._numbers.finer(_STRAIGHT) * np.max(np.abs(self.inverse_mass))
+        )
 
     def _resisted(self) -> tuple[Array, Array]:
         """Direction of the slip, and the force per normal force that opposes it."""
@@ -378,11 +387,11 @@ class _ImpactCourse:
         return (square**0.5 - start) / rate if rate != 0 else left / start
 
 
-def _inverse(felt: Array, numbers: NumberType) -> Array:
-    return np.asarray(numbers.solved(felt, numbers.array(np.eye(3))))
+def _inverse(inverse_mass: Array, numbers: NumberType) -> Array:
+    return np.asarray(numbers.solved(inverse_mass, numbers.array(np.eye(3))))
 
 
-def _onset(felt: Array, friction: Any, where: str, numbers: NumberType) -> Array:
+def _onset(inverse_mass: Array, friction: Any, where: str, numbers: NumberType) -> Array:
     """Direction in which slip grows from nothing during the shock.
 
     Raises:
@@ -392,7 +401,7 @@ def _onset(felt: Array, friction: Any, where: str, numbers: NumberType) -> Array
 
     def rate(angle: Any) -> Array:
         along = np.array(numbers.direction(angle))
-        change = felt @ np.array([*(-friction * along), 1.0])
+        change = inverse_mass @ np.array([*(-friction * along), 1.0])
         return np.array([change[:2] @ along, change[1] * along[0] - change[0] * along[1]])
 
     def across(angle: float) -> float:

@@ -27,12 +27,12 @@ from polhode.simulate._absolute_values import (
 from polhode.simulate._dynamics import WORK, Dynamics
 from polhode.simulate._mode_integration import PieceEnd, StateValues
 from polhode.simulate._segment import TrajectoryPiece, state_at
-from polhode.simulate.contact._carried import gap_symbol, room_symbol, slip_symbols
+from polhode.simulate.contact._auxiliary_states import gap_symbol, room_symbol, slip_symbols
 from polhode.simulate.contact._contact_kinematics import State, fall_of
 from polhode.simulate.contact._guard_monitor import GuardMonitor
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
 from polhode.simulate.contact._mode_state import ModeState, beyond, directions_of, state_on
-from polhode.simulate.contact._slip_onset import onset
+from polhode.simulate.contact._slip_onset import slip_onset_piece
 from polhode.simulate.contact._transition import ModeExit
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._driver import integrate
@@ -51,7 +51,7 @@ class ModePieces(ABC):
     """Pieces of a motion within one contact mode.
 
     Args:
-        machine: the modes.
+        hybrid: the modes.
         entry: where this one is entered.
         near_flat: value at which an expression that must stay positive, such as sin θ, counts as
             zero.
@@ -60,13 +60,13 @@ class ModePieces(ABC):
         start: all states where the mode is entered.
     """
 
-    def __init__(self, machine: HybridSystem, entry: ModeState, near_flat: float) -> None:
-        self._machine = machine
+    def __init__(self, hybrid: HybridSystem, entry: ModeState, near_flat: float) -> None:
+        self._hybrid = hybrid
         self._entry = entry
         self._near_flat = near_flat
-        self._whole = machine.mode(entry.phases)
-        self.start: StateValues = state_on(machine, entry)
-        here = self._whole.here(self.start, entry.place.time)
+        self._whole = hybrid.mode(entry.phases)
+        self.start: StateValues = state_on(hybrid, entry)
+        here = self._whole.here(self.start, entry.shared.time)
         self.put_on(sides_at(self._whole.dynamics, here))
         self._has_begun = False
 
@@ -84,10 +84,10 @@ class ModePieces(ABC):
 
     def put_on(self, sides: Sides) -> None:
         self._mode = self._whole.on(sides)
-        self._monitor = GuardMonitor(self._machine, self._near_flat, self._mode, self._entry)
+        self._monitor = GuardMonitor(self._hybrid, self._near_flat, self._mode, self._entry)
 
     def here(self, state: StateValues, time: Any) -> Here:
-        self._machine.move_on(time)
+        self._hybrid.move_on(time)
         return self._whole.here(state, time)
 
     @abstractmethod
@@ -97,8 +97,8 @@ class ModePieces(ABC):
     def next(
         self, state: StateValues, now: Any, end: Any, before: TrajectoryPiece | None
     ) -> PieceEnd:
-        drive = self._machine.drive
-        self._machine.move_on(now)
+        drive = self._hybrid.drive
+        self._hybrid.move_on(now)
         limit = drive.until(now, end)
         if self._has_begun:
             found = self._piece(state, (now, limit), before)
@@ -117,7 +117,7 @@ class ModePieces(ABC):
 
         Whether a body slips or lifts off there is up to the forces that hold from there on.
         """
-        guard, jerks = found.guard, self._machine.drive.jerks
+        guard, jerks = found.guard, self._hybrid.drive.jerks
         if isinstance(guard, SideChange):
             return True
         kind = guard.kind if guard is not None else ""
@@ -138,7 +138,7 @@ class ModePieces(ABC):
     # -- the first piece must not leap over a contact that soon closes again ---------------------
 
     def _shortest(self) -> Any:
-        return _INSTANT * self._machine.numbers.spacing(self._entry.place.time)
+        return _INSTANT * self._hybrid.numbers.spacing(self._entry.shared.time)
 
     def _hop(self) -> Any:
         """How soon a contact that has opened may close again, or one return to an edge, s.
@@ -153,54 +153,54 @@ class ModePieces(ABC):
         entry, mode = self._entry, self._mode
         if not (entry.gaps or entry.rooms):
             return
-        state, now = entry.state, entry.place.time
-        meetings = self._machine.touching.at(entry.place, beyond(entry.phases))
+        state, now = entry.state, entry.shared.time
+        points = self._hybrid.touching.at(entry.shared, beyond(entry.phases))
         if entry.gaps:
             falls = mode.closing_rates(state, now)
-            yield from ((gap, meetings[i].velocity[2], falls[i]) for i, gap in entry.gaps.items())
+            yield from ((gap, points[i].velocity[2], falls[i]) for i, gap in entry.gaps.items())
         if entry.rooms:
-            bends = mode.room_rates(state, now, directions_of(entry, self._machine.numbers))
+            bends = mode.room_rates(state, now, directions_of(entry, self._hybrid.numbers))
             for i, room in entry.rooms.items():
                 is_beyond = entry.phases[i].is_beyond
-                yield room, meetings[i].leaving(is_beyond=is_beyond), bends[i]
+                yield room, points[i].leaving(is_beyond=is_beyond), bends[i]
 
     # -- what both ends and goes on from a piece --------------------------------------------------
 
     def speed_scale(self, state: StateValues, now: Any) -> Any:
         """Size of the velocities that slips are the difference of, m/s."""
-        place = place_of(self._mode, state, now)
-        return self._machine.touching.scale(place, beyond(self._entry.phases))
+        shared = shared_state(self._mode, state, now)
+        return self._hybrid.touching.scale(shared, beyond(self._entry.phases))
 
     def slips_in(self, symbols: Sequence[Symbol]) -> tuple[tuple[int, ...], ...]:
         """Places of the slip velocities among some states, of those slips that are among them."""
-        contacts = self._machine.automaton.contacts
+        contacts = self._hybrid.automaton.contacts
         pairs = [slip_symbols(contacts[i]) for i in sorted(self._entry.slips)]
-        carried = [pair for pair in pairs if set(pair) <= set(symbols)]
-        return tuple(tuple(symbols.index(s) for s in pair) for pair in carried)
+        auxiliary = [pair for pair in pairs if set(pair) <= set(symbols)]
+        return tuple(tuple(symbols.index(s) for s in pair) for pair in auxiliary)
 
     def exit(self, found: PieceEnd) -> ModeExit:
         """How the mode is left."""
-        return leaving(self._mode, found.guard, found.state, found.time, self._entry.place.work)
+        return mode_exit(self._mode, found.guard, found.state, found.time, self._entry.shared.work)
 
 
 class DoublePieces(ModePieces):
     """Pieces in double precision.
 
     Args:
-        machine, entry, near_flat: as in `ModePieces`.
+        hybrid, entry, near_flat: as in `ModePieces`.
         progress: told of every step.
         tally: of the steps of the whole motion.
     """
 
     def __init__(
         self,
-        machine: HybridSystem,
+        hybrid: HybridSystem,
         entry: ModeState,
         near_flat: float,
         progress: Progress,
         tally: StepCount,
     ) -> None:
-        super().__init__(machine, entry, near_flat)
+        super().__init__(hybrid, entry, near_flat)
         self._progress = progress
         self._tally = tally
         self._scale = 0.0
@@ -209,14 +209,14 @@ class DoublePieces(ModePieces):
         return time
 
     def _shortest(self) -> float:
-        begin = self._entry.place.time
+        begin = self._entry.shared.time
         return _BEGUN * begin if self._entry.onset else float(super()._shortest())
 
     def _slip_onset(
         self, state: StateValues, span: tuple[float, float], before: TrajectoryPiece | None
     ) -> PieceEnd:
-        contacts = self._machine.automaton.contacts
-        piece = onset(self._mode, self._entry, state, span, contacts)
+        contacts = self._hybrid.automaton.contacts
+        piece = slip_onset_piece(self._mode, self._entry, state, span, contacts)
         return _ended(*self._monitor.cut(piece))
 
     def _piece(
@@ -226,26 +226,26 @@ class DoublePieces(ModePieces):
         rest = before.solution.rest(now) if before else self._mode.rest(state, now)
         if self._entry.slips:
             self._scale = max(self._scale, self.speed_scale(state, now))
-        watched = self._watched(self._scale or 1.0)
-        return _ended(*self._up_to(rest, span, watched))
+        criteria = self._criteria(self._scale or 1.0)
+        return _ended(*self._up_to(rest, span, criteria))
 
     def _up_to(
-        self, rest: Array, span: tuple[float, float], watched: StopCriteria
+        self, rest: Array, span: tuple[float, float], criteria: StopCriteria
     ) -> tuple[TrajectoryPiece, Guard | None]:
         """Up to the end of a span, or to the first guard that falls."""
         flow, constants = self._mode.flow, self._mode.parameters
         solution = integrate(
-            flow, self._mode.stepper, constants, rest, span, self._progress, watched
+            flow, self._mode.stepper, constants, rest, span, self._progress, criteria
         )
         whole = TrajectoryPiece(span[0], float(solution.steps[-1]), solution, constants)
         piece, guard = self._monitor.cut(whole)
         again = nearer(solution.steps, piece.end) if isinstance(guard, SideChange) else None
         if again is not None:
-            return self._up_to(rest, (span[0], again), watched)
+            return self._up_to(rest, (span[0], again), criteria)
         refuse_vanishing(self._mode.dynamics, piece)
         return piece, guard
 
-    def _watched(self, scale: float) -> StopCriteria:
+    def _criteria(self, scale: float) -> StopCriteria:
         """What stops an integration: slips that end, too many steps, or reason to look."""
         mode, near_flat = self._mode, self._near_flat
         if not (mode.mode.guards or mode.passages):
@@ -267,18 +267,18 @@ class DoublePieces(ModePieces):
 
 
 def double_pieces(
-    machine: HybridSystem, near_flat: float, progress: Progress
+    hybrid: HybridSystem, near_flat: float, progress: Progress
 ) -> Callable[[ModeState], DoublePieces]:
     """What integrates the modes of one motion in double precision, from where each is entered."""
     tally = StepCount()
-    return lambda entry: DoublePieces(machine, entry, near_flat, progress, tally)
+    return lambda entry: DoublePieces(hybrid, entry, near_flat, progress, tally)
 
 
 def _ended(piece: TrajectoryPiece, guard: Guard | None) -> PieceEnd:
     return PieceEnd(piece, state_at(piece, piece.end), piece.end, guard)
 
 
-def leaving(
+def mode_exit(
     mode: CompiledMode,
     guard: Guard | None,
     state: StateValues,
@@ -291,10 +291,10 @@ def leaving(
         {i: state[s] for i, contact in enumerate(contacts) if (s := symbol(contact)) in state}
         for symbol in (gap_symbol, room_symbol)
     )
-    return ModeExit(guard, place_of(mode, state, time, work), gaps, rooms)
+    return ModeExit(guard, shared_state(mode, state, time, work), gaps, rooms)
 
 
-def place_of(mode: CompiledMode, state: StateValues, time: Any, work: Any = 0.0) -> State:
+def shared_state(mode: CompiledMode, state: StateValues, time: Any, work: Any = 0.0) -> State:
     """The state that all modes share, of a state of one mode; the work if that has none."""
-    own = {s: state[s] for s in mode.dynamics.states if s not in mode.dynamics.carried}
+    own = {s: state[s] for s in mode.dynamics.states if s not in mode.dynamics.auxiliary}
     return mode.lifted(time, own, state.get(WORK, work))

@@ -11,7 +11,7 @@ import numpy as np
 from polhode.algebra import Symbol
 from polhode.model import Phase
 from polhode.simulate._dynamics import WORK
-from polhode.simulate.contact._carried import gap_symbol, room_symbol, slip_symbols
+from polhode.simulate.contact._auxiliary_states import gap_symbol, room_symbol, slip_symbols
 from polhode.simulate.contact._contact_kinematics import ContactKinematics, State
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
 from polhode.simulate.integrate._arrays import Array
@@ -24,7 +24,7 @@ class ModeState:
 
     Attributes:
         phases: of every contact.
-        place: the shared state, after what the entry did to the speeds.
+        shared: the shared state, after what the entry did to the speeds.
         coordinates: of the mode.
         speeds: of the mode.
         onset: for contacts that begin to slip, the angle of the slip to come.
@@ -34,7 +34,7 @@ class ModeState:
     """
 
     phases: tuple[Phase, ...]
-    place: State
+    shared: State
     coordinates: Array
     speeds: Array
     onset: dict[int, Any] = field(default_factory=dict)
@@ -52,7 +52,7 @@ class ModeState:
         double = DOUBLES.array
         return replace(
             self,
-            place=self.place.rounded(),
+            shared=self.shared.rounded(),
             coordinates=double(self.coordinates),
             speeds=double(self.speeds),
             onset={i: float(angle) for i, angle in self.onset.items()},
@@ -63,10 +63,10 @@ class ModeState:
 
 
 def entered(
-    machine: HybridSystem,
-    place: State,
+    hybrid: HybridSystem,
+    shared: State,
     phases: tuple[Phase, ...],
-    meetings: Sequence[ContactKinematics],
+    points: Sequence[ContactKinematics],
     starting: frozenset[int],
 ) -> ModeState:
     """A mode with what entering it does to the speeds.
@@ -74,43 +74,43 @@ def entered(
     Args:
         starting: contacts that begin to slip; in which direction remains to be found.
     """
-    mode = machine.mode(phases)
-    coordinates, speeds = mode.entered(place)
-    after = _after(machine, place, mode, coordinates, speeds, meetings, phases)
+    mode = hybrid.mode(phases)
+    coordinates, speeds = mode.entered(shared)
+    after = _after(hybrid, shared, mode, coordinates, speeds, points, phases)
     sliding = [i for i, phase in enumerate(phases) if phase.slides]
-    none = machine.numbers.array(np.zeros(2))
-    slips = {i: none if i in starting else meetings[i].velocity[:2] for i in sliding}
+    none = hybrid.numbers.array(np.zeros(2))
+    slips = {i: none if i in starting else points[i].velocity[:2] for i in sliding}
     onset = dict.fromkeys(sorted(starting), 0.0)
-    there = zip(mode.mode.touches, mode.mode.phases, meetings, strict=True)
+    there = zip(mode.mode.touches, mode.mode.phases, points, strict=True)
     rooms = {
-        i: meeting.room(is_beyond=phase.is_beyond)
-        for i, (touch, phase, meeting) in enumerate(there)
+        i: point.room(is_beyond=phase.is_beyond)
+        for i, (touch, phase, point) in enumerate(there)
         if touch.reserve and not phase.flies
     }
     return ModeState(phases, after, coordinates, speeds, onset, slips, rooms=rooms)
 
 
 def _after(
-    machine: HybridSystem,
-    place: State,
+    hybrid: HybridSystem,
+    shared: State,
     mode: CompiledMode,
     coordinates: Array,
     speeds: Array,
-    meetings: Sequence[ContactKinematics],
+    points: Sequence[ContactKinematics],
     phases: tuple[Phase, ...],
 ) -> State:
     """The shared state in the mode; what its constraints did to the speeds did work."""
     own = (*mode.mode.equations.coordinates, *mode.mode.equations.speeds)
     values: dict[Any, float] = dict(zip(own, (*coordinates, *speeds), strict=True))
-    lifted = mode.lifted(place.time, values, place.work)
-    change = lifted.speeds - place.speeds
-    touching = [m for m, p in zip(meetings, phases, strict=True) if not p.flies]
+    lifted = mode.lifted(shared.time, values, shared.work)
+    change = lifted.speeds - shared.speeds
+    touching = [m for m, p in zip(points, phases, strict=True) if not p.flies]
     if not touching or not np.any(change):
         return lifted
-    arms = np.vstack([m.arms for m in touching])
-    impulse = machine.numbers.least(arms.T, machine.apart.mass(place) @ change)
-    middle = [m.velocity + m.support + m.arms @ change / 2 for m in touching]
-    return lifted.kicked(np.zeros_like(change), impulse @ np.concatenate(middle))
+    jacobian = np.vstack([m.jacobian for m in touching])
+    impulse = hybrid.numbers.least(jacobian.T, hybrid.apart.mass(shared) @ change)
+    middle = [m.velocity + m.support + m.jacobian @ change / 2 for m in touching]
+    return lifted.with_impulse(np.zeros_like(change), impulse @ np.concatenate(middle))
 
 
 def directions_of(entry: ModeState, numbers: NumberType = DOUBLES) -> list[Any]:
@@ -125,23 +125,23 @@ def directions_of(entry: ModeState, numbers: NumberType = DOUBLES) -> list[Any]:
     return found
 
 
-def state_on(machine: HybridSystem, entry: ModeState) -> dict[Symbol, Any]:
+def state_on(hybrid: HybridSystem, entry: ModeState) -> dict[Symbol, Any]:
     """All states where a mode is entered, those that are carried along included."""
-    mode = machine.mode(entry.phases)
-    equations, carried = mode.mode.equations, mode.dynamics.carried
+    mode = hybrid.mode(entry.phases)
+    equations, auxiliary = mode.mode.equations, mode.dynamics.auxiliary
     own = (*equations.coordinates, *equations.speeds)
     state = dict(zip(own, entry.state.tolist(), strict=True))
-    meetings = machine.touching.at(entry.place, beyond(entry.phases))
+    points = hybrid.touching.at(entry.shared, beyond(entry.phases))
     for i, touch in enumerate(mode.mode.touches):
         gap, room = gap_symbol(touch.contact), room_symbol(touch.contact)
         slips = slip_symbols(touch.contact)
-        if gap in carried:
-            state[gap] = entry.gaps.get(i, meetings[i].gap)
-        if room in carried:
+        if gap in auxiliary:
+            state[gap] = entry.gaps.get(i, points[i].gap)
+        if room in auxiliary:
             state[room] = entry.rooms[i]
-        if slips[0] in carried:
+        if slips[0] in auxiliary:
             state |= zip(slips, entry.slips[i].tolist(), strict=True)
-    return {**state, WORK: entry.place.work}
+    return {**state, WORK: entry.shared.work}
 
 
 def beyond(phases: tuple[Phase, ...]) -> frozenset[int]:

@@ -22,7 +22,7 @@ from polhode.base import NumericError
 from polhode.model import Contact
 from polhode.simulate._dynamics import CLOCK, WORK
 from polhode.simulate._segment import TrajectoryPiece
-from polhode.simulate.contact._carried import slip_symbols
+from polhode.simulate.contact._auxiliary_states import slip_symbols
 from polhode.simulate.contact._hybrid_system import CompiledMode
 from polhode.simulate.contact._mode_state import ModeState
 from polhode.simulate.contact._select_mode import rates_along
@@ -325,7 +325,7 @@ _BARELY = 1e-150  # m/s, of a slip that has a direction but no speed yet: its sq
 _STIFF = 30.0  # ratio of the times of slipping and of turning the slip that explicit steps bear
 
 
-def onset(
+def slip_onset_piece(
     mode: CompiledMode,
     entry: ModeState,
     state: Mapping[Symbol, Any],
@@ -386,7 +386,7 @@ def onset(
         stop, vanished = Stop.VANISHED, sorted(entry.slips).index(starting[found.vanished])
     times = np.append(found.times[:-1], found.end)
     solution = SegmentSolution(all_symbols, {}, times, stop, vanished, at, _rest_at=rest_at)
-    return TrajectoryPiece(entry.place.time, found.end, solution, constants)
+    return TrajectoryPiece(entry.shared.time, found.end, solution, constants)
 
 
 def _pulls(mode: CompiledMode, entry: ModeState, i: int) -> tuple[float, float]:

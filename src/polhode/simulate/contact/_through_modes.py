@@ -45,18 +45,18 @@ def can_be_followed(modes: Automaton) -> bool:
     return not held
 
 
-def check_numbers(machine: HybridSystem) -> None:
+def check_numbers(hybrid: HybridSystem) -> None:
     """Refuse coefficients that no contact can have.
 
     Raises:
         DeclarationError: with the contact and the value.
     """
-    for contact in machine.automaton.contacts:
-        restitution = machine.value(contact.restitution)
+    for contact in hybrid.automaton.contacts:
+        restitution = hybrid.value(contact.restitution)
         if not 0 <= restitution <= 1:
             raise _impossible("restitution", restitution, contact, "a number from 0 to 1")
         if isinstance(contact, Coulomb):
-            kinetic, static = (machine.value(mu) for mu in (contact.mu, contact.mu_static))
+            kinetic, static = (hybrid.value(mu) for mu in (contact.mu, contact.mu_static))
             if kinetic < 0:
                 raise _impossible("friction coefficient mu", kinetic, contact, "zero or more")
             for what, value in (("mu", kinetic), ("mu_static", static)):
@@ -77,7 +77,7 @@ def _impossible(what: str, value: float, contact: Contact, expected: str) -> Dec
 _ROUNDING = 1e-12  # height above a support, over the size of the place, that is none
 
 
-def begun_at(machine: HybridSystem, place: State, apart: frozenset[int]) -> ModeState:
+def begun_at(hybrid: HybridSystem, shared: State, apart: frozenset[int]) -> ModeState:
     """The first mode of a motion.
 
     Args:
@@ -88,20 +88,20 @@ def begun_at(machine: HybridSystem, place: State, apart: frozenset[int]) -> Mode
         ConstraintError: for a body that starts within its support.
         NumericError: where no mode is possible.
     """
-    meetings = machine.touching.at(place, machine.touching.beyond(place))
-    rounding = _ROUNDING * max((abs(float(q)) for q in place.coordinates), default=0.0)
+    points = hybrid.touching.at(shared, hybrid.touching.beyond(shared))
+    rounding = _ROUNDING * max((abs(float(q)) for q in shared.coordinates), default=0.0)
     for i in apart:
-        if meetings[i].gap < -rounding:
-            contact = machine.automaton.contacts[i]
+        if points[i].gap < -rounding:
+            contact = hybrid.automaton.contacts[i]
             height = contact.on.normal + contact.body.tag
             raise ConstraintError(
-                f"{contact.body.name} starts {-meetings[i].gap:g} m below its support",
+                f"{contact.body.name} starts {-points[i].gap:g} m below its support",
                 expected=f"a height {height} at which it touches or is above",
                 advice=f"leave out {height} to start in contact",
             )
-    met = {i for i in apart if meetings[i].gap <= rounding}
-    resting = {i for i in met if abs(meetings[i].velocity[2]) <= STILL * meetings[i].scale}
-    entry = select_mode(machine, place, ContactStatus(apart - resting))
+    met = {i for i in apart if points[i].gap <= rounding}
+    resting = {i for i in met if abs(points[i].velocity[2]) <= STILL * points[i].scale}
+    entry = select_mode(hybrid, shared, ContactStatus(apart - resting))
     return replace(entry, gaps={i: 0.0 for i in met if entry.phases[i].flies})
 
 
@@ -119,22 +119,22 @@ class ThroughModes:
             equations = modes.together.equations
             self._dynamics = Dynamics(equations, self._drive.expressions, constants)
         self._modes = modes
-        self._machine: HybridSystem | None = None
+        self._hybrid: HybridSystem | None = None
 
     def follow(self, task: Task, progress: Progress) -> MotionResult:
         numbers = read_parameters(self._dynamics, task.given, self._drive.constants(0.0))
-        machine = self._machine or HybridSystem(
+        hybrid = self._hybrid or HybridSystem(
             self._modes, self._drive, numbers, task.integrator, task.tolerance
         )
-        self._machine = machine  # what it has compiled serves further runs
-        machine.take(numbers)
-        check_numbers(machine)
+        self._hybrid = hybrid  # what it has compiled serves further runs
+        hybrid.take(numbers)
+        check_numbers(hybrid)
         with timed(task, "compile"):
-            pieces = double_pieces(machine, task.near_flat, progress)
-            integrator = HybridIntegrator(machine, pieces, task.until)
-            place, begun, apart = _begin(machine, task)
-            first = begun_at(machine, place, apart)
-            machine.mode(first.phases).stepper  # noqa: B018
+            pieces = double_pieces(hybrid, task.near_flat, progress)
+            integrator = HybridIntegrator(hybrid, pieces, task.until)
+            shared, begun, apart = _begin(hybrid, task)
+            first = begun_at(hybrid, shared, apart)
+            hybrid.mode(first.phases).stepper  # noqa: B018
         with timed(task, "integrate"):
             solution = integrator.integrate(first, task.end)
         return MotionResult(
@@ -146,24 +146,24 @@ class ThroughModes:
             unguarded=False,
             begun=begun,
             drive=self._drive,
-            guarded=Guarded(machine, apart),
+            guarded=Guarded(hybrid, apart),
         )
 
 
-def first_entry(machine: HybridSystem, task: Task) -> tuple[ModeState, InitialState]:
+def first_entry(hybrid: HybridSystem, task: Task) -> tuple[ModeState, InitialState]:
     """The first mode of a motion, and the start as it was read."""
-    place, begun, apart = _begin(machine, task)
-    return begun_at(machine, place, apart), begun
+    shared, begun, apart = _begin(hybrid, task)
+    return begun_at(hybrid, shared, apart), begun
 
 
-def _begin(machine: HybridSystem, task: Task) -> tuple[State, InitialState, frozenset[int]]:
+def _begin(hybrid: HybridSystem, task: Task) -> tuple[State, InitialState, frozenset[int]]:
     """Where it starts, and which contacts are apart there.
 
     Contacts touch unless a height is given, and stick where they can unless that contradicts what
     is given: to their supports, or to what is beyond the edges of those.
     """
     given = {published(name) for name in task.start}
-    modes = machine.automaton
+    modes = hybrid.automaton
     apart = frozenset(
         i
         for i, option in enumerate(modes.options)
@@ -171,37 +171,37 @@ def _begin(machine: HybridSystem, task: Task) -> tuple[State, InitialState, froz
         and given & {above.height.published, above.rise.published}
     )
     if apart:
-        return (*_read_on_surfaces(machine, apart, task, slips=True), apart)
+        return (*_read_on_surfaces(hybrid, apart, task, slips=True), apart)
     try:
-        return (*_read_on_surfaces(machine, apart, task, slips=False), apart)
+        return (*_read_on_surfaces(hybrid, apart, task, slips=False), apart)
     except ConstraintError:
         if not any(isinstance(contact, Coulomb) for contact in modes.contacts):
             raise
-        return (*_read_on_surfaces(machine, apart, task, slips=True), apart)
+        return (*_read_on_surfaces(hybrid, apart, task, slips=True), apart)
 
 
 def _read_on_surfaces(
-    machine: HybridSystem, apart: frozenset[int], task: Task, *, slips: bool
+    hybrid: HybridSystem, apart: frozenset[int], task: Task, *, slips: bool
 ) -> tuple[State, InitialState]:
     """The start as it is read on the supports, or where they end on what is beyond their edges."""
     phases = list[Phase]()
-    for i, option in enumerate(machine.automaton.options):
+    for i, option in enumerate(hybrid.automaton.options):
         # A slip can be read without friction: start values do not depend on forces.
         closed = FRICTIONLESS if slips and FRICTIONLESS in option else next(iter(option))
         phases.append(FLIGHT if i in apart else closed)
-    place, begun = _read(machine, tuple(phases), task)
-    beyond = machine.touching.beyond(place) - apart
+    shared, begun = _read(hybrid, tuple(phases), task)
+    beyond = hybrid.touching.beyond(shared) - apart
     if not beyond:
-        return place, begun
+        return shared, begun
     there = (p.beyond() if i in beyond else p for i, p in enumerate(phases))
-    return _read(machine, tuple(there), task)
+    return _read(hybrid, tuple(there), task)
 
 
 def _read(
-    machine: HybridSystem, phases: tuple[Phase, ...], task: Task
+    hybrid: HybridSystem, phases: tuple[Phase, ...], task: Task
 ) -> tuple[State, InitialState]:
-    mode = machine.mode(phases)
-    plain = mode.dynamics.without_carried
+    mode = hybrid.mode(phases)
+    plain = mode.dynamics.without_auxiliary
     numbers = dict(zip(plain.parameters, mode.parameters.tolist(), strict=True))
     start = read_start(plain, task.start, numbers)
     state = dict(zip(plain.states, (float(x) for x in start.state), strict=True))

@@ -34,13 +34,13 @@ class ModeExit:
 
     Attributes:
         guard: what ended it; None for a jerk of a support.
-        place: the shared state.
+        shared: the shared state.
         gaps: heights of the contacts that are open, as they were followed, m.
         rooms: likewise distances to an edge, m.
     """
 
     guard: Guard | None
-    place: State
+    shared: State
     gaps: dict[int, float]
     rooms: dict[int, float]
 
@@ -49,16 +49,16 @@ class Transitions:
     """The changes of mode along one motion; remembers the hardest landing of every contact.
 
     Args:
-        machine: the modes.
+        hybrid: the modes.
     """
 
-    def __init__(self, machine: HybridSystem) -> None:
-        self._machine = machine
+    def __init__(self, hybrid: HybridSystem) -> None:
+        self._hybrid = hybrid
         self._hardest: dict[int, float] = {}
 
     def next(self, before: ModeState, leaving: ModeExit) -> tuple[str, ModeState]:
         """What happens where a mode ends, and how the motion enters the mode that follows."""
-        self._machine.move_on(leaving.place.time)
+        self._hybrid.move_on(leaving.shared.time)
         kind, entry, opened = self._next(before, leaving)
         rooms = {i: _room(before, leaving, entry, i) for i in entry.rooms}
         # Heights of open contacts: as integrated, and zero for those that have just opened.
@@ -71,86 +71,88 @@ class Transitions:
 
     def _next(self, before: ModeState, leaving: ModeExit) -> tuple[str, ModeState, int | None]:
         """Also the contact that opens again at once, if one does."""
-        guard, place = leaving.guard, leaving.place
+        guard, shared = leaving.guard, leaving.shared
         apart = frozenset(k for k, phase in enumerate(before.phases) if phase.flies)
         if guard is None:
-            return "jerk", select_mode(self._machine, place, ContactStatus(apart)), None
-        i = index_of(guard, self._machine)
+            return "jerk", select_mode(self._hybrid, shared, ContactStatus(apart)), None
+        i = index_of(guard, self._hybrid)
         still = frozenset(k for k, phase in enumerate(before.phases) if phase.rolls)
         if guard.kind == "touches down":
-            return *self._land(before, place, i), i
+            return *self._land(before, shared, i), i
         far = beyond(before.phases)
         # Contacts that have begun to slip at this very instant are slipping, though without speed.
-        starting = frozenset(before.onset) if before.place.time == place.time else frozenset()
+        starting = frozenset(before.onset) if before.shared.time == shared.time else frozenset()
         known = {
             "lifts off": ContactStatus(apart | {i}, still - {i}, beyond=far),
             "crosses the edge": ContactStatus(apart, still - {i}, beyond=far ^ {i}),
             "slips": ContactStatus(apart, still - {i}, starting | {i}, far),
             "sticks": ContactStatus(apart, still | {i}, beyond=far),
         }
-        entry = select_mode(self._machine, place, known[guard.kind])
+        entry = select_mode(self._hybrid, shared, known[guard.kind])
         turned = guard.kind == "sticks" and entry.phases[i].slides
         return "turns round" if turned else guard.kind, entry, None
 
-    def _land(self, before: ModeState, place: State, i: int) -> tuple[str, ModeState]:
+    def _land(self, before: ModeState, shared: State, i: int) -> tuple[str, ModeState]:
         """A shock, then contact or another flight."""
-        machine, numbers = self._machine, self._machine.numbers
-        contact = machine.automaton.contacts[i]
+        hybrid, numbers = self._hybrid, self._hybrid.numbers
+        contact = hybrid.automaton.contacts[i]
         apart = frozenset(k for k, phase in enumerate(before.phases) if phase.flies)
         still = frozenset(k for k, phase in enumerate(before.phases) if phase.rolls)
-        far = beyond(before.phases) | (machine.touching.beyond(place) & apart)
-        meetings = machine.touching.at(place, far)
-        mass = machine.apart.mass(place)
+        far = beyond(before.phases) | (hybrid.touching.beyond(shared) & apart)
+        points = hybrid.touching.at(shared, far)
+        mass = hybrid.apart.mass(shared)
         for k, phase in enumerate(before.phases):
-            if not phase.flies and _feel(meetings[k], meetings[i], mass, numbers):
-                other = machine.automaton.contacts[k].name
+            if not phase.flies and _feel(points[k], points[i], mass, numbers):
+                other = hybrid.automaton.contacts[k].name
                 raise NumericError(
-                    f"{contact.name} lands at t = {float(place.time):.9g} s while {other}, which "
+                    f"{contact.name} lands at t = {float(shared.time):.9g} s while {other}, which "
                     "feels it, touches",
                     expected="one contact of connected bodies at a time: shared shocks are not "
                     "determined",
                     advice="end the motion before that time",
                 )
-        meeting = meetings[i]
-        slow = numbers.finer(STILL) * meeting.scale
-        if meeting.velocity[2] > slow:
+        point = points[i]
+        slow = numbers.finer(STILL) * point.scale
+        if point.velocity[2] > slow:
             return "touches down", select_mode(
-                machine, place, ContactStatus(apart, still, beyond=far)
+                hybrid, shared, ContactStatus(apart, still, beyond=far)
             )
-        if meeting.velocity[2] >= -slow:
+        if point.velocity[2] >= -slow:
             return "touches down", select_mode(
-                machine, place, ContactStatus(apart - {i}, still, beyond=far)
+                hybrid, shared, ContactStatus(apart - {i}, still, beyond=far)
             )
-        felt = meeting.arms @ numbers.solved(mass, meeting.arms.T)
-        shock = self._shock(contact, felt, meeting.velocity, place.time)
-        work = shock.impulse @ (meeting.support + (meeting.velocity + shock.velocity) / 2)
-        change = numbers.solved(mass, meeting.arms.T @ shock.impulse)
-        after = place.kicked(change, work)
-        hardest = max(self._hardest.get(i, 0.0), -meeting.velocity[2])
+        inverse_mass = point.jacobian @ numbers.solved(mass, point.jacobian.T)
+        impact = self._impact(contact, inverse_mass, point.velocity, shared.time)
+        work = impact.impulse @ (point.support + (point.velocity + impact.velocity) / 2)
+        change = numbers.solved(mass, point.jacobian.T @ impact.impulse)
+        after = shared.with_impulse(change, work)
+        hardest = max(self._hardest.get(i, 0.0), -point.velocity[2])
         self._hardest[i] = hardest
-        if shock.velocity[2] > numbers.finer(_REBOUND) * hardest:
-            bounced = select_mode(machine, after, ContactStatus(apart, still, beyond=far))
-            time = bounced.place.time
-            fall = machine.mode(bounced.phases).closing_rates(bounced.state, time)[i]
-            hop = fall_of(0.0, shock.velocity[2], fall) if fall < 0 else np.inf
+        if impact.velocity[2] > numbers.finer(_REBOUND) * hardest:
+            bounced = select_mode(hybrid, after, ContactStatus(apart, still, beyond=far))
+            time = bounced.shared.time
+            fall = hybrid.mode(bounced.phases).closing_rates(bounced.state, time)[i]
+            hop = fall_of(0.0, impact.velocity[2], fall) if fall < 0 else np.inf
             if hop > _INSTANT * numbers.spacing(time):
                 return "bounces", bounced
-        stuck = still | {i} if shock.sticks else still
+        stuck = still | {i} if impact.sticks else still
         return "touches down", select_mode(
-            machine, after, ContactStatus(apart - {i}, stuck, beyond=far)
+            hybrid, after, ContactStatus(apart - {i}, stuck, beyond=far)
         )
 
-    def _shock(self, contact: Contact, felt: Array, velocity: Array, time: float) -> Impact:
-        numbers = self._machine.numbers
-        restitution = self._machine.value(contact.restitution)
+    def _impact(
+        self, contact: Contact, inverse_mass: Array, velocity: Array, time: float
+    ) -> Impact:
+        numbers = self._hybrid.numbers
+        restitution = self._hybrid.value(contact.restitution)
         if isinstance(contact, Coulomb):
-            kinetic, static = (self._machine.value(m) for m in (contact.mu, contact.mu_static))
+            kinetic, static = (self._hybrid.value(m) for m in (contact.mu, contact.mu_static))
             roughness = Roughness(kinetic, static, restitution)
             where = f"{contact.name} at t = {float(time):.9g} s"
-            return coulomb_impact(felt, velocity, roughness, where, numbers)
+            return coulomb_impact(inverse_mass, velocity, roughness, where, numbers)
         if isinstance(contact, Rolling):
-            return rough_impact(felt, velocity, restitution, numbers)
-        return smooth_impact(felt, velocity, restitution)
+            return rough_impact(inverse_mass, velocity, restitution, numbers)
+        return smooth_impact(inverse_mass, velocity, restitution)
 
 
 def _room(before: ModeState, leaving: ModeExit, entry: ModeState, i: int) -> float:
@@ -168,12 +170,12 @@ def _feel(
     one: ContactKinematics, other: ContactKinematics, mass: Array, numbers: NumberType
 ) -> bool:
     """Whether an impulse at one contact is felt at another."""
-    shared = one.arms @ numbers.solved(mass, other.arms.T)
-    own = one.arms @ numbers.solved(mass, one.arms.T)
+    shared = one.jacobian @ numbers.solved(mass, other.jacobian.T)
+    own = one.jacobian @ numbers.solved(mass, one.jacobian.T)
     return bool(np.max(np.abs(shared)) > _UNFELT * np.max(np.abs(own)))
 
 
-def index_of(guard: Guard, machine: HybridSystem) -> int:
+def index_of(guard: Guard, hybrid: HybridSystem) -> int:
     """Which contact a guard watches; -1 for none."""
-    names = [contact.name for contact in machine.automaton.contacts]
+    names = [contact.name for contact in hybrid.automaton.contacts]
     return names.index(guard.contact.name) if guard.contact is not None else -1

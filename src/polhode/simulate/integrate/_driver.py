@@ -125,24 +125,24 @@ def integrate(
     start: Array,
     span: tuple[float, float],
     progress: Progress,
-    watched: StopCriteria | None = None,
+    criteria: StopCriteria | None = None,
 ) -> SegmentSolution:
     """Integrate a flow over a span of time, or as far as it goes.
 
     Args:
         start: of all states, in the order of the flow, less what is known of them.
-        watched: what may stop it early.
+        criteria: what may stop it early.
 
     Raises:
         NumericError: where the motion cannot even begin.
     """
     size = len(flow.core.symbols)
-    watched = watched or StopCriteria()
-    path = _legs(flow, stepper, parameters, start[:size], span, progress, watched)
+    criteria = criteria or StopCriteria()
+    path = _legs(flow, stepper, parameters, start[:size], span, progress, criteria)
     steps = ascending([leg.times for leg in path.legs])
     vanished = None
     if path.stop is Stop.VANISHED:
-        end, vanished = _vanishing(path, watched, (float(steps[-2]), float(steps[-1])))
+        end, vanished = _vanishing(path, criteria, (float(steps[-2]), float(steps[-1])))
         steps = np.append(steps[:-1], end)
     if looks_along(flow) > 1:
         looks = np.linspace(steps[0], steps[-1], looks_along(flow) + 1)
@@ -166,10 +166,10 @@ def integrate(
 
 
 def _vanishing(
-    path: _Path, watched: StopCriteria, step: tuple[float, float]
+    path: _Path, criteria: StopCriteria, step: tuple[float, float]
 ) -> tuple[float, int | None]:
     """When a vector vanishes within the last step, and which; its end if it only turned round."""
-    for k, places in enumerate(watched.vectors):
+    for k, places in enumerate(criteria.vectors):
         rows = list(places)
         start = path.at(np.array(step[:1]))[rows, 0]
 
@@ -181,9 +181,9 @@ def _vanishing(
 
         if along(step[1]) <= 0:
             time = bisected(along, *step)
-            if np.hypot(*vector(time)) <= watched.passing:
+            if np.hypot(*vector(time)) <= criteria.passing:
                 return time, k
-        elif np.hypot(*vector(step[1])) <= watched.passing:
+        elif np.hypot(*vector(step[1])) <= criteria.passing:
             return step[1], k
     return step[1], None
 
@@ -232,12 +232,12 @@ def _legs(
     state: Array,
     span: tuple[float, float],
     progress: Progress,
-    watched: StopCriteria,
+    criteria: StopCriteria,
 ) -> _Path:
     """Angles that have grown far are counted from zero again: their rounding would spread."""
     now, end = span
     periods = np.array([period or np.inf for period in flow.periods])
-    steps = StepWatch(watched, state.tolist(), span, progress)
+    steps = StepWatch(criteria, state.tolist(), span, progress)
     watch = _AngleMonitor(steps, _TURNS * periods)
     legs, begins, turned = list[Leg](), list[float](), list[Array]()
     offset = np.zeros(len(state))

@@ -143,21 +143,21 @@ class PowerSeries:
 
     name = "flint"
 
-    def integrate(self, launch: InitialValueProblem, watch: SeriesCallback) -> TaylorSolution:
+    def integrate(self, problem: InitialValueProblem, watch: SeriesCallback) -> TaylorSolution:
         """The motion up to its end, until `watch` says no, or as far as it goes."""
-        order = order_of(launch.numbers)
-        with working(launch.numbers, order):
-            return _integrated(launch, order, watch)
+        order = order_of(problem.numbers)
+        with working(problem.numbers, order):
+            return _integrated(problem, order, watch)
 
 
-def _integrated(launch: InitialValueProblem, order: int, watch: SeriesCallback) -> TaylorSolution:
-    numbers = launch.numbers
-    rates = launch.program.function(arithmetic())
-    state = [ball(value) for value in launch.start]
-    constants = [ball(value) for value in launch.constants]
-    now, end = ball(launch.begin), ball(launch.end)
+def _integrated(problem: InitialValueProblem, order: int, watch: SeriesCallback) -> TaylorSolution:
+    numbers = problem.numbers
+    rates = problem.program.function(arithmetic())
+    state = [ball(value) for value in problem.start]
+    constants = [ball(value) for value in problem.constants]
+    now, end = ball(problem.begin), ball(problem.end)
     times, steps = [now], list[Any]()
-    others = launch.program.arguments[len(state) :]
+    others = problem.program.arguments[len(state) :]
     going = True
     while going and now < end:
         given = clocked(others, constants, now)

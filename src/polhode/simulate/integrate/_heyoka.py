@@ -260,16 +260,16 @@ class TaylorSeries:
 
     name = "heyoka"
 
-    def integrate(self, launch: InitialValueProblem, watch: SeriesCallback) -> TaylorSolution:
+    def integrate(self, problem: InitialValueProblem, watch: SeriesCallback) -> TaylorSolution:
         """The motion up to its end, until `watch` says no, or as far as it goes."""
-        numbers = launch.numbers
-        taylor = copy(_compiled_in(launch.program, len(launch.start), numbers))
+        numbers = problem.numbers
+        taylor = copy(_compiled_in(problem.program, len(problem.start), numbers))
         read = _HeyokaNumbers(numbers)
-        taylor.time = read(launch.begin)
-        taylor.state[:] = [read(value) for value in launch.start]
-        taylor.pars[:] = [read(value) for value in launch.constants[: len(taylor.pars)]]
+        taylor.time = read(problem.begin)
+        taylor.state[:] = [read(value) for value in problem.start]
+        taylor.pars[:] = [read(value) for value in problem.constants[: len(taylor.pars)]]
         _, *_, output, _ = taylor.propagate_until(
-            read(launch.end),
+            read(problem.end),
             c_output=True,
             callback=lambda t: watch(float(t.time), float(t.last_h), t.state),
         )

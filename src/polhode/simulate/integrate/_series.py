@@ -154,7 +154,7 @@ class SeriesIntegrator(Protocol):
 
     name: str
 
-    def integrate(self, launch: InitialValueProblem, watch: SeriesCallback) -> TaylorSolution:
+    def integrate(self, problem: InitialValueProblem, watch: SeriesCallback) -> TaylorSolution:
         """The motion up to its end, until `watch` says no, or as far as it goes.
 
         Raises:

@@ -108,39 +108,39 @@ class _Vanishing:
     """Watches from step to step whether a vector vanishes.
 
     Args:
-        watched: which vectors, and what is small.
+        criteria: which vectors, and what is small.
         state: at the beginning.
     """
 
-    def __init__(self, watched: StopCriteria, state: Sequence[Any]) -> None:
-        self._watched = watched
-        self._vectors = watched.seen(state)
+    def __init__(self, criteria: StopCriteria, state: Sequence[Any]) -> None:
+        self._criteria = criteria
+        self._vectors = criteria.seen(state)
         self._shrinks = [False for _ in self._vectors]
 
     def at(self, state: Sequence[Any]) -> bool:
         """Whether one vanishes, or turns round, on the way to a state."""
-        before, self._vectors = self._vectors, self._watched.seen(state)
+        before, self._vectors = self._vectors, self._criteria.seen(state)
         shrank, self._shrinks = self._shrinks, list(map(_is_shorter, self._vectors, before))
         return any(map(self._vanishes, before, self._vectors, shrank))
 
     @property
     def is_near(self) -> bool:
         """Whether one is as small as where it turns round."""
-        return any(hypot(*vector) <= self._watched.passing for vector in self._vectors)
+        return any(hypot(*vector) <= self._criteria.passing for vector in self._vectors)
 
     def _vanishes(self, before: list[float], now: list[float], shrank: bool) -> bool:
         turned = sum(map(mul, before, now)) <= 0.0
         size = hypot(*now)
         # Where it turns round within a few steps, none of them need be half a turn.
-        grows = shrank and size <= _ALMOST * self._watched.least and not _is_shorter(now, before)
-        return turned or grows or size <= self._watched.least
+        grows = shrank and size <= _ALMOST * self._criteria.least and not _is_shorter(now, before)
+        return turned or grows or size <= self._criteria.least
 
 
 class StepWatch:
     """Tells of every step of a stretch of a motion, and says where there is reason to stop.
 
     Args:
-        watched: what may stop it.
+        criteria: what may stop it.
         state: at the beginning.
         span: from its beginning to where it is to end, s.
         progress: told of every step.
@@ -149,20 +149,20 @@ class StepWatch:
 
     def __init__(
         self,
-        watched: StopCriteria,
+        criteria: StopCriteria,
         state: Sequence[Any],
         span: tuple[float, float],
         progress: Progress,
         numbers: NumberType = DOUBLES,
     ) -> None:
-        self._watched = watched
+        self._criteria = criteria
         self._span = span
         self._progress = progress
         self._smallest = float(numbers.finer(_SMALLEST))
         self._size = len(state) * numbers.bits / DOUBLES.bits
         self._longest = 0.0
         self._steps = 0
-        self._vanishing = _Vanishing(watched, state)
+        self._vanishing = _Vanishing(criteria, state)
 
     def after(self, time: float, step: float, state: Sequence[Any]) -> Stop | None:
         """Why to stop after a step, if at all.
@@ -181,7 +181,7 @@ class StepWatch:
         except StopRequested:
             return Stop.INTERRUPTED
         hurries = not self._vanishing.is_near
-        self._watched.tally.count(self._span, time, self._size, hurries=hurries)
+        self._criteria.tally.count(self._span, time, self._size, hurries=hurries)
         if self._vanishing.at(state):
             return Stop.VANISHED
         if step < inf:
@@ -189,7 +189,7 @@ class StepWatch:
         is_short = step < self._smallest * max(abs(time), self._longest)
         if is_short and time < self._span[1]:
             return Stop.VANISHED if self._vanishing.is_near else Stop.STUCK
-        if self._steps >= self._watched.pause or self._watched.over(time, state):
+        if self._steps >= self._criteria.pause or self._criteria.over(time, state):
             return Stop.PAUSE
         return None
 

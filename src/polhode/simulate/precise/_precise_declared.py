@@ -90,9 +90,9 @@ class _DeclaredPieces:
         self, state: StateValues, now: Any, end: Any, before: TrajectoryPiece | None
     ) -> PieceEnd:
         passages, careful = passages_of(self.dynamics), self._steps.numbers.careful
-        watched = StopCriteria(pause=_LOOK) if passages else StopCriteria()
+        criteria = StopCriteria(pause=_LOOK) if passages else StopCriteria()
         equations = _Equations(self.dynamics, self._constants)
-        piece = self._steps.along(equations, state, (now, end), watched)
+        piece = self._steps.along(equations, state, (now, end), criteria)
         found = _passed(self.dynamics, passages, piece)
         stop = piece.solution.stop
         if found is None:

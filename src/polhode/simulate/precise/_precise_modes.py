@@ -33,7 +33,7 @@ class PrecisePieces(ModePieces):
     """Pieces in higher precision.
 
     Args:
-        machine: the modes, in numbers with bits to spare.
+        hybrid: the modes, in numbers with bits to spare.
         entry, near_flat: as in `ModePieces`.
         steps: what integrates them.
         tally: of the steps of the whole motion.
@@ -41,13 +41,13 @@ class PrecisePieces(ModePieces):
 
     def __init__(
         self,
-        machine: HybridSystem,
+        hybrid: HybridSystem,
         entry: ModeState,
         near_flat: float,
         steps: SeriesStepper,
         tally: StepCount,
     ) -> None:
-        super().__init__(machine, entry, near_flat)
+        super().__init__(hybrid, entry, near_flat)
         self._steps = steps
         self._tally = tally
 
@@ -57,14 +57,14 @@ class PrecisePieces(ModePieces):
     def _piece(
         self, state: StateValues, span: tuple[Any, Any], before: TrajectoryPiece | None
     ) -> PieceEnd:
-        watched = self._watched(state, span[0])
-        piece = self._steps.along(self._mode, state, span, watched)
-        found = self._cut(piece, watched)
+        criteria = self._criteria(state, span[0])
+        piece = self._steps.along(self._mode, state, span, criteria)
+        found = self._cut(piece, criteria)
         again = None
         if isinstance(found.guard, SideChange):
             again = nearer(piece.series.times, found.piece.end, self._steps.numbers)
         if again is not None:
-            limit = self._machine.numbers.array([again])[0]
+            limit = self._hybrid.numbers.array([again])[0]
             return self._piece(state, (span[0], limit), before)
         refuse_vanishing(self._mode.dynamics, found.piece.rounded())
         return found
@@ -74,11 +74,11 @@ class PrecisePieces(ModePieces):
     ) -> PieceEnd:
         """As far as a power series about the first instant of slip reaches."""
         mode, entry, numbers = self._mode, self._entry, self._steps.numbers
-        contacts = self._machine.automaton.contacts
+        contacts = self._hybrid.automaton.contacts
         shape = polar_shape(mode, entry, contacts)
         others = (*mode.dynamics.parameters, CLOCK)
         program = mode.dynamics.program(shape.wanted, (*shape.symbols, *shape.given, *others))
-        constants, begin = mode.parameters.tolist(), entry.place.time
+        constants, begin = mode.parameters.tolist(), entry.shared.time
         start = [state[s] for s in shape.symbols]
         angles = [entry.onset[i] for i in shape.starting]
         series = SlipSeries(
@@ -93,9 +93,9 @@ class PrecisePieces(ModePieces):
                 advice="compute the motion in doubles, or end it before that time",
             )
         piece = SeriesPiece.of((*shape.symbols, *shape.polars), series, constants, Stop.PAUSE)
-        return self._cut(piece, self._watched(state, begin))
+        return self._cut(piece, self._criteria(state, begin))
 
-    def _watched(self, state: StateValues, now: Any) -> StopCriteria:
+    def _criteria(self, state: StateValues, now: Any) -> StopCriteria:
         """What stops an integration: slips that end, too many steps, or reason to look."""
         vectors = self.slips_in(self._steps.symbols(self._mode.dynamics))
         scale = self.speed_scale(state, now) or 1 if self._entry.slips else 1
@@ -103,10 +103,10 @@ class PrecisePieces(ModePieces):
         least, passing = finer(VANISHED) * scale, finer(LANDED) * scale
         return StopCriteria(_LOOK, vectors, float(least), float(passing), tally=self._tally)
 
-    def _cut(self, piece: SeriesPiece, watched: StopCriteria) -> PieceEnd:
+    def _cut(self, piece: SeriesPiece, criteria: StopCriteria) -> PieceEnd:
         """A piece up to the first guard that falls."""
-        landed = landing(piece, watched)
-        seen = InDoubles(piece, self._entry.place.time)
+        landed = landing(piece, criteria)
+        seen = InDoubles(piece, self._entry.shared.time)
         fall = self._monitor.first_fall(seen)
         point, guard = PiecePoint(piece.series.steps - 1, 1), None
         if landed is not None:
@@ -118,14 +118,14 @@ class PrecisePieces(ModePieces):
         if guard is None and piece.solution.stop is Stop.STUCK:
             raise self._monitor.broken(seen)
         time = piece.series.time(point.step, point.share)
-        careful = self._machine.numbers
+        careful = self._hybrid.numbers
         state = piece.state(point, careful)
         return PieceEnd(replace(piece, end=time), state, careful.array([time])[0], guard)
 
 
 def precise_pieces(
-    machine: HybridSystem, near_flat: float, steps: SeriesStepper
+    hybrid: HybridSystem, near_flat: float, steps: SeriesStepper
 ) -> Callable[[ModeState], PrecisePieces]:
     """What integrates the modes of one motion, from where each is entered."""
     tally = StepCount()
-    return lambda entry: PrecisePieces(machine, entry, near_flat, steps, tally)
+    return lambda entry: PrecisePieces(hybrid, entry, near_flat, steps, tally)

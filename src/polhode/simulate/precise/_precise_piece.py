@@ -160,7 +160,7 @@ class SeriesStepper:
         mode: NumericEquations,
         start: StateValues,
         span: tuple[Any, Any],
-        watched: StopCriteria,
+        criteria: StopCriteria,
     ) -> SeriesPiece:
         """From a state on, towards the end of a span, or to where what is watched ends it.
 
@@ -177,7 +177,7 @@ class SeriesStepper:
         own = [start[s] for s in symbols]
         problem = InitialValueProblem(flow.core.program, self.numbers, constants, own, begin, end)
         within = (float(begin), float(end))
-        steps = StepWatch(watched, own, within, self._progress, self.numbers)
+        steps = StepWatch(criteria, own, within, self._progress, self.numbers)
         reason: Stop | None = None
 
         def goes_on(time: float, step: float, state: Sequence[Any]) -> bool:
@@ -217,15 +217,15 @@ def fallen(dynamics: Dynamics, positive: Expr, piece: SeriesPiece, place: float)
     return PiecePoint(step, min(max(share, 0), 1))
 
 
-def landing(piece: SeriesPiece, watched: StopCriteria) -> tuple[PiecePoint, int] | None:
+def landing(piece: SeriesPiece, criteria: StopCriteria) -> tuple[PiecePoint, int] | None:
     """Where a slip vanishes within the last step, and which; None if slips only reverse."""
     if piece.solution.stop is not Stop.VANISHED:
         return None
     series = piece.series
-    for k, pair in enumerate(watched.vectors):
+    for k, pair in enumerate(criteria.vectors):
         point = _reversal(series, list(pair))
         slip = series.state(point.step, point.share)[list(pair)]
-        if float(series.numbers.size(slip)) <= watched.passing:
+        if float(series.numbers.size(slip)) <= criteria.passing:
             return point, k
     return None
 

@@ -101,7 +101,7 @@ def _through_modes(
     guarded: Guarded, given: Given, steps: SeriesStepper, task: Task
 ) -> HybridSolution:
     """Through all contact modes, as the forces demand."""
-    rough, numbers = guarded.machine, steps.numbers.careful
+    rough, numbers = guarded.hybrid, steps.numbers.careful
     machine = HybridSystem(
         rough.automaton, rough.drive, given.parameters, rough.integrator, None, numbers, rough
     )

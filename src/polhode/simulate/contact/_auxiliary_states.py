@@ -17,7 +17,7 @@ def dynamics_of(
     constants: Mapping[Symbol, float],
 ) -> Dynamics:
     """The equations of a contact mode with what is carried along, and all shared states."""
-    carried, meanings = _carried(mode)
+    auxiliary, meanings = _auxiliary(mode)
     known = dict(mode.lifted)
     # Reactions of open contacts are zero.
     reactions, own = modes.together.equations.components, mode.equations.components
@@ -25,8 +25,8 @@ def dynamics_of(
     # Slip velocities of closed contacts follow from the state unless they are integrated.
     for touch, phase in zip(mode.touches, mode.phases, strict=True):
         slips = () if phase.flies else zip(slip_symbols(touch.contact), touch.slip, strict=True)
-        known |= {symbol: slip for symbol, slip in slips if symbol not in carried}
-    return Dynamics(mode.equations, prescribed, tuple(constants), carried, meanings, known)
+        known |= {symbol: slip for symbol, slip in slips if symbol not in auxiliary}
+    return Dynamics(mode.equations, prescribed, tuple(constants), auxiliary, meanings, known)
 
 
 def slip_symbols(contact: Contact) -> tuple[Symbol, Symbol]:
@@ -47,24 +47,24 @@ def room_symbol(contact: Contact) -> Symbol:
     return Symbol(f"room_{contact.spelled}", SymbolKind.COORDINATE)
 
 
-def _carried(mode: Mode) -> tuple[dict[Symbol, Expr], dict[Symbol, Expr]]:
+def _auxiliary(mode: Mode) -> tuple[dict[Symbol, Expr], dict[Symbol, Expr]]:
     """Work done, slips, heights and distances to an edge; and what they make of the symbols of a
     sliding contact."""
-    carried: dict[Symbol, Expr] = {WORK: mode.equations.power}
+    auxiliary: dict[Symbol, Expr] = {WORK: mode.equations.power}
     meanings: dict[Symbol, Expr] = {}
     motion = mode.equations.kinetics
     for touch, phase in zip(mode.touches, mode.phases, strict=True):
         contact = touch.contact
         if phase.flies:
-            carried[gap_symbol(contact)] = touch.closing
+            auxiliary[gap_symbol(contact)] = touch.closing
         elif touch.reserve:
-            carried[room_symbol(contact)] = touch.room.chain(motion.rate)
+            auxiliary[room_symbol(contact)] = touch.room.chain(motion.rate)
         if phase.slides and isinstance(contact, Coulomb):
             element = mode.element(contact)
             if not isinstance(element, Sliding):
                 continue
             slips = slip_symbols(contact)
-            carried |= {
+            auxiliary |= {
                 s: slip.chain(motion.rate) for s, slip in zip(slips, touch.slip, strict=True)
             }
             along, across = (Expr.generator(s) for s in slips)
@@ -73,4 +73,4 @@ def _carried(mode: Mode) -> tuple[dict[Symbol, Expr], dict[Symbol, Expr]]:
             meanings[element.direction[0]] = along / speed
             meanings[element.direction[1]] = across / speed
             meanings[element.slowness] = contact.slowness(speed)
-    return carried, meanings
+    return auxiliary, meanings
