@@ -1,4 +1,4 @@
-"""Numbers: start values, integration to rounding, and trajectories to read everything from."""
+"""Simulation: start values, integration to rounding, and trajectories to read from."""
 
 from polhode.simulate._absolute_values import smooth_at as smooth_at
 from polhode.simulate._drift import Drift as Drift

@@ -13,10 +13,10 @@ from polhode.simulate._absolute_values import (
     SideChange,
     SideChangeCount,
     Sides,
-    first_passage,
+    first_side_change,
+    guards_of_sides,
     nearer,
     overshoots,
-    passages_of,
     refuse_vanishing,
     sides_at,
 )
@@ -98,7 +98,7 @@ class _SmoothEquations:
 
     def __init__(self, dynamics: Dynamics, integrator: Integrator, tolerance: float | None) -> None:
         self.dynamics = dynamics
-        self.passages = passages_of(dynamics)
+        self.side_guards = guards_of_sides(dynamics)
         self._integrator = integrator
         self._tolerance = tolerance
 
@@ -112,9 +112,9 @@ class _SmoothEquations:
 
     def criteria(self, constants: Array, tally: StepCount) -> StopCriteria:
         """What stops an integration for a look."""
-        if not self.passages:
+        if not self.side_guards:
             return StopCriteria()
-        over = overshoots(self.dynamics, self.passages, self.flow, constants)
+        over = overshoots(self.dynamics, self.side_guards, self.flow, constants)
         return StopCriteria(pause=_LOOK, over=over, tally=tally)
 
 
@@ -156,10 +156,10 @@ class _DeclaredPieces:
         flow, then = self.equations.flow, self._constants
         rest = before.solution.rest(now) if before else flow.rest(state, then, now)
         self._constants = self._constants_at(now)
-        piece, passage = self._up_to(rest, (now, self._drive.until(now, end)))
+        piece, change = self._up_to(rest, (now, self._drive.until(now, end)))
         interrupted = piece.solution.stop is Stop.INTERRUPTED
         there: dict[Any, Any] = {WORK: 0.0, **state_at(piece, piece.end)}
-        return PieceEnd(piece, there, piece.end, passage, is_last=interrupted)
+        return PieceEnd(piece, there, piece.end, change, is_last=interrupted)
 
     def _up_to(
         self, rest: Array, span: tuple[float, float]
@@ -172,14 +172,14 @@ class _DeclaredPieces:
         )
         reached = span[1] if solution.stop is Stop.TIME else float(solution.steps[-1])
         whole = TrajectoryPiece(span[0], reached, solution, constants)
-        piece, passage = first_passage(equations.dynamics, equations.passages, whole)
-        again = nearer(solution.steps, piece.end) if passage is not None else None
+        piece, change = first_side_change(equations.dynamics, equations.side_guards, whole)
+        again = nearer(solution.steps, piece.end) if change is not None else None
         if again is not None:
             return self._up_to(rest, (span[0], again))
         refuse_vanishing(equations.dynamics, piece)
-        if passage is None and solution.stop is Stop.STUCK:
+        if change is None and solution.stop is Stop.STUCK:
             raise stuck(solution)
-        return piece, passage
+        return piece, change
 
     def _constants_at(self, now: float) -> Array:
         known = {**self._numbers, **self._drive.constants(now)}

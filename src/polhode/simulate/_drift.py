@@ -1,4 +1,4 @@
-"""How far a computed motion strays from what must stay as it is."""
+"""Drift of conserved quantities: energy less work done, closed loops, and invariants."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from polhode.simulate._dynamics import WORK
 from polhode.simulate._segment import Segment
 from polhode.simulate.integrate._arrays import Array, ascending
 
-_MOST_CHECKED = 20_000  # instants of a segment that are looked at
-_FEW = 64  # the same, where it is only asked whether the motion can be believed
+_MOST_CHECKED = 20_000  # instants of a segment
+_FEW = 64  # the same, to tell whether the motion can be relied on
 
 
 @dataclass(frozen=True)
@@ -57,9 +57,9 @@ def drift_of(segments: Sequence[Segment], invariants: Mapping[str, Expr], sample
 
 
 def imbalance_of(segments: Sequence[Segment]) -> dict[str, float]:
-    """What must balance, by name, over the size of what it is the difference of; at few instants.
+    """Imbalance of energy and closed loops, relative to the size of their terms; at few instants.
 
-    What has once gone out of balance stays so.
+    A few are enough: what has once gone out of balance stays so.
     """
     looks = [_Look(segment, _instants(segment, segment.steps[:0], _FEW)) for segment in segments]
     found = {"the energy balance": _energy(looks)}

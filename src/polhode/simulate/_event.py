@@ -1,4 +1,4 @@
-"""What happens along a motion at an instant."""
+"""Events of a motion: changes of contact mode, and zero crossings that were asked for."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._crossing import roots
 from polhode.simulate.integrate._stop_criteria import Stop
 
-_THERE = 1e-9  # of a segment: as good as at its end
-_INSTANT = 64  # steps of rounding of the time: a segment that is over sooner shows nothing
+_THERE = 1e-9  # of a segment: so near its end counts as at its end
+_INSTANT = 64  # units in the last place of the time: shorter segments have no crossings
 _BESIDE = 1e-6  # of a step: where the sign is looked at beside an end
 
 
@@ -141,15 +141,15 @@ def requested_events(segments: Sequence[Segment], wanted: Mapping[str, Expr]) ->
     return [
         Event(time, name, segments[k].mode, segments[k].mode, segments[k], segments[k])
         for name, expression in wanted.items()
-        for time, k, _ in passages(segments, expression)
+        for time, k, _ in zero_crossings(segments, expression)
     ]
 
 
-def passages(segments: Sequence[Segment], expression: Expr) -> Iterator[EventCrossing]:
+def zero_crossings(segments: Sequence[Segment], expression: Expr) -> Iterator[EventCrossing]:
     """When an expression passes through zero along a motion.
 
-    Where an absolute value changes its side, one motion goes on: an expression that passes through
-    zero there, as the argument itself does, would be seen on both sides or on none.
+    Where an absolute value changes its side the motion goes on, in another segment: an expression
+    that is zero there, as the argument itself is, must be counted once, not twice or never.
     """
     lasting = [k for k, s in enumerate(segments) if s.end - s.begin > _INSTANT * np.spacing(s.end)]
     before = dict(pairwise(lasting))
@@ -172,7 +172,7 @@ def passages(segments: Sequence[Segment], expression: Expr) -> Iterator[EventCro
 
 
 def _changes(before: Segment, after: Segment, expression: Expr) -> bool:
-    """Whether the sign beside a seam is another on either side of it."""
+    """Whether an expression changes its sign from one segment to the next."""
     earlier, later = before.steps, after.steps
     sides = (
         (before, earlier[-1] - _BESIDE * (earlier[-1] - earlier[-2])),

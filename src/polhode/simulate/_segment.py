@@ -1,4 +1,4 @@
-"""A stretch of a motion in one contact mode."""
+"""Pieces of a trajectory, and the segments that they make up: one for every contact mode."""
 
 from __future__ import annotations
 
@@ -21,7 +21,10 @@ _FEW = 10_000  # times in one of them, at most
 
 @dataclass(frozen=True)
 class TrajectoryPiece:
-    """A stretch that was integrated in one go, with the constants of that stretch."""
+    """A piece of a trajectory that was integrated in one go, with the constants that hold on it.
+
+    It may end before its solution does: where an event has been found on it.
+    """
 
     begin: float
     end: float
@@ -29,7 +32,7 @@ class TrajectoryPiece:
     constants: Array = field(repr=False)
 
     def states(self, times: Array) -> Array:
-        """States, shape (states, times); kept, as many things are read at the same times."""
+        """States, shape (states, times); kept, since much is read at the same times."""
         if len(times) > _FEW:
             return self.solution.at(times)
         key = tuple(times.tolist()) if times.dtype == object else times.tobytes()
@@ -53,7 +56,7 @@ class TrajectoryPiece:
 
 @dataclass(frozen=True)
 class Segment:
-    """A stretch of time in one contact mode.
+    """A part of a trajectory within one contact mode.
 
     Attributes:
         mode: its name.
@@ -106,7 +109,7 @@ class Segment:
 def values_of(
     dynamics: Dynamics, part: TrajectoryPiece, expressions: Sequence[Expr], times: Array
 ) -> Array:
-    """Values of expressions within a part, shape (expressions, times)."""
+    """Values of expressions within a piece, shape (expressions, times)."""
     solution = part.solution
     arguments = (*solution.symbols, *dynamics.parameters, CLOCK)
     numbers = solution.numbers

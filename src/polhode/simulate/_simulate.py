@@ -38,7 +38,7 @@ from polhode.simulate.precise._wanted import Wanted
 
 
 def prepared(subject: System | Automaton | EquationsOfMotion, task: Task) -> Prepared:
-    """All that does not depend on the numbers, done once for every motion of a kind.
+    """What does not depend on the numbers, done once for all motions of a subject.
 
     Raises:
         DeclarationError: for what has no equations of motion.
@@ -46,7 +46,7 @@ def prepared(subject: System | Automaton | EquationsOfMotion, task: Task) -> Pre
     if isinstance(subject, System):
         subject = _modes(_ByIdentity(subject))
     if isinstance(subject, Automaton):
-        if subject.contacts:  # contacts are a room of their own: not entered where none is watched
+        if subject.contacts:  # imported only here: without contacts it is not needed
             from polhode.simulate.contact._through_modes import ThroughModes, can_be_followed
 
             if can_be_followed(subject):
@@ -82,16 +82,16 @@ def _modes(key: _ByIdentity) -> Automaton:
 
 
 SAMPLES = 1001
-_LONGEST = 1e18  # s; the world is not as old
+_LONGEST = 1e18  # s; the age of the universe is less
 #: Sine of the tilt at which a disk counts as lying flat.
 NEAR_FLAT = 1e-3
 
 
 class Experiment:
-    """Motions of one system over one duration, one after the other; compiled for the first.
+    """Motions of one system over one duration, one after the other; compiled in the first run.
 
-    Which parameters are given, and the prescribed motions, stay as they were in the first run.
-    Not to be shared by threads: the compiled integrators hold the motion they are at.
+    The prescribed motions, and which parameters are given, are those of the first run. Not to be
+    shared by threads: a compiled integrator holds the state of its motion.
 
     Args:
         subject: a declaration, its automaton, or equations derived from it.
@@ -100,7 +100,7 @@ class Experiment:
         tolerance, forcing, invariants, events, samples, near_flat, precision: as in `simulate`.
 
     Raises:
-        NumericError: for samples or a tolerance that cannot be.
+        NumericError: for impossible samples or an impossible tolerance.
         UnitError: for a duration that cannot be read.
     """
 
@@ -141,14 +141,14 @@ class Experiment:
         )
 
     def prepare(self, parameters: Mapping[Name, Any]) -> None:
-        """Do what does not depend on numbers, as the first run does it otherwise.
+        """Do what does not depend on numbers; otherwise the first run does it.
 
         Args:
             parameters: those that will be given.
 
         Raises:
-            DeclarationError: for a prescribed motion that is missing or cannot be.
-            NumericError: for one that is not smooth, or contacts that cannot be followed.
+            DeclarationError: for a prescribed motion that is missing or impossible.
+            NumericError: for one that is not smooth, or contacts whose forces are undetermined.
         """
         self._ready(replace(self._plan, given=parameters, seconds={}))
 
@@ -158,7 +158,7 @@ class Experiment:
         start: Mapping[Name, Any],
         progress: Progress | None = None,
     ) -> Trajectory:
-        """One motion, as `simulate` gives it; what speaks against it is in its `doubt`.
+        """One motion, as `simulate` gives it; its `doubt` says if it cannot be relied on.
 
         Raises:
             ConstraintError, DeclarationError, NumericError, UnitError: as `simulate`.
@@ -170,7 +170,7 @@ class Experiment:
             if self._wanted.numbers is DOUBLES:
                 run = _with(run, requested_events(run.segments, self._events))
             else:
-                from polhode.simulate.precise._precisely import precisely  # that few enter
+                from polhode.simulate.precise._precisely import precisely  # mpmath is heavy
 
                 with timed(task, "integrate"):
                     run = precisely(run, motion, task, self._wanted, shown)
@@ -264,16 +264,16 @@ def simulate(
 ) -> Trajectory:
     """Integrate the motion of a system to rounding, through all its contact modes.
 
-    Contacts of a declaration stick, slip, open and close as their forces demand, and every change
-    is found to rounding. Equations, on the other hand, are those of one contact mode: they are
-    kept to, and a contact that would have to pull is an event.
+    The contacts of a declaration stick, slip, open and close as their forces demand, and every
+    change is found to rounding. Equations, in contrast, describe one contact mode: contacts are
+    kept as they are, and where one would have to pull is an event.
 
-    Absolute values in loads, |x| and x/|x|, are followed from one side of zero to the other: where
-    x passes zero is an event. Where forces drive it back to zero from both sides, as dry friction
-    does a slip that has come to rest, it stays zero for as long as they do.
+    Absolute values in loads, |x| and x/|x|, are followed from one side of zero to the other; where
+    x passes through zero is an event. If forces drive x back to zero from both sides, as dry
+    friction does with a slip that has come to rest, it stays zero for as long as they do.
 
-    A motion whose energy balance or closed loops are off by more than rounding explains says so by
-    a `DriftWarning` and in its `doubt`.
+    If the energy balance or a closed loop is off by more than rounding explains, a `DriftWarning`
+    is given, and `doubt` of the trajectory says so.
 
     Names may be symbols or published names; values are SI numbers, texts with a unit, or exact
     expressions.
@@ -281,29 +281,29 @@ def simulate(
     Args:
         subject: a declaration, its automaton, or equations derived from it.
         parameters: the value of every parameter.
-        start: coordinates, speeds, rates of coordinates and dependent speeds in any mixture that
-            does not contradict itself. What they leave open starts at zero and is listed in
-            `assumed`; coordinates that close a loop are solved for.
+        start: coordinates, speeds, rates of coordinates and dependent speeds in any consistent
+            combination. What they leave open starts at zero and is listed in `assumed`;
+            coordinates that close a loop are solved for.
         duration: s.
         tolerance: relative, of one step; by default the best that the integrator holds.
         forcing: every prescribed function: an expression of time, a Python function of the time
-            in seconds, or samples read with `sampled` or `read_sheet`. What a function does for
-            less than a 2000th of the duration may be missed, see `approximated`.
-        invariants: expressions to be watched for drift, by name.
-        events: expressions whose passing through zero is recorded, by name.
+            in seconds, or samples read with `sampled` or `read_sheet`. Features of a function
+            shorter than a 2000th of the duration may be missed, see `approximated`.
+        invariants: expressions whose drift is monitored, by name.
+        events: expressions whose zero crossings are recorded as events, by name.
         samples: number of equally spaced sample times, or the times, s.
-        near_flat: value of the sine of the tilt of a disk, for instance, at which it counts as
-            lying flat: the point of contact is not defined beyond, and the motion ends there.
+        near_flat: value, for instance of the sine of the tilt of a disk, at which it counts as
+            lying flat: beyond, the point of contact is not defined, so the motion ends there.
         precision: double, extended (the machine's long doubles), quadruple, or a number of
-            decimal digits. Values are then taken exactly as they are written: "0.1 m" is a
-            tenth, the float 0.1 its binary value.
-        progress: told of every step.
+            decimal digits. Beyond double precision, values are taken exactly as written:
+            "0.1 m" is a tenth, the float 0.1 its binary value.
+        progress: notified of every step.
 
     Raises:
         ConstraintError: for start values that contradict each other or the constraints.
-        DeclarationError: for names that are not known, and values that are missing or impossible.
-        NumericError: where the motion is not defined or cannot be continued, or where it is wrong
-            beyond doubt, as its drift tells.
+        DeclarationError: for unknown names, and values that are missing or impossible.
+        NumericError: where the motion is not defined or cannot be continued, or where its drift
+            shows that it is wrong.
         UnitError: for a value that cannot be read or has the wrong dimension.
     """
     experiment = Experiment(

@@ -1,4 +1,4 @@
-"""Start values: any sufficient set is taken, the rest is solved for or starts at zero."""
+"""Start values: whatever is given is completed; the rest is solved for or starts at zero."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from polhode.simulate.integrate._arrays import Array
 # -- closed loops: coordinates that are not given are solved for -----------------------------------
 
 
-_CLOSED = 1e-9  # residual, relative to its largest term or slope, of a loop that is closed
+_CLOSED = 1e-9  # residual over the largest slope, below which a loop counts as closed
 _GUESSES = 40
 _STEPS = 60
 
@@ -28,10 +28,10 @@ _STEPS = 60
 def close(
     dynamics: Dynamics, given: Numbers, parameters: Numbers
 ) -> tuple[dict[Symbol, float], dict[str, float]]:
-    """All coordinates at the start, and those among them that had to be assumed.
+    """All coordinates at the start, and which of them had to be assumed.
 
-    Without closed loops a coordinate that is not given starts at zero. With them it is solved for,
-    by Newton's method from zero, then from guesses spread over a turn.
+    Without closed loops, coordinates that are not given start at zero. With them they are solved
+    for by Newton's method, from zero and then from guesses spread over a turn.
 
     Raises:
         ConstraintError: where no configuration with the given coordinates closes the loops.
@@ -138,7 +138,7 @@ class Start:
 
     Attributes:
         state: values of all states, SI.
-        assumed: names and values of what had to be assumed.
+        assumed: names and values of what was not given and had to be assumed.
     """
 
     state: Array
@@ -152,7 +152,7 @@ def read_start(dynamics: Dynamics, given: Mapping[Name, Any], parameters: Number
 
     Raises:
         ConstraintError: for values that contradict each other or the constraints.
-        DeclarationError: for a name that is not known.
+        DeclarationError: for an unknown name.
         NumericError: where the equations of motion have no finite solution.
         UnitError: for a value that cannot be read or has the wrong dimension.
     """

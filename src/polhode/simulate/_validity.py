@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from polhode.simulate._trajectory import Trajectory
 
 
-#: How finely a motion is looked at between its ends: no finer than parts remember their states for.
-_LOOKS = 10_000
+#: Instants at which a motion is checked: no more than those whose states its pieces keep.
+_CHECKS = 10_000
 
 
 def refuse_lost_side(trajectory: Trajectory) -> None:
@@ -53,7 +53,7 @@ def pulling_contacts(trajectory: Trajectory) -> Iterator[tuple[float, str]]:
 
 
 def _first_fall(trajectory: Trajectory, quantity: Expr | str) -> float | None:
-    times = np.linspace(0.0, trajectory.duration, _LOOKS)
+    times = np.linspace(0.0, trajectory.duration, _CHECKS)
     values = np.broadcast_to(trajectory.evaluate(quantity, times), times.shape)
     fallen = np.flatnonzero(~(values > 0))
     return float(times[fallen[0]]) if fallen.size else None
@@ -66,20 +66,20 @@ def _first_fall(trajectory: Trajectory, quantity: Expr | str) -> float | None:
 # position, such as a disk about to lie flat, terms that nearly cancel lose further digits. A larger
 # imbalance is not rounding: a force jumps unnoticed, or does work that was not counted.
 
-_LOST = 1e7  # roundings that terms which nearly cancel may cost
+_LOST = 1e7  # roundings that cancellation may cost
 _PER_STEP = 100.0  # roundings that a step may cost
-_WRONG = 1e-3  # of the energy or the lengths: a motion that is off by more is another one
-_TIGHTEST = {"scipy": 1e-13}  # relative tolerance of an integrator at its best, if not rounding
+_WRONG = 1e-3  # of the energy or the lengths: a larger imbalance is an error, not a warning
+_TIGHTEST = {"scipy": 1e-13}  # smallest relative tolerance of an integrator, if not rounding
 
 
 def doubt_about(run: Trajectory, tolerance: float | None) -> str:
-    """What speaks against a motion; empty where nothing does.
+    """Why a motion cannot be relied on; empty if it can.
 
     Args:
-        tolerance: of its steps, where one was asked for.
+        tolerance: of its steps, if one was requested.
 
     Raises:
-        NumericError: for one that is certainly wrong.
+        NumericError: for a motion that is certainly wrong.
     """
     numbers = run.segments[0].numbers
     rounding = 2.0 ** (1 - numbers.bits)
@@ -90,23 +90,23 @@ def doubt_about(run: Trajectory, tolerance: float | None) -> str:
     for what, size in imbalance_of(run.segments).items():
         if not isfinite(size) or size <= allowed:
             continue
-        told = f"{what} is off by {size:.1e} of its scale, where rounding explains {allowed:.0e}"
+        reason = f"{what} is off by {size:.1e} of its scale, where rounding explains {allowed:.0e}"
         if size > max(_WRONG, allowed):
             raise NumericError(
-                f"a motion that is wrong: {told}",
+                f"a motion that is wrong: {reason}",
                 expected="a motion that keeps its balance",
                 advice="a load that jumps, or whose power is not that of its force, does this; "
                 "if there is none, please report it",
             )
-        return told
+        return reason
     return ""
 
 
 def refuse_doubt(run: Trajectory) -> None:
-    """Refuse a motion against which anything speaks.
+    """Refuse a motion that cannot be relied on.
 
     Raises:
-        NumericError: with what does.
+        NumericError: with the reason.
     """
     if run.doubt:
         raise NumericError(
@@ -116,6 +116,6 @@ def refuse_doubt(run: Trajectory) -> None:
 
 
 def warn_of(run: Trajectory) -> None:
-    """Say aloud what speaks against a motion."""
+    """Warn of a motion that cannot be relied on."""
     if run.doubt:
         warnings.warn(f"this motion cannot be relied on: {run.doubt}", DriftWarning, stacklevel=3)

@@ -1,4 +1,4 @@
-"""Where many motions were seen, and what happened to them."""
+"""The results of a batch: states of its motions at sample times, and their events."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from polhode.simulate.batch._forcing_intervals import ForcingIntervals
 from polhode.simulate.integrate._arrays import Array
 
 LAST = -1
-"""The look at the end of a motion, whenever that is."""
+"""The sample at the end of a motion, whenever that is."""
 
 Rows = NDArray[np.intp]
 
 
 @dataclass(frozen=True)
 class Events:
-    """What happened to motions, in order.
+    """The events of motions, in order of time.
 
     Attributes:
         kinds: all that occur.
-        times: s, shape (motions, most that happened to one of them); not-a-number where nothing.
+        times: s, shape (motions, most events of one of them); not-a-number where there is none.
         codes: places among the kinds, or -1.
     """
 
@@ -36,10 +36,10 @@ class Events:
 
 @dataclass(frozen=True)
 class BatchResults:
-    """States of motions at some looks, each in the contact mode that it was in there.
+    """States of motions at sample times, each in the contact mode that it was in.
 
     Attributes:
-        times: of the looks, s; the last of them is the time at which every motion has ended.
+        times: of the samples, s; the last is the time at which every motion has ended.
         constants: of all parameters, shape (motions,).
         intervals: of prescribed motions.
         end: of every motion, s.
@@ -67,44 +67,44 @@ class BatchResults:
         intervals: ForcingIntervals,
         mode: str,
     ) -> BatchResults:
-        """Of motions that nothing has happened to so far."""
+        """Results of motions that have yet to be integrated."""
         end = np.full(count, times[-1])
         return cls(times, constants, intervals, end, [mode] * count, [mode] * count)
 
     def constants_from(self, rows: Rows, times: Array) -> dict[Symbol, Array]:
-        """All constants of some motions, as they are from some times on."""
+        """All constants of some motions, as they hold from some times on."""
         return self._constants_of(rows) | self.intervals.from_then(times)
 
     def constants_until(self, rows: Rows, times: Array) -> dict[Symbol, Array]:
-        """The same as they are up to some times."""
+        """The same as they hold up to some times."""
         return self._constants_of(rows) | self.intervals.until_then(times)
 
     def _constants_of(self, rows: Rows) -> dict[Symbol, Array]:
         return {symbol: values[rows] for symbol, values in self.constants.items()}
 
     def record(self, sample: int, batch_segment: BatchSegment, rows: Rows, states: Array) -> None:
-        """States of some motions, shape (states, rows)."""
+        """Record states of some motions, shape (states, rows)."""
         by_mode = self._recorded.setdefault(sample, {})
         by_mode.setdefault(id(batch_segment), []).append((batch_segment, rows, states))
 
     def record_one(
         self, sample: int, batch_segment: BatchSegment, row: int, state: Mapping[Symbol, float]
     ) -> None:
-        """The state of one motion."""
+        """Record the state of one motion."""
         states = np.array([[state.get(symbol, 0.0)] for symbol in batch_segment.states])
         self.record(sample, batch_segment, np.array([row]), states)
 
     def record_event(self, row: int, time: float, kind: str) -> None:
-        """Something happened to a motion."""
+        """Record an event of a motion."""
         self._events.append((row, time, kind))
 
     def finish(self, row: int, time: float, mode: str) -> None:
-        """A motion has come to its end."""
+        """Record the end of a motion."""
         self.end[row] = time
         self.last[row] = mode
 
     def values(self, quantity: Quantity, sample: int) -> Array:
-        """A quantity at a look, shape (motions,); not-a-number where a motion was not seen."""
+        """A quantity at a sample time, shape (motions,); not-a-number where a motion had ended."""
         found = np.full(len(self.end), np.nan)
         clock = self.end if sample == LAST else np.full(len(self.end), self.times[sample])
         constants = self.constants_until if sample == LAST else self.constants_from
@@ -120,13 +120,13 @@ class BatchResults:
             yield parts[0][0], rows, np.concatenate([x for *_, x in parts], axis=1)
 
     def events(self) -> Events:
-        """All that happened, motion by motion."""
+        """All events, motion by motion."""
         kinds = tuple(dict.fromkeys(kind for *_, kind in self._events))
-        told = sorted(self._events, key=lambda one: one[:2])
-        rows = np.array([row for row, *_ in told], dtype=np.intp)
+        ordered = sorted(self._events, key=lambda one: one[:2])
+        rows = np.array([row for row, *_ in ordered], dtype=np.intp)
         places = np.arange(len(rows)) - np.searchsorted(rows, rows, "left")
         shape = (len(self.end), int(np.max(places, initial=-1)) + 1)
         times, codes = np.full(shape, np.nan), np.full(shape, -1, dtype=np.intp)
-        times[rows, places] = [time for _, time, _ in told]
-        codes[rows, places] = [kinds.index(kind) for *_, kind in told]
+        times[rows, places] = [time for _, time, _ in ordered]
+        codes[rows, places] = [kinds.index(kind) for *_, kind in ordered]
         return Events(kinds, times, codes)

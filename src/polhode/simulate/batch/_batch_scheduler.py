@@ -1,6 +1,6 @@
-"""Many motions through all their contact modes: abreast within a mode, one by one in between.
+"""Takes many motions through all their contact modes: together within a mode, one by one between.
 
-Motions that leave a mode wait until those that are in the same next mode are taken up together.
+Motions that leave a mode wait until all that enter the same mode are integrated together.
 """
 
 from __future__ import annotations
@@ -40,12 +40,12 @@ from polhode.simulate.contact._transition import Transitions
 
 # -- one motion, from mode to mode -----------------------------------------------------------------
 
-_LARGE = 6  # a matrix whose determinant has too many terms to be watched
+_LARGE = 6  # speeds: the determinant of a larger mass matrix has too many terms for a guard
 
 
 @dataclass(frozen=True)
 class Entered:
-    """A motion at the point from which it may go abreast with others.
+    """A motion at the point from which it may be integrated together with others.
 
     Attributes:
         entry: of its mode.
@@ -63,7 +63,7 @@ class Entered:
 
 
 class SingleTrajectoryStepper:
-    """Follows single motions over what cannot be done for many at once.
+    """Takes single motions from mode to mode, which cannot be done for many at once.
 
     Args:
         hybrid: the modes.
@@ -83,9 +83,9 @@ class SingleTrajectoryStepper:
         return first_entry(self._hybrid, replace(self._task, start=start))[0]
 
     def goes_abreast(self, entry: ModeState) -> bool:
-        """Whether its mode is one for lanes: what flies lands with a shock, one by one.
+        """Whether a mode can be integrated for many motions together.
 
-        Absolute values are followed from side to side, one motion by itself.
+        Not with open contacts, which land with impacts, nor with absolute values.
         """
         mode = self._hybrid.mode(entry.phases)
         large = mode.can_jam and len(mode.mode.equations.mass.rows) > _LARGE
@@ -97,11 +97,11 @@ class SingleTrajectoryStepper:
         self._hybrid.take(constants)
 
     def phases(self, mode: str) -> tuple[Phase, ...]:
-        """Of the contacts in a mode."""
+        """The phases of all contacts in a mode."""
         return self._hybrid.automaton.named(mode)
 
     def leave(self, departure: BatchExit) -> tuple[str, ModeState]:
-        """What happens where a mode ends, and how the motion enters the next."""
+        """What happens where a mode ends, and how the next mode is entered."""
         self._hybrid.move_on(self._intervals.begun_before(departure.time))
         mode = self._hybrid.mode(departure.phases)
         state = departure.state
@@ -110,7 +110,7 @@ class SingleTrajectoryStepper:
         return self._transitions.next(before, left)
 
     def enter(self, entry: ModeState, end: float) -> Entered:
-        """The beginning of a mode: a slip that sets in, for which vectors are no use."""
+        """The beginning of a mode: slips that begin have to be integrated by themselves."""
         mode = self._hybrid.mode(entry.phases)
         begin, state = entry.shared.time, state_on(self._hybrid, entry)
         if not entry.onset:
@@ -126,12 +126,12 @@ class SingleTrajectoryStepper:
         return self._hybrid.touching.scale(entry.shared, beyond(entry.phases)) or 1.0
 
     def to_the_end(self, entry: ModeState, end: float) -> HybridSolution:
-        """All the rest, step by step."""
+        """The rest of a motion, integrated by itself."""
         pieces = double_pieces(self._hybrid, self._task.near_flat, SilentProgress())
         return HybridIntegrator(self._hybrid, pieces, self._task.until).integrate(entry, end)
 
 
-_MOST_CHANGES = 1000  # of one motion, before it is left to itself
+_MOST_CHANGES = 1000  # of mode, before a motion is integrated by itself
 
 
 @dataclass(frozen=True)
@@ -146,7 +146,7 @@ class BatchScheduler(ModeBatch):
     """Motions of one system that go on from mode to mode.
 
     Args:
-        batch_segments, results: as of a company.
+        batch_segments, results: as in `ModeBatch`.
         stepper: takes single motions from mode to mode.
         starts: start values of a motion.
     """
@@ -164,7 +164,7 @@ class BatchScheduler(ModeBatch):
         self._waiting: dict[Phases, list[_Waiting]] = {}
 
     def run(self) -> None:
-        """Follow all that wait, until nobody does."""
+        """Integrate the motions that wait, mode by mode, until none is left."""
         while self._waiting:
             phases = max(self._waiting, key=lambda p: len(self._waiting[p]))
             waiting = self._waiting.pop(phases)
@@ -202,16 +202,16 @@ class BatchScheduler(ModeBatch):
             self._attempt(row, lambda: self._by_itself(row, entry))
 
     def _attempt(self, row: int, step: Callable[[], None]) -> None:
-        """Take a step with one motion; one that fails is told when it is followed by itself."""
+        """Take a step with one motion; if it fails, the motion is integrated by itself later."""
         constants = self.results.constants
         self._stepper.take({s: float(values[row]) for s, values in constants.items()})
         try:
             step()
-        except Exception:  # whatever it is, it is this motion's alone
+        except Exception:  # any error concerns this motion alone
             self.lost.add(row)
 
     def _enter(self, row: int, entry: ModeState, changes: int) -> None:
-        """Let a motion enter a mode, and wait for others in it."""
+        """Let a motion enter a mode, and wait there for others."""
         end = float(self.results.times[-1])
         if changes > _MOST_CHANGES or not self._stepper.goes_abreast(entry):
             return self._by_itself(row, entry)
@@ -225,7 +225,7 @@ class BatchScheduler(ModeBatch):
         return self._waiting.setdefault(entry.phases, []).append(waiting)
 
     def _by_itself(self, row: int, entry: ModeState) -> None:
-        """Follow a motion step by step from where it enters a mode."""
+        """Integrate a motion by itself from where it enters a mode."""
         solution = self._stepper.to_the_end(entry, float(self.results.times[-1]))
         batch_segments = [
             self._batch_segment(self._stepper.phases(segment.mode)) for segment in solution.segments
@@ -240,7 +240,7 @@ class BatchScheduler(ModeBatch):
             self.results.record_event(row, change.time, change.kind)
 
     def _record_piece(self, row: int, batch_segment: BatchSegment, piece: TrajectoryPiece) -> None:
-        """States at the looks within a stretch of time."""
+        """Record the states at the samples on a piece."""
         times = self.results.times[:-1]
         for sample in np.flatnonzero((piece.begin <= times) & (times < piece.end)):
             self.results.record_one(

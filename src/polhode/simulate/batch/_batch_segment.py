@@ -1,4 +1,4 @@
-"""One contact mode, for many motions at once."""
+"""One contact mode, for many motions at once: what they start from, and what ends them."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ from polhode.simulate.integrate._arrays import Array, rows
 
 @dataclass(frozen=True)
 class Ending:
-    """What ends the motions of a mode.
+    """A condition that ends motions within a mode.
 
     Attributes:
         positive: while the mode lasts, but for a least value.
         kind: of the event that ends the motion as a whole; empty where it goes on from there.
         mode: that a motion ends in.
-        guard: of the contact mode, where the motion goes on in another.
+        guard: of the contact mode, if the motion goes on in another.
         least: value at which it has fallen.
         slips: the slip velocity that vanishes soon after.
     """
@@ -45,7 +45,7 @@ class Ending:
 
 
 def endings_of(mode: CompiledMode, near_flat: float, until: Collection[str]) -> tuple[Ending, ...]:
-    """What may end a mode, in the order of its guards."""
+    """The conditions that end a mode, in the order of its guards."""
     return tuple(_endings(mode, near_flat, until))
 
 
@@ -71,9 +71,9 @@ def _endings(mode: CompiledMode, near_flat: float, until: Collection[str]) -> It
 
 
 def vanishings_of(dynamics: Dynamics, mode: str) -> Iterator[Ending]:
-    """Lengths that vanish: a motion that comes to that is followed by itself.
+    """Lengths that vanish: such a motion is integrated by itself.
 
-    Seen by a series, the length goes on below zero.
+    In a Taylor series the length goes on below zero, where it counts as a fallen guard.
     """
     for root in dynamics.lengths:
         length = Expr.generator(root)
@@ -81,21 +81,21 @@ def vanishings_of(dynamics: Dynamics, mode: str) -> Iterator[Ending]:
 
 
 def sides_of(positive: Collection[Expr]) -> tuple[Ending, ...]:
-    """Of equations that are kept to: the side for which they were derived."""
+    """The side for which equations of one mode were derived."""
     return tuple(Ending(side, "", AS_DECLARED) for side in positive)
 
 
-_CLEAR = 1e-9  # of a guard, relative to the largest: further above its least value is no doubt
-#: Slip speed, relative to the velocities around, that is as good as none. Not sooner: where the
-#: friction hardly exceeds what it opposes, the slip turns all the way down to nothing.
+_CLEAR = 1e-9  # of the largest value of a guard: motions that start closer to its fall are in doubt
+#: Slip speed, relative to the velocities around, at which slip ends. No larger: where friction
+#: hardly exceeds what it opposes, the slip keeps turning all the way down to zero.
 STILL = 1e-12
-_NEARLY = 1e-6  # of the determinant of a matrix: less of it is as good as none
+_NEARLY = 1e-6  # of the determinant at the start: less counts as zero
 
 Quantity = str | Symbol | Expr
 
 
 class BatchSegment:
-    """What many motions do while they stay in one contact mode.
+    """Integrates many motions while they stay in one contact mode.
 
     Args:
         dynamics: the equations.
@@ -105,7 +105,7 @@ class BatchSegment:
         names: of all quantities of the system: those that this mode does not have are zero in it.
         tolerance: relative, of one step.
         intervals: of prescribed motions.
-        whole: whether other modes follow, that need all states, or only what is read counts.
+        whole: whether other modes follow, which need all states; else only what is read counts.
         square: a matrix that must stay regular.
     """
 
@@ -134,7 +134,7 @@ class BatchSegment:
 
     @property
     def doubtful(self) -> int:
-        """The guard that only tells that a motion cannot be followed."""
+        """The guard after all others: a motion that it ends has to be integrated by itself."""
         return len(self.endings)
 
     def stage(
@@ -144,7 +144,7 @@ class BatchSegment:
         constants: Mapping[Symbol, Array],
         scales: Array,
     ) -> BatchStage:
-        """Motions that are taken up in this mode.
+        """Motions that enter this mode.
 
         Args:
             begin: s.
@@ -167,12 +167,12 @@ class BatchSegment:
         return found
 
     def ordered(self, constants: Mapping[Symbol, Array], count: int) -> Array:
-        """Constants of so many motions as the equations take them, shape (parameters, motions)."""
+        """Constants of many motions as the equations take them, shape (parameters, motions)."""
         values: Array = rows([constants[s] for s in self.dynamics.parameters], count)
         return values
 
     def clear(self, stage: BatchStage) -> NDArray[np.bool_]:
-        """Motions that are taken up where all is finite, and no guard is anywhere near its fall."""
+        """Motions that start where all rates are finite and no guard is near its fall."""
         with np.errstate(all="ignore"):
             above = self.lanes.guarded(stage)
         rates = self.lanes.values([self._rates[s] for s in self.states], stage)
@@ -182,11 +182,11 @@ class BatchSegment:
         return np.asarray(finite & np.all(above > least, axis=0), dtype=bool)
 
     def follow(self, stage: BatchStage, times: Array) -> BatchArrivals:
-        """All motions to every one of some times, as far as they go."""
+        """Integrate all motions to each of some times, as far as they go."""
         return self.lanes.follow(stage, times)
 
     def rates(self, stage: BatchStage) -> Array:
-        """Of the states where motions are taken up, shape (states, motions)."""
+        """Rates of the states where motions start, shape (states, motions)."""
         return self.lanes.values([self._rates[s] for s in self.states], stage)
 
     def values(

@@ -1,4 +1,4 @@
-"""What is followed many times over: a system with its contact modes, or equations of one mode."""
+"""A system, with its contact modes or in one of them, for many motions at once."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ from polhode.simulate.integrate._stepping import Integrator, chosen
 
 # -- start values of many motions, and whether they are in any doubt -------------------------------
 
-_ROUNDING = 1e-9  # relative, of principal moments that a flat body is at the limit of
+_ROUNDING = 1e-9  # relative: flat bodies are at the limit of the inequality of principal moments
 
 Mask = NDArray[np.bool_]
 
@@ -75,7 +75,7 @@ class BatchStart:
         return len(next(iter((*self.states.values(), *self.constants.values()))))
 
     def possible(self) -> Mask:
-        """Numbers that bodies and contacts can have."""
+        """The motions whose numbers bodies and contacts can have."""
         fine = np.ones(self._count, dtype=bool)
         for symbol, values in self.constants.items():
             fine &= np.isfinite(values) & ((values > 0) | (not symbol.positive))
@@ -92,7 +92,7 @@ class BatchStart:
         return fine
 
     def regular(self) -> Mask:
-        """Starts from which all rates are finite, with a positive definite mass matrix."""
+        """The motions with finite rates and a positive definite mass matrix at the start."""
         fine = np.all(np.isfinite(self._values(self.dynamics.rates)), axis=0)
         mass = self.dynamics.equations.mass
         if mass == mass.T:
@@ -108,7 +108,7 @@ class BatchStart:
         return np.asarray(np.linalg.eigvalsh(matrices.reshape(-1, size, size)))
 
     def _values(self, expressions: Sequence[Expr]) -> Array:
-        """Shape (expressions, motions)."""
+        """Values at the start, shape (expressions, motions)."""
         states = [self.states[s] for s in self.dynamics.states]
         constants = [self.constants[s] for s in self.dynamics.parameters]
         with np.errstate(all="ignore"):
@@ -157,7 +157,7 @@ class Plan:
 
 
 class BatchSystem(Protocol):
-    """What is followed many times over."""
+    """A system of which many motions are integrated."""
 
     @property
     def intervals(self) -> ForcingIntervals:
@@ -166,7 +166,7 @@ class BatchSystem(Protocol):
 
     @property
     def phases(self) -> Phases:
-        """Of the contacts in the mode that motions are expected to start in."""
+        """Phases of the contacts in the mode that motions are expected to start in."""
         ...
 
     @property
@@ -176,7 +176,7 @@ class BatchSystem(Protocol):
 
     @property
     def contacts(self) -> tuple[Contact, ...]:
-        """Whose coefficients count."""
+        """The contacts whose coefficients are checked."""
         ...
 
     @property
@@ -185,17 +185,17 @@ class BatchSystem(Protocol):
         ...
 
     def batch_segment(self, phases: Phases) -> BatchSegment:
-        """What motions do in a mode."""
+        """A mode, for many motions."""
         ...
 
     def batch(self, results: BatchResults, starts: Starts) -> ModeBatch:
-        """What follows them."""
+        """Integrates a batch of motions."""
         ...
 
 
 @dataclass(frozen=True)
 class OneMode:
-    """Equations that are kept to."""
+    """Equations of one mode, whose contacts are kept as declared."""
 
     dynamics: Dynamics
     numbers: Mapping[Symbol, float]
@@ -248,7 +248,7 @@ class AllModes:
 
     @cached_property
     def goes_on(self) -> bool:
-        """Whether motions are followed beyond their first mode.
+        """Whether motions are integrated beyond their first mode.
 
         Where nothing rubs or jerks they hardly ever leave it, and need not be known in full.
         """
@@ -284,7 +284,7 @@ class AllModes:
 
 
 def one_mode(equations: EquationsOfMotion, plan: Plan) -> OneMode | None:
-    """Equations that are kept to; None where their supports jerk on the way, or loops close."""
+    """Equations of one mode; None if a support jerks on the way, or loops close."""
     drive = prescribed_motion(equations.functions, plan.forcing, plan.duration)
     intervals = ForcingIntervals(drive, plan.duration)
     if len(intervals.jerks) or equations.closures:
@@ -308,16 +308,16 @@ def all_modes(modes: Automaton, plan: Plan, integrator: Integrator) -> AllModes:
 
 # -- the whole batch -------------------------------------------------------------------------------
 #
-# A motion about which there is any doubt is left out, to be integrated by itself.
+# A motion in any doubt is left out, to be integrated by itself.
 
 
 @dataclass(frozen=True)
 class BatchSolution:
-    """Many motions.
+    """The motions of a batch.
 
     Attributes:
-        kept: which of them are complete; the others are to be followed by themselves.
-        seen: where they were, and what happened to them.
+        kept: which of them are complete; the others are to be integrated by themselves.
+        seen: their states and events.
     """
 
     kept: NDArray[np.bool_]
@@ -338,7 +338,7 @@ class SingleModeBatch:
 
     @property
     def keeps_to_one_mode(self) -> bool:
-        """Whether nobody looks after the contacts."""
+        """Whether contacts are kept as declared."""
         return not self._subject.contacts
 
     def follow(
@@ -348,7 +348,7 @@ class SingleModeBatch:
         times: Array,
         starts: Starts,
     ) -> BatchSolution:
-        """All motions together.
+        """Integrate all motions together.
 
         Args:
             count: of motions.
@@ -378,7 +378,7 @@ class SingleModeBatch:
 
 
 def abreast(subject: Automaton | EquationsOfMotion, plan: Plan) -> SingleModeBatch | None:
-    """A system for many motions; None where they cannot be followed at once.
+    """A system for many motions; None if they cannot be integrated together.
 
     Raises:
         DeclarationError: for numbers that are not known, missing or impossible.
@@ -394,7 +394,7 @@ def abreast(subject: Automaton | EquationsOfMotion, plan: Plan) -> SingleModeBat
     else:
         found = one_mode(subject, plan)
     if found is None or found.dynamics.undecided:
-        return None  # absolute values are followed from side to side, one motion by itself
+        return None  # each motion changes the sides of absolute values at times of its own
     names = by_name(found.dynamics.states)
     start: dict[Name, Any] = {published(name): value for name, value in plan.start.items()}
     if not start.keys() <= names.keys():

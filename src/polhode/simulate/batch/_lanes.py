@@ -23,12 +23,12 @@ from polhode.simulate.integrate._stepping import LOOKS
 # -- where motions begin, and where they arrive ----------------------------------------------------
 
 NONE = -1
-"""The guard of a motion that none has ended."""
+"""In place of a guard, for motions that none has ended."""
 
 
 @dataclass(frozen=True)
 class BatchStage:
-    """Where motions are taken up, and what ends them.
+    """Where motions start in a mode, and what ends them.
 
     Attributes:
         begin: s, shape (motions,).
@@ -50,7 +50,7 @@ class BatchStage:
         return len(self.begin)
 
     def moved(self, begin: Array, states: Array, parameters: Array) -> BatchStage:
-        """The same motions, taken up elsewhere."""
+        """The same motions from other states."""
         return replace(self, begin=begin, states=states, parameters=parameters)
 
     def some(self, which: NDArray[np.intp]) -> BatchStage:
@@ -69,8 +69,8 @@ class BatchArrivals:
     """Where motions are at some times, or at the guard that ended them.
 
     Attributes:
-        states: shape (times, states, motions); not-a-number before a motion is taken up and from
-            its end on, but for the last time, which stands for the end.
+        states: shape (times, states, motions); not-a-number before a motion starts and from its
+            end on, except for the last time, which stands for the end.
         end: how far each went, s.
         guard: which guard ended it, or NONE.
         good: whether the result can be relied on.
@@ -83,7 +83,7 @@ class BatchArrivals:
 
     @classmethod
     def none_yet(cls, times: Array, stage: BatchStage) -> BatchArrivals:
-        """Of motions that have yet to be followed."""
+        """For motions that have yet to be integrated."""
         count = stage.count
         return cls(
             np.full((len(times), len(stage.states), count), np.nan),
@@ -97,13 +97,13 @@ class BatchArrivals:
 #
 # Lanes do not influence one another: a motion has the same bits whatever goes beside it.
 
-_BURST = 128  # steps between two looks at who has arrived: fewer cost looks, more cost waiting
+_BURST = 128  # steps between checks for arrivals: fewer cost checks, more cost waiting
 _MOST_STEPS = 1_000_000  # between two times: a motion that needs more is at a singular position
 
 
 @dataclass(frozen=True)
 class ParameterLayout:
-    """Where among the parameters the switch is, and what brings the guards to order one."""
+    """Places of the switch and of the scales of guards among the parameters."""
 
     own: int
     guards: int
@@ -118,7 +118,7 @@ class ParameterLayout:
 
     @property
     def going(self) -> int:
-        """Whether the motion goes on."""
+        """The switch: 1 while the motion goes on, then 0."""
         return self.own + 2 * self.guards
 
 
@@ -126,7 +126,7 @@ class ParameterLayout:
 class LaneStop:
     """Stops one lane, and lets the others go on.
 
-    Where the scale of the guard was, which a lane at rest has no use for, the time is kept.
+    The time replaces the scale of the guard, which a stopped lane no longer needs.
     """
 
     scale: int
@@ -140,7 +140,7 @@ class LaneStop:
 
 @dataclass(frozen=True)
 class BatchTask:
-    """What is to be done, by several crews.
+    """Work that several integrators share.
 
     Attributes:
         stage: the motions.
@@ -162,7 +162,7 @@ class BatchTask:
 
     @cached_property
     def places(self) -> ParameterLayout:
-        """Where among the constants what is."""
+        """The layout of the constants."""
         return ParameterLayout(len(self.stage.parameters), len(self.stage.least))
 
 
@@ -177,7 +177,7 @@ class BatchIntegrator:
     def __init__(self, integrator: Any, work: BatchTask) -> None:
         self._taylor = integrator
         self._work = work
-        # Views, that change as it goes on.
+        # Views: they change as the integration goes on.
         self._state, self._constants = integrator.state, integrator.pars
         self._time, self._dtime = integrator.time, integrator.dtime
         width = len(self._time)
@@ -191,7 +191,7 @@ class BatchIntegrator:
         self._longest = np.full(width, np.inf)
 
     def follow(self, queue: Iterator[int]) -> None:
-        """Follow motions of a queue, which several crews share, until it is empty."""
+        """Integrate motions from a queue, which several integrators share, until it is empty."""
         for lane in range(len(self._rows)):
             self._take_up(lane, queue)
         while any(row is not None for row in self._rows):
@@ -208,7 +208,7 @@ class BatchIntegrator:
                 self._arrive(lane, queue)
 
     def _arrive(self, lane: int, queue: Iterator[int]) -> None:
-        """A motion has come to a time, and may be over."""
+        """A motion has reached a time, and may be over."""
         row, place = self._rows[lane], self._next[lane]
         if row is None:
             self._bursts[lane] = 0
@@ -224,7 +224,7 @@ class BatchIntegrator:
                 self._check_guards(lane, row, queue)
 
     def _check_guards(self, lane: int, row: int, queue: Iterator[int]) -> None:
-        """Where forces jump, a guard may fall unseen by the integrator."""
+        """Where forces jump, a guard may fall without the integrator noticing."""
         found, places = self._work.found, self._work.places
         if not places.guards:
             return
@@ -239,7 +239,7 @@ class BatchIntegrator:
             self._take_up(lane, queue)
 
     def _is_stopped(self, lane: int) -> bool:
-        """Whether a guard has ended the motion: it rests, and is quickly through."""
+        """Whether a guard has ended the motion: its rates are then zero."""
         places = self._work.places
         return bool(places.guards and self._constants[places.going, lane] == 0.0)
 
@@ -253,7 +253,7 @@ class BatchIntegrator:
             found.end[row] = -1.0 - np.min(kept)
 
     def _take_up(self, lane: int, queue: Iterator[int]) -> None:
-        """Put the next motion into a lane; where there is none, it rests where the first starts."""
+        """Put the next motion into a lane; if there is none, the lane stays at the first start."""
         taylor, stage = self._taylor, self._work.stage
         row = next(queue, None)
         self._rows[lane] = row
@@ -271,7 +271,7 @@ class BatchIntegrator:
             self._head_for(lane, int(self._work.plan.times.searchsorted(late[lane])))
 
     def _head_for(self, lane: int, place: int) -> None:
-        """Let a motion go on to a pause."""
+        """Let a motion go on to its next pause."""
         work = self._work
         span = work.plan.times[place] - self._time[lane]
         self._next[lane], self._target[lane] = place, work.plan.times[place]
@@ -282,16 +282,16 @@ class BatchIntegrator:
             self._constants[self._moving, lane] = self._held[:, place]
 
 
-_VECTORS = 2  # that are worked on at once: while one waits for its memory the other goes on
+_VECTORS = 2  # in one integrator: while one waits for memory, the other is computed
 
 
 class Lanes:
-    """One set of equations for many motions.
+    """One set of equations, compiled for many motions.
 
     Args:
         dynamics: the equations.
         states: what is integrated.
-        rates: of all states; those that are not integrated, nothing that is depends on.
+        rates: of all states; those that are integrated depend on no others.
         guards: fall through a least value where a motion ends.
         square: a matrix whose determinant is one more guard, the last.
         tolerance: relative, of one step.
@@ -334,7 +334,7 @@ class Lanes:
         return len(self._sides) + (self._square is not None)
 
     def values(self, expressions: Sequence[Expr], stage: BatchStage) -> Array:
-        """Of many motions where they are taken up, shape (expressions, motions)."""
+        """Values where motions start, shape (expressions, motions)."""
         function = self._dynamics.function(expressions, self.arguments)
         with np.errstate(all="ignore"):
             found = function(*stage.states, *self._rest, *stage.parameters, stage.begin)
@@ -351,7 +351,7 @@ class Lanes:
         return np.asarray(found - stage.least)
 
     def follow(self, stage: BatchStage, times: Array) -> BatchArrivals:
-        """Integrate to every one of some times.
+        """Integrate to each of some times.
 
         Args:
             times: s, increasing, the last of them after every beginning.
@@ -381,7 +381,7 @@ class Lanes:
 
     @cached_property
     def _compiled(self) -> Any:
-        """Rates and guards, both of which a last parameter switches off."""
+        """The integrator: its last parameter switches off rates and guards of a lane."""
         heyoka = library()
         size, own = len(self.states), len(self._dynamics.parameters)
         states = [heyoka.make_vars(f"x{i}") for i in range(size)]
@@ -419,7 +419,7 @@ class Lanes:
 
 
 def determinant(rows: Sequence[Sequence[Any]]) -> Any:
-    """Of a square matrix of anything that can be multiplied and added, along its first row."""
+    """The determinant of a square matrix, expanded along its first row, in any arithmetic."""
     if len(rows) == 1:
         return rows[0][0]
     total: Any = 0.0

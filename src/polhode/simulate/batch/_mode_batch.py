@@ -1,4 +1,4 @@
-"""Many motions that go abreast through one contact mode, for as long as each stays in it."""
+"""Integrates many motions together through one contact mode, for as long as each stays in it."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from polhode.simulate.batch._lanes import NONE, BatchArrivals, BatchStage
 from polhode.simulate.contact._mode_state import ModeState
 from polhode.simulate.integrate._arrays import Array
 
-_AT_ONCE = 4096  # motions that are taken up together: memory is bounded, lanes are full
-_LANDED = 1e-10  # slip speed, relative to the velocities around, that is none
+_AT_ONCE = 4096  # motions that are integrated together: enough to fill lanes, in bounded memory
+_LANDED = 1e-10  # slip speed, relative to the velocities around, that counts as none
 
 Phases = tuple[Phase, ...]
 SegmentFor = Callable[[Phases], BatchSegment]
@@ -29,7 +29,7 @@ Starts = Callable[[int], Mapping[Name, Any]]
 
 @dataclass(frozen=True)
 class Group:
-    """Motions that are taken up together in one mode.
+    """Motions that enter one mode and are integrated together.
 
     Attributes:
         rows: which ones they are.
@@ -50,7 +50,7 @@ class Group:
 
 @dataclass(frozen=True)
 class BatchExit:
-    """Where a motion leaves a mode.
+    """How a motion leaves a mode.
 
     Attributes:
         phases: of the contacts, in the mode.
@@ -71,12 +71,12 @@ class ModeBatch:
     """Motions of one system, each with its own numbers, in their first mode.
 
     Args:
-        batch_segments: what many motions do in a mode.
-        results: where they are seen and what happens to them.
+        batch_segments: the modes, for many motions.
+        results: records their states and events.
 
     Attributes:
         results: the same.
-        lost: motions that are to be followed by themselves from their start.
+        lost: motions that are to be integrated by themselves from their start.
     """
 
     def __init__(self, batch_segments: SegmentFor, results: BatchResults) -> None:
@@ -85,14 +85,14 @@ class ModeBatch:
         self.lost: set[int] = set()
 
     def start(self, row: int) -> None:
-        """Take up a motion of which it is not clear what mode it starts in."""
+        """Start a motion of which it is not clear what mode it starts in."""
         self.lost.add(row)
 
     def run(self) -> None:
-        """Follow all that wait for others, until nobody does."""
+        """Integrate the motions that wait for others, until none is left."""
 
     def together(self, phases: Phases, group: Group) -> None:
-        """Follow motions through one mode."""
+        """Integrate motions through one mode."""
         batch_segment = self._batch_segment(phases)
         constants = self.results.constants_from(group.rows, group.begin)
         stage = batch_segment.stage(group.begin, group.states, constants, group.scales)
@@ -108,7 +108,7 @@ class ModeBatch:
         self.lost.add(row)
 
     def _doubt(self, row: int, entry: ModeState | None) -> None:
-        """A motion begins where one cannot be sure that it stays in the mode at all."""
+        """A motion starts so close to a guard that it may not stay in the mode at all."""
         self.lost.add(row)
 
     def _abreast(self, phases: Phases, group: Group, stage: BatchStage, which: Rows) -> None:
@@ -154,9 +154,9 @@ class ModeBatch:
     def _landed(
         self, batch_segment: BatchSegment, rows: Rows, stage: BatchStage, found: BatchArrivals
     ) -> BatchArrivals:
-        """The arrivals, moved on to where slips vanish that nearly have.
+        """The arrivals, extrapolated to where slips that have nearly ended vanish.
 
-        What is left of the way is so short that it takes no time to speak of.
+        The remaining time is so short that a linear extrapolation is exact to rounding.
         """
         states, end, good = found.states.copy(), found.end.copy(), found.good.copy()
         good &= found.guard != batch_segment.doubtful
@@ -187,7 +187,7 @@ class ModeBatch:
         kind: str,
         mode: str,
     ) -> None:
-        """The end of motions, by an event or not."""
+        """Record the end of motions, by an event or not."""
         which = np.flatnonzero(here)
         self.results.record(LAST, batch_segment, rows[which], found.states[-1][:, which])
         for row, time in zip(rows[which].tolist(), found.end[which].tolist(), strict=True):

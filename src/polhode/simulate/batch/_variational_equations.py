@@ -1,7 +1,7 @@
-"""A motion together with its derivatives by parameters and start values.
+"""A motion with its derivatives by parameters and start values.
 
-Every step of the compiled equations is carried out on numbers that carry their derivatives along,
-so that the variational equations are exact and never written out.
+The compiled equations are evaluated on dual numbers (forward differentiation), so that the
+variational equations are exact and never written out.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate.integrate._arrays import Array, rows
 from polhode.simulate.integrate._stepping import broken, chosen
 
-_TOLERANCE = 1e-13  # of Runge-Kutta's steps
+_TOLERANCE = 1e-13  # relative, of Runge–Kutta steps
 _ABSOLUTE = 1e-14
 
 
 @dataclass(frozen=True)
 class Dual:
-    """A number and its derivatives; the derivatives may be those of an array of numbers.
+    """A dual number: a number, or an array of numbers, with derivatives.
 
     Attributes:
         value: the number.
@@ -34,7 +34,7 @@ class Dual:
     value: Any
     slopes: Any
 
-    __array_ufunc__ = None  # an array times such a number is such a number
+    __array_ufunc__ = None  # so that an array times a dual number is a dual number
 
     def __add__(self, other: Any) -> Dual:
         value, slopes = _parts(other)
@@ -75,7 +75,7 @@ def _parts(number: Any) -> tuple[Any, Any]:
 
 
 def duals(plain: Arithmetic) -> Arithmetic:
-    """The arithmetic of numbers with derivatives, over that of plain ones."""
+    """The arithmetic of dual numbers, from that of plain ones."""
     f = plain.functions
     slopes: dict[Op, Callable[[Any, Any], Any]] = {
         Op.SQRT: lambda x, y: 1 / (2 * y),
@@ -100,7 +100,7 @@ def duals(plain: Arithmetic) -> Arithmetic:
 
 @dataclass(frozen=True)
 class ConstantInterval:
-    """A time in which the same constants hold.
+    """An interval of time in which the same constants hold.
 
     Attributes:
         begin: s.

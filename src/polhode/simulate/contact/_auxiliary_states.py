@@ -1,4 +1,8 @@
-"""What is integrated in a contact mode besides coordinates and speeds, and what it means."""
+"""What is integrated in a contact mode besides coordinates and speeds: work, slips, heights, edges.
+
+These follow from the state, but near zero they would drown in its rounding; integrated by
+themselves they keep their digits, and events that they tell of are found exactly.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +20,7 @@ def dynamics_of(
     prescribed: Mapping[Symbol, Expr],
     constants: Mapping[Symbol, float],
 ) -> Dynamics:
-    """The equations of a contact mode with what is carried along, and all shared states."""
+    """The equations of a contact mode with its auxiliary states, and all shared states."""
     auxiliary, meanings = _auxiliary(mode)
     known = dict(mode.lifted)
     # Reactions of open contacts are zero.
@@ -30,7 +34,7 @@ def dynamics_of(
 
 
 def slip_symbols(contact: Contact) -> tuple[Symbol, Symbol]:
-    """The slip velocity of a sliding contact, carried along."""
+    """The slip velocity of a sliding contact."""
     first, second = (
         Symbol(f"slip_{label}_{contact.spelled}", SymbolKind.SPEED) for label in contact.on.tangents
     )
@@ -38,18 +42,17 @@ def slip_symbols(contact: Contact) -> tuple[Symbol, Symbol]:
 
 
 def gap_symbol(contact: Contact) -> Symbol:
-    """The height of a body above its support, carried along."""
+    """The height of a body above its support."""
     return Symbol(f"gap_{contact.spelled}", SymbolKind.COORDINATE)
 
 
 def room_symbol(contact: Contact) -> Symbol:
-    """The distance to the edge of its support of a body that touches, carried along."""
+    """The distance of a contact to the edge of its support."""
     return Symbol(f"room_{contact.spelled}", SymbolKind.COORDINATE)
 
 
 def _auxiliary(mode: Mode) -> tuple[dict[Symbol, Expr], dict[Symbol, Expr]]:
-    """Work done, slips, heights and distances to an edge; and what they make of the symbols of a
-    sliding contact."""
+    """Rates of the auxiliary states; and slip speed and direction in terms of these."""
     auxiliary: dict[Symbol, Expr] = {WORK: mode.equations.power}
     meanings: dict[Symbol, Expr] = {}
     motion = mode.equations.kinetics

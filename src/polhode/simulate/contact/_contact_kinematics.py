@@ -19,7 +19,7 @@ Function = Callable[[Array, float, Sequence[float]], Array]
 
 @dataclass(frozen=True)
 class State:
-    """A state in the one language that all modes share: that of the mode in which nothing touches.
+    """A state that all modes share: in terms of the mode in which nothing touches.
 
     Attributes:
         coordinates: of that mode.
@@ -40,15 +40,15 @@ class State:
         )
 
     def with_impulse(self, change: Array, work: Any) -> State:
-        """After an instant in which the speeds jumped and work was done."""
+        """After an impulse has changed the speeds and done work."""
         return replace(self, speeds=self.speeds + change, work=self.work + work)
 
 
-_ROUNDING = 16  # steps of rounding of the coordinates: a distance from an edge that is none
+_ROUNDING = 16  # units in the last place of the coordinates: a distance from an edge that is zero
 
 
 class Touching:
-    """Where bodies and supports meet, from the shared state."""
+    """The kinematics of all contacts as functions of the shared state."""
 
     def __init__(
         self,
@@ -124,16 +124,16 @@ class Touching:
 
 @dataclass(frozen=True)
 class ContactKinematics:
-    """A contact at one instant.
+    """The kinematics of one contact at an instant.
 
     Attributes:
         gap: m.
         reserve: how far it is on this side of the support's edge, m.
         drift: rate of that, m/s.
         velocity: of the body's point against the support: along it twice, and away from it, m/s.
-        jacobian: the same per unit of every shared speed, shape (3, speeds).
+        jacobian: of that velocity by the shared speeds, shape (3, speeds).
         support: velocity of the support there, in inertial space, m/s.
-        scale: size of what the velocity is the sum of, m/s.
+        scale: size of the terms that the velocity is the sum of, m/s.
     """
 
     gap: float
@@ -148,7 +148,7 @@ class ContactKinematics:
         """Whether it is beyond the edge; at the edge, whether it does not come back from there.
 
         Args:
-            rounding: distance from the edge that is none, m.
+            rounding: distance from the edge that counts as zero, m.
         """
         if abs(self.reserve) <= rounding:
             return bool(self.drift <= 0)
@@ -159,7 +159,7 @@ class ContactKinematics:
         return max(-self.reserve if is_beyond else self.reserve, 0.0)
 
     def leaving(self, *, is_beyond: bool) -> Any:
-        """Rate of that, m/s."""
+        """How fast it moves away from the edge, m/s."""
         return -self.drift if is_beyond else self.drift
 
 
@@ -174,7 +174,8 @@ def _support_velocity(mode: Mode, touch: Touch) -> tuple[Expr, ...]:
 
 # -- the first instants of a contact that has opened -----------------------------------------------
 
-STILL = 1e-14  # approach, relative to the velocities it is the difference of, that is none
+#: Normal velocity, relative to the velocities it is the difference of, that counts as zero.
+STILL = 1e-14
 
 
 @dataclass(frozen=True)
@@ -183,20 +184,20 @@ class LiftOff:
 
     Attributes:
         speed: of opening, at first, m/s.
-        still: what of it is rounding, m/s.
+        still: speed that counts as zero, m/s.
     """
 
     speed: float
     still: float
 
     def mean(self, heights: Array, passed: Array) -> Array:
-        """The mean speed of opening, whose fall through zero is that of the height.
+        """The mean speed of opening, height over time: it falls through zero where the height does.
 
-        The height itself begins at zero. So does the mean where a contact opens without speed: it
-        is then held off by the rounding that it begins with.
+        The height itself begins at zero and could not be told from a fall. Where a contact opens
+        without speed the mean begins at zero as well, and is raised by the rounding.
 
         Args:
-            passed: since then, s; zero where nothing can be told from a height yet.
+            passed: time since the contact opened, s; zero where heights are only rounding.
         """
         now = passed == 0
         mean = np.where(now, self.speed, heights / np.where(now, 1.0, passed))
@@ -204,5 +205,5 @@ class LiftOff:
 
 
 def fall_of(height: Any, rise: Any, fall: Any) -> Any:
-    """How long something that rises from a height, and falls ever faster, is above the ground."""
+    """How long something stays above the ground that rises from a height and falls ever faster."""
     return (rise + max(rise * rise - 2 * height * fall, 0) ** 0.5) / -fall

@@ -1,4 +1,4 @@
-"""A contact mode in numbers: what moves it, what it feels, and how others are handed over to it."""
+"""The contact modes of a system with numbers: equations, forces, slips, and maps between modes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from polhode.algebra import Compiled, Expr, Symbol, compile_program, linear_part
 from polhode.base import NumericError
 from polhode.derive import Automaton, Mode
 from polhode.model import Contact, Phase, Sliding
-from polhode.simulate._absolute_values import Here, Sides, passages_of, sides_at
+from polhode.simulate._absolute_values import Here, Sides, guards_of_sides, sides_at
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate.contact._auxiliary_states import dynamics_of
 from polhode.simulate.contact._contact_kinematics import Function, State, Touching
@@ -30,12 +30,12 @@ class HybridSystem:
 
     Args:
         automaton: the modes.
-        drive: motions that are given.
+        drive: the prescribed motions.
         constants: value of every parameter.
-        integrator: what integrates them.
+        integrator: integrates the modes.
         tolerance: of its steps.
-        numbers: what is computed with.
-        in_doubles: the same machine in doubles; None for that itself.
+        numbers: the type of numbers to compute with.
+        in_doubles: the same system in doubles; None if this is in doubles.
     """
 
     def __init__(
@@ -71,7 +71,7 @@ class HybridSystem:
             self.constants = {**self.constants, **held}
 
     def mode(self, phases: tuple[Phase, ...]) -> CompiledMode:
-        """The machinery of a mode, made when it is first needed."""
+        """A mode, compiled when it is first needed."""
         if phases not in self._modes:
             self._modes[phases] = CompiledMode(self, self.automaton.mode(phases))
         return self._modes[phases]
@@ -92,7 +92,7 @@ class HybridSystem:
 
     @cached_property
     def touching(self) -> Touching:
-        """What every contact sees, from the shared state."""
+        """The kinematics of all contacts, from the shared state."""
         return Touching(self.automaton, self.apart.function, self.numbers)
 
 
@@ -108,7 +108,7 @@ class CompiledMode:
         self.dynamics = dynamics or dynamics_of(
             hybrid.automaton, mode, hybrid.drive.expressions, hybrid.constants
         )
-        self.passages = passages_of(self.dynamics)
+        self.side_guards = guards_of_sides(self.dynamics)
 
     def on(self, sides: Sides) -> CompiledMode:
         """The same mode on given sides of all absolute values."""
@@ -148,12 +148,12 @@ class CompiledMode:
         return self._hybrid.integrator.prepare(self.flow, self._hybrid.tolerance)
 
     def rest(self, state: Mapping[Symbol, float], time: float) -> Array:
-        """A state as the flow takes it: less what is known of it as functions of time."""
+        """A state as the flow takes it: less the parts that are known functions of time."""
         return self.flow.rest(state, self.parameters, time)
 
     @cached_property
     def sides(self) -> Compiled:
-        """What stays positive where the equations hold: of the core, the parameters, the time."""
+        """What is positive where the equations hold, as a function of core, parameters and time."""
         sides = [guard.positive for guard in self.mode.guards if guard.kind == "near-flat"]
         given = (*self.flow.core.symbols, *self.dynamics.parameters, CLOCK)
         return self.dynamics.program(sides, given).function()
@@ -209,7 +209,7 @@ class CompiledMode:
 
     @cached_property
     def _projection(self) -> Function:
-        """Shared speeds as this mode has them: what they are at rest, and per speed of its own."""
+        """The shared speeds in this mode: at zero speeds of its own, and by each of these."""
         motion = self.mode.equations.kinetics
         apart = self._hybrid.automaton.apart.equations
         parts = [
@@ -221,10 +221,10 @@ class CompiledMode:
         return self.function([rest for _, rest in parts] + [c for row, _ in parts for c in row])
 
     def entered(self, shared: State) -> tuple[Array, Array]:
-        """Coordinates and speeds of this mode, and the impulse-free projection on its motions.
+        """Coordinates and speeds of this mode: the shared speeds, projected on its motions.
 
-        What the constraints take away is taken by impulses along their reactions: momentum along
-        every motion that remains is kept, M P u = M (u_shared − rest) along P.
+        The constraints act by impulses along their reactions, which leave the momentum along every
+        motion P that they allow as it was: Pᵀ M P u = Pᵀ M (u_shared − rest).
         """
         apart = self._hybrid.apart
         names = apart.mode.equations.coordinates
@@ -290,7 +290,7 @@ class CompiledMode:
         return self.function(rates, self.directions)
 
     def closing_rates(self, state: Array, time: float) -> Array:
-        """How fast every contact that is open is opening faster, m/s², shape (contacts,)."""
+        """Normal acceleration of every open contact, m/s², shape (contacts,)."""
         return self._closing_rates(state, time, [0.0] * len(self.directions))
 
     @cached_property
@@ -301,7 +301,7 @@ class CompiledMode:
         )
 
     def room_rates(self, state: Array, time: float, directions: Sequence[float]) -> Array:
-        """How fast every contact leaves the edge of its support faster, m/s², shape (contacts,)."""
+        """Second rate of the distance of every contact to its edge, m/s², shape (contacts,)."""
         return self._room_rates(state, time, directions)
 
     @cached_property
@@ -311,12 +311,12 @@ class CompiledMode:
 
     @cached_property
     def can_jam(self) -> bool:
-        """Whether the friction reaches into the mass matrix."""
+        """Whether friction enters the mass matrix, so that sliding may jam."""
         entries = [e for row in self.mode.equations.mass.rows for e in row]
         return any(set(self.directions) & entry.symbols() for entry in entries)
 
     def jamming(self, state: Array, time: float, directions: Sequence[float]) -> float:
-        """Determinant of the mass matrix over that without friction; sliding needs it positive."""
+        """Determinant of the mass matrix over that without friction; positive unless it jams."""
         if not self.can_jam:
             return 1.0
         size = len(self.mode.equations.speeds)
@@ -338,7 +338,7 @@ class CompiledMode:
         return self.function(self.slip_changes, self.directions)
 
     def slip_rates_along(self, state: Array, time: float, directions: Sequence[Any]) -> Array:
-        """The same for arrays of directions, shape (contacts, 2, directions)."""
+        """`slip_rates` for arrays of directions, shape (contacts, 2, directions)."""
         states = tuple(s for s in self.dynamics.states if s not in self.dynamics.auxiliary)
         known = (*states, *self.directions, *self.dynamics.parameters, CLOCK)
         function = self.dynamics.function(self.slip_changes, known)
@@ -354,7 +354,7 @@ class CompiledMode:
 
 
 def singular(time: float) -> NumericError:
-    """An expression without a finite value."""
+    """The error for an expression without a finite value."""
     return NumericError(
         f"the equations have no finite value at t = {float(time):.9g} s",
         expected="a motion away from singular positions",

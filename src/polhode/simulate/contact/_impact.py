@@ -1,11 +1,11 @@
-"""Shocks: what a body that lands with friction does in the instant of touching.
+"""Impacts with friction: Routh's process along the normal impulse, with Stronge's restitution.
 
 The normal impulse p grows; the velocity of the point of contact changes at the rate W f, with W
 the inverse inertia felt there and f the force per normal force: (−μ ŝ, 1) while it slips, what
 keeps it from slipping while it sticks. Compression ends where the normal velocity vanishes,
 restitution where the normal force has given back e² of the work of compression (Stronge), which
-never adds energy. W is positive definite: where a shock drives the bodies together (Painlevé's
-paradox) f · W f > 0 makes the slip shrink, so that every shock ends.
+never adds energy. W is positive definite: where friction drives the bodies together (Painlevé's
+paradox) f · W f > 0 makes the slip shrink, so that every impact ends.
 """
 
 from __future__ import annotations
@@ -36,13 +36,13 @@ _LONGEST = 10**9  # τ, which grows but as the logarithm of a slip that vanishes
 
 @dataclass(frozen=True)
 class SlipReversalResult:
-    """What came of it.
+    """The end of such a slip.
 
     Attributes:
         velocity: of the point of contact.
         impulse: since the beginning.
         work: of its normal part.
-        over: whether compression or restitution ended; else the slip vanished.
+        over: whether compression or restitution has ended; if not, the slip has.
     """
 
     velocity: Array
@@ -53,7 +53,7 @@ class SlipReversalResult:
 
 @dataclass(frozen=True)
 class SlipReversal:
-    """Slip against friction, from a velocity of the size of one.
+    """Slip against friction, with velocities scaled to order one.
 
     Attributes:
         inverse_mass: inverse inertia felt at the point of contact.
@@ -164,14 +164,14 @@ def _program() -> Program:
     return compile_program([*rates, *force, size * z], arguments)
 
 
-_STRAIGHT = 1e-14  # of what an impulse does: what it does across the slip that is nothing
+_STRAIGHT = 1e-14  # of the effect of an impulse: less across the slip does not turn it
 _PHASES = 100
 _ANGLES = 72
 
 
 @dataclass(frozen=True)
 class Impact:
-    """The outcome of a shock.
+    """The outcome of an impact.
 
     Attributes:
         impulse: along the support twice, and away from it, N s.
@@ -186,7 +186,7 @@ class Impact:
 
 @dataclass(frozen=True)
 class Roughness:
-    """What resists at the contact: coefficients of kinetic and static friction, and restitution."""
+    """Coefficients of a contact: kinetic and static friction, and restitution."""
 
     kinetic: Any
     static: Any
@@ -194,7 +194,7 @@ class Roughness:
 
 
 def smooth_impact(inverse_mass: Array, velocity: Array, restitution: Any) -> Impact:
-    """A shock without friction."""
+    """An impact without friction."""
     impulse = np.array([0.0, 0.0, -(1 + restitution) * velocity[2] / inverse_mass[2, 2]])
     return Impact(impulse, velocity + inverse_mass @ impulse, sticks=False)
 
@@ -202,9 +202,9 @@ def smooth_impact(inverse_mass: Array, velocity: Array, restitution: Any) -> Imp
 def rough_impact(
     inverse_mass: Array, velocity: Array, restitution: Any, numbers: NumberType = DOUBLES
 ) -> Impact:
-    """A shock on a support that allows no slip at all.
+    """An impact on a support that allows no slip at all.
 
-    What it gives back is a part of the energy that the point of contact brought, no more.
+    The rebound takes at most the energy that the point of contact brought.
     """
     inertia = _inverse(inverse_mass, numbers)
     brought = velocity @ inertia @ velocity
@@ -220,16 +220,16 @@ def coulomb_impact(
     where: str = "a contact",
     numbers: NumberType = DOUBLES,
 ) -> Impact:
-    """A shock with Coulomb's friction and Stronge's restitution.
+    """An impact with Coulomb friction and Stronge's energetic restitution.
 
     Args:
-        inverse_mass: inverse inertia felt at the point of contact, 1/kg.
+        inverse_mass: inverse effective mass at the point of contact, W = J M⁻¹ Jᵀ, 1/kg.
         velocity: of that point before, m/s.
         where: what an error calls the contact and the instant.
-        numbers: what is computed with.
+        numbers: the type of numbers to compute with.
 
     Raises:
-        NumericError: where friction jams and the shock never ends, or slip has no one direction.
+        NumericError: where the impact does not end, or slip can begin in no or several directions.
     """
     course = _ImpactCourse(inverse_mass, velocity, roughness, where, numbers)
     while not course.done:
@@ -238,7 +238,7 @@ def coulomb_impact(
 
 
 class _ImpactCourse:
-    """The course of a shock over the normal impulse, phase by phase."""
+    """The course of an impact over the normal impulse, phase by phase."""
 
     def __init__(
         self,
@@ -272,13 +272,13 @@ class _ImpactCourse:
             self._slide()
         if self._phases > _PHASES:
             raise NumericError(
-                f"a shock at {self.where} that does not end",
+                f"an impact at {self.where} that does not end",
                 expected="compression that ends with restitution",
                 advice="lower the friction coefficient",
             )
 
     def _hold(self) -> None:
-        """Without slip: friction as it is needed, if the static limit allows; else it slips on."""
+        """Without slip: it sticks if static friction suffices, else slip resumes."""
         inertia = _inverse(self.inverse_mass, self._numbers)
         needed = inertia[:, 2] / inertia[2, 2]
         self.velocity[:2] = 0.0
@@ -315,7 +315,7 @@ class _ImpactCourse:
         self.done = True
 
     def _slide(self) -> None:
-        """Friction against a slip that may turn; over an arc of impulse up to the next change."""
+        """Slip, whose direction friction may turn, up to the next change."""
         if not self._turns():
             self._slide_straight()
             return
@@ -392,7 +392,7 @@ def _inverse(inverse_mass: Array, numbers: NumberType) -> Array:
 
 
 def _onset(inverse_mass: Array, friction: Any, where: str, numbers: NumberType) -> Array:
-    """Direction in which slip grows from nothing during the shock.
+    """The direction in which slip resumes during an impact.
 
     Raises:
         NumericError: where there is none, or more than one.
@@ -417,7 +417,7 @@ def _onset(inverse_mass: Array, friction: Any, where: str, numbers: NumberType) 
     growing = [angle for angle in found if rate(angle)[0] > 0]
     if len(growing) != 1:
         raise NumericError(
-            f"a shock at {where} in which slip can begin in {len(growing)} directions",
+            f"an impact at {where} in which slip can begin in {len(growing)} directions",
             expected="one direction in which slip grows against the friction it brings",
             advice="the rigid body with this friction has no unique motion from here",
         )

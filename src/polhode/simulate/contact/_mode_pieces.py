@@ -248,7 +248,7 @@ class DoublePieces(ModePieces):
     def _criteria(self, scale: float) -> StopCriteria:
         """What stops an integration: slips that end, too many steps, or reason to look."""
         mode, near_flat = self._mode, self._near_flat
-        if not (mode.mode.guards or mode.passages):
+        if not (mode.mode.guards or mode.side_guards):
             return StopCriteria(tally=self._tally)
         looks = list[Callable[[float, Sequence[float]], bool]]()
         # Beyond flat, or beyond the end of a side of an absolute value, the equations do not hold:
@@ -256,8 +256,8 @@ class DoublePieces(ModePieces):
         if any(guard.kind == "near-flat" for guard in mode.mode.guards):
             positive, constants = mode.sides, mode.parameters.tolist()
             looks.append(lambda time, state: min(positive(*state, *constants, time)) < near_flat)
-        if mode.passages:
-            looks.append(overshoots(mode.dynamics, mode.passages, mode.flow, mode.parameters))
+        if mode.side_guards:
+            looks.append(overshoots(mode.dynamics, mode.side_guards, mode.flow, mode.parameters))
 
         def over(time: float, state: Sequence[float]) -> bool:
             return any(look(time, state) for look in looks)

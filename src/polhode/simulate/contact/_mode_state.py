@@ -1,4 +1,4 @@
-"""Where a contact mode is entered, and what its constraints do to the speeds there."""
+"""How a contact mode is entered, and what its constraints do to the speeds there."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 
 @dataclass(frozen=True)
 class ModeState:
-    """A mode, and where it is entered.
+    """A contact mode, and the state in which it is entered.
 
     Attributes:
         phases: of every contact.
-        shared: the shared state, after what the entry did to the speeds.
+        shared: the shared state, after the impulses of the constraints.
         coordinates: of the mode.
         speeds: of the mode.
         onset: for contacts that begin to slip, the angle of the slip to come.
@@ -69,10 +69,10 @@ def entered(
     points: Sequence[ContactKinematics],
     starting: frozenset[int],
 ) -> ModeState:
-    """A mode with what entering it does to the speeds.
+    """Enter a mode: its constraints project the speeds.
 
     Args:
-        starting: contacts that begin to slip; in which direction remains to be found.
+        starting: contacts that begin to slip, in a direction that is found later.
     """
     mode = hybrid.mode(phases)
     coordinates, speeds = mode.entered(shared)
@@ -99,7 +99,7 @@ def _after(
     points: Sequence[ContactKinematics],
     phases: tuple[Phase, ...],
 ) -> State:
-    """The shared state in the mode; what its constraints did to the speeds did work."""
+    """The shared state in the mode, and in its work that of the impulses of the constraints."""
     own = (*mode.mode.equations.coordinates, *mode.mode.equations.speeds)
     values: dict[Any, float] = dict(zip(own, (*coordinates, *speeds), strict=True))
     lifted = mode.lifted(shared.time, values, shared.work)
@@ -126,7 +126,7 @@ def directions_of(entry: ModeState, numbers: NumberType = DOUBLES) -> list[Any]:
 
 
 def state_on(hybrid: HybridSystem, entry: ModeState) -> dict[Symbol, Any]:
-    """All states where a mode is entered, those that are carried along included."""
+    """All states where a mode is entered, auxiliary ones included."""
     mode = hybrid.mode(entry.phases)
     equations, auxiliary = mode.mode.equations, mode.dynamics.auxiliary
     own = (*equations.coordinates, *equations.speeds)

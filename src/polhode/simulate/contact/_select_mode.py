@@ -1,4 +1,8 @@
-"""Which contact mode a motion goes on in."""
+"""Chooses the contact mode in which a motion goes on, from the forces that each would need.
+
+Candidates are tried in order: rolling before sliding before flight, contact by contact. A mode is
+possible if no contact has to pull, and static friction stays within its limit μ_s N.
+"""
 
 from __future__ import annotations
 
@@ -16,20 +20,21 @@ from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
 from polhode.simulate.contact._mode_state import ModeState, directions_of, entered
 from polhode.simulate.integrate._arrays import Array
 
-STILL = 1e-12  # slip, relative to the velocities it is the difference of, that is none
-_TOLERANCE = 1e-11  # relative, of forces at a limit
-_ANGLES = 72
+#: Slip, relative to the velocities it is the difference of, that counts as none.
+STILL = 1e-12
+_TOLERANCE = 1e-11  # relative to the largest force: what a force may be beyond its limit
+_ANGLES = 72  # directions between which those of a slip that begins are bracketed
 
 
 @dataclass(frozen=True)
 class ContactStatus:
-    """What an event has told about the contacts, by their places in the declaration.
+    """What is known of the contacts at an event, by their places in the declaration.
 
     Attributes:
-        apart: do not touch.
-        stuck: have no slip.
-        slipping: have reached the limit of static friction.
-        beyond: are beyond the edge of their support; None where that is to be looked up.
+        apart: those that do not touch.
+        stuck: those without slip.
+        slipping: those that have reached the limit of static friction.
+        beyond: those beyond the edge of their support; None where the state is to tell.
     """
 
     apart: frozenset[int] = frozenset()
@@ -68,7 +73,7 @@ def select_mode(hybrid: HybridSystem, shared: State, known: ContactStatus) -> Mo
 def _candidates(
     hybrid: HybridSystem, points: Sequence[ContactKinematics], known: ContactStatus
 ) -> Iterator[tuple[Phase, ...]]:
-    """Phases of all contacts, those that stick first."""
+    """Phases of all contacts in the order in which they are tried: sticking ones first."""
     options = [
         list(_options(hybrid, contact, i, point, known))
         for i, (contact, point) in enumerate(zip(hybrid.automaton.contacts, points, strict=True))
@@ -114,7 +119,7 @@ def _is_still(hybrid: HybridSystem, i: int, point: ContactKinematics, known: Con
 
 
 def _refuse_shared(hybrid: HybridSystem, entry: ModeState) -> None:
-    """Refuse slips that begin at once where each has its say in the direction of the other.
+    """Refuse slips that begin together and influence one another's direction.
 
     Raises:
         NumericError: with the contacts.
@@ -132,7 +137,7 @@ def _refuse_shared(hybrid: HybridSystem, entry: ModeState) -> None:
 
 
 def _objection(hybrid: HybridSystem, entry: ModeState, known: ContactStatus) -> str | None:
-    """Why the forces in a mode are impossible; None if they are not."""
+    """Why the forces in a mode are impossible; None if they are possible."""
     mode, numbers = hybrid.mode(entry.phases), hybrid.numbers
     if entry.slips:
         refuse_jamming(hybrid.in_doubles, entry.rounded())
@@ -153,7 +158,7 @@ def _objection(hybrid: HybridSystem, entry: ModeState, known: ContactStatus) -> 
 
 
 def refuse_jamming(hybrid: HybridSystem, entry: ModeState) -> None:
-    """Refuse Painlevé's configurations: a rising normal force that pushes the bodies together.
+    """Refuse Painlevé's configurations, in which a normal force accelerates the bodies together.
 
     Raises:
         NumericError: where normal forces and accelerations of sliding are not determined.
@@ -165,7 +170,7 @@ def refuse_jamming(hybrid: HybridSystem, entry: ModeState) -> None:
 
 
 def painleve(names: str, time: float) -> NumericError:
-    """Friction so strong that sliding has no unique forces."""
+    """The error for friction so strong that sliding has no unique forces."""
     return NumericError(
         f"sliding at {names} jams at t = {float(time):.9g} s (Painlevé's paradox)",
         expected="friction low enough for the normal force to be determined",
@@ -174,12 +179,12 @@ def painleve(names: str, time: float) -> NumericError:
 
 
 def onset_angle(hybrid: HybridSystem, entry: ModeState, i: int) -> Any:
-    """The direction (angle, rad) in which a contact that begins to slip slips.
+    """The direction (angle, rad) in which a contact begins to slip.
 
-    The slip velocity must grow along itself while friction opposes it.
+    In it the rate of the slip velocity, against which friction acts, must point along it and grow.
 
     Raises:
-        NumericError: where no direction, or several, will do.
+        NumericError: where no direction, or more than one, is possible.
     """
     near = _rough_angle(hybrid.in_doubles, entry.rounded(), i)
     mode, numbers = hybrid.mode(entry.phases), hybrid.numbers
@@ -238,7 +243,7 @@ def rates_along(mode: CompiledMode, entry: ModeState, i: int, seen: int, angles:
 
     Args:
         i: the contact at which it begins.
-        seen: the one whose slip is looked at.
+        seen: the contact whose slip rates are returned.
     """
     given: list[Any] = list(directions_of(replace(entry, onset={**entry.onset, i: 0.0})))
     place = 3 * sorted(entry.slips).index(i)

@@ -1,4 +1,7 @@
-"""From one contact mode to the next: what is known where a mode ends, and shocks on landing."""
+"""What happens where a contact mode ends: impacts on landing, and how the next mode is entered.
+
+Which mode that is, `select_mode` decides by the forces, given what the event tells of the contacts.
+"""
 
 from __future__ import annotations
 
@@ -23,9 +26,9 @@ from polhode.simulate.contact._select_mode import ContactStatus, select_mode
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._number_types import NumberType
 
-_REBOUND = 1e-13  # of the hardest landing: a rebound that is none
-_INSTANT = 32  # steps of rounding of the time: a hop that is over sooner is none
-_UNFELT = 1e-12  # of what an impulse does where it acts: what it does elsewhere that is nothing
+_REBOUND = 1e-13  # of the speed of the hardest landing: a slower rebound counts as none
+_INSTANT = 32  # units in the last place of the time: a shorter hop counts as none
+_UNFELT = 1e-12  # of its effect where it acts: an impulse with less effect elsewhere has none
 
 
 @dataclass(frozen=True)
@@ -35,8 +38,8 @@ class ModeExit:
     Attributes:
         guard: what ended it; None for a jerk of a support.
         shared: the shared state.
-        gaps: heights of the contacts that are open, as they were followed, m.
-        rooms: likewise distances to an edge, m.
+        gaps: heights of the contacts that are open, as integrated, m.
+        rooms: distances to an edge, likewise, m.
     """
 
     guard: Guard | None
@@ -57,7 +60,7 @@ class Transitions:
         self._hardest: dict[int, float] = {}
 
     def next(self, before: ModeState, leaving: ModeExit) -> tuple[str, ModeState]:
-        """What happens where a mode ends, and how the motion enters the mode that follows."""
+        """What happens where a mode ends, and how the next mode is entered."""
         self._hybrid.move_on(leaving.shared.time)
         kind, entry, opened = self._next(before, leaving)
         rooms = {i: _room(before, leaving, entry, i) for i in entry.rooms}
@@ -70,7 +73,7 @@ class Transitions:
         return kind, replace(entry, gaps=gaps, rooms=rooms)
 
     def _next(self, before: ModeState, leaving: ModeExit) -> tuple[str, ModeState, int | None]:
-        """Also the contact that opens again at once, if one does."""
+        """The same, and the contact that has landed: if it bounces, its height is zero."""
         guard, shared = leaving.guard, leaving.shared
         apart = frozenset(k for k, phase in enumerate(before.phases) if phase.flies)
         if guard is None:
@@ -93,7 +96,7 @@ class Transitions:
         return "turns round" if turned else guard.kind, entry, None
 
     def _land(self, before: ModeState, shared: State, i: int) -> tuple[str, ModeState]:
-        """A shock, then contact or another flight."""
+        """An impact, if it approaches; then contact, or flight again if it rebounds."""
         hybrid, numbers = self._hybrid, self._hybrid.numbers
         contact = hybrid.automaton.contacts[i]
         apart = frozenset(k for k, phase in enumerate(before.phases) if phase.flies)
@@ -107,8 +110,8 @@ class Transitions:
                 raise NumericError(
                     f"{contact.name} lands at t = {float(shared.time):.9g} s while {other}, which "
                     "feels it, touches",
-                    expected="one contact of connected bodies at a time: shared shocks are not "
-                    "determined",
+                    expected="one contact of connected bodies at a time: shared impacts are "
+                    "not determined",
                     advice="end the motion before that time",
                 )
         point = points[i]
@@ -156,9 +159,9 @@ class Transitions:
 
 
 def _room(before: ModeState, leaving: ModeExit, entry: ModeState, i: int) -> float:
-    """The distance to an edge: as it was followed, and none where that has just been crossed.
+    """The distance to an edge: as integrated, and zero where the edge has just been crossed.
 
-    Where a support jerks it may have been shifted.
+    A support that jerks may have shifted it: then it is taken from the state.
     """
     if leaving.guard is None or i not in leaving.rooms:
         return entry.rooms[i]

@@ -74,7 +74,7 @@ def powers_of(values: Array, count: int) -> Array:
 
 
 def pieces_at(knots: Array, times: Array) -> NDArray[np.intp]:
-    """Between which knots, by the place of the left one; beyond the ends the outermost."""
+    """The piece that every time is in; beyond the ends, the outermost."""
     return np.searchsorted(knots[1:-1], times, "right")
 
 

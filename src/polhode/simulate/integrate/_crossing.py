@@ -1,7 +1,7 @@
 """Where functions of time first fall below zero, found to rounding.
 
-Guards are looked at after the motion has been computed, not while: they cannot disturb its steps.
-Each is resolved into Legendre series piece by piece, so that a dip between two samples is seen.
+Guards are evaluated after the motion has been computed, so that they do not disturb its steps.
+Each is resolved into Legendre series piece by piece, so that no dip between samples is missed.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from numpy.polynomial import legendre
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._quadrature import resolved
 
-#: Of the largest value a guard has: a dip below zero that is no deeper is rounding.
+#: Of the largest value of a guard: a dip below zero that is no deeper counts as rounding.
 NOISE = 1e-13
-_POLISHED = 6  # secant steps after the series has said where
+_POLISHED = 6  # secant steps from the root of the series
 _DENSE = 65
 _INSIDE = 0.005  # share of an interval by which guesses keep from its ends
 

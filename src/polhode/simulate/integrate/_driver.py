@@ -1,4 +1,4 @@
-"""Drives an integrator over a stretch of time, and puts its legs together."""
+"""Integrates a flow over a span of time: the core step by step, then the quadratures over it."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from polhode.simulate.integrate._stop_criteria import StepWatch, Stop, StopCrite
 
 # -- motions that begin in equilibrium, to the last digit of where they begin ------------------
 
-_APART = 1e-6  # of a state, or of one: how far off slopes are measured
+_APART = 1e-6  # of a state, or of one: step of the difference quotients
 
 
 @dataclass(frozen=True)
@@ -44,11 +44,11 @@ class Constant:
 
 
 def is_steady(flow: Flow, parameters: Array, state: Array) -> bool:
-    """Whether rates of the core are zero but for the rounding of where it is.
+    """Whether the rates of the core are zero to within the rounding of its state.
 
-    An angle of 90° has no double: the rates of a disk that stands upright are what the last digit
-    of that angle makes of them, and in an unstable equilibrium they would grow without limit.
-    Rates that are zero need no such care.
+    90° has no exact double: the rates of a disk that stands upright come from the last digit of
+    that angle, and in an unstable equilibrium they would grow without limit. Rates that are
+    exactly zero need no such care.
     """
     core = flow.core
     size = len(state)
@@ -67,24 +67,24 @@ def is_steady(flow: Flow, parameters: Array, state: Array) -> bool:
     return bool(np.any(now > 0) and np.all(now <= rounding))
 
 
-_FEW = 10_000  # times for which states are remembered
+_FEW = 10_000  # times for which states are kept
 _ROUNDING = 8 * float(np.finfo(float).eps)
-_TURNS = 4  # periods after which an angle is counted from zero again
+_TURNS = 4  # periods after which an angle is reduced by whole turns
 
 States: TypeAlias = Callable[[Array], Array]
 
 
 @dataclass(frozen=True)
 class SegmentSolution:
-    """All states at every instant of a stretch of time.
+    """All states at every instant of a span of time.
 
     Attributes:
         symbols: the states, in the order of the rows of `at`.
         turned: of large angles: the symbol of the angle less whole turns.
         steps: where the steps of the integrator begin and end, s.
         stop: why it ends where it does.
-        vanished: which of the vectors watched vanishes at its end.
-        numbers: what the states are.
+        vanished: which of the watched vectors vanishes at its end.
+        numbers: the type of the states.
     """
 
     symbols: tuple[Symbol, ...]
@@ -102,9 +102,9 @@ class SegmentSolution:
         return self._at(times)
 
     def rest(self, time: float) -> Array:
-        """All states of the flow at an instant, less what is known of them as functions of time.
+        """All states of the flow at an instant, less the parts that are known functions of time.
 
-        What goes on from these does not gather the rounding of what is known.
+        A motion that is continued from these does not accumulate the rounding of the known parts.
         """
         if self._rest_at is None:
             return self._at(np.array([time]))[:, 0]
@@ -130,7 +130,7 @@ def integrate(
     """Integrate a flow over a span of time, or as far as it goes.
 
     Args:
-        start: of all states, in the order of the flow, less what is known of them.
+        start: of all states, in the order of the flow, less the parts that are known.
         criteria: what may stop it early.
 
     Raises:
@@ -168,7 +168,7 @@ def integrate(
 def _vanishing(
     path: _Path, criteria: StopCriteria, step: tuple[float, float]
 ) -> tuple[float, int | None]:
-    """When a vector vanishes within the last step, and which; its end if it only turned round."""
+    """When a slip ends within the last step, and which; if none does, the end of the step."""
     for k, places in enumerate(criteria.vectors):
         rows = list(places)
         start = path.at(np.array(step[:1]))[rows, 0]
@@ -190,7 +190,7 @@ def _vanishing(
 
 @dataclass(frozen=True)
 class _Path:
-    """Legs one after the other, each with what was taken off its angles before it began.
+    """Legs one after the other, each with the whole turns by which its angles were reduced.
 
     Its rows are the states of the core, then the periodic ones once more, less whole turns.
     """
@@ -234,7 +234,7 @@ def _legs(
     progress: Progress,
     criteria: StopCriteria,
 ) -> _Path:
-    """Angles that have grown far are counted from zero again: their rounding would spread."""
+    """Integrates leg by leg: each begins with angles reduced by whole turns, for their digits."""
     now, end = span
     periods = np.array([period or np.inf for period in flow.periods])
     steps = StepWatch(criteria, state.tolist(), span, progress)
@@ -261,7 +261,7 @@ def _legs(
 
 
 class _AngleMonitor:
-    """Stops a leg when an angle has grown far, and all of them when there is reason to look."""
+    """Stops a leg when an angle has grown large, and the integration when its criteria say so."""
 
     def __init__(self, steps: StepWatch, limits: Array) -> None:
         self.stop: Stop | None = None
@@ -276,14 +276,14 @@ class _AngleMonitor:
 
 
 def stuck(solution: SegmentSolution) -> NumericError:
-    """The motion cannot be continued beyond the end of a solution."""
+    """The error where a motion cannot be continued beyond the end of a solution."""
     return broken(float(solution.steps[-1]))
 
 
 def _summed(
     stage: Stage, flow: Flow, inner: States, start: Array, parameters: Array, steps: Array
 ) -> States:
-    """The quadratures of a stage, less what is known of them."""
+    """The quadratures of a stage, less the parts that are known."""
 
     def rates(times: Array) -> Array:
         return flow.values(stage.rates, inner(times), parameters, times)
@@ -299,7 +299,7 @@ def _summed(
 
 
 class _Remembered:
-    """States at the times at which they were last asked for: often they are asked for again."""
+    """Keeps the states at the last times: they are often needed again."""
 
     def __init__(self, at: States) -> None:
         self._at = at

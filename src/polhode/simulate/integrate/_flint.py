@@ -21,16 +21,16 @@ from polhode.simulate.integrate._stepping import broken
 #
 # Order and step are chosen as in Jorba and Zou, Experimental Mathematics 14 (2005).
 
-_SPARE = 32  # bits carried beyond those asked for
+_SPARE = 32  # bits carried beyond those requested
 
 
 def order_of(numbers: NumberType) -> int:
-    """Of the series that reach farthest for what they cost."""
+    """The order of the series whose steps cost least per length (Jorba and Zou)."""
     return math.ceil(numbers.bits * math.log(2) / 2) + 1
 
 
 def series_of(numbers: NumberType, times: list[Any], steps: list[Any]) -> TaylorSolution:
-    """What was found, as sums of doubles: of every step, state and power the limbs."""
+    """A solution from the coefficients of all steps, each as a sum of doubles."""
     limbs = np.array(steps).transpose(3, 0, 2, 1)  # from (steps, states, order + 1, limbs)
     joined = np.array([limbs_in([time], numbers)[0] for time in times]).T
     return TaylorSolution(numbers, numbers.joined(list(joined)), limbs)
@@ -52,7 +52,7 @@ def term(series: Any, place: int) -> Any:
 
 
 def step_of(rows: list[list[Any]], order: int) -> Any:
-    """Length of a step after which the series are still exact; None where they are not finite."""
+    """Length of a step over which the series have converged; None if they are not finite."""
     if not all(value.is_finite() for row in rows for value in row):
         return None
     size = max([flint.arb(1), *(abs(row[0]) for row in rows)])
@@ -90,13 +90,13 @@ def limbs_in(row: list[Any], numbers: NumberType) -> list[list[float]]:
 
 
 def ball(value: Any) -> Any:
-    """A number of any sort, rounded once."""
+    """A number of any type, rounded once."""
     exact: Fraction = fraction_of(value)
     return flint.arb(flint.fmpq(exact.numerator, exact.denominator)).mid()
 
 
 def arithmetic() -> Arithmetic:
-    """How such series are computed with."""
+    """The arithmetic of such series."""
 
     def constant(value: Fraction) -> Any:
         return flint.arb_series([flint.arb(flint.fmpq(value.numerator, value.denominator))])
@@ -144,7 +144,7 @@ class PowerSeries:
     name = "flint"
 
     def integrate(self, problem: InitialValueProblem, watch: SeriesCallback) -> TaylorSolution:
-        """The motion up to its end, until `watch` says no, or as far as it goes."""
+        """The motion up to its end, until `watch` returns false, or as far as it goes."""
         order = order_of(problem.numbers)
         with working(problem.numbers, order):
             return _integrated(problem, order, watch)
@@ -190,20 +190,20 @@ def _integrated(problem: InitialValueProblem, order: int, watch: SeriesCallback)
 # without ψₙ). Where slip begins gently, ρ₁ = 0, the point is irregular and the series asymptotic:
 # it is used only as far as its terms fall to the rounding of the numbers.
 
-_GROWING = 64  # places within a step at which the slips are looked at
+_GROWING = 64  # places within a step at which slips are evaluated
 _HALVES = 200
 _BARELY = 500  # bits
 
 
 @dataclass(frozen=True)
 class SlipSeries:
-    """Slips that begin.
+    """The beginning of slips as an initial value problem.
 
     Attributes:
         program: rates of the other states and of the slip velocities, of the other states, of
             cosine, sine and size of every slip, of parameters and time.
         others: which parameters, and the time.
-        numbers: what it is to be computed in.
+        numbers: the type of numbers to compute with.
         constants: of the parameters.
         start: of the other states.
         angles: of the slips to come.
@@ -259,7 +259,7 @@ class _Lengthening:
         return series_of(self._numbers, [self._begin, (self._begin + step).mid()], steps)
 
     def _felt(self) -> list[Any]:
-        """How the turning of each slip changes with its direction."""
+        """By how much the rate across each slip changes with its direction, ∂G/∂ψ."""
         turned = [[*row, flint.arb(1)] for row in self._angles]
         with cap(2):
             (_, _, now), (_, _, then) = self._found(self._angles), self._found(turned)
@@ -292,7 +292,7 @@ class _Lengthening:
         return list(found[: len(states)]), along, across
 
     def _growing(self, step: Any) -> Any:
-        """A step within which every slip grows from nothing without vanishing again, if any."""
+        """A step within which every slip grows from zero and does not vanish again, if any."""
         shares = np.arange(1, _GROWING + 1) / _GROWING
         for _ in range(_HALVES):
             rows = [[float(value) for value in by_step(row, step)[1:]] for row in self._sizes]

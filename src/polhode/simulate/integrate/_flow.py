@@ -1,7 +1,7 @@
-"""The motion as a flow: a core that drives itself, and quadratures that follow from it.
+"""The equations of motion as a flow: a core that is integrated, and quadratures over it.
 
-Angles of spin, positions and work done grow without influencing the accelerations. Left out of
-the core they cannot spoil its accuracy, however far they grow.
+Spin angles, positions and work grow without influencing the accelerations. Left out of the core
+they cannot spoil its accuracy, however large they become.
 """
 
 from __future__ import annotations
@@ -105,7 +105,7 @@ class Stage:
     Attributes:
         symbols: the states.
         program: their rates; of a quadrature, less those of what is known of it.
-        known: of each quadrature the part that is a function of time.
+        known: the part of each quadrature that is a function of time.
     """
 
     symbols: tuple[Symbol, ...]
@@ -119,7 +119,7 @@ class Stage:
 
     @cached_property
     def known_values(self) -> Compiled | None:
-        """What is known, on arrays."""
+        """The known parts, on arrays."""
         return self.known.function(arrays()) if self.known is not None else None
 
 
@@ -148,16 +148,17 @@ class Flow:
         return max(degree_in(stage.program, CLOCK) for stage in (self.core, *self.stages))
 
     def values(self, function: Compiled, states: Array, parameters: Array, times: Array) -> Array:
-        """Of a function of a stage, from the rows of the states before it, which it may not read.
+        """Values of the functions of a stage, shape (functions, times).
 
-        Shape (functions, times).
+        Args:
+            states: rows of the states of earlier stages; later ones are not read.
         """
         later = [0.0] * (len(self.symbols) - len(states))
         found: Array = rows(function(*states, *later, *parameters, times), len(times))
         return found
 
     def rest(self, states: Mapping[Symbol, float], parameters: Array, time: float) -> Array:
-        """The states, in their order, less what is known of them as functions of time."""
+        """The states in the order of the flow, less the parts that are known functions of time."""
         rests = [np.array([states[symbol] for symbol in self.core.symbols])]
         for stage in self.stages:
             own = np.array([states[symbol] for symbol in stage.symbols])
@@ -183,7 +184,7 @@ class Flow:
 
 
 def flow_of(dynamics: Dynamics, *, reduced: bool) -> Flow:
-    """The flow of all states and of the work done; `reduced` to the smallest core or whole."""
+    """The flow of all states and the work: with the smallest core if `reduced`, else all in it."""
     rates = dict(zip(dynamics.states, dynamics.rates, strict=True))
     if dynamics.equations.power or not rates:
         rates[WORK] = dynamics.equations.power
@@ -223,7 +224,7 @@ def _influences(dynamics: Dynamics, rates: dict[Symbol, Expr]) -> dict[Symbol, s
 
 
 def _peeled(influences: dict[Symbol, set[Symbol]]) -> Iterator[tuple[Symbol, ...]]:
-    """Layers of states that influence none of those within; at least one remains as the core."""
+    """Layers of states, outermost first, that influence no others; at least one state remains."""
     remaining = dict(influences)
     while len(remaining) > 1:
         felt = set[Symbol]().union(*remaining.values())
@@ -237,7 +238,7 @@ def _peeled(influences: dict[Symbol, set[Symbol]]) -> Iterator[tuple[Symbol, ...
 
 
 def period_in(program: Program, argument: int) -> float | None:
-    """The period of a program in an argument seen only by sines and cosines, else None."""
+    """The period of a program in an argument that occurs only in sines and cosines, else None."""
     steps = program.instructions
     place = next((i for i, s in enumerate(steps) if (s.op, s.value) == (Op.ARG, argument)), None)
     if place is None or place in program.outputs:
@@ -253,7 +254,7 @@ def period_in(program: Program, argument: int) -> float | None:
 
 
 def _factor_of_angle(program: Program, i: int, place: int) -> Fraction | None:
-    """k where step i is k times the argument and goes into sines and cosines only."""
+    """k if step i is k times the argument and only enters sines and cosines, else None."""
     steps = program.instructions
     others = [steps[operand] for operand in steps[i].operands if operand != place]
     users = [step.op for step in steps if i in step.operands]

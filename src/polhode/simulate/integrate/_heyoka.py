@@ -40,7 +40,7 @@ from polhode.simulate.integrate._stepping import (
 
 # -- a solution as Taylor series, step by step -------------------------------------------------
 
-_MISSED = 2  # steps of rounding by which the sum of the steps may miss their end
+_MISSED = 2  # units in the last place by which the sum of the steps may miss the end
 
 
 class TaylorSteps:
@@ -76,8 +76,8 @@ class TaylorSteps:
         """All of them together.
 
         Args:
-            goal: where they were to end, s: there they do where only rounding is in between, for
-                what happens at that instant would be passed over.
+            goal: where they were to end, s. If only rounding is in between they end there: an
+                event at that instant would be missed otherwise.
         """
         times, rests = np.array(self._times).T
         if abs(times[-1] - goal) <= _MISSED * np.spacing(abs(goal)):
@@ -98,7 +98,7 @@ class TaylorLeg:
 
     Attributes:
         times: where the steps begin, and where the last one ends, s, shape (steps + 1,).
-        rests: what these leave over of the same in twice as many digits, s.
+        rests: the remainders of the same times in double-double precision, s.
         lengths: of the steps, s.
         shares: coefficients of the powers of the share of a step, shape (steps, states, order + 1).
         broken: whether it cannot be continued.
@@ -155,7 +155,7 @@ def _compiled(program: Program, size: int, tolerance: float) -> Any:
 
 
 def is_long(program: Program) -> bool:
-    """Whether its code, written out, would not find room on the stack."""
+    """Whether its unrolled code would not fit on the stack."""
     return program.operations > _LONG
 
 
@@ -211,7 +211,7 @@ def library() -> Any:
     """The heyoka module, its cache of compiled code set to a folder of polhode's."""
     with _importing, _without_sympy():
         import heyoka
-    heyoka.set_logger_level_critical()  # its words would come on standard output
+    heyoka.set_logger_level_critical()  # it logs to standard output
     try:
         kept = cache.folder("heyoka")
         _drop_damaged(kept / "cache.db")
@@ -223,7 +223,7 @@ def library() -> Any:
 
 
 def _drop_damaged(database: Path) -> None:
-    """Take away what is no data base, so that it is made anew."""
+    """Remove what is not a database, so that it is made anew."""
     if not database.exists():
         return
     try:
@@ -238,7 +238,7 @@ def _drop_damaged(database: Path) -> None:
 
 @contextmanager
 def _without_sympy() -> Iterator[None]:
-    """heyoka imports SymPy wherever it is installed: two thirds of its start, and not needed."""
+    """heyoka imports SymPy if it is installed: two thirds of its start-up time, and not needed."""
     if "sympy" in sys.modules:
         yield
         return
@@ -261,7 +261,7 @@ class TaylorSeries:
     name = "heyoka"
 
     def integrate(self, problem: InitialValueProblem, watch: SeriesCallback) -> TaylorSolution:
-        """The motion up to its end, until `watch` says no, or as far as it goes."""
+        """The motion up to its end, until `watch` returns false, or as far as it goes."""
         numbers = problem.numbers
         taylor = copy(_compiled_in(problem.program, len(problem.start), numbers))
         read = _HeyokaNumbers(numbers)
@@ -296,7 +296,7 @@ def _compiled_in(program: Program, size: int, numbers: NumberType) -> Any:
         rates_of(program, size, read),
         [read(0)] * size,
         opt_level=0,
-        compact_mode=True,  # at such orders the code would be endless, written out
+        compact_mode=True,  # unrolled, the code would be too long at such orders
         **read.kind,
     )
 
@@ -315,7 +315,7 @@ class _HeyokaNumbers:
 
 
 def _kind_of(numbers: NumberType) -> tuple[Callable[[str], Any], dict[str, Any]]:
-    """What makes such a number from text, and how heyoka is told of them."""
+    """How a number is made from text, and the settings that tell heyoka its type."""
     heyoka = library()
     if isinstance(numbers, LongDoubles):
         return np.longdouble, {"fp_type": np.longdouble}

@@ -20,7 +20,7 @@ from polhode.simulate.integrate._stepping import (
     looks_along,
 )
 
-_TIGHTEST = 1e-13  # relative; below it rounding rules the choice of steps
+_TIGHTEST = 1e-13  # relative; below it rounding would determine the steps
 _ABSOLUTE = 1e-15
 
 

@@ -1,4 +1,7 @@
-"""What is watched while integrating: vectors that may vanish, and the steps of the motion."""
+"""What stops an integration: slips that end, steps that become too many or too short, pauses.
+
+The end of slip is noticed here, step by step: a slip velocity that vanishes, or reverses.
+"""
 
 from __future__ import annotations
 
@@ -16,12 +19,12 @@ from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 
 MOST_KEPT = 5_000_000  # states at the beginning of steps, each with its powers of time
 
-# After so many steps, how many it may seem to take in all: those at the start may be tiny.
+# After so many steps, how many the motion may appear to take in all: the first may be tiny.
 _GLANCES = {100: 4e12, 4_000: 1e10}
 
 
 class StepCount:
-    """The steps of one motion, over all its stretches."""
+    """The steps of one motion, over all its pieces."""
 
     def __init__(self) -> None:
         self._steps = 0
@@ -29,13 +32,13 @@ class StepCount:
         self._begin = 0.0
 
     def count(self, span: tuple[float, float], time: float, size: float, *, hurries: bool) -> None:
-        """One step more.
+        """Count one more.
 
         Args:
-            span: of the stretch, s.
+            span: of the piece, s.
             time: at the end of the step, s.
             size: how many states are kept for it, as doubles.
-            hurries: whether nothing is about to happen that would explain short steps.
+            hurries: whether no slip is about to end, which would explain short steps.
 
         Raises:
             NumericError: where there are too many already, or will be.
@@ -73,22 +76,22 @@ class Stop(Enum):
     """Why an integration came to its end."""
 
     TIME = "the end was reached"
-    INTERRUPTED = "who listens has enough"
-    PAUSE = "enough steps to look at"
-    VANISHED = "a vector that was watched vanished or turned round"
+    INTERRUPTED = "the progress asked to stop"
+    PAUSE = "guards are to be checked"
+    VANISHED = "a watched vector vanished or reversed"
     STUCK = "the motion cannot be continued"
 
 
 @dataclass(frozen=True)
 class StopCriteria:
-    """What to look at while integrating.
+    """What to watch for while integrating.
 
     Attributes:
-        pause: steps after which to stop for a look.
-        vectors: places in the core of vectors that stop the integration where they vanish.
+        pause: steps after which to stop, so that guards are checked.
+        vectors: places in the core of vectors (slip velocities) that stop it where they vanish.
         least: length, m/s, at which such a vector has vanished.
-        passing: the same at an instant at which it turns round, or where steps become too short.
-        over: whether the motion is certainly over at a state, so that there is reason for a look.
+        passing: the same at an instant at which it reverses, or where steps become too short.
+        over: whether a state is certainly beyond the end of the mode, so that guards are checked.
         tally: of the steps of the whole motion.
     """
 
@@ -100,12 +103,12 @@ class StopCriteria:
     tally: StepCount = field(default_factory=StepCount)
 
     def seen(self, state: Sequence[Any]) -> list[list[float]]:
-        """The vectors in a state of the core; alone, they are known to the digits of doubles."""
+        """The vectors in a state of the core, in doubles."""
         return [[float(state[place]) for place in places] for places in self.vectors]
 
 
 class _Vanishing:
-    """Watches from step to step whether a vector vanishes.
+    """Notices from step to step whether a vector vanishes.
 
     Args:
         criteria: which vectors, and what is small.
@@ -118,32 +121,32 @@ class _Vanishing:
         self._shrinks = [False for _ in self._vectors]
 
     def at(self, state: Sequence[Any]) -> bool:
-        """Whether one vanishes, or turns round, on the way to a state."""
+        """Whether one vanishes, or reverses, on the way to a state."""
         before, self._vectors = self._vectors, self._criteria.seen(state)
         shrank, self._shrinks = self._shrinks, list(map(_is_shorter, self._vectors, before))
         return any(map(self._vanishes, before, self._vectors, shrank))
 
     @property
     def is_near(self) -> bool:
-        """Whether one is as small as where it turns round."""
+        """Whether one is as small as vectors are where they reverse."""
         return any(hypot(*vector) <= self._criteria.passing for vector in self._vectors)
 
     def _vanishes(self, before: list[float], now: list[float], shrank: bool) -> bool:
         turned = sum(map(mul, before, now)) <= 0.0
         size = hypot(*now)
-        # Where it turns round within a few steps, none of them need be half a turn.
+        # Where it reverses within a few steps, none of them need turn it by more than 90°.
         grows = shrank and size <= _ALMOST * self._criteria.least and not _is_shorter(now, before)
         return turned or grows or size <= self._criteria.least
 
 
 class StepWatch:
-    """Tells of every step of a stretch of a motion, and says where there is reason to stop.
+    """Reports the steps of an integration to the progress, and says when to stop.
 
     Args:
         criteria: what may stop it.
         state: at the beginning.
         span: from its beginning to where it is to end, s.
-        progress: told of every step.
+        progress: notified of every step.
         numbers: in which the states are.
     """
 

@@ -14,8 +14,8 @@ from polhode.simulate._absolute_values import (
     SideChangeCount,
     Sides,
     from_zero,
+    guards_of_sides,
     nearer,
-    passages_of,
     refuse_vanishing,
     sides_at,
 )
@@ -89,18 +89,18 @@ class _DeclaredPieces:
     def next(
         self, state: StateValues, now: Any, end: Any, before: TrajectoryPiece | None
     ) -> PieceEnd:
-        passages, careful = passages_of(self.dynamics), self._steps.numbers.careful
-        criteria = StopCriteria(pause=_LOOK) if passages else StopCriteria()
+        side_guards, careful = guards_of_sides(self.dynamics), self._steps.numbers.careful
+        criteria = StopCriteria(pause=_LOOK) if side_guards else StopCriteria()
         equations = _Equations(self.dynamics, self._constants)
         piece = self._steps.along(equations, state, (now, end), criteria)
-        found = _passed(self.dynamics, passages, piece)
+        found = _passed(self.dynamics, side_guards, piece)
         stop = piece.solution.stop
         if found is None:
             if stop is Stop.STUCK:
                 raise broken(float(piece.end))
-            point, time, passage = PiecePoint(piece.series.steps - 1, 1), piece.end, None
+            point, time, change = PiecePoint(piece.series.steps - 1, 1), piece.end, None
         else:
-            point, passage = found
+            point, change = found
             time = piece.series.time(point.step, point.share)
             again = nearer(piece.series.times, time, self._steps.numbers)
             if again is not None:
@@ -108,18 +108,18 @@ class _DeclaredPieces:
         cut = replace(piece, end=time)
         refuse_vanishing(self.dynamics, cut.rounded())
         there, then = cut.state(point, careful), careful.array([time])[0]
-        return PieceEnd(cut, there, then, passage, is_last=stop is Stop.INTERRUPTED)
+        return PieceEnd(cut, there, then, change, is_last=stop is Stop.INTERRUPTED)
 
 
 def _passed(
-    dynamics: Dynamics, passages: Sequence[SideChange], piece: SeriesPiece
+    dynamics: Dynamics, side_guards: Sequence[SideChange], piece: SeriesPiece
 ) -> tuple[PiecePoint, SideChange] | None:
     """Where the first side ends, and which."""
-    if not passages:
+    if not side_guards:
         return None
     seen = InDoubles(piece, piece.begin)
     arguments = (*seen.symbols, *dynamics.parameters, CLOCK)
-    function = dynamics.function([passage.positive for passage in passages], arguments)
+    function = dynamics.function([change.positive for change in side_guards], arguments)
 
     def values(places: Array) -> Array:
         found = function(*seen.at(places), *seen.constants, seen.times(places))
@@ -128,5 +128,5 @@ def _passed(
     fall = first_fall(from_zero(values, seen.knots), seen.knots)
     if fall is None:
         return None
-    passage = passages[fall.guard]
-    return fallen(dynamics, passage.positive, piece, fall.time), passage
+    change = side_guards[fall.guard]
+    return fallen(dynamics, change.positive, piece, fall.time), change
