@@ -114,7 +114,7 @@ def test_a_loop_that_cannot_be_closed_is_named():
         (UNITS, {"theta_ddot": 1}, DeclarationError, "'theta_ddot' is no coordinate"),
     ],
 )
-def test_bad_values_are_refused_by_name(parameters, start, error, said):
+def test_bad_values_are_refused(parameters, start, error, said):
     kilogram = Dimension(mass=1)
     equations = pendulum()
     mass = next(s for s in equations.parameters if s.name == "m")
@@ -188,7 +188,7 @@ def test_a_singular_start_and_a_singular_end_are_told(integrator):
         simulate(falling, {"m": 1, "k": 1}, {"x": 1}, 2)
 
 
-def test_what_has_no_equations_of_motion_is_refused_by_name():
+def test_what_has_no_equations_of_motion_is_refused():
     for attempt in (
         lambda: simulate("rolling-disk", {}, {}, 1),
         lambda: linearise("rolling-disk", {}, at={}),

@@ -51,7 +51,7 @@ class Entered:
         entry: of its mode.
         time: s.
         state: by symbol.
-        piece: what it did in this mode so far.
+        piece: of its motion in this mode so far.
         guard: that has ended the mode already.
     """
 
@@ -67,7 +67,7 @@ class SingleTrajectoryStepper:
 
     Args:
         hybrid: the modes.
-        task: what is asked for of every motion.
+        task: what all motions have in common.
         intervals: of prescribed motions.
     """
 

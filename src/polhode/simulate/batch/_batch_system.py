@@ -250,7 +250,7 @@ class AllModes:
     def goes_on(self) -> bool:
         """Whether motions are integrated beyond their first mode.
 
-        Where nothing rubs or jerks they hardly ever leave it, and need not be known in full.
+        Without friction or jerks they hardly ever leave it: only what is read is integrated.
         """
         if len(self.intervals.jerks):
             return True
@@ -353,7 +353,7 @@ class SingleModeBatch:
         Args:
             count: of motions.
             columns: SI values of what differs, by published name, shape (motions,).
-            times: of the looks, s, increasing from 0 to the duration.
+            times: of the samples, s, increasing from 0 to the duration.
             starts: start values of one motion, as `simulate` takes them.
         """
         subject, dynamics = self._subject, self._subject.dynamics

@@ -95,9 +95,9 @@ class HybridIntegrator:
         return HybridSolution(tuple(self._segments), tuple(self._changes), self._segments[-1].mode)
 
     def _stands_still(self, end: float) -> bool:
-        """Whether mode has followed mode for long while no time has passed.
+        """Whether modes alternate without time passing.
 
-        Next to none counts as none unless contacts rebound, ever more often.
+        Very little time counts as none, unless contacts rebound: they do so ever more often.
         """
         last = self._instants[-_MOST_AT_ONCE:]
         passed = last[-1] - last[0]
@@ -109,19 +109,22 @@ class HybridIntegrator:
         return bool(passed <= instant) or not rebounds
 
     def _undecided(self, time: float, modes: set[str]) -> NumericError:
-        # Where N vanishes while unlimited friction still pulls, the contact cannot open, for
-        # without friction it would close again; nor can it hold, for it would have to pull
-        # (Painlevé). Limited friction may bring a ball back to an edge from either side.
-        names = sorted(modes) if len(modes) > 1 else [*modes, "contact"]
-        unlimited = any(isinstance(c, Rolling) for c in self._hybrid.automaton.contacts)
-        give = "give the contact a friction coefficient mu, or " if unlimited else ""
+        # Where N vanishes while unlimited friction still pulls, the contact cannot open, since
+        # without friction it would close again; nor can it hold, since it would have to pull
+        # (Painlevé's paradox). Limited friction may bring a ball back to an edge from either side.
+        names = " and ".join(sorted(modes) if len(modes) > 1 else [*modes, "contact"])
+        if any(isinstance(c, Rolling) for c in self._hybrid.automaton.contacts):
+            return NumericError(
+                f"at t = {float(time):.9g} s the normal force vanishes, but pure rolling forbids "
+                f"lift-off: {names} exclude each other",
+                expected="friction that gives way before the contact has to open",
+                advice="use Coulomb friction (a coefficient mu), or end the motion before that "
+                "time",
+            )
         return NumericError(
-            f"at t = {float(time):.9g} s no mode can follow: {' and '.join(names)} exclude each "
-            "other",
-            expected="friction that gives way before the contact has to open"
-            if unlimited
-            else "a contact mode that lasts for some time",
-            advice=f"{give}end the motion before that time",
+            f"at t = {float(time):.9g} s no contact mode lasts: {names} exclude each other",
+            expected="a contact mode that lasts for some time",
+            advice="end the motion before that time",
         )
 
     def _last(self, run: ModeRun) -> ModeSwitch | None:

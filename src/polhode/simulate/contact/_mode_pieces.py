@@ -43,7 +43,7 @@ VANISHED = 1e-14
 #: The same at an instant at which the slip velocity reverses: there its rounding is larger.
 LANDED = 1e-10
 _LOOK = 400  # steps after which the guards are looked at
-_INSTANT = 32  # steps of rounding of the time: a shorter hop is none
+_INSTANT = 32  # units in the last place of the time: a shorter hop counts as none
 _BEGUN = 1e-9  # of the time: sooner, a slip that begins cannot be told from rounding
 
 
@@ -188,7 +188,7 @@ class DoublePieces(ModePieces):
 
     Args:
         hybrid, entry, near_flat: as in `ModePieces`.
-        progress: told of every step.
+        progress: notified of every step.
         tally: of the steps of the whole motion.
     """
 

@@ -74,15 +74,15 @@ def _impossible(what: str, value: float, contact: Contact, expected: str) -> Dec
 
 # -- the first contact mode ------------------------------------------------------------------------
 
-_ROUNDING = 1e-12  # height above a support, over the size of the place, that is none
+_ROUNDING = 1e-12  # of the size of the coordinates: a height that counts as zero
 
 
 def begun_at(hybrid: HybridSystem, shared: State, apart: frozenset[int]) -> ModeState:
     """The first mode of a motion.
 
     Args:
-        apart: contacts that start at a given height. Where that is none, and does not change, they
-            may touch.
+        apart: contacts that start at a given height. Zero height with zero vertical velocity
+            counts as contact.
 
     Raises:
         ConstraintError: for a body that starts within its support.

@@ -104,26 +104,24 @@ class Transitions:
         far = beyond(before.phases) | (hybrid.touching.beyond(shared) & apart)
         points = hybrid.touching.at(shared, far)
         mass = hybrid.apart.mass(shared)
-        for k, phase in enumerate(before.phases):
-            if not phase.flies and _feel(points[k], points[i], mass, numbers):
-                other = hybrid.automaton.contacts[k].name
-                raise NumericError(
-                    f"{contact.name} lands at t = {float(shared.time):.9g} s while {other}, which "
-                    "feels it, touches",
-                    expected="one contact of connected bodies at a time: shared impacts are "
-                    "not determined",
-                    advice="end the motion before that time",
-                )
+        touching = [k for k, phase in enumerate(before.phases) if not phase.flies]
+        if felt := [k for k in touching if _feel(points[k], points[i], mass, numbers)]:
+            other = hybrid.automaton.contacts[felt[0]].name
+            raise NumericError(
+                f"{contact.name} lands at t = {float(shared.time):.9g} s, and the contact {other} "
+                "feels the impact",
+                expected="one contact of connected bodies at a time: impacts at several contacts "
+                "are not determined",
+                advice="end the motion before that time",
+            )
         point = points[i]
         slow = numbers.finer(STILL) * point.scale
+        open_again = ContactStatus(apart, still, beyond=far)
+        closed = ContactStatus(apart - {i}, still, beyond=far)
         if point.velocity[2] > slow:
-            return "touches down", select_mode(
-                hybrid, shared, ContactStatus(apart, still, beyond=far)
-            )
-        if point.velocity[2] >= -slow:
-            return "touches down", select_mode(
-                hybrid, shared, ContactStatus(apart - {i}, still, beyond=far)
-            )
+            return "touches down", select_mode(hybrid, shared, open_again)
+        if point.velocity[2] >= -slow:  # without an impact
+            return "touches down", select_mode(hybrid, shared, closed)
         inverse_mass = point.jacobian @ numbers.solved(mass, point.jacobian.T)
         impact = self._impact(contact, inverse_mass, point.velocity, shared.time)
         work = impact.impulse @ (point.support + (point.velocity + impact.velocity) / 2)
@@ -132,16 +130,15 @@ class Transitions:
         hardest = max(self._hardest.get(i, 0.0), -point.velocity[2])
         self._hardest[i] = hardest
         if impact.velocity[2] > numbers.finer(_REBOUND) * hardest:
-            bounced = select_mode(hybrid, after, ContactStatus(apart, still, beyond=far))
+            bounced = select_mode(hybrid, after, open_again)
             time = bounced.shared.time
             fall = hybrid.mode(bounced.phases).closing_rates(bounced.state, time)[i]
             hop = fall_of(0.0, impact.velocity[2], fall) if fall < 0 else np.inf
             if hop > _INSTANT * numbers.spacing(time):
                 return "bounces", bounced
-        stuck = still | {i} if impact.sticks else still
-        return "touches down", select_mode(
-            hybrid, after, ContactStatus(apart - {i}, stuck, beyond=far)
-        )
+        if impact.sticks:
+            closed = replace(closed, stuck=still | {i})
+        return "touches down", select_mode(hybrid, after, closed)
 
     def _impact(
         self, contact: Contact, inverse_mass: Array, velocity: Array, time: float

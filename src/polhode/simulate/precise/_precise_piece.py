@@ -138,7 +138,7 @@ class SeriesStepper:
         integrator: Taylor's method.
         numbers: to compute in.
         end: of the motion, s.
-        progress: told of every step.
+        progress: notified of every step.
     """
 
     def __init__(
@@ -170,7 +170,7 @@ class SeriesStepper:
         flow, constants = self._flow(mode.dynamics), mode.parameters.tolist()
         begin, end = span
         looks = looks_along(flow)
-        if looks > 1:  # steps are not to leap over a pulse
+        if looks > 1:  # steps must not leap over a pulse
             end = min(end, begin + self.end / looks)
         end = self.numbers.array([end])[0]
         symbols = flow.core.symbols
