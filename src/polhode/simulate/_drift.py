@@ -49,10 +49,16 @@ def drift_of(segments: Sequence[Segment], invariants: Mapping[str, Expr], sample
     The energy is compared with the work done from the start through all contact modes.
     """
     looks = [_Look(segment, _instants(segment, samples)) for segment in segments]
+    found = {}
+    for name, invariant in invariants.items():
+        values = np.concatenate([look.values([invariant])[0] for look in looks])
+        sizes = [np.sum(np.abs(look.values(_terms(invariant))), axis=0) for look in looks]
+        scale = max(float(np.max(size, initial=0.0)) for size in sizes)
+        found[name] = _relative(np.max(np.abs(values - values[0])), scale)
     return Drift(
         energy=_energy(looks),
         constraint=max(look.gap() for look in looks),
-        invariants={name: _constancy(e, looks) for name, e in invariants.items()},
+        invariants=found,
     )
 
 
@@ -110,13 +116,6 @@ def _energy(looks: Sequence[_Look]) -> float:
     done = work - work[0]
     scale = np.max(np.abs(total - potential) + np.abs(potential) + np.abs(done))
     return _relative(np.max(np.abs(total - total[0] - done)), scale)
-
-
-def _constancy(invariant: Expr, looks: Sequence[_Look]) -> float:
-    values = np.concatenate([look.values([invariant])[0] for look in looks])
-    sizes = [np.sum(np.abs(look.values(_terms(invariant))), axis=0) for look in looks]
-    scale = max(float(np.max(size, initial=0.0)) for size in sizes)
-    return _relative(np.max(np.abs(values - values[0])), scale)
 
 
 def _terms(expression: Expr) -> list[Expr]:

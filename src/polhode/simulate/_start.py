@@ -222,7 +222,13 @@ class _Relations:
         scale = np.abs(self._constant) + np.abs(self._matrix) @ np.abs(found)
         for i, (symbol, value) in enumerate(self._given.items()):
             if abs(value - implied[i]) > _AGREE * max(scale[i], abs(value)):
-                raise self._contradiction(symbol, value, float(implied[i]), rows)
+                names = ", ".join(s.published for k, s in enumerate(self._given) if k in rows)
+                cause = f"which follows from {names}" if names else "as the constraints demand"
+                raise ConstraintError(
+                    f"{symbol.published} = {value:g} at the start contradicts the constraints",
+                    expected=f"{float(implied[i]):.12g}, {cause}",
+                    advice=f"leave {symbol.published} out, or change the others",
+                )
         return {self._unknowns[j]: float(found[j]) for j in pivots}
 
     def _independent(self) -> tuple[list[int], list[int]]:
@@ -238,17 +244,6 @@ class _Relations:
             rows.append(i)
             pivots.append(j)
         return rows, pivots
-
-    def _contradiction(
-        self, symbol: Symbol, value: float, implied: float, rows: list[int]
-    ) -> ConstraintError:
-        names = [s.published for i, s in enumerate(self._given) if i in rows]
-        cause = f"which follows from {', '.join(names)}" if names else "as the constraints demand"
-        return ConstraintError(
-            f"{symbol.published} = {value:g} at the start contradicts the constraints",
-            expected=f"{implied:.12g}, {cause}",
-            advice=f"leave {symbol.published} out, or change the others",
-        )
 
 
 def _check(dynamics: Dynamics, start: Start, parameters: Numbers) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -108,16 +108,14 @@ class BatchResults:
         found = np.full(len(self.end), np.nan)
         clock = self.end if sample == LAST else np.full(len(self.end), self.times[sample])
         constants = self.constants_until if sample == LAST else self.constants_from
-        for batch_segment, rows, states in self._by_mode(sample):
+        for parts in self._recorded.get(sample, {}).values():
+            batch_segment, *_ = parts[0]
+            rows = np.concatenate([rows for _, rows, _ in parts])
+            states = np.concatenate([states for *_, states in parts], axis=1)
             seen = dict(zip(batch_segment.states, states, strict=True))
             known = constants(rows, clock[rows])
             found[rows] = batch_segment.values(quantity, clock[rows], seen, known)
         return found
-
-    def _by_mode(self, sample: int) -> Iterator[tuple[BatchSegment, Rows, Array]]:
-        for parts in self._recorded.get(sample, {}).values():
-            rows = np.concatenate([rows for _, rows, _ in parts])
-            yield parts[0][0], rows, np.concatenate([x for *_, x in parts], axis=1)
 
     def events(self) -> Events:
         """All events, motion by motion."""

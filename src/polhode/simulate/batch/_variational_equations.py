@@ -164,7 +164,10 @@ class VariationalEquations:
         size = len(self._dynamics.states)
         slopes = path[size:].reshape(size, len(self._by), len(times))
         numbers = [Dual(x, s) for x, s in zip(path[:size], slopes, strict=True)]
-        constants = [_constant(p, self._slopes(s)) for s, p in self._valued(interval.constants)]
+        constants = [
+            Dual(p, slope) if np.any(slope := self._slopes(s)) else p
+            for s, p in self._valued(interval.constants)
+        ]
         found = self._quantities.function(duals(arrays()))(*numbers, *constants, times)
         values = rows([_parts(q)[0] for q in found], len(times))
         shape = (len(self._by), len(times))
@@ -253,10 +256,6 @@ class VariationalEquations:
         if solution.status != 0:
             raise broken(float(solution.t[-1]) if len(solution.t) else 0.0)
         return np.asarray(solution.y, dtype=float)
-
-
-def _constant(value: float, slopes: Array) -> Any:
-    return Dual(value, slopes) if np.any(slopes) else value
 
 
 def _slopes_of(number: Any, shape: tuple[int, ...]) -> Any:

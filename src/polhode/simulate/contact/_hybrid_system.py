@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -194,18 +194,19 @@ class CompiledMode:
     # -- to and from the shared state -----------------------------------------------------------
 
     @cached_property
-    def _lift(self) -> Function:
+    def lifted(self) -> Callable[[Any, Mapping[Symbol, Any], Any], State]:
+        """The shared state of a state of this mode: of the time, the state, the work done."""
         apart = self._hybrid.automaton.apart.equations
-        wanted = (*apart.coordinates, *apart.speeds)
-        lifted = self.mode.lifted
-        return self.function([lifted.get(s, Expr.generator(s)) for s in wanted])
-
-    def lifted(self, time: float, state: Mapping[Symbol, float], work: float) -> State:
-        """The shared state of a state of this mode."""
+        known, size = self.mode.lifted, len(apart.coordinates)
+        wanted = [known.get(s, Expr.generator(s)) for s in (*apart.coordinates, *apart.speeds)]
+        function = self.function(wanted)
         own = [s for s in self.dynamics.states if s not in self.dynamics.auxiliary]
-        values = self._lift(self._numbers.array([state[s] for s in own]), time, ())
-        size = len(self._hybrid.automaton.apart.equations.coordinates)
-        return State(time, values[:size], values[size:], work)
+
+        def lifted(time: Any, state: Mapping[Symbol, Any], work: Any) -> State:
+            values = function(self._numbers.array([state[s] for s in own]), time, ())
+            return State(time, values[:size], values[size:], work)
+
+        return lifted
 
     @cached_property
     def _projection(self) -> Function:
@@ -241,14 +242,16 @@ class CompiledMode:
         return coordinates, numbers.solved(reduced, allowed.T @ momentum)
 
     @cached_property
-    def _mass(self) -> Function:
-        return self.function([e for row in self.mode.equations.mass.rows for e in row])
+    def mass(self) -> Callable[[State], Array]:
+        """The mass matrix, if this is the mode in which nothing touches, of the shared state."""
+        matrix = self.mode.equations.mass
+        entries = self.function([e for row in matrix.rows for e in row])
 
-    def mass(self, shared: State) -> Array:
-        """The mass matrix, of the mode in which nothing touches."""
-        size = len(shared.speeds)
-        state = np.concatenate([shared.coordinates, shared.speeds])
-        return self._mass(state, shared.time, ()).reshape(size, size)
+        def mass(shared: State) -> Array:
+            state = np.concatenate([shared.coordinates, shared.speeds])
+            return entries(state, shared.time, ()).reshape(matrix.shape)
+
+        return mass
 
     # -- forces and slips -----------------------------------------------------------------------
 
@@ -267,7 +270,11 @@ class CompiledMode:
         return next(e for e in self.sliding if e.name == contact.name)
 
     @cached_property
-    def _contact_forces(self) -> Function:
+    def contact_forces(self) -> Function:
+        """Force along the two tangents and the normal of every contact, shape (contacts, 3).
+
+        Of the state, the time, and directions and speeds of slip, as all functions here.
+        """
         components = self.mode.equations.components
         wanted = []
         for touch, phase in zip(self.mode.touches, self.mode.phases, strict=True):
@@ -277,37 +284,23 @@ class CompiledMode:
                 wanted += [components.get(contact.component(label), Expr.of(0)) for label in labels]
             else:
                 wanted += [Expr.of(0)] * 3
-        return self.function(wanted, self.directions)
-
-    def contact_forces(self, state: Array, time: float, directions: Sequence[float]) -> Array:
-        """Force along the two tangents and the normal of every contact, shape (contacts, 3)."""
-        return self._contact_forces(state, time, directions).reshape(-1, 3)
+        forces = self.function(wanted, self.directions)
+        return lambda state, time, directions: forces(state, time, directions).reshape(-1, 3)
 
     @cached_property
-    def _closing_rates(self) -> Function:
+    def closing_rates(self) -> Callable[[Array, Any], Array]:
+        """Normal acceleration of every open contact, m/s², shape (contacts,): no slip matters."""
         motion = self.mode.equations.kinetics
-        rates = [touch.closing.chain(motion.rate) for touch in self.mode.touches]
-        return self.function(rates, self.directions)
-
-    def closing_rates(self, state: Array, time: float) -> Array:
-        """Normal acceleration of every open contact, m/s², shape (contacts,)."""
-        return self._closing_rates(state, time, [0.0] * len(self.directions))
+        accelerations = [touch.closing.chain(motion.rate) for touch in self.mode.touches]
+        rates, no_slip = self.function(accelerations, self.directions), [0.0] * len(self.directions)
+        return lambda state, time: rates(state, time, no_slip)
 
     @cached_property
-    def _room_rates(self) -> Function:
-        rate = self.mode.equations.kinetics.rate
-        return self.function(
-            [t.room.chain(rate).chain(rate) for t in self.mode.touches], self.directions
-        )
-
-    def room_rates(self, state: Array, time: float, directions: Sequence[float]) -> Array:
+    def room_rates(self) -> Function:
         """Second rate of the distance of every contact to its edge, m/s², shape (contacts,)."""
-        return self._room_rates(state, time, directions)
-
-    @cached_property
-    def _masses(self) -> Function:
-        entries = [e for row in self.mode.equations.mass.rows for e in row]
-        return self.function(entries, self.directions)
+        rate = self.mode.equations.kinetics.rate
+        second = [touch.room.chain(rate).chain(rate) for touch in self.mode.touches]
+        return self.function(second, self.directions)
 
     @cached_property
     def can_jam(self) -> bool:
@@ -315,16 +308,22 @@ class CompiledMode:
         entries = [e for row in self.mode.equations.mass.rows for e in row]
         return any(set(self.directions) & entry.symbols() for entry in entries)
 
-    def jamming(self, state: Array, time: float, directions: Sequence[float]) -> float:
+    @cached_property
+    def jamming(self) -> Callable[[Array, Any, Sequence[float]], float]:
         """Determinant of the mass matrix over that without friction; positive unless it jams."""
         if not self.can_jam:
-            return 1.0
-        size = len(self.mode.equations.speeds)
-        with_friction, without = (
-            np.linalg.det(self._masses(state, time, d).reshape(size, size))
-            for d in (directions, [0.0] * len(directions))
-        )
-        return float(with_friction / without)
+            return lambda state, time, directions: 1.0
+        matrix = self.mode.equations.mass
+        entries = self.function([e for row in matrix.rows for e in row], self.directions)
+
+        def jamming(state: Array, time: Any, directions: Sequence[float]) -> float:
+            with_friction, without = (
+                np.linalg.det(entries(state, time, d).reshape(matrix.shape))
+                for d in (directions, [0.0] * len(directions))
+            )
+            return float(with_friction / without)
+
+        return jamming
 
     @cached_property
     def slip_changes(self) -> tuple[Expr, ...]:
@@ -332,10 +331,6 @@ class CompiledMode:
         motion = self.mode.equations.kinetics
         touches = self.mode.touches
         return tuple(slip.chain(motion.rate) for touch in touches for slip in touch.slip)
-
-    @cached_property
-    def _slip_rates(self) -> Function:
-        return self.function(self.slip_changes, self.directions)
 
     def slip_rates_along(self, state: Array, time: float, directions: Sequence[Any]) -> Array:
         """`slip_rates` for arrays of directions, shape (contacts, 2, directions)."""
@@ -348,9 +343,11 @@ class CompiledMode:
         rates: Array = rows(found, count)
         return rates.reshape(-1, 2, count)
 
-    def slip_rates(self, state: Array, time: float, directions: Sequence[float]) -> Array:
+    @cached_property
+    def slip_rates(self) -> Function:
         """Rate of the slip velocity of every contact, m/s², shape (contacts, 2)."""
-        return self._slip_rates(state, time, directions).reshape(-1, 2)
+        rates = self.function(self.slip_changes, self.directions)
+        return lambda state, time, directions: rates(state, time, directions).reshape(-1, 2)
 
 
 def singular(time: float) -> NumericError:

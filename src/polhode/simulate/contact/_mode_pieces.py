@@ -107,21 +107,13 @@ class ModePieces(ABC):
             first = self._slip_onset if self._entry.onset else self._piece
             found = first(state, (now, limit), before)
         self._has_begun = True
-        if now < found.time and found.time in drive.breaks and not self._stands(found):
-            found = replace(found, guard=None)
+        if now < found.time and found.time in drive.breaks and found.guard is not None:
+            # Where the forcing changes, slip and lift-off are up to the forces that follow.
+            kept = ("near-flat", "sticks") if found.time not in drive.jerks else ("near-flat",)
+            if not (isinstance(found.guard, SideChange) or found.guard.kind in kept):
+                found = replace(found, guard=None)
         interrupted = found.piece.solution.stop is Stop.INTERRUPTED
         return replace(found, is_last=interrupted or found.time in drive.jerks)
-
-    def _stands(self, found: PieceEnd) -> bool:
-        """Whether the guard at a change of the forcing is up to what was before.
-
-        Whether a body slips or lifts off there is up to the forces that hold from there on.
-        """
-        guard, jerks = found.guard, self._hybrid.drive.jerks
-        if isinstance(guard, SideChange):
-            return True
-        kind = guard.kind if guard is not None else ""
-        return kind == "near-flat" or (kind == "sticks" and found.time not in jerks)
 
     @abstractmethod
     def _slip_onset(

@@ -6,7 +6,7 @@ possible if no contact has to pull, and static friction stays within its limit Î
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import permutations, product
 from typing import Any
@@ -52,7 +52,12 @@ def select_mode(hybrid: HybridSystem, shared: State, known: ContactStatus) -> Mo
     beyond = hybrid.touching.beyond(shared) if known.beyond is None else known.beyond
     points = hybrid.touching.at(shared, beyond)
     failures = list[str]()
-    for phases in _candidates(hybrid, points, replace(known, beyond=beyond)):
+    contacts = enumerate(zip(hybrid.automaton.contacts, points, strict=True))
+    tried = [
+        list(_phases(hybrid, contact, i, point, replace(known, beyond=beyond)))
+        for i, (contact, point) in contacts
+    ]
+    for phases in product(*tried):
         still = [_is_still(hybrid, i, point, known) for i, point in enumerate(points)]
         starting = frozenset(i for i, phase in enumerate(phases) if phase.slides and still[i])
         entry = entered(hybrid, shared, phases, points, starting)
@@ -70,45 +75,24 @@ def select_mode(hybrid: HybridSystem, shared: State, known: ContactStatus) -> Mo
     )
 
 
-def _candidates(
-    hybrid: HybridSystem, points: Sequence[ContactKinematics], known: ContactStatus
-) -> Iterator[tuple[Phase, ...]]:
-    """Phases of all contacts in the order in which they are tried: sticking ones first."""
-    options = [
-        list(_options(hybrid, contact, i, point, known))
-        for i, (contact, point) in enumerate(zip(hybrid.automaton.contacts, points, strict=True))
-    ]
-    yield from product(*options)
-
-
-def _options(
+def _phases(
     hybrid: HybridSystem,
     contact: Contact,
     i: int,
     point: ContactKinematics,
     known: ContactStatus,
 ) -> Iterator[Phase]:
+    """The phases of a contact, in the order in which they are tried."""
+    closed = [FRICTIONLESS]
+    if isinstance(contact, Rolling):
+        closed = [ROLLING]
+    elif isinstance(contact, Coulomb):
+        sticks = _is_still(hybrid, i, point, known) and i not in known.slipping
+        closed = [ROLLING, SLIDING] if sticks else [SLIDING]
     if i not in known.apart:
-        for phase in _touching(hybrid, contact, i, point, known):
+        for phase in closed:
             yield phase.beyond() if i in (known.beyond or ()) else phase
     yield FLIGHT
-
-
-def _touching(
-    hybrid: HybridSystem,
-    contact: Contact,
-    i: int,
-    point: ContactKinematics,
-    known: ContactStatus,
-) -> Iterator[Phase]:
-    if isinstance(contact, Coulomb):
-        if _is_still(hybrid, i, point, known) and i not in known.slipping:
-            yield ROLLING
-        yield SLIDING
-    elif isinstance(contact, Rolling):
-        yield ROLLING
-    else:
-        yield FRICTIONLESS
 
 
 def _is_still(hybrid: HybridSystem, i: int, point: ContactKinematics, known: ContactStatus) -> bool:

@@ -2,7 +2,8 @@
 
 With the slip velocity s = ρ (cos ψ, sin ψ) the equations are ρ̇ = ṡ·ŝ and ρ ψ̇ = ṡ·ŝ', regular at
 ρ = 0 if ψ starts where ṡ·ŝ' vanishes, but infinitely stiff there: they are solved by collocation
-at Radau's points, which include the end of a step and not its beginning.
+at Radau's points, which include the end of a step and not its beginning (Radau IIA, Hairer and
+Wanner, Solving Ordinary Differential Equations II).
 """
 
 from __future__ import annotations
@@ -31,12 +32,12 @@ from polhode.simulate.integrate._crossing import bisected
 from polhode.simulate.integrate._driver import SegmentSolution
 from polhode.simulate.integrate._stop_criteria import Stop
 
-_STAGES = 9
-_RESOLVED = 1e-14  # last coefficients of a step, relative to the largest
-_ROUNDED = 1e-11  # the same, of a series that a shorter step resolves no better: rounding
-_TURN = 10.0  # rad: what the rounding of an angle is relative to, as that of a small difference
-_NOISE = 1e-15  # of a slip speed, relative to its largest within a step
-_ENDED = 1e-12  # the same, beyond which no step is resolved
+_STAGES = 9  # of the method, which is then of order 17
+_RESOLVED = 1e-14  # last Legendre coefficients of a step, relative to the largest
+_ROUNDED = 1e-11  # the same, if a shorter step resolves the series no better: it is rounding
+_TURN = 10.0  # rad: scale of the rounding of angles, which come from differences
+_NOISE = 1e-15  # of a slip speed, relative to its largest within a step: rounding
+_ENDED = 1e-12  # the same: a slip that no shorter step can resolve has ended
 _PARTS = np.concatenate([np.geomspace(1e-6, 0.02, 30), np.linspace(0.03, 1.0, 98)])
 _WELL_INSIDE, _CLOSER = (
     0.2,
@@ -47,7 +48,10 @@ _SHORTEST = 1e-13
 
 
 def _radau() -> tuple[Array, Array]:
-    """Points of [0, 1] with 0 in front, and the matrix that differentiates through them."""
+    """Radau's points of [0, 1] with 0 in front, and the differentiation matrix on them.
+
+    By barycentric weights (Berrut and Trefethen, SIAM Review 46, 2004).
+    """
     series = np.zeros(_STAGES + 1)
     series[_STAGES], series[_STAGES - 1] = 1.0, -1.0
     points = np.concatenate([[0.0], (np.sort(legendre.legroots(series).real) + 1) / 2])
@@ -121,7 +125,7 @@ def slip_onset(
 
 @once
 def _pools() -> ThreadpoolController:
-    """The threads of linear algebra; looking for them takes a while."""
+    """The thread pools of linear algebra; finding them takes a while."""
     return ThreadpoolController()
 
 
@@ -171,7 +175,7 @@ def _followed(
 
 
 def _ended(series: list[Array], state: Array, sizes: Indices) -> int | None:
-    """Which ρ is as good as none where no step is short enough to go on, if one is."""
+    """Which ρ has vanished, where no step is short enough to go on; None if none has."""
     largest = np.max([np.max(np.abs(step[:, sizes]), axis=0) for step in series], axis=0)
     left = np.abs(state[sizes]) / largest
     return int(np.argmin(left)) if np.min(left) <= _ENDED else None
@@ -187,18 +191,18 @@ class _Step:
     sizes: Indices
 
     def is_resolved(self, before: float) -> bool:
-        """Whether the series ends, or ends no sooner than over a step four times as long did."""
+        """Whether the series has converged, or as far as it did over a step four times as long."""
         return self.tail <= _RESOLVED or before / 4 <= self.tail <= _ROUNDED
 
     @property
     def vanishing(self) -> tuple[float, int | None]:
-        """The part of the step after which the first ρ vanishes, and which, if any does."""
+        """The share of the step after which the first ρ vanishes, and which, if any does."""
         found = [(self._vanishes(row), k) for k, row in enumerate(self.sizes.tolist())]
         parts = [(part, k) for part, k in found if part is not None]
         return min(parts, default=(np.inf, None))
 
     def _vanishes(self, row: int) -> float | None:
-        """The part of the step after which a ρ vanishes (not where it begins to grow)."""
+        """The share of the step after which a ρ vanishes (not where it begins to grow)."""
         series = self.series[:, row]
 
         def size(part: float) -> float:
@@ -252,7 +256,10 @@ def _step(
 def _system(
     rates: Rates, times: Array, length: float, start: Array, stages: Array, angles: Indices
 ) -> tuple[Array, Array]:
-    """Residual of the collocation, and its derivative by all stages (by complex steps)."""
+    """Residual of the collocation, and its derivative by all stages.
+
+    By complex steps, which lose no digits (Squire and Trapp, SIAM Review 40, 1998).
+    """
     states, count = stages.shape
     whole = np.hstack([start[:, None], stages])
     slopes = whole @ _SLOPES[1:].T / length
@@ -280,7 +287,7 @@ def _system(
 
 @dataclass(frozen=True)
 class PolarShape:
-    """What has to be computed of slips that begin, and what of.
+    """The rates to be computed while slips begin, and their arguments.
 
     Attributes:
         starting: the contacts, by their places in the declaration.
@@ -298,7 +305,7 @@ class PolarShape:
 
 
 def polar_shape(mode: CompiledMode, entry: ModeState, contacts: Sequence[Contact]) -> PolarShape:
-    """The same for a mode in which some contacts begin to slip.
+    """The rates for a mode in which some contacts begin to slip.
 
     Args:
         contacts: of the automaton.
@@ -321,8 +328,8 @@ def polar_shape(mode: CompiledMode, entry: ModeState, contacts: Sequence[Contact
 
 # -- the first piece of a motion on which contacts begin to slip -----------------------------------
 
-_BARELY = 1e-150  # m/s, of a slip that has a direction but no speed yet: its square is a number
-_STIFF = 30.0  # ratio of the times of slipping and of turning the slip that explicit steps bear
+_BARELY = 1e-150  # m/s, for a slip with a direction but no speed yet: its square does not underflow
+_STIFF = 30.0  # stiffness, time of slipping over time of turning, that explicit steps can bear
 
 
 def slip_onset_piece(
@@ -332,7 +339,7 @@ def slip_onset_piece(
     span: tuple[float, float],
     contacts: Sequence[Contact],
 ) -> TrajectoryPiece:
-    """As far as the slip velocities have to be followed as sizes and directions.
+    """The piece on which slip velocities have to be integrated as sizes and directions.
 
     Args:
         mode: sliding.
@@ -390,7 +397,7 @@ def slip_onset_piece(
 
 
 def _pulls(mode: CompiledMode, entry: ModeState, i: int) -> tuple[float, float]:
-    """How strongly friction pulls at a slip velocity, and that or what else does so, m/s²."""
+    """Accelerations of a slip by its friction, and by that or by all else if more, m/s²."""
     along, against = rates_along(mode, entry, i, i, np.array([0.0, np.pi])).T
     grip, rest = (float(np.hypot(*change)) / 2 for change in (along - against, along + against))
     return grip, max(grip, rest)

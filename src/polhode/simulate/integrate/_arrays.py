@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -47,7 +47,8 @@ def evaluated(coefficients: Array, which: NDArray[np.intp], places: Array) -> Ar
         places: what is raised to the powers.
     """
     found = np.empty((coefficients.shape[1], len(places)))
-    for here in _portions(len(places)):
+    for begin in range(0, len(places), _AT_ONCE):
+        here = slice(begin, begin + _AT_ONCE)
         asked = which[here]
         changes = np.flatnonzero(np.diff(asked)) + 1
         # the largest size of groups of neighbours, all alike, that read one polynomial each
@@ -76,8 +77,3 @@ def powers_of(values: Array, count: int) -> Array:
 def pieces_at(knots: Array, times: Array) -> NDArray[np.intp]:
     """The piece that every time is in; beyond the ends, the outermost."""
     return np.searchsorted(knots[1:-1], times, "right")
-
-
-def _portions(count: int) -> Iterator[slice]:
-    for begin in range(0, count, _AT_ONCE):
-        yield slice(begin, begin + _AT_ONCE)

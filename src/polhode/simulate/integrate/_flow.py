@@ -195,7 +195,11 @@ def flow_of(dynamics: Dynamics, *, reduced: bool) -> Flow:
     given = (*outer, *dynamics.parameters, CLOCK)
     program = dynamics.program([rates[s] for s in core], (*core, *given))
     periods = tuple(period_in(program, i) for i in range(len(core)))
-    turned = {s: _less_turns(s) for s, period in zip(core, periods, strict=True) if period}
+    turned = {
+        angle: Symbol(f"{angle.name} less whole turns", SymbolKind.COORDINATE)
+        for angle, period in zip(core, periods, strict=True)
+        if period
+    }
     arguments = (*core, *turned.values(), *given)
     stages = []
     for layer in layers:
@@ -204,10 +208,6 @@ def flow_of(dynamics: Dynamics, *, reduced: bool) -> Flow:
         known = dynamics.program([part.known for part in parts], arguments, turned)
         stages.append(Stage(layer, rests, known if any(p.known for p in parts) else None))
     return Flow(Stage(core, program), periods, turned, tuple(stages), dynamics.parameters)
-
-
-def _less_turns(angle: Symbol) -> Symbol:
-    return Symbol(f"{angle.name} less whole turns", SymbolKind.COORDINATE)
 
 
 def _influences(dynamics: Dynamics, rates: dict[Symbol, Expr]) -> dict[Symbol, set[Symbol]]:

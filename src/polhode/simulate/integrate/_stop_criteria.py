@@ -124,19 +124,19 @@ class _Vanishing:
         """Whether one vanishes, or reverses, on the way to a state."""
         before, self._vectors = self._vectors, self._criteria.seen(state)
         shrank, self._shrinks = self._shrinks, list(map(_is_shorter, self._vectors, before))
-        return any(map(self._vanishes, before, self._vectors, shrank))
+        least = self._criteria.least
+        for old, new, was_shrinking in zip(before, self._vectors, shrank, strict=True):
+            size, reverses = hypot(*new), sum(map(mul, old, new)) <= 0.0
+            # Where it reverses within a few steps, none of them need turn it by more than 90°.
+            grows = was_shrinking and size <= _ALMOST * least and not _is_shorter(new, old)
+            if reverses or grows or size <= least:
+                return True
+        return False
 
     @property
     def is_near(self) -> bool:
         """Whether one is as small as vectors are where they reverse."""
         return any(hypot(*vector) <= self._criteria.passing for vector in self._vectors)
-
-    def _vanishes(self, before: list[float], now: list[float], shrank: bool) -> bool:
-        turned = sum(map(mul, before, now)) <= 0.0
-        size = hypot(*now)
-        # Where it reverses within a few steps, none of them need turn it by more than 90°.
-        grows = shrank and size <= _ALMOST * self._criteria.least and not _is_shorter(now, before)
-        return turned or grows or size <= self._criteria.least
 
 
 class StepWatch:

@@ -52,7 +52,7 @@ def as_declared(dynamics: Dynamics, given: Given, steps: SeriesStepper) -> Hybri
     careful, begin = steps.numbers.careful, given.context.mpf(0)
     constants = careful.array([given.parameters[s] for s in dynamics.parameters])
     state: StateValues = given.state(dynamics.states) | {WORK: begin}
-    pieces = _DeclaredPieces(dynamics, constants, steps)
+    pieces = _PreciseDeclaredPieces(dynamics, constants, steps)
     pieces.put_on(sides_at(dynamics, pieces.here(state, begin)))
     run = integrate_mode(pieces, state, begin, steps.end, SideChangeCount())
     return HybridSolution(run.segments, run.switches, AS_DECLARED)
@@ -66,7 +66,7 @@ class _Equations:
     parameters: Any
 
 
-class _DeclaredPieces:
+class _PreciseDeclaredPieces:
     """Pieces of such a motion."""
 
     name = AS_DECLARED
