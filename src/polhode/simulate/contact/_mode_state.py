@@ -78,8 +78,8 @@ def entered(
     coordinates, speeds = mode.entered(shared)
     after = _after(hybrid, shared, mode, coordinates, speeds, points, phases)
     sliding = [i for i, phase in enumerate(phases) if phase.slides]
-    none = hybrid.numbers.array(np.zeros(2))
-    slips = {i: none if i in starting else points[i].velocity[:2] for i in sliding}
+    no_slip = hybrid.numbers.array(np.zeros(2))
+    slips = {i: no_slip if i in starting else points[i].velocity[:2] for i in sliding}
     onset = dict.fromkeys(sorted(starting), 0.0)
     there = zip(mode.mode.touches, mode.mode.phases, points, strict=True)
     rooms = {
@@ -107,6 +107,7 @@ def _after(
     touching = [m for m, p in zip(points, phases, strict=True) if not p.flies]
     if not touching or not np.any(change):
         return lifted
+    # The work of an impulse is its product with the mean of the velocities before and after.
     jacobian = np.vstack([m.jacobian for m in touching])
     impulse = hybrid.numbers.least(jacobian.T, hybrid.apart.mass(shared) @ change)
     middle = [m.velocity + m.support + m.jacobian @ change / 2 for m in touching]
