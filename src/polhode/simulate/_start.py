@@ -71,7 +71,14 @@ class _Loop:
             tried.append(self._newton(guess))
             if self._misfit(tried[-1]) <= _CLOSED:
                 return tried[-1]
-        raise self._stays_open(min(tried, key=self._misfit))
+        residual = np.abs(self._residual(min(tried, key=self._misfit)))
+        worst = self._closures[int(np.argmax(residual))]
+        names = ", ".join(f"{q.published} = {v:g}" for q, v in self._given.items())
+        raise ConstraintError(
+            f"no configuration with {names or 'these lengths'} closes the loop {worst} = 0",
+            expected=f"a residual of zero, not {np.max(residual):.3g} m at best",
+            advice="leave out the coordinates that the loop determines, or change the lengths",
+        )
 
     def rank(self, place: Array) -> int:
         """How many coordinates the loops determine there."""
@@ -103,16 +110,6 @@ class _Loop:
         slopes = np.sqrt(primes[: len(self._free)]) % 1.0
         for k in range(_GUESSES if self._free else 1):
             yield 2 * pi * ((k * slopes + 0.5) % 1.0 - 0.5)
-
-    def _stays_open(self, place: Array) -> ConstraintError:
-        residual = np.abs(self._residual(place))
-        worst = self._closures[int(np.argmax(residual))]
-        names = ", ".join(f"{q.published} = {v:g}" for q, v in self._given.items())
-        return ConstraintError(
-            f"no configuration with {names or 'these lengths'} closes the loop {worst} = 0",
-            expected=f"a residual of zero, not {np.max(residual):.3g} m at best",
-            advice="leave out the coordinates that the loop determines, or change the lengths",
-        )
 
 
 def _of_free(

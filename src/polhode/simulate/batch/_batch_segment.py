@@ -46,18 +46,14 @@ class Ending:
 
 def endings_of(mode: CompiledMode, near_flat: float, until: Collection[str]) -> tuple[Ending, ...]:
     """The conditions that end a mode, in the order of its guards."""
-    return tuple(_endings(mode, near_flat, until))
-
-
-def _endings(mode: CompiledMode, near_flat: float, until: Collection[str]) -> Iterator[Ending]:
-    name = mode.mode.name
+    found, name = list[Ending](), mode.mode.name
     for guard in mode.mode.guards:
         if guard.kind == "near-flat":
-            yield Ending(guard.positive, "goes flat", guard.kind, guard, near_flat)
+            found.append(Ending(guard.positive, "goes flat", guard.kind, guard, near_flat))
             continue
         kind = guard.kind if guard.kind in until else ""
         if guard.kind != "sticks":
-            yield Ending(guard.positive, kind, name, guard)
+            found.append(Ending(guard.positive, kind, name, guard))
             continue
         contacts = (touch.contact for touch in mode.mode.touches)
         slips = next(
@@ -66,8 +62,8 @@ def _endings(mode: CompiledMode, near_flat: float, until: Collection[str]) -> It
         if set(slips) <= set(mode.flow.core.symbols):
             first, second = (Expr.generator(s) for s in slips)
             speed = sqrt(first * first + second * second)
-            yield Ending(speed, kind, name, guard, slips=slips)
-    yield from vanishings_of(mode.dynamics, name)
+            found.append(Ending(speed, kind, name, guard, slips=slips))
+    return (*found, *vanishings_of(mode.dynamics, name))
 
 
 def vanishings_of(dynamics: Dynamics, mode: str) -> Iterator[Ending]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from polhode.algebra import Expr, linear_parts
-from polhode.derive import Automaton, Mode, Touch
+from polhode.derive import Automaton, Mode
 from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 
@@ -66,6 +66,13 @@ class Touching:
     def _seen(self, mode: Mode) -> Function:
         speeds = mode.equations.speeds
         motion = mode.equations.kinetics
+        supports = list[Expr]()  # velocities of the supports at the contacts
+        for touch in mode.touches:
+            contact, surface = touch.contact, touch.contact.on
+            place = motion.places[contact.body] + contact.arm
+            velocity = motion.resolve(surface.velocity(place).express(surface.axes))
+            labels = (*surface.tangents, surface.normal)
+            supports += [velocity.dot(surface.axes[label]) for label in labels]
         velocities = [v for t in mode.touches for v in (*t.slip, t.closing)]
         parts = [linear_parts(motion.on_speeds(v), speeds) for v in velocities]
         return self._compiled(
@@ -73,7 +80,7 @@ class Touching:
                 *(t.gap for t in mode.touches),
                 *(t.reserve for t in mode.touches),
                 *(t.reserve.chain(motion.rate) for t in mode.touches),
-                *(v for t in mode.touches for v in _support_velocity(mode, t)),
+                *supports,
                 *(rest for _, rest in parts),
                 *(c for row, _ in parts for c in row),
             ]
@@ -161,15 +168,6 @@ class ContactKinematics:
     def leaving(self, *, is_beyond: bool) -> Any:
         """How fast it moves away from the edge, m/s."""
         return -self.drift if is_beyond else self.drift
-
-
-def _support_velocity(mode: Mode, touch: Touch) -> tuple[Expr, ...]:
-    motion = mode.equations.kinetics
-    contact = touch.contact
-    place = motion.places[contact.body] + contact.arm
-    velocity = motion.resolve(contact.on.velocity(place).express(contact.on.axes))
-    labels = (*contact.on.tangents, contact.on.normal)
-    return tuple(velocity.dot(contact.on.axes[label]) for label in labels)
 
 
 # -- the first instants of a contact that has opened -----------------------------------------------

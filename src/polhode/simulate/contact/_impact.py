@@ -316,8 +316,14 @@ class _ImpactCourse:
 
     def _slide(self) -> None:
         """Slip, whose direction friction may turn, up to the next change."""
-        if not self._turns():
-            self._slide_straight()
+        slip = self.velocity[:2]
+        direction = slip / self._numbers.size(slip)
+        force = np.array([*(-self.roughness.kinetic * direction), 1.0])  # per normal force
+        rate = self.inverse_mass @ force
+        across = rate[1] * direction[0] - rate[0] * direction[1]
+        straight = self._numbers.finer(_STRAIGHT) * np.max(np.abs(self.inverse_mass))
+        if not abs(across) > straight:
+            self._slide_straight(direction, force)
             return
         unit, bounce = self._scale, self.roughness.restitution**2
         budget = None if self._compressing else bounce * self._stored / unit**2
@@ -334,9 +340,8 @@ class _ImpactCourse:
         else:
             self.velocity[:2] = 0.0
 
-    def _slide_straight(self) -> None:
-        """Where friction cannot turn the slip, everything is linear in the impulse."""
-        direction, force = self._resisted()
+    def _slide_straight(self, direction: Array, force: Array) -> None:
+        """Where friction does not turn the slip, everything is linear in the impulse."""
         rate = self.inverse_mass @ force
         slowing = -(rate[:2] @ direction)
         size = self._numbers.size(self.velocity[:2])
@@ -355,21 +360,6 @@ class _ImpactCourse:
             self.velocity[:2] = 0.0
         else:
             self._turn()
-
-    def _turns(self) -> bool:
-        """Whether friction turns the slip that it opposes."""
-        direction, force = self._resisted()
-        rate = self.inverse_mass @ force
-        across = rate[1] * direction[0] - rate[0] * direction[1]
-        return bool(
-            abs(across) > self._numbers.finer(_STRAIGHT) * np.max(np.abs(self.inverse_mass))
-        )
-
-    def _resisted(self) -> tuple[Array, Array]:
-        """Direction of the slip, and the force per normal force that opposes it."""
-        slip = self.velocity[:2]
-        direction = slip / self._numbers.size(slip)
-        return direction, np.array([*(-self.roughness.kinetic * direction), 1.0])
 
     def _to_turn(self, rate: Any) -> Any:
         """Impulse up to the end of compression or restitution, if the slip lasts so long.

@@ -6,7 +6,7 @@ What all types of numbers share is in `ModePieces`; `DoublePieces` integrates in
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -137,24 +137,22 @@ class ModePieces(ABC):
 
         A short hop within a long step would be lost in the rounding of the long one.
         """
-        hops = [fall_of(*hop) for hop in self._hops() if hop[2] < 0]
-        return 1.5 * min((hop for hop in hops if hop > 0), default=np.inf)
-
-    def _hops(self) -> Iterator[tuple[Any, Any, Any]]:
-        """Heights and distances to an edge with their first and second rates."""
         entry, mode = self._entry, self._mode
         if not (entry.gaps or entry.rooms):
-            return
+            return np.inf
+        rising = list[tuple[Any, Any, Any]]()  # heights or distances, with first and second rates
         state, now = entry.state, entry.shared.time
         points = self._hybrid.touching.at(entry.shared, beyond(entry.phases))
         if entry.gaps:
             falls = mode.closing_rates(state, now)
-            yield from ((gap, points[i].velocity[2], falls[i]) for i, gap in entry.gaps.items())
+            rising += [(gap, points[i].velocity[2], falls[i]) for i, gap in entry.gaps.items()]
         if entry.rooms:
             bends = mode.room_rates(state, now, directions_of(entry, self._hybrid.numbers))
             for i, room in entry.rooms.items():
                 is_beyond = entry.phases[i].is_beyond
-                yield room, points[i].leaving(is_beyond=is_beyond), bends[i]
+                rising.append((room, points[i].leaving(is_beyond=is_beyond), bends[i]))
+        hops = [fall_of(*rise) for rise in rising if rise[2] < 0]
+        return 1.5 * min((hop for hop in hops if hop > 0), default=np.inf)
 
     # -- what both ends and goes on from a piece --------------------------------------------------
 

@@ -305,21 +305,19 @@ class _HeyokaNumbers:
     """Makes numbers of one precision as heyoka knows them."""
 
     def __init__(self, numbers: NumberType) -> None:
+        heyoka = library()
         self._numbers = numbers
-        self._make, self.kind = _kind_of(numbers)
+        self._make: Callable[[str], Any]
+        self.kind: dict[str, Any]
+        if isinstance(numbers, LongDoubles):
+            self._make, self.kind = np.longdouble, {"fp_type": np.longdouble}
+        elif numbers.bits == _QUADRUPLE_BITS and hasattr(heyoka, "real128"):
+            self._make, self.kind = heyoka.real128, {"fp_type": heyoka.real128}
+        else:
+            self._make = lambda text: heyoka.real(text, numbers.bits)
+            self.kind = {"fp_type": heyoka.real, "prec": numbers.bits}
 
     def __call__(self, value: Fraction | Any) -> Any:
         exact = self._numbers.exact
         digits = int(exact.dps) + _SPARE_DIGITS
         return self._make(exact.nstr(number(exact, value), digits, strip_zeros=False))
-
-
-def _kind_of(numbers: NumberType) -> tuple[Callable[[str], Any], dict[str, Any]]:
-    """How a number is made from text, and the settings that tell heyoka its type."""
-    heyoka = library()
-    if isinstance(numbers, LongDoubles):
-        return np.longdouble, {"fp_type": np.longdouble}
-    if numbers.bits == _QUADRUPLE_BITS and hasattr(heyoka, "real128"):
-        return heyoka.real128, {"fp_type": heyoka.real128}
-    settings = {"fp_type": heyoka.real, "prec": numbers.bits}
-    return (lambda text: heyoka.real(text, numbers.bits)), settings
