@@ -113,18 +113,18 @@ class HybridIntegrator:
         # without friction it would close again; nor can it hold, since it would have to pull
         # (Painlevé's paradox). Limited friction may bring a ball back to an edge from either side.
         names = " and ".join(sorted(modes) if len(modes) > 1 else [*modes, "contact"])
-        if any(isinstance(c, Rolling) for c in self._hybrid.automaton.contacts):
-            return NumericError(
-                f"at t = {float(time):.9g} s the normal force vanishes, but pure rolling forbids "
-                f"lift-off: {names} exclude each other",
-                expected="friction that gives way before the contact has to open",
-                advice="use Coulomb friction (a coefficient mu), or end the motion before that "
-                "time",
-            )
+        unlimited = any(isinstance(c, Rolling) for c in self._hybrid.automaton.contacts)
+        lifts_off = any(change.kind == "lifts off" for change in self._changes[-2:])
+        cause = "no contact mode lasts"
+        if unlimited and lifts_off:
+            cause = "the normal force vanishes, but pure rolling forbids lift-off"
+        use_friction = "use Coulomb friction (a coefficient mu), or " if unlimited else ""
         return NumericError(
-            f"at t = {float(time):.9g} s no contact mode lasts: {names} exclude each other",
-            expected="a contact mode that lasts for some time",
-            advice="end the motion before that time",
+            f"at t = {float(time):.9g} s {cause}: {names} exclude each other",
+            expected="friction that gives way before the contact has to open"
+            if unlimited
+            else "a contact mode that lasts for some time",
+            advice=f"{use_friction}end the motion before that time",
         )
 
     def _last(self, run: ModeRun) -> ModeSwitch | None:
