@@ -79,7 +79,7 @@ def test_a_balance_that_is_slightly_off_is_a_warning(precision):
     assert run.doubt.startswith("the energy balance is off by")
 
 
-def test_a_force_without_its_work_is_told():
+def test_a_force_without_its_work_is_reported():
     forgotten = replace(oscillator(), power=ZERO)
     with pytest.raises(NumericError, match="the energy balance is off"):
         ph.simulate(forgotten, {"m": 1, "k": 1}, {}, 10, forcing={"X": ph.sin(ph.time)})
