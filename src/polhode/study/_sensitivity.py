@@ -112,7 +112,7 @@ class Varied:
         run = self._experiment.run({**parameters}, {**start})
         refuse_doubt(run)
         _refuse_end(run, float(np.max(times)))
-        dynamics = run.segments[0].dynamics.without_carried
+        dynamics = run.segments[0].dynamics.without_auxiliary
         known = {s.published: s for s in (*dynamics.parameters, *dynamics.states)}
         by = [look_up(name, known, "parameter or state at the start") for name in self._by]
         if _switches(run, float(np.max(times))):
@@ -126,7 +126,7 @@ class Varied:
 
     def _differenced(self, run: Trajectory, times: Array) -> Along:
         """Motions to which the same happens in the same order are known to rounding throughout."""
-        dynamics = run.segments[0].dynamics.without_carried
+        dynamics = run.segments[0].dynamics.without_auxiliary
         start: dict[Any, Any] = {s.published: x for s, x in _begin(run, dynamics).items()}
         middle = self._read(run, times)
         found = [self._slope(run, middle, start, name, times) for name in self._by]
@@ -178,7 +178,7 @@ def _begin(run: Trajectory, dynamics: Dynamics) -> dict[Symbol, float]:
 
 def _switches(run: Trajectory, end: float) -> bool:
     """Whether a contact slides, or changes its mode, or a support jerks, up to a time."""
-    slides = any(symbol.published.startswith("slip_") for symbol in run.dynamics.carried)
+    slides = any(symbol.published.startswith("slip_") for symbol in run.dynamics.auxiliary)
     return slides or any(0 < event.time <= end for event in _felt(run))
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from polhode.base import NumericError
-from polhode.simulate.integrate import _step_count
-from polhode.simulate.integrate._step_count import StepCount
+from polhode.simulate.integrate import _stop_criteria
+from polhode.simulate.integrate._stop_criteria import StepCount
 
 
 def counted(steps: int, size: float) -> None:
@@ -18,14 +18,14 @@ def counted(steps: int, size: float) -> None:
 
 @pytest.mark.parametrize(("size", "most"), [(1, 1200), (4, 300), (12, 100)])
 def test_the_more_a_step_keeps_the_fewer_are_kept(monkeypatch, size, most):
-    monkeypatch.setattr(_step_count, "MOST_KEPT", 1200)
+    monkeypatch.setattr(_stop_criteria, "MOST_KEPT", 1200)
     counted(most, size)
     with pytest.raises(NumericError, match=f"^{most} steps are not enough to go beyond t = "):
         counted(most + 1, size)
 
 
 def test_what_stretches_keep_is_added_up(monkeypatch):
-    monkeypatch.setattr(_step_count, "MOST_KEPT", 10)
+    monkeypatch.setattr(_stop_criteria, "MOST_KEPT", 10)
     count = StepCount()
     for begin in (0.0, 1.0):
         count.count((begin, 9.0), begin + 0.5, 4.0, hurries=True)

@@ -8,13 +8,13 @@ from polhode.catalogue import CATALOGUE
 NUMBERS = {"m": 1, "a": "0.1 m", "g": 9.81}
 
 
-def test_a_disk_that_falls_flat_on_unlimited_friction_is_refused_by_name() -> None:
+def test_a_disk_that_falls_flat_on_unlimited_friction_is_refused() -> None:
     disk = CATALOGUE["rolling-disk"].build()
     with pytest.raises(ph.NumericError, match="flight and rolling exclude each other"):
         ph.simulate(disk, NUMBERS, {"theta": "80 deg"}, "0.3 s")
 
 
-def test_a_disk_that_neither_rolls_nor_leaves_is_refused_by_name() -> None:
+def test_a_disk_that_neither_rolls_nor_leaves_is_refused() -> None:
     start = {"theta": 0.46459683733, "phi_dot": -7.0217058006, "omega_3": -39.007926335}
     disk = CATALOGUE["rolling-disk"].build()
     with pytest.raises(ph.NumericError, match="flight and contact exclude each other"):

@@ -291,7 +291,7 @@ def test_members_of_an_ensemble_bounce_as_they_do_alone():
     assert found["x"].tolist() == alone
 
 
-def test_a_member_whose_spring_passes_through_its_end_is_told():
+def test_a_member_whose_spring_passes_through_its_end_is_reported():
     body = ph.point_mass("p", mass=m, axes=lab)
     spring = ph.Spring(body.point(), lab.zero, stiffness=k, length=c)
     system = ph.System(spring, ph.Pivot(body, only="z"))

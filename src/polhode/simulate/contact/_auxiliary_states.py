@@ -1,4 +1,8 @@
-"""What is integrated in a contact mode besides coordinates and speeds, and what it means."""
+"""What is integrated in a contact mode besides coordinates and speeds: work, slips, heights, edges.
+
+These follow from the state, but near zero they would drown in its rounding; integrated by
+themselves they keep their digits, and events that they tell of are found exactly.
+"""
 
 from __future__ import annotations
 
@@ -16,14 +20,21 @@ def dynamics_of(
     prescribed: Mapping[Symbol, Expr],
     constants: Mapping[Symbol, float],
 ) -> Dynamics:
-    """The equations of a contact mode with what is carried along, and all shared states."""
-    carried, meanings = _carried(mode)
-    known = {**mode.lifted, **_silent(modes, mode), **_slips(mode, carried)}
-    return Dynamics(mode.equations, prescribed, tuple(constants), carried, meanings, known)
+    """The equations of a contact mode with its auxiliary states, and all shared states."""
+    auxiliary, meanings = _auxiliary(mode)
+    known = dict(mode.lifted)
+    # Reactions of open contacts are zero.
+    reactions, own = modes.together.equations.components, mode.equations.components
+    known |= {Symbol(name): ZERO for name in reactions if name not in own}
+    # Slip velocities of closed contacts follow from the state unless they are integrated.
+    for touch, phase in zip(mode.touches, mode.phases, strict=True):
+        slips = () if phase.flies else zip(slip_symbols(touch.contact), touch.slip, strict=True)
+        known |= {symbol: slip for symbol, slip in slips if symbol not in auxiliary}
+    return Dynamics(mode.equations, prescribed, tuple(constants), auxiliary, meanings, known)
 
 
 def slip_symbols(contact: Contact) -> tuple[Symbol, Symbol]:
-    """The slip velocity of a sliding contact, carried along."""
+    """The slip velocity of a sliding contact."""
     first, second = (
         Symbol(f"slip_{label}_{contact.spelled}", SymbolKind.SPEED) for label in contact.on.tangents
     )
@@ -31,46 +42,32 @@ def slip_symbols(contact: Contact) -> tuple[Symbol, Symbol]:
 
 
 def gap_symbol(contact: Contact) -> Symbol:
-    """The height of a body above its support, carried along."""
+    """The height of a body above its support."""
     return Symbol(f"gap_{contact.spelled}", SymbolKind.COORDINATE)
 
 
 def room_symbol(contact: Contact) -> Symbol:
-    """The distance to the edge of its support of a body that touches, carried along."""
+    """The distance of a contact to the edge of its support."""
     return Symbol(f"room_{contact.spelled}", SymbolKind.COORDINATE)
 
 
-def _silent(modes: Automaton, mode: Mode) -> dict[Symbol, Expr]:
-    """Reactions of contacts that are open, by name: nothing."""
-    own = mode.equations.components
-    return {Symbol(n): ZERO for n in modes.together.equations.components if n not in own}
-
-
-def _slips(mode: Mode, carried: Mapping[Symbol, Expr]) -> dict[Symbol, Expr]:
-    """Slip velocities of the contacts that are closed, where they follow from the state."""
-    closed = (t for t, phase in zip(mode.touches, mode.phases, strict=True) if not phase.flies)
-    slips = (zip(slip_symbols(t.contact), t.slip, strict=True) for t in closed)
-    return {symbol: slip for pair in slips for symbol, slip in pair if symbol not in carried}
-
-
-def _carried(mode: Mode) -> tuple[dict[Symbol, Expr], dict[Symbol, Expr]]:
-    """Work done, slips, heights and distances to an edge; and what they make of the symbols of a
-    sliding contact."""
-    carried: dict[Symbol, Expr] = {WORK: mode.equations.power}
+def _auxiliary(mode: Mode) -> tuple[dict[Symbol, Expr], dict[Symbol, Expr]]:
+    """Rates of the auxiliary states; and slip speed and direction in terms of these."""
+    auxiliary: dict[Symbol, Expr] = {WORK: mode.equations.power}
     meanings: dict[Symbol, Expr] = {}
     motion = mode.equations.kinetics
     for touch, phase in zip(mode.touches, mode.phases, strict=True):
         contact = touch.contact
         if phase.flies:
-            carried[gap_symbol(contact)] = touch.closing
+            auxiliary[gap_symbol(contact)] = touch.closing
         elif touch.reserve:
-            carried[room_symbol(contact)] = touch.room.chain(motion.rate)
+            auxiliary[room_symbol(contact)] = touch.room.chain(motion.rate)
         if phase.slides and isinstance(contact, Coulomb):
             element = mode.element(contact)
             if not isinstance(element, Sliding):
                 continue
             slips = slip_symbols(contact)
-            carried |= {
+            auxiliary |= {
                 s: slip.chain(motion.rate) for s, slip in zip(slips, touch.slip, strict=True)
             }
             along, across = (Expr.generator(s) for s in slips)
@@ -79,4 +76,4 @@ def _carried(mode: Mode) -> tuple[dict[Symbol, Expr], dict[Symbol, Expr]]:
             meanings[element.direction[0]] = along / speed
             meanings[element.direction[1]] = across / speed
             meanings[element.slowness] = contact.slowness(speed)
-    return carried, meanings
+    return auxiliary, meanings

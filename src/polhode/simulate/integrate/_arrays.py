@@ -1,8 +1,9 @@
-"""Polynomials in powers, one after the other, read at many places at once."""
+"""Arrays: values in rows, times in order, and piecewise polynomials at many places."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +11,29 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 _AT_ONCE = 4096  # places: the coefficients of more would fill the memory
+
+
+def rows(values: Sequence[Any], size: int, dtype: Any = float) -> Any:
+    """Values, each an array of a size or one number for all of it, shape (values, size)."""
+    found = np.empty((len(values), size), dtype)
+    for row, value in zip(found, values, strict=True):
+        row[:] = value
+    return found
+
+
+def ascending(times: Sequence[Array]) -> Array:
+    """All of them, in order and each once; `np.unique` would load all of `numpy.ma` for it."""
+    every: Array = np.sort(np.concatenate(times))
+    first: Array = every[np.append([True], every[1:] != every[:-1])]
+    return first
+
+
+def occurring(which: NDArray[np.signedinteger[Any]]) -> NDArray[np.intp]:
+    """Which of the whole numbers from 0 on occur, in order."""
+    return np.flatnonzero(np.bincount(which))
+
+
+# -- piecewise polynomials ---------------------------------------------------------------------
 
 
 def evaluated(coefficients: Array, which: NDArray[np.intp], places: Array) -> Array:
@@ -23,9 +47,12 @@ def evaluated(coefficients: Array, which: NDArray[np.intp], places: Array) -> Ar
         places: what is raised to the powers.
     """
     found = np.empty((coefficients.shape[1], len(places)))
-    for here in _portions(len(places)):
+    for begin in range(0, len(places), _AT_ONCE):
+        here = slice(begin, begin + _AT_ONCE)
         asked = which[here]
-        together = _together(asked)
+        changes = np.flatnonzero(np.diff(asked)) + 1
+        # the largest size of groups of neighbours, all alike, that read one polynomial each
+        together = int(np.gcd.reduce(np.append(changes, len(asked))))
         chosen = coefficients[asked[::together]]
         powers = powers_of(places[here], chosen.shape[2] - 1)
         powers = powers.reshape(len(powers), -1, together).swapaxes(0, 1)
@@ -47,17 +74,6 @@ def powers_of(values: Array, count: int) -> Array:
     return powers
 
 
-def _together(which: NDArray[np.intp]) -> int:
-    """The most neighbours of whom it is true, all along, that they have the same polynomial."""
-    changes = np.flatnonzero(np.diff(which)) + 1
-    return int(np.gcd.reduce(np.append(changes, len(which))))
-
-
 def pieces_at(knots: Array, times: Array) -> NDArray[np.intp]:
-    """Between which knots, by the place of the left one; beyond the ends the outermost."""
+    """The piece that every time is in; beyond the ends, the outermost."""
     return np.searchsorted(knots[1:-1], times, "right")
-
-
-def _portions(count: int) -> Iterator[slice]:
-    for begin in range(0, count, _AT_ONCE):
-        yield slice(begin, begin + _AT_ONCE)

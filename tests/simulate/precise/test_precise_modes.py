@@ -9,7 +9,7 @@ import polhode as ph
 from polhode.algebra import fraction_of
 from polhode.simulate import Trajectory
 from simulate.contact import balls, blocks, disks
-from simulate.precise.test_precision import Impatient
+from simulate.precise.test_precise_declared import Impatient
 
 DIGITS = mpmath.MPContext()
 DIGITS.dps = 120

@@ -1,4 +1,4 @@
-"""One problem told in other ways: turned worlds, other units, the other integrator."""
+"""One problem stated in different ways: rotated worlds, other units, the other integrator."""
 
 import numpy as np
 import pytest
