@@ -78,7 +78,7 @@ def _refuse_samples(forcing: Mapping[Any, Any], numbers: NumberType) -> None:
     for name, given in forcing.items():
         if isinstance(given, Pieces) or (callable(given) and not isinstance(given, Expr)):
             raise DeclarationError(
-                f"the motion {name}, which is known to doubles only, in {numbers.name} precision",
+                f"the motion {name}, known only in double precision, in {numbers.name} precision",
                 expected="an expression of time for every prescribed function",
                 advice="write it with polhode.time instead of samples or a Python function",
             )
