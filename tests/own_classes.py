@@ -43,6 +43,14 @@ class Torus(Surface):
         length = principal_root(steepest.dot(steepest))
         return steepest * (-self.radius / length) - normal.express(axes) * self.tube
 
+    @property
+    def profile(self):
+        angles = [ph.pi * k / 6 for k in range(13)]
+        return ph.Profile(
+            self.axis,
+            tuple((-self.tube * ph.sin(a), self.radius + self.tube * ph.cos(a)) for a in angles),
+        )
+
     def is_symmetric(self, axes, axis):
         return axes.position(self.axis) == axis
 

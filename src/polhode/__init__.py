@@ -98,6 +98,7 @@ if TYPE_CHECKING:
     from polhode.model import Motor as Motor
     from polhode.model import Pivot as Pivot
     from polhode.model import Plane as Plane
+    from polhode.model import Profile as Profile
     from polhode.model import Relative as Relative
     from polhode.model import Rim as Rim
     from polhode.model import Rolling as Rolling
@@ -303,6 +304,7 @@ _PACKAGES = {
         "Motor",
         "Pivot",
         "Plane",
+        "Profile",
         "Relative",
         "Rim",
         "Rolling",

@@ -43,6 +43,7 @@ from polhode.model._loads import Load as Load
 from polhode.model._loads import Push as Push
 from polhode.model._loads import Spring as Spring
 from polhode.model._loads import Torque as Torque
+from polhode.model._loads import TwoPointLink as TwoPointLink
 from polhode.model._loads import Velocities as Velocities
 from polhode.model._shapes import cylinder as cylinder
 from polhode.model._shapes import disk as disk
@@ -62,6 +63,7 @@ from polhode.model._supports import Sheet as Sheet
 from polhode.model._supports import Turntable as Turntable
 from polhode.model._surface import Ellipsoidal as Ellipsoidal
 from polhode.model._surface import Face as Face
+from polhode.model._surface import Profile as Profile
 from polhode.model._surface import Rim as Rim
 from polhode.model._surface import Round as Round
 from polhode.model._surface import Surface as Surface

@@ -13,6 +13,20 @@ from polhode.model._frame import Frame
 _LONG = 10
 
 
+@dataclass(frozen=True)
+class Profile:
+    """What a body of revolution looks like: its outline, turned about one of the body's axes.
+
+    Attributes:
+        axis: label of the axis.
+        outline: height along the axis, from the centre of mass, and radius of points in the order
+            in which they go down on the outside, m; closed if the last point is the first.
+    """
+
+    axis: str
+    outline: tuple[tuple[Expr, Expr], ...]
+
+
 class Surface(Declared, ABC):
     """A convex surface fixed to a body's axes, or symmetric about the axis it spins on."""
 
@@ -24,6 +38,11 @@ class Surface(Declared, ABC):
     @abstractmethod
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
         """From the centre of mass to the point that touches a plane with this unit normal, m."""
+
+    @property
+    def profile(self) -> Profile | None:
+        """What a body with it looks like; None for the uniform body of the same inertia."""
+        return None
 
     @abstractmethod
     def is_symmetric(self, axes: Frame, axis: int) -> bool:

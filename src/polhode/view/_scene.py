@@ -52,7 +52,8 @@ class BodyShape:
 
     Attributes:
         kind: ball (radius), ellipsoid (three half-axes), disk, hoop or wheel (radius, height),
-            rod (length, radius), box (three sides), racquet (length, width, thickness).
+            rod (length, radius), box (three sides), racquet (length, width, thickness), or
+            revolution (height along the axis and radius of every point of the outline).
         size: the lengths named, m.
         axis: unit vector along the body's axes: of symmetry, or the long one.
         across: unit vector along the body's axes, perpendicular to it.
@@ -68,6 +69,8 @@ class BodyShape:
     @property
     def reach(self) -> float:
         """Distance from the centre of mass to the farthest point, m."""
+        if self.kind == "revolution":
+            return max(map(hypot, self.size[::2], self.size[1::2]))
         halves = {"box": 0.87, "rod": 0.5, "racquet": 0.6}
         return max(self.size) * halves.get(self.kind, 1.0) + hypot(*self.centre)
 

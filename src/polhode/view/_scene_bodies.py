@@ -14,7 +14,6 @@ from polhode.model import (
     Action,
     Body,
     BodyPoint,
-    Damper,
     Ellipsoidal,
     Face,
     Hinge,
@@ -23,8 +22,8 @@ from polhode.model import (
     Pivot,
     Rim,
     Round,
-    Spring,
     Surface,
+    TwoPointLink,
     Universal,
     Weld,
 )
@@ -40,8 +39,7 @@ _FLAT = 0.02  # relative side below which a body counts as a lamina
 _LONG = 2.5  # length against width of a lamina that is drawn with a handle
 _SAME = 1e-6  # relative difference of moments of inertia that count as equal
 _POINT = 0.07  # radius of a particle against the reach of the whole
-_COIL = 0.035  # radius of a spring against its greatest length
-_ROD = 0.022  # radius of a damper likewise
+_THICKNESS = {"spring": 0.035, "damper": 0.022}  # radius against the greatest length
 _UNSEEN = 1e-9  # of the largest of its kind: an arrow that is not drawn
 _USUAL = 0.9  # share of the motion for which an arrow is shorter than its usual length
 _UPRIGHT: Triple = (0.0, 0.0, 1.0)
@@ -109,7 +107,11 @@ def _triple(values: Sequence[float] | Array) -> Triple:
 
 @singledispatch
 def _shape(surface: Surface | None, body: Body, run: Trajectory) -> BodyShape:
-    return _equivalent(body, run)
+    profile = surface.profile if surface is not None else None
+    if profile is None:
+        return _equivalent(body, run)
+    lengths = constants(run, [length for point in profile.outline for length in point])
+    return BodyShape("revolution", lengths, *_directions(body.axes.position(profile.axis)))
 
 
 @_shape.register
@@ -244,14 +246,13 @@ def _turning(
 def links_of(run: Trajectory, t: Array) -> tuple[Link, ...]:
     """Springs and dampers with their ends at the given instants."""
     loads = equations_of(run).system.loads
-    return tuple(_link(run, load, t) for load in loads if isinstance(load, Spring | Damper))
+    return tuple(_link(run, load.name, load.link, t) for load in loads if load.link is not None)
 
 
-def _link(run: Trajectory, load: Spring | Damper, t: Array) -> Link:
-    start, end = (_path(run, point, t) for point in (load.start, load.end))
+def _link(run: Trajectory, name: str, link: TwoPointLink, t: Array) -> Link:
+    start, end = (_path(run, point, t) for point in (link.start, link.end))
     longest = float(np.max(np.linalg.norm(start - end, axis=1)))
-    kind, share = ("spring", _COIL) if isinstance(load, Spring) else ("damper", _ROD)
-    return Link(kind, load.name, start, end, share * longest)
+    return Link(link.kind, name, start, end, _THICKNESS[link.kind] * longest)
 
 
 def _path(run: Trajectory, point: BodyPoint | Vector, t: Array) -> Array:

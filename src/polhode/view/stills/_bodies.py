@@ -16,6 +16,7 @@ from polhode.view.stills._mesh import (
     box,
     cap,
     coil,
+    revolution,
     ring,
     rod_between,
     sphere,
@@ -146,6 +147,7 @@ def _racquet(length: float, width: float, thick: float) -> Mesh:
     return together([flat, handle])
 
 
+_COLUMNS = 48  # around a body of revolution
 _SHAPES: dict[str, Callable[..., Mesh]] = {
     "ball": _ball,
     "ellipsoid": _ellipsoid,
@@ -157,6 +159,9 @@ _SHAPES: dict[str, Callable[..., Mesh]] = {
         (wide, thick, long), (BLUE, BLUE, LIGHT, DEEP, ACCENT, METAL)
     ),
     "racquet": _racquet,
+    "revolution": lambda *lengths: revolution(
+        np.reshape(lengths, (-1, 2)), lambda _, column: _sector(column, _COLUMNS)
+    ),
 }
 
 
