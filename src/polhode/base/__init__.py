@@ -18,16 +18,26 @@ from polhode.base._errors import (
 )
 from polhode.base._extras import extra
 from polhode.base._files import read_whole, write_whole
-from polhode.base._forked_worker import ForkedWorker, Tell, can_part, within
 from polhode.base._lookup import look_up
 from polhode.base._plain import Codec, ShapeRecord, digest
+from polhode.base._processes import Start, Tell, preload, shared_flag
 from polhode.base._progress import Progress, SilentProgress, StopRequested, terminal_progress
 from polhode.base._quantity import Quantity, Value, read_quantity, to_si
 from polhode.base._schema import SCHEMA, Provenance, installed_version, provenance
 from polhode.base._unit_text import read_unit
 from polhode.base._units import Unit
+from polhode.base._workers import (
+    COPY_MEMORY,
+    Outcome,
+    Worker,
+    WorkerEndedError,
+    answers,
+    can_copy,
+    within,
+)
 
 __all__ = [
+    "COPY_MEMORY",
     "LENGTH",
     "MASS",
     "PURE",
@@ -39,8 +49,8 @@ __all__ = [
     "Dimension",
     "DriftWarning",
     "Exit",
-    "ForkedWorker",
     "NumericError",
+    "Outcome",
     "ParseError",
     "PolhodeError",
     "Progress",
@@ -49,27 +59,33 @@ __all__ = [
     "ShapeRecord",
     "Shown",
     "SilentProgress",
+    "Start",
     "StopRequested",
     "StoreError",
     "Tell",
     "Unit",
     "UnitError",
     "Value",
+    "Worker",
+    "WorkerEndedError",
+    "answers",
     "bound_growth",
     "bound_memory",
     "bound_time",
     "cache",
-    "can_part",
+    "can_copy",
     "digest",
     "ended_with",
     "exit_code",
     "extra",
     "installed_version",
     "look_up",
+    "preload",
     "provenance",
     "read_quantity",
     "read_unit",
     "read_whole",
+    "shared_flag",
     "show_with",
     "terminal_progress",
     "to_si",
