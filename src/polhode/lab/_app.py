@@ -22,8 +22,7 @@ from polhode.lab._files import KINDS, PAGE, built
 from polhode.lab._guard import Limits, RequestGuard
 from polhode.lab._offer import Own, offered
 from polhode.lab._requests import Fields
-from polhode.lab._work import DONE
-from polhode.lab._worker_pool import BrokenError, GoneError, TooLongError, WorkerPool
+from polhode.lab._workers import DONE, BrokenError, GoneError, TooLongError, WorkerPool
 
 _PURPOSES = {  # of the worker that a task is for
     "describe": "motion",
@@ -65,13 +64,13 @@ def app_of(port: int, own: Own | None = None, limits: Limits | None = None) -> S
         limits: of one request.
     """
     bounds = limits or Limits()
-    crew = WorkerPool(own)
+    pool = WorkerPool(own)
 
     @asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:
-        crew.begin()
+        pool.begin()
         yield
-        await crew.end()
+        await pool.end()
 
     async def page(request: Request) -> Response:
         systems = escape(json.dumps(offered(own)), quote=True)
@@ -85,7 +84,7 @@ def app_of(port: int, own: Own | None = None, limits: Limits | None = None) -> S
         name = request.path_params["task"]
         if name not in _PURPOSES:
             raise HTTPException(404)
-        return await _answer(request, name, crew, bounds)
+        return await _answer(request, name, pool, bounds)
 
     return Starlette(
         routes=[
@@ -99,7 +98,7 @@ def app_of(port: int, own: Own | None = None, limits: Limits | None = None) -> S
     )
 
 
-async def _answer(request: Request, task: str, crew: WorkerPool, limits: Limits) -> Response:
+async def _answer(request: Request, task: str, pool: WorkerPool, limits: Limits) -> Response:
     body = await request.body()
     try:
         system = Fields.read(body).text("system")
@@ -110,7 +109,7 @@ async def _answer(request: Request, task: str, crew: WorkerPool, limits: Limits)
     gone = asyncio.Event()
     watch = asyncio.create_task(_watch(request, gone))
     try:
-        worker = await crew.worker(f"{purpose} {system}")
+        worker = await pool.worker(f"{purpose} {system}")
         reply = await worker.ask(f"{task}\n".encode() + body, seconds, gone)
     except GoneError:
         return _problem(499, "a request that was called off")

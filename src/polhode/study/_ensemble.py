@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 
 from polhode.algebra import Expr
 from polhode.base import DeclarationError, Progress, Shown, SilentProgress, look_up
+from polhode.study import _libraries
 from polhode.study._columns import Array, Column, Members, Name, members_of
+from polhode.study._compute import in_shares
 from polhode.study._counts import whole
 from polhode.study._ensemble_runner import EnsembleSpec, ResultChunk, Subject, options_of
 from polhode.study._extremes import Quantity
@@ -20,7 +22,6 @@ from polhode.study._output import Output
 from polhode.study._outputs import outputs_of
 from polhode.study._reasons import Reason
 from polhode.study._refused import refuse_mistakes
-from polhode.study._workers import shared_out
 
 if TYPE_CHECKING:
     import xarray
@@ -91,9 +92,23 @@ class Ensemble(Shown):
         Raises:
             StoreError: where xarray is not installed.
         """
-        from polhode.study._datasets import dataset_of
-
-        return dataset_of(self)
+        columns = {
+            name: (
+                ("member", *(f"{name}_{axis}" for axis in range(values.ndim - 1))),
+                values,
+                {"labels": list(self.labels[name])} if name in self.labels else {},
+            )
+            for name, values in self.values.items()
+        }
+        numbers = {
+            name: ("member", column.values, {"units": column.unit} if column.unit else {})
+            for name, column in self.numbers.items()
+        }
+        reason = {"reason": ("member", self.reason)}
+        found: xarray.Dataset = _libraries.xarray().Dataset(
+            {**columns, **reason}, coords=numbers, attrs={"seed": self.seed}
+        )
+        return found
 
 
 def ensemble(
@@ -153,7 +168,7 @@ def ensemble(
     shown = progress or SilentProgress()
     shown.begin("members", members.count)
     try:
-        block = shared_out(order, members, workers, shown.advance)
+        block = in_shares(order, members, workers, shown.advance)
     finally:
         shown.finish()
     return _told(order, members, block, chosen)

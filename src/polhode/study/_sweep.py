@@ -23,8 +23,8 @@ from polhode.base import (
 from polhode.derive import Equations
 from polhode.model import System, write_declaration
 from polhode.simulate import Pieces
-from polhode.study._cluster import Compute, on_cluster, one_after_the_other, processes, scheduler
 from polhode.study._columns import Name, published_names
+from polhode.study._compute import Compute, in_processes, on_cluster, one_after_the_other, scheduler
 from polhode.study._counts import whole
 from polhode.study._ensemble import USUAL
 from polhode.study._ensemble_runner import EnsembleSpec, Subject, options_of
@@ -161,8 +161,7 @@ def _computing(
         with scheduler(address) as there:
             yield partial(on_cluster, there)
     elif workers > 1:
-        with processes(workers) as here:
-            yield partial(on_cluster, here)
+        yield partial(in_processes, workers)
     else:
         yield one_after_the_other
 

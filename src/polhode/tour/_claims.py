@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from concurrent.futures import Future, ProcessPoolExecutor
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
-from multiprocessing import get_context
+from functools import partial
 
 import polhode as ph
+from polhode.base import NumericError, Tell, Worker, WorkerEndedError
 from polhode.catalogue import CATALOGUE, document_of
 from polhode.claims import Judged, Note, audit
 from polhode.derive import Equations
@@ -57,10 +57,32 @@ class Told:
 
 
 @contextmanager
-def judging(only: Iterable[str]) -> Iterator[Future[tuple[Told, ...]]]:
-    """The verdicts to come, on claims with some ids or on all of them."""
-    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as workers:
-        yield workers.submit(judged, tuple(only))
+def judging(only: Iterable[str]) -> Iterator[Callable[[], tuple[Told, ...]]]:
+    """The verdicts on claims with some ids, or on all of them, from a process that judges them
+    within this block. To call for them waits until all are there.
+
+    Raises:
+        NumericError: where that process ends before.
+    """
+    with closing(Worker[None, tuple[Told, ...]](partial(_judging, tuple(only)))) as worker:
+
+        def verdicts() -> tuple[Told, ...]:
+            try:
+                return worker.ask(None)
+            except WorkerEndedError:
+                raise NumericError(
+                    "a worker process that ended while it judged the claims",
+                    expected="enough memory for it",
+                    advice="judge fewer of them with only",
+                ) from None
+
+        yield verdicts
+
+
+def _judging(only: tuple[str, ...]) -> Callable[[None, Tell[tuple[Told, ...]]], tuple[Told, ...]]:
+    """In the worker, which judges as soon as it begins, and is asked later."""
+    verdicts = judged(only)
+    return lambda question, tell: verdicts
 
 
 def judged(only: tuple[str, ...]) -> tuple[Told, ...]:

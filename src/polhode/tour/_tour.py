@@ -41,13 +41,13 @@ def write_tour(
     _make(directory / FIGURES)
     progress.begin("tour", len(CATALOGUE) + 1)
     try:
-        with judging(only) as claims:
+        with judging(only) as verdicts:
             for entry in CATALOGUE.values():
                 all_worked.append(work_through(entry))
                 _write_figures(directory, all_worked[-1])
                 tell(text_of(all_worked[-1]))
                 progress.advance()
-            told = claims.result()
+            told = verdicts()
             found = problems(all_worked, told)
             progress.advance()
     finally:
