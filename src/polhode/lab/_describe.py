@@ -1,17 +1,29 @@
 """What the page has to know of a system before anything is simulated."""
 
-from __future__ import annotations
-
-from collections.abc import Sequence
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
+from pathlib import Path
 from typing import Any
 
 from polhode.algebra import Expr, Symbol
 from polhode.catalogue import about_with
 from polhode.lab._controls import parameters_of, start_of, unit_of
-from polhode.lab._variants import Variant, declared_contact
+from polhode.lab._system_session import Played, Variant, declared_contact
 from polhode.simulate import Trajectory
-from polhode.view import MotionSummary, Scene, account, poses, scene, scenery
+from polhode.view import (
+    MotionSummary,
+    Scene,
+    account,
+    figure_of_run,
+    movie,
+    origin_of,
+    page_of,
+    poses,
+    save_figure,
+    scene,
+    scenery,
+)
 
 _RATE = 30  # poses in a second of what follows a hand
 _CONTACTS = ("rolling", "smooth", "friction")
@@ -105,3 +117,51 @@ def outcome(run: Trajectory) -> list[dict[str, Any]]:
 
 def _letter(name: str) -> str:
     return Expr.generator(Symbol(name)).mathml()
+
+
+# Files to take away: page, table, figure, movie.
+
+_LONGEST = 6.0  # s of a movie
+_SLOWEST = 0.1  # of the speed of the motion
+_RATE_of_exports = 12.0  # frames in a second of it
+
+
+def exported(kind: str, played: Played) -> bytes:
+    """The bytes of a file of a motion.
+
+    Raises:
+        StoreError: where it cannot be made.
+    """
+    if kind == "page":
+        return page_of(shown(played.variant, played.run)).encode("utf-8")
+    return _through_a_file(kind, _WRITERS[kind], played)
+
+
+def _through_a_file(kind: str, write: Callable[[Played, Path], None], played: Played) -> bytes:
+    with tempfile.TemporaryDirectory(prefix="polhode-lab-") as folder:
+        path = Path(folder) / f"motion.{kind}"
+        write(played, path)
+        return path.read_bytes()
+
+
+def _table(played: Played, path: Path) -> None:
+    played.run.to_csv(path)
+
+
+def _figure(played: Played, path: Path) -> None:
+    groups = plots_of(played.variant, played.run)
+    save_figure(figure_of_run(played.run, groups), path, origin=origin_of(played.run))
+
+
+def _movie(played: Played, path: Path) -> None:
+    seen = shown(played.variant, played.run)
+    movie(seen, path, speed=max(seen.duration / _LONGEST, _SLOWEST), rate=_RATE_of_exports)
+
+
+_WRITERS: Mapping[str, Callable[[Played, Path], None]] = {
+    "csv": _table,
+    "svg": _figure,
+    "png": _figure,
+    "gif": _movie,
+    "mp4": _movie,
+}

@@ -1,7 +1,5 @@
 """The tasks of a worker, done with what it keeps of the systems it was asked about."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Mapping
 from functools import cached_property
@@ -10,16 +8,13 @@ from typing import Any
 from polhode.base import Progress
 from polhode.lab._claims import answered, claims_about, judged
 from polhode.lab._controls import with_usual_numbers
-from polhode.lab._describe import described, followed, outcome, read, seen
-from polhode.lab._exports import exported
+from polhode.lab._describe import described, exported, followed, outcome, read, seen
 from polhode.lab._files import KINDS
-from polhode.lab._formulas import invariants_of
 from polhode.lab._offer import Own, entry_of
-from polhode.lab._packet import packet
 from polhode.lab._requests import CONTACTS, Fields, question_of, run_request
-from polhode.lab._standing import SteadyFamily, families_of
-from polhode.lab._system_session import SystemSession
-from polhode.lab._variants import variant
+from polhode.lab._steady import SteadyFamily, families_of, invariants_of
+from polhode.lab._system_session import SystemSession, variant
+from polhode.view import plain
 
 _WISH = ("system", "contact", "settings", "start", "duration", "sheet")
 
@@ -126,3 +121,25 @@ class TaskHandler:
 
 def _json(document: Mapping[str, Any]) -> bytes:
     return json.dumps(document, ensure_ascii=False, allow_nan=False).encode("utf-8")
+
+
+# What is sent with many numbers: JSON, and the numbers as they are after it.
+
+_WORD = 4  # bytes of a number, float32, and of the length of the JSON before it, little-endian
+
+
+def packet(document: Any) -> bytes:
+    """Length of the JSON, the JSON, and the numbers of all arrays one after the other.
+
+    An array becomes {"shape": [...], "float32": [begin, end]}, places among the numbers.
+    """
+    numbers = bytearray()
+
+    def placed(more: bytes) -> list[int]:
+        begin = len(numbers) // _WORD
+        numbers.extend(more)
+        return [begin, len(numbers) // _WORD]
+
+    text = json.dumps(plain(document, placed), ensure_ascii=False, allow_nan=False).encode("utf-8")
+    text += b" " * (-len(text) % _WORD)
+    return len(text).to_bytes(_WORD, "little") + text + numbers

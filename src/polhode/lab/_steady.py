@@ -1,6 +1,4 @@
-"""Steady motions and thresholds of a system, and where a state stands relative to them."""
-
-from __future__ import annotations
+"""Whether a steady motion can be started from, and whether the contacts hold on it."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -10,14 +8,102 @@ from typing import Any
 
 import numpy as np
 
-from polhode.algebra import ZERO, Expr, Generator, Symbol, eliminate
-from polhode.analyse import Branch, Condition, Stability, SteadyMotion, Truth, stability, steady
+from polhode.algebra import FLOATS, ZERO, Expr, Generator, Symbol, compile_program, eliminate, pi
+from polhode.analyse import (
+    Branch,
+    Condition,
+    ContactForces,
+    Stability,
+    SteadyMotion,
+    Truth,
+    contact_forces,
+    invariants,
+    stability,
+    steady,
+)
 from polhode.base import NumericError, PolhodeError
 from polhode.derive import Equations
 from polhode.lab._controls import unit_of
-from polhode.lab._steady_start import SteadyStart, Values, value
-from polhode.model import System
-from polhode.view import typeset
+from polhode.model import Contact, Coulomb, System
+from polhode.simulate import Dynamics, read_parameters, read_start
+from polhode.view import equation, typeset
+
+# Whether a steady motion can be started from, and whether the contacts hold on it.
+
+Values = Mapping[str, float]
+Name = str | Symbol | Expr
+
+_PI = 3.141592653589793
+
+
+@dataclass(frozen=True)
+class SteadyStart:
+    """Steady motions of one system as starts.
+
+    Attributes:
+        equations: of motion with every contact touching, and sticking where it can.
+        system: as it is declared, with the friction of its contacts.
+    """
+
+    equations: Equations
+    system: System
+
+    def is_possible(self, state: Values) -> bool:
+        """Whether a run can start from a state: not where the coordinates are singular.
+
+        Args:
+            state: parameters, coordinates and speeds in SI units, by published name.
+        """
+        own = (*self.equations.coordinates, *self.equations.speeds)
+        constants = {s.published: s for s in self._dynamics.parameters}
+        try:
+            given: dict[Name, Any] = {n: v for n, v in state.items() if n in constants}
+            numbers = read_parameters(self._dynamics, given)
+            names = (s.published for s in own)
+            start: dict[Name, Any] = {name: state[name] for name in names if name in state}
+            read_start(self._dynamics, start, numbers)
+        except PolhodeError:
+            return False
+        return True
+
+    def broken(self, state: Values) -> str:
+        """Which contact does not hold on a steady motion, and why; empty where all do."""
+        for name, (forces, friction) in self._contacts.items():
+            normal = value(forces.normal, state)
+            if not normal > 0:
+                return f"{name} lifts off: it would have to pull"
+            needed = abs(value(forces.tangential, state)) / normal
+            if friction is not None and not needed <= value(friction, state):
+                return f"{name} slips: it needs a coefficient of friction of {needed:.3g}"
+        return ""
+
+    @cached_property
+    def _dynamics(self) -> Dynamics:
+        return Dynamics(self.equations, {})
+
+    @cached_property
+    def _contacts(self) -> dict[str, tuple[ContactForces, Expr | None]]:
+        """Forces of every contact, and the friction that there is where it can slide."""
+        found: dict[str, tuple[ContactForces, Expr | None]] = {}
+        for element in self.system.elements:
+            if isinstance(element, Contact):
+                friction = element.mu_static if isinstance(element, Coulomb) else None
+                found[element.name] = (contact_forces(self.equations, element.name), friction)
+        return found
+
+
+def value(expression: Expr, known: Values) -> float:
+    """An expression of known quantities, the others being zero; not a number where undefined."""
+    symbols: tuple[Symbol, ...] = tuple(expression.symbols())
+    values = {**known, **{s.published: _PI for s in pi.symbols()}}
+    function = compile_program([expression], symbols).function(FLOATS)
+    try:
+        return float(function(*(values.get(s.published, 0.0) for s in symbols))[0])
+    except (ArithmeticError, ValueError):
+        return float("nan")
+
+
+# Steady motions and thresholds of a system, and where a state stands relative to them.
 
 _LARGEST = 1e15
 _REMEMBERED = 512  # formulas
@@ -186,3 +272,23 @@ def _formula(latex: str) -> str:
 def _finite(value: float) -> float | None:
     """None for what is not defined, or grows beyond what can be meant."""
     return value if isfinite(value) and abs(value) < _LARGEST else None
+
+
+# Formulas that do not change with the numbers, typeset once.
+
+
+def invariants_of(equations: Equations) -> list[dict[str, Any]]:
+    """First integrals with their names and meanings; none where none can be looked for."""
+    try:
+        found = invariants(equations)
+    except PolhodeError:
+        return []
+    return [
+        {"name": i.name, "meaning": i.meaning, **_formula_of_formulas(i.name, i.expression)}
+        for i in found
+    ]
+
+
+def _formula_of_formulas(name: str, expression: Expr) -> dict[str, Any]:
+    made = equation("", Expr.generator(Symbol(name)), expression)
+    return {"pieces": list(made.pieces), "spoken": made.spoken}
