@@ -1,4 +1,4 @@
-"""The sliders of a system: what each is of, its unit, and how far it goes."""
+"""The sliders of a system: the quantity, unit and range of each."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from polhode.derive import Equations
 
 _PLAIN = re.compile(r"\s*([+\-−]?[0-9]*\.?[0-9]+(?:[eE][+-]?[0-9]+)?)\s*([^\d\s*/(+\-][^*(+]*)?")
 _DECADE = 10.0
-_SIGNED = (PURE, PURE / TIME)  # of what may well be negative, where nothing is assumed
-_ANGLES = {"deg": (180.0, 10.0), "rad": (3.0, 0.2)}  # how far they go, and what is a small one
-_USUAL: Mapping[Dimension, float] = {  # where nothing tells how large something is
+_SIGNED = (PURE, PURE / TIME)  # may be negative, unless the symbol is assumed positive
+_ANGLES = {"deg": (180.0, 10.0), "rad": (3.0, 0.2)}  # range, and the size of a small one
+_USUAL: Mapping[Dimension, float] = {  # typical size, where none is given
     PURE: 1.0,
     LENGTH: 0.2,
     MASS: 1.0,
@@ -43,15 +43,15 @@ class Control:
         name: published name.
         symbol: MathML.
         meaning: in words.
-        text: the usual value, as one would type it.
+        text: the default value, as one would type it.
         value: the same in `unit`.
         unit: in which the slider counts.
         size: of that unit, in SI units.
-        si: the SI unit, which the value of a formula is in.
+        si: the SI unit, in which formulas are evaluated.
         low: left end of the slider.
         high: right end.
-        ratio: whether equal steps are equal ratios.
-        extra: whether it is seldom wanted.
+        ratio: whether the scale is logarithmic.
+        extra: whether it is rarely needed, and so folded away.
     """
 
     name: str
@@ -76,7 +76,7 @@ def unit_of(symbol: Symbol, equations: Equations) -> str:
 
 
 def with_usual_numbers(entry: CatalogueEntry, equations: Equations) -> CatalogueEntry:
-    """An entry without numbers, as of a user's own system, with some of the right dimension."""
+    """An entry with default numbers of the right dimension where it has none."""
     known = {parameter.name for parameter in entry.parameters}
     added = tuple(
         Parameter(s.published, _UNITS.get(d, ""), _guess(s.published, d), "")
@@ -104,7 +104,7 @@ def parameters_of(entry: CatalogueEntry, equations: Equations) -> list[Control]:
     return [
         _parameter(p, value, positive=p.name in positive)
         for p in entry.parameters
-        if (value := values.get(p.name, _alone(p.default))) is not None
+        if (value := values.get(p.name, _plain_value(p.default))) is not None
     ]
 
 
@@ -119,16 +119,13 @@ def start_of(entry: CatalogueEntry, equations: Equations) -> list[Control]:
         if dimension == PURE and "deg" not in text:
             unit = "rad" if name in entry.start else "deg"
         made = _control(symbol, text, unit, "", values.get(name, 0.0), positive=False)
-        found.append(replace(_widened(made, dimension, found), extra=_is_extra(symbol, entry)))
+        is_extra = (
+            symbol.published not in entry.start
+            and symbol.kind is SymbolKind.COORDINATE
+            and not symbol.order
+        )
+        found.append(replace(_widened(made, dimension, found), extra=is_extra))
     return sorted(found, key=lambda control: control.name not in entry.start)
-
-
-def _is_extra(symbol: Symbol, entry: CatalogueEntry) -> bool:
-    return (
-        symbol.published not in entry.start
-        and symbol.kind is SymbolKind.COORDINATE
-        and not symbol.order
-    )
 
 
 def _states(equations: Equations) -> Iterator[tuple[Symbol, Dimension]]:
@@ -148,8 +145,8 @@ def _guess(name: str, dimension: Dimension) -> str:
     return f"{size:g} {_UNITS.get(dimension, '')}".strip()
 
 
-def _alone(text: str) -> float | None:
-    """The value of a parameter that no equation holds, if it is a number."""
+def _plain_value(text: str) -> float | None:
+    """The value of a parameter that occurs in no equation, if it is a plain number."""
     return read_quantity(text).value if _PLAIN.fullmatch(text) else None
 
 
@@ -187,7 +184,7 @@ def _control(
 
 
 def _tidy(value: float) -> float:
-    """Without what a change of unit leaves of rounding."""
+    """Without the rounding error of a change of unit."""
     return float(f"{value:.12g}")
 
 
@@ -204,9 +201,9 @@ def _range(value: float, unit: str, *, positive: bool) -> tuple[float, float, bo
 
 
 def _widened(control: Control, dimension: Dimension, others: list[Control]) -> Control:
-    """A slider of what is zero goes as far as its kin."""
+    """The slider of a zero value reaches as far as those of the same unit."""
     if control.high > 0:
         return control
-    kin = [other.high for other in others if other.unit == control.unit]
-    size = max(kin, default=0.0) or 2 * _USUAL.get(dimension, 1.0)
+    same_unit = [other.high for other in others if other.unit == control.unit]
+    size = max(same_unit, default=0.0) or 2 * _USUAL.get(dimension, 1.0)
     return replace(control, low=-size, high=size)

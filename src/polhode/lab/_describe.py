@@ -1,4 +1,6 @@
-"""What the page has to know of a system before anything is simulated."""
+"""What the lab shows: of a system its controls, of a motion its picture, plots and files."""
+
+from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
@@ -9,7 +11,7 @@ from typing import Any
 from polhode.algebra import Expr, Symbol
 from polhode.catalogue import about_with
 from polhode.lab._controls import parameters_of, start_of, unit_of
-from polhode.lab._system_session import Played, Variant, declared_contact
+from polhode.lab._system_session import Variant, VariantRun, declared_contact
 from polhode.simulate import Trajectory
 from polhode.view import (
     MotionSummary,
@@ -25,7 +27,10 @@ from polhode.view import (
     scenery,
 )
 
-_RATE = 30  # poses in a second of what follows a hand
+_POSE_RATE = 30  # poses per second of a picture that follows the hand
+_LONGEST = 6.0  # s of a movie
+_SLOWEST = 0.1  # of the speed of the motion
+_MOVIE_RATE = 12.0  # frames per second of a movie
 _CONTACTS = ("rolling", "smooth", "friction")
 
 
@@ -33,7 +38,7 @@ def described(chosen: Variant, declared: Variant) -> dict[str, Any]:
     """Sliders, contacts and prescribed functions of a system, as plain data.
 
     Args:
-        chosen: the system with the contacts that were asked for.
+        chosen: the system with the requested contacts.
         declared: as it is declared.
     """
     entry, equations = chosen.entry, chosen.equations
@@ -62,17 +67,17 @@ def described(chosen: Variant, declared: Variant) -> dict[str, Any]:
 
 
 def seen(chosen: Variant, run: Trajectory) -> Scene:
-    """What there is to look at."""
+    """The picture of a motion."""
     return scenery(run, title=chosen.entry.title, about=about_with(chosen.entry, chosen.system))
 
 
 def read(chosen: Variant, run: Trajectory) -> MotionSummary:
-    """What there is to read, with the plots of the catalogue that it has."""
+    """The text and plots of a motion, with those plots of the catalogue that it has."""
     return account(run, plots=plots_of(chosen, run), meanings=meanings_of(chosen))
 
 
 def shown(chosen: Variant, run: Trajectory) -> Scene:
-    """All there is to see, for a page of its own."""
+    """Picture, text and plots of a motion, for a page of its own."""
     entry, plots = chosen.entry, plots_of(chosen, run)
     return scene(
         run,
@@ -84,13 +89,13 @@ def shown(chosen: Variant, run: Trajectory) -> Scene:
 
 
 def meanings_of(chosen: Variant) -> dict[str, str]:
-    """What parameters are, by name."""
+    """Meanings of the parameters, by name."""
     return {parameter.name: parameter.meaning for parameter in chosen.entry.parameters}
 
 
 def followed(run: Trajectory) -> dict[str, Any]:
-    """Where the bodies are, and no more, for a picture that follows a hand."""
-    frames = 1 + max(1, round(_RATE * run.duration))
+    """Only the poses of the bodies, for a picture that follows the hand."""
+    frames = 1 + max(1, round(_POSE_RATE * run.duration))
     return {"duration": run.duration, "frames": frames, "poses": poses(run, frames)}
 
 
@@ -119,47 +124,35 @@ def _letter(name: str) -> str:
     return Expr.generator(Symbol(name)).mathml()
 
 
-# Files to take away: page, table, figure, movie.
-
-_LONGEST = 6.0  # s of a movie
-_SLOWEST = 0.1  # of the speed of the motion
-_RATE_of_exports = 12.0  # frames in a second of it
+# -- files -----------------------------------------------------------------------------------------
 
 
-def exported(kind: str, played: Played) -> bytes:
-    """The bytes of a file of a motion.
+def exported(kind: str, motion: VariantRun) -> bytes:
+    """The content of a file of a motion.
 
     Raises:
-        StoreError: where it cannot be made.
+        StoreError: where the file cannot be made.
     """
     if kind == "page":
-        return page_of(shown(played.variant, played.run)).encode("utf-8")
-    return _through_a_file(kind, _WRITERS[kind], played)
-
-
-def _through_a_file(kind: str, write: Callable[[Played, Path], None], played: Played) -> bytes:
+        return page_of(shown(motion.variant, motion.run)).encode("utf-8")
     with tempfile.TemporaryDirectory(prefix="polhode-lab-") as folder:
         path = Path(folder) / f"motion.{kind}"
-        write(played, path)
+        _WRITERS[kind](motion, path)
         return path.read_bytes()
 
 
-def _table(played: Played, path: Path) -> None:
-    played.run.to_csv(path)
+def _figure(motion: VariantRun, path: Path) -> None:
+    groups = plots_of(motion.variant, motion.run)
+    save_figure(figure_of_run(motion.run, groups), path, origin=origin_of(motion.run))
 
 
-def _figure(played: Played, path: Path) -> None:
-    groups = plots_of(played.variant, played.run)
-    save_figure(figure_of_run(played.run, groups), path, origin=origin_of(played.run))
+def _movie(motion: VariantRun, path: Path) -> None:
+    whole = shown(motion.variant, motion.run)
+    movie(whole, path, speed=max(whole.duration / _LONGEST, _SLOWEST), rate=_MOVIE_RATE)
 
 
-def _movie(played: Played, path: Path) -> None:
-    seen = shown(played.variant, played.run)
-    movie(seen, path, speed=max(seen.duration / _LONGEST, _SLOWEST), rate=_RATE_of_exports)
-
-
-_WRITERS: Mapping[str, Callable[[Played, Path], None]] = {
-    "csv": _table,
+_WRITERS: Mapping[str, Callable[[VariantRun, Path], None]] = {
+    "csv": lambda motion, path: motion.run.to_csv(path),
     "svg": _figure,
     "png": _figure,
     "gif": _movie,

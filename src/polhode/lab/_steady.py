@@ -1,6 +1,9 @@
-"""Whether a steady motion can be started from, and whether the contacts hold on it."""
+"""Steady motions of a system, their stability, and where a state stands relative to them."""
 
-from collections.abc import Iterator, Mapping
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from math import isfinite, prod
@@ -8,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from polhode.algebra import FLOATS, ZERO, Expr, Generator, Symbol, compile_program, eliminate, pi
+from polhode.algebra import FLOATS, ZERO, Expr, Symbol, compile_program, eliminate, pi
 from polhode.analyse import (
     Branch,
     Condition,
@@ -28,12 +31,13 @@ from polhode.model import Contact, Coulomb, System
 from polhode.simulate import Dynamics, read_parameters, read_start
 from polhode.view import equation, typeset
 
-# Whether a steady motion can be started from, and whether the contacts hold on it.
-
 Values = Mapping[str, float]
 Name = str | Symbol | Expr
 
-_PI = 3.141592653589793
+_NEAR = 1e-5  # residual over the size of its terms, below which a state is on a family
+_LARGEST = 1e15  # beyond it a value is shown as not defined
+_REMEMBERED = 512  # formulas
+_LONGEST = 1500  # letters of a formula that is still shown
 
 
 @dataclass(frozen=True)
@@ -67,7 +71,7 @@ class SteadyStart:
         return True
 
     def broken(self, state: Values) -> str:
-        """Which contact does not hold on a steady motion, and why; empty where all do."""
+        """Which contact lifts off or slips on a steady motion, and why; empty if all hold."""
         for name, (forces, friction) in self._contacts.items():
             normal = value(forces.normal, state)
             if not normal > 0:
@@ -83,7 +87,7 @@ class SteadyStart:
 
     @cached_property
     def _contacts(self) -> dict[str, tuple[ContactForces, Expr | None]]:
-        """Forces of every contact, and the friction that there is where it can slide."""
+        """Forces of every contact, and its coefficient of static friction if it can slide."""
         found: dict[str, tuple[ContactForces, Expr | None]] = {}
         for element in self.system.elements:
             if isinstance(element, Contact):
@@ -95,7 +99,7 @@ class SteadyStart:
 def value(expression: Expr, known: Values) -> float:
     """An expression of known quantities, the others being zero; not a number where undefined."""
     symbols: tuple[Symbol, ...] = tuple(expression.symbols())
-    values = {**known, **{s.published: _PI for s in pi.symbols()}}
+    values = {**known, **{s.published: math.pi for s in pi.symbols()}}
     function = compile_program([expression], symbols).function(FLOATS)
     try:
         return float(function(*(values.get(s.published, 0.0) for s in symbols))[0])
@@ -103,13 +107,7 @@ def value(expression: Expr, known: Values) -> float:
         return float("nan")
 
 
-# Steady motions and thresholds of a system, and where a state stands relative to them.
-
-_LARGEST = 1e15
-_REMEMBERED = 512  # formulas
-_LONGEST = 1500  # letters of a formula that is still shown
-#: What vanishes on a family, against its terms, where a state counts as on it.
-NEAR = 1e-5
+# -- families --------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -126,7 +124,7 @@ class SteadyFamily:
 
     @cached_property
     def judged(self) -> Stability | NumericError:
-        """Its stability, or why the coordinates cannot tell."""
+        """Its stability, or why these coordinates cannot decide it."""
         try:
             return stability(self.motion)
         except NumericError as undecided:
@@ -135,15 +133,15 @@ class SteadyFamily:
     def standing(self, state: Values) -> dict[str, Any]:
         """The family as plain data, with every quantity's value at a state.
 
-        Conditions are about states on the family: `verdict` is given there alone, and of the whole
-        condition. Of a state beside it they are compared at the steady motion that has its free
-        quantities, where that is on the family.
+        Conditions apply to states on the family: only there `verdict` is given, for all conditions
+        together. For a state beside the family they are evaluated at the steady motion with the
+        same free quantities, if that is on the family.
 
         Args:
             state: parameters, coordinates and speeds in SI units, by published name.
         """
         there = {**state, **self._held(state)}
-        is_here, is_there = (self._distance(s) < NEAR for s in (state, there))
+        is_here, is_there = (self._distance(s) < _NEAR for s in (state, there))
         document: dict[str, Any] = {
             "formula": _formula(self.motion.latex()),
             "spoken": str(self.motion)[:_LONGEST],
@@ -179,11 +177,11 @@ class SteadyFamily:
         return bool(eliminate(rows, [ZERO] * len(rows)).free)
 
     def _is_possible(self, start: Values) -> bool:
-        on_it = self._distance(start) < NEAR and not self._is_singular
+        on_it = self._distance(start) < _NEAR and not self._is_singular
         return on_it and self._start.is_possible(start)
 
     def _verdict(self, judged: Stability, here: Values) -> str:
-        """Of a state on the family, by all conditions together."""
+        """Whether a state on the family is stable, by all conditions together."""
         if judged.truth is not Truth.OPEN:
             return "stable" if judged.truth is Truth.ALWAYS else "unstable"
         holding = (value(c.expression, here) > 0 for c in judged.conditions)
@@ -202,26 +200,27 @@ class SteadyFamily:
         }
 
     def _held(self, state: Values) -> dict[str, float]:
-        """What has a definite value on the family."""
+        """Values of the quantities that the family determines."""
         return {s.published: value(e, state) for s, e in self.motion.fixed.items()}
 
     def _distance(self, state: Values) -> float:
-        """How far a state is from the family: the largest of what vanishes on it, each against
-        the sizes of its terms with sines and cosines left out."""
+        """How far a state is from the family: the largest residual of its conditions, each divided
+        by the size of its terms with sines and cosines left out."""
         return max((_departure(e, state) for e in self.motion.conditions), default=0.0)
 
 
 def _departure(expression: Expr, state: Values) -> float:
     known = {"pi": np.pi, **state}
     size = sum(
-        abs(number) * prod(abs(known.get(g.published, 0.0)) ** p for g, p in _symbols(powers))
+        abs(number)
+        * prod(
+            abs(known.get(g.published, 0.0)) ** power
+            for g, power in powers.items()
+            if isinstance(g, Symbol)
+        )
         for powers, number in expression.numerator.terms()
     )
     return abs(value(expression.numerator, state)) / size if size else 0.0
-
-
-def _symbols(powers: Mapping[Generator, int]) -> Iterator[tuple[Symbol, int]]:
-    return ((g, power) for g, power in powers.items() if isinstance(g, Symbol))
 
 
 def families_of(equations: Equations, system: System) -> list[SteadyFamily]:
@@ -238,25 +237,23 @@ def families_of(equations: Equations, system: System) -> list[SteadyFamily]:
 
 
 def _condition(condition: Condition, here: Values, is_on: bool) -> dict[str, Any]:
-    """An inequality, and the ratio of what speaks for it to what speaks against it.
+    """An inequality, and the ratio of the sum of its positive terms to that of its negative ones.
 
-    The threshold is where the ratio is one. Off the family there is none.
+    The ratio is one at the threshold. Off the family it is not defined.
     """
     if condition.truth is not Truth.OPEN:
         return {"formula": "", "spoken": condition.truth.value, "ratio": None}
     stated = {"formula": _formula(condition.latex()), "spoken": str(condition)[:_LONGEST]}
     if not is_on:
         return {**stated, "ratio": None}
-    terms = [value(term, here) for term in _terms(condition.expression)]
+    products = (
+        prod((Expr.generator(g) ** power for g, power in powers.items()), start=Expr.of(number))
+        for powers, number in condition.expression.numerator.terms()
+    )
+    terms = [value(term, here) for term in products]
     above, below = sum(t for t in terms if t > 0), -sum(t for t in terms if t < 0)
     ratio = above / below if below else float("inf")
     return {**stated, "holds": above > below, "ratio": _finite(ratio)}
-
-
-def _terms(expression: Expr) -> Iterator[Expr]:
-    for powers, number in expression.numerator.terms():
-        factors = (Expr.generator(generator) ** power for generator, power in powers.items())
-        yield prod(factors, start=Expr.of(number))
 
 
 def _named(expression: Expr, here: Values, is_on: bool) -> dict[str, Any]:
@@ -270,25 +267,21 @@ def _formula(latex: str) -> str:
 
 
 def _finite(value: float) -> float | None:
-    """None for what is not defined, or grows beyond what can be meant."""
+    """None for what is not defined or unreasonably large."""
     return value if isfinite(value) and abs(value) < _LARGEST else None
 
 
-# Formulas that do not change with the numbers, typeset once.
+# -- first integrals -------------------------------------------------------------------------------
 
 
 def invariants_of(equations: Equations) -> list[dict[str, Any]]:
-    """First integrals with their names and meanings; none where none can be looked for."""
+    """First integrals with their names and meanings, typeset; none where they cannot be found."""
     try:
         found = invariants(equations)
     except PolhodeError:
         return []
+    typeset = (equation("", Expr.generator(Symbol(i.name)), i.expression) for i in found)
     return [
-        {"name": i.name, "meaning": i.meaning, **_formula_of_formulas(i.name, i.expression)}
-        for i in found
+        {"name": i.name, "meaning": i.meaning, "pieces": list(made.pieces), "spoken": made.spoken}
+        for i, made in zip(found, typeset, strict=True)
     ]
-
-
-def _formula_of_formulas(name: str, expression: Expr) -> dict[str, Any]:
-    made = equation("", Expr.generator(Symbol(name)), expression)
-    return {"pieces": list(made.pieces), "spoken": made.spoken}

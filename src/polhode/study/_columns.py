@@ -1,9 +1,10 @@
-"""What differs from one member of an ensemble to the next, and what does not."""
+"""The values of an ensemble: common to all members, or one per member."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from numbers import Integral
 from typing import Any, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
@@ -14,6 +15,22 @@ from polhode.base import DeclarationError, read_quantity
 
 Array: TypeAlias = NDArray[np.float64]
 Name: TypeAlias = str | Symbol | Expr
+
+_MOST = 1_000_000_000  # members of one study
+
+
+def whole(value: Any, what: str, least: int = 1) -> int:
+    """A whole number that counts something.
+
+    Raises:
+        DeclarationError: for anything else.
+    """
+    counts = isinstance(value, Integral) and not isinstance(value, bool)
+    if not counts or not least <= value <= _MOST:
+        raise DeclarationError(
+            f"{value!r} {what}", expected=f"a whole number from {least} to {_MOST}"
+        )
+    return int(value)
 
 
 def several(names: Sequence[Name] | Name, what: str) -> tuple[Name, ...]:
@@ -30,7 +47,7 @@ def several(names: Sequence[Name] | Name, what: str) -> tuple[Name, ...]:
 
 @runtime_checkable
 class Distribution(Protocol):
-    """What values are drawn from; a frozen distribution of scipy.stats is one."""
+    """What random values are drawn from, such as a frozen distribution of scipy.stats."""
 
     def rvs(self, *, size: int, random_state: np.random.Generator) -> Any:
         """That many values."""
@@ -134,7 +151,7 @@ def members_of(
 
 
 def published_names(values: Mapping[Name, Any]) -> dict[str, Any]:
-    """Values under the published names of what they are values of."""
+    """Values by the published names of their quantities."""
     return {k if isinstance(k, str) else as_symbol(k).published: v for k, v in values.items()}
 
 
@@ -168,13 +185,13 @@ def _count(given: Iterable[tuple[str, Any]], count: int | None) -> int:
         return int(size)
     if not sizes:
         raise DeclarationError(
-            "an ensemble of nobody knows how many members",
+            "an ensemble whose number of members is not given",
             expected="an array of values, or count=",
             advice="add count=1000, for instance",
         )
-    told = ", ".join(f"{n}: {length}" for n, length in lengths.items())
+    given_lengths = ", ".join(f"{n}: {length}" for n, length in lengths.items())
     raise DeclarationError(
-        f"arrays and a count that do not agree ({told or 'none'}; count: {count})",
+        f"arrays and a count that do not agree ({given_lengths or 'none'}; count: {count})",
         expected="one length for all of them, at least one",
     )
 

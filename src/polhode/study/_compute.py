@@ -1,12 +1,12 @@
 """Chunks of members computed in this process, by worker processes, or on a Dask cluster.
 
-A cluster is another thing than worker processes: it may be of many machines, is somebody else's,
-loses workers and gains others, and does the sharing out itself.
+A Dask cluster is not a pool of our own worker processes: it may span many machines, belongs to
+somebody else, gains and loses workers, and schedules the chunks itself.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from functools import partial
@@ -17,13 +17,13 @@ from uuid import uuid4
 
 import numpy as np
 
-from polhode.base import NumericError, StoreError, Tell, Worker, WorkerEndedError, answers
+from polhode.base import NumericError, StoreError, Tell, Worker, WorkerEndedError, answers, extra
 from polhode.study._columns import Members
 from polhode.study._ensemble_runner import EnsembleRunner, EnsembleSpec, ResultChunk, Tick
-from polhode.study._libraries import distributed
 
 Place: TypeAlias = tuple[int, ...]
 Chunk: TypeAlias = tuple[Place, Members]
+Computed: TypeAlias = Generator[tuple[Place, ResultChunk], None, None]
 
 _SHARES = 4  # chunks of an ensemble per worker process: members differ in what they take
 _SMALLEST = 8  # members of such a chunk
@@ -36,10 +36,8 @@ _LOST = 8  # workers of a cluster that one chunk may lose before it is given up
 class Compute(Protocol):
     """A way of computing chunks."""
 
-    def __call__(
-        self, spec: EnsembleSpec, chunks: Iterable[Chunk]
-    ) -> Iterator[tuple[Place, ResultChunk]]:
-        """Every chunk once, in whatever order they become ready."""
+    def __call__(self, spec: EnsembleSpec, chunks: Iterable[Chunk]) -> Computed:
+        """Every chunk once, in the order in which they are finished; to be closed."""
         ...
 
 
@@ -50,7 +48,9 @@ def one_after_the_other(tick: Tick) -> Compute:
         tick: told the number of members that are done.
     """
 
-    def compute(spec: EnsembleSpec, chunks: Iterable[Chunk]) -> Iterator[tuple[Place, ResultChunk]]:
+    def compute(
+        spec: EnsembleSpec, chunks: Iterable[Chunk]
+    ) -> Generator[tuple[Place, ResultChunk]]:
         runner = EnsembleRunner(spec)
         for place, members in chunks:
             yield place, runner.follow(members, tick)
@@ -64,7 +64,9 @@ def one_after_the_other(tick: Tick) -> Compute:
 def in_processes(workers: int, tick: Tick) -> Compute:
     """By several processes of this machine; one that ends is replaced."""
 
-    def compute(spec: EnsembleSpec, chunks: Iterable[Chunk]) -> Iterator[tuple[Place, ResultChunk]]:
+    def compute(
+        spec: EnsembleSpec, chunks: Iterable[Chunk]
+    ) -> Generator[tuple[Place, ResultChunk]]:
         left = iter(chunks)
 
         def following(last: Chunk | None) -> Chunk | None:
@@ -113,8 +115,9 @@ def in_shares(spec: EnsembleSpec, members: Members, workers: int, tick: Tick) ->
     ]
     chunks = (((number,), members.rows(rows)) for number, rows in enumerate(shares))
     results = ResultChunk.empty(spec, members.count)
-    for (number,), chunk in in_processes(workers, tick)(spec, chunks):
-        results = results.put(shares[number], chunk)
+    with closing(in_processes(workers, tick)(spec, chunks)) as computed:
+        for (number,), chunk in computed:
+            results = results.put(shares[number], chunk)
     return results
 
 
@@ -122,13 +125,15 @@ def in_shares(spec: EnsembleSpec, members: Members, workers: int, tick: Tick) ->
 
 
 def on_cluster(client: Any, tick: Tick) -> Compute:
-    """On the workers of a Dask cluster; those that are lost are made up for by the others.
+    """On the workers of a Dask cluster, which repeats the chunks of workers that it loses.
 
-    Results come here and are kept here, so that a chunk computed twice counts once.
+    Results are collected and kept here, so that a chunk computed twice counts once.
     """
 
-    def compute(spec: EnsembleSpec, chunks: Iterable[Chunk]) -> Iterator[tuple[Place, ResultChunk]]:
-        library = distributed()
+    def compute(
+        spec: EnsembleSpec, chunks: Iterable[Chunk]
+    ) -> Generator[tuple[Place, ResultChunk]]:
+        library = _distributed()
         task = _ClusterTask(uuid4().hex, spec)
         waiting, places = library.as_completed(), dict[str, Place]()
         left = iter(chunks)
@@ -168,9 +173,9 @@ def _received(done: Any, place: Place) -> ResultChunk:
 
 @dataclass(frozen=True)
 class _ClusterTask:
-    """What is asked of members, and a name under which a worker knows it again.
+    """What is computed, with a name by which a worker recognises it.
 
-    It goes with every chunk: one copy for all would be lost with the worker that holds it.
+    It is sent with every chunk: one shared copy would be lost with the worker that holds it.
     """
 
     name: str
@@ -195,7 +200,7 @@ def scheduler(address: str) -> Iterator[Any]:
     Raises:
         StoreError: where it does not answer.
     """
-    library = distributed()
+    library = _distributed()
     try:
         client = library.Client(address, timeout=_REACHED_WITHIN)
     except (OSError, ValueError, TimeoutError) as error:
@@ -206,3 +211,9 @@ def scheduler(address: str) -> Iterator[Any]:
         ) from error
     with client:
         yield client
+
+
+def _distributed() -> Any:
+    with extra("dask.distributed", "study"):
+        import distributed
+    return distributed

@@ -1,4 +1,4 @@
-"""Many motions of one system, with numbers and starts that differ."""
+"""Many motions of one system, with different parameters and start values."""
 
 from __future__ import annotations
 
@@ -10,17 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polhode.algebra import Expr
-from polhode.base import DeclarationError, Progress, Shown, SilentProgress, look_up
-from polhode.study import _libraries
-from polhode.study._columns import Array, Column, Members, Name, members_of
+from polhode.base import DeclarationError, Progress, Shown, SilentProgress, extra, look_up
+from polhode.study._columns import Array, Column, Members, Name, members_of, whole
 from polhode.study._compute import in_shares
-from polhode.study._counts import whole
-from polhode.study._ensemble_runner import EnsembleSpec, ResultChunk, Subject, options_of
-from polhode.study._extremes import Quantity
+from polhode.study._ensemble_runner import EnsembleSpec, Reason, ResultChunk, Subject, options_of
 from polhode.study._grid import start_name
-from polhode.study._output import Output
+from polhode.study._output import Output, Quantity
 from polhode.study._outputs import outputs_of
-from polhode.study._reasons import Reason
 from polhode.study._refused import refuse_mistakes
 
 if TYPE_CHECKING:
@@ -92,6 +88,8 @@ class Ensemble(Shown):
         Raises:
             StoreError: where xarray is not installed.
         """
+        with extra("xarray", "study"):
+            import xarray
         columns = {
             name: (
                 ("member", *(f"{name}_{axis}" for axis in range(values.ndim - 1))),
@@ -105,10 +103,7 @@ class Ensemble(Shown):
             for name, column in self.numbers.items()
         }
         reason = {"reason": ("member", self.reason)}
-        found: xarray.Dataset = _libraries.xarray().Dataset(
-            {**columns, **reason}, coords=numbers, attrs={"seed": self.seed}
-        )
-        return found
+        return xarray.Dataset({**columns, **reason}, coords=numbers, attrs={"seed": self.seed})
 
 
 def ensemble(
@@ -128,7 +123,7 @@ def ensemble(
     events: Mapping[str, Expr] | None = None,
     progress: Progress | None = None,
 ) -> Ensemble:
-    """Follow many motions, through their contact modes, and keep the chosen outputs of each.
+    """Simulate many motions, through their contact modes, and keep chosen outputs of each.
 
     The answers are those of `simulate` for the same numbers. A member that fails is recorded with
     its reason and does not stop the rest.
@@ -162,16 +157,16 @@ def ensemble(
     options = options_of(
         forcing=forcing, tolerance=tolerance, near_flat=near_flat, until=until, events=events
     )
-    order = EnsembleSpec(subject, duration, outputs_of(outputs), options)
-    refuse_mistakes(order, members.parameters, members.start)
+    spec = EnsembleSpec(subject, duration, outputs_of(outputs), options)
+    refuse_mistakes(spec, members.parameters, members.start)
     whole(workers, "workers")
     shown = progress or SilentProgress()
     shown.begin("members", members.count)
     try:
-        block = in_shares(order, members, workers, shown.advance)
+        results = in_shares(spec, members, workers, shown.advance)
     finally:
         shown.finish()
-    return _told(order, members, block, chosen)
+    return _ensemble_of(spec, members, results, chosen)
 
 
 def _seed(seed: Any) -> int:
@@ -180,13 +175,13 @@ def _seed(seed: Any) -> int:
     return int(seed)
 
 
-def _told(order: EnsembleSpec, members: Members, block: ResultChunk, seed: int) -> Ensemble:
-    labels = {name: output.labels(order.legend) for name, output in order.outputs.items()}
+def _ensemble_of(spec: EnsembleSpec, members: Members, results: ResultChunk, seed: int) -> Ensemble:
+    labels = {name: output.labels(spec.legend) for name, output in spec.outputs.items()}
     return Ensemble(
-        values=block.values,
+        values=results.values,
         labels={name: words for name, words in labels.items() if words},
-        reason=block.reason,
-        failures=block.told,
-        numbers={start_name(n, order.outputs): c for n, c in members.columns.items()},
+        reason=results.reason,
+        failures=results.failures,
+        numbers={start_name(n, spec.outputs): c for n, c in members.columns.items()},
         seed=seed,
     )

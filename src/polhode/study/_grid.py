@@ -20,13 +20,14 @@ from polhode.study._columns import (
     is_many,
     published_names,
     split_unit,
+    whole,
 )
-from polhode.study._counts import whole
 
 SAMPLE = "sample"
 """The axis of everything that is drawn."""
 
-_LEAST_IN_CHUNK, _MOST_IN_CHUNK = 64, 1024  # few fill no lanes; many are lost to a kill
+_LEAST_IN_CHUNK = 64  # members: fewer do not fill a batch
+_MOST_IN_CHUNK = 1024  # members that are lost if the sweep is killed
 _CHUNKS = 64
 
 
@@ -146,7 +147,7 @@ def _column(name: str, value: Any, samples: int | None, seed: int) -> Column:
 
 
 def _chunk(shape: tuple[int, ...], wanted: int | None) -> tuple[int, ...]:
-    """As nearly cubic as the axes allow."""
+    """Lengths of a chunk along the axes, as equal as the axes allow."""
     usual = min(max(prod(shape) // _CHUNKS, _LEAST_IN_CHUNK), _MOST_IN_CHUNK)
     left = wanted or usual
     found = dict[int, int]()
@@ -158,7 +159,7 @@ def _chunk(shape: tuple[int, ...], wanted: int | None) -> tuple[int, ...]:
 
 
 def start_name(name: str, outputs: Collection[str]) -> str:
-    """What given values are called beside outputs: one of the same name is the value at the end."""
+    """The name of given values in results: an output of the same name is the value at the end."""
     return f"{name}_start" if name in outputs else name
 
 

@@ -17,17 +17,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.base import SCHEMA, PolhodeError, StoreError, write_whole
-from polhode.study import _libraries
-from polhode.study._ensemble_runner import ResultChunk
+from polhode.base import SCHEMA, PolhodeError, StoreError, extra, write_whole
+from polhode.study._ensemble_runner import Reason, ResultChunk
 from polhode.study._grid import Grid
-from polhode.study._libraries import zarr
 from polhode.study._output import CodeTable
 from polhode.study._outputs import Outputs
-from polhode.study._reasons import Reason
 
 if TYPE_CHECKING:
     import xarray
+
 
 ATTRIBUTE = "polhode"
 DONE, REASON = "done", "reason"
@@ -66,7 +64,7 @@ class Store:
                 for place in np.argwhere(self.done)
             )
 
-    def write(self, grid: Grid, place: tuple[int, ...], block: ResultChunk) -> None:
+    def write(self, grid: Grid, place: tuple[int, ...], results: ResultChunk) -> None:
         """Keep a chunk, and then that it is done.
 
         Raises:
@@ -75,11 +73,11 @@ class Store:
         region = grid.region(place)
         shape = tuple(r.stop - r.start for r in region)
         with intact(self.path), written(self.path):
-            for name, values in block.values.items():
+            for name, values in results.values.items():
                 self.group[name][region] = values.reshape(*shape, *values.shape[1:])
-            self.group[REASON][region] = block.reason.reshape(shape)
-            if block.told:
-                write_whole(self._words(place), json.dumps(_words(block)).encode())
+            self.group[REASON][region] = results.reason.reshape(shape)
+            if results.failures:
+                write_whole(self._words(place), json.dumps(_words(results)).encode())
             self.group[DONE][place] = 1
 
     def failures(self, place: tuple[int, ...]) -> dict[int, str]:
@@ -95,8 +93,8 @@ class Store:
         return self.path / REASON / f"words.{'.'.join(map(str, place))}.json"
 
 
-def _words(block: ResultChunk) -> dict[str, str]:
-    return {str(i): text for i, text in block.told.items()}
+def _words(results: ResultChunk) -> dict[str, str]:
+    return {str(i): text for i, text in results.failures.items()}
 
 
 def created(
@@ -115,7 +113,7 @@ def created(
             option="resume",
         )
     with written(path), _whole_or_gone(path):
-        group = zarr().create_group(path, zarr_format=3)
+        group = _zarr().create_group(path, zarr_format=3)
         for name, column in grid.columns.items():
             group.create_array(
                 grid.called[name],
@@ -164,7 +162,7 @@ def open_store(path: Path, mode: str = "r") -> Store:
     """
     if not path.exists():
         raise StoreError(f"{path} is not there", expected="a store that a sweep wrote")
-    library = zarr()
+    library = _zarr()
     try:
         group = library.open_group(path, mode=mode, zarr_format=3)
         schema = group.attrs[ATTRIBUTE]["schema"]
@@ -188,13 +186,21 @@ def dataset(path: Path) -> xarray.Dataset:
     Raises:
         StoreError: where there is none, or xarray is not installed.
     """
-    store, library = open_store(path), _libraries.xarray()
+    with extra("xarray", "study"):
+        import xarray
+    store = open_store(path)
     with intact(path):
-        found: xarray.Dataset = library.open_zarr(
+        found: xarray.Dataset = xarray.open_zarr(
             path, consolidated=False, chunks=None, mask_and_scale=False
         )
         axes = store.origin["axes"]
         return found.set_coords([axis["coordinate"] for axis in axes.values()])
+
+
+def _zarr() -> Any:
+    with extra("zarr", "study"):
+        import zarr
+    return zarr
 
 
 @contextmanager
