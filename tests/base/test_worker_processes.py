@@ -64,12 +64,12 @@ def test_an_error_comes_instead_of_an_answer_and_the_worker_stays(worker):
 
 
 @pytest.mark.parametrize(
-    ("question", "out_of_time"), [("compute for ever", True), ("die", False), ("too much", False)]
+    ("question", "seconds"), [("compute for ever", 0.2), ("die", LONG), ("too much", LONG)]
 )
-def test_a_worker_that_ends_says_why(worker, question, out_of_time):
+def test_a_worker_that_ends_says_why(worker, question, seconds):
     with pytest.raises(WorkerEndedError) as caught:
-        worker.ask(question, 0.2)
-    assert caught.value.out_of_time is out_of_time
+        worker.ask(question, seconds)
+    assert caught.value.out_of_time is (seconds < LONG)
     assert caught.value.was_ready
     assert not worker.is_open
     with pytest.raises(WorkerEndedError):
@@ -133,7 +133,7 @@ def test_a_task_that_ends_its_worker_is_told_and_the_others_go_on():
 
 
 def test_a_task_that_takes_too_long_is_told_and_the_others_go_on():
-    slow, quick = all_of(["compute for ever", ("double", 4)], workers=1, seconds=0.3)
+    slow, quick = all_of(["compute for ever", ("double", 4)], workers=1, seconds=1.0)
     assert slow.lost is not None
     assert slow.lost.out_of_time
     assert quick.reply == 8

@@ -182,7 +182,7 @@ def test_what_is_open_is_not_held_open_by_the_process_that_judges():
     reading, writing = os.pipe()
     assert ph.check(RIGHT, anew).answer is Answer.HOLDS
     os.close(writing)
-    ready, _, _ = select([reading], [], [], 5.0)
+    ready, _, _ = select([reading], [], [], 60.0)
     assert ready
     assert os.read(reading, 1) == b""
     os.close(reading)

@@ -8,6 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
+from polhode.lab import _workers
 from polhode.lab._workers import DONE, REFUSED, BrokenError, GoneError, TooLongError, WorkerPool
 
 QUICK = b'run\n{"system": "gyroscope", "duration": "0.1 s"}'
@@ -49,7 +50,9 @@ async def answers(worker):
     assert reply.startswith(DONE)
 
 
-def test_a_motion_that_nobody_waits_for_is_stopped_and_the_worker_stays():
+def test_a_motion_that_nobody_waits_for_is_stopped_and_the_worker_stays(monkeypatch):
+    monkeypatch.setattr(_workers, "_GRACE", PATIENCE)  # to see its next step on a busy machine
+
     async def act(worker):
         await answers(worker)
         number = worker.pid

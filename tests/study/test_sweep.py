@@ -161,7 +161,7 @@ def test_what_cannot_be_swept_is_refused(tmp_path, axes, options, words):
 
 
 def test_an_unreachable_scheduler_is_told(tmp_path, monkeypatch):
-    monkeypatch.setattr("polhode.study._cluster._REACHED_WITHIN", 0.5)
+    monkeypatch.setattr("polhode.study._compute._REACHED_WITHIN", 0.5)
     with pytest.raises(StoreError, match="no scheduler answers"):
         fates(tmp_path / "far", address="tcp://127.0.0.1:9")
 
