@@ -78,10 +78,14 @@ def unit_of(symbol: Symbol, equations: Equations) -> str:
 def with_usual_numbers(entry: CatalogueEntry, equations: Equations) -> CatalogueEntry:
     """An entry with default numbers of the right dimension where it has none."""
     known = {parameter.name for parameter in entry.parameters}
-    added = tuple(
-        Parameter(s.published, _UNITS.get(d, ""), _guess(s.published, d), "")
+    units = {
+        s.published: (_UNITS.get(d, ""), _USUAL.get(d, 1.0))
         for s, d in _with_dimensions(equations, equations.parameters)
         if s.published not in known
+    }
+    added = (
+        Parameter(name, unit, f"{size:g} {unit}".strip(), "")
+        for name, (unit, size) in units.items()
     )
     start = dict(entry.start) or {
         s.published: "1 rad" for s in equations.coordinates if equations.dimensions.get(s) == PURE
@@ -101,18 +105,25 @@ def parameters_of(entry: CatalogueEntry, equations: Equations) -> list[Control]:
     values = numbers_of(entry, equations).parameters
     signed = {s for s, d in _with_dimensions(equations, equations.parameters) if d in _SIGNED}
     positive = {p.name for p in entry.parameters} - {s.published for s in signed if not s.positive}
-    return [
-        _parameter(p, value, positive=p.name in positive)
-        for p in entry.parameters
-        if (value := values.get(p.name, _plain_value(p.default))) is not None
-    ]
+    found: list[Control] = []
+    for p in entry.parameters:
+        value = values.get(p.name)
+        if value is None and _PLAIN.fullmatch(p.default):  # in no equation
+            value = read_quantity(p.default).value
+        if value is not None:
+            symbol = Symbol(p.name.rstrip("_"))
+            is_positive = p.name in positive
+            made = _control(symbol, p.default, p.unit, p.meaning, value, positive=is_positive)
+            found.append(replace(made, name=p.name))
+    return found
 
 
 def start_of(entry: CatalogueEntry, equations: Equations) -> list[Control]:
     """Sliders of coordinates and speeds at the start, those of the usual start first."""
     values = numbers_of(entry, equations).start
     found: list[Control] = []
-    for symbol, dimension in _states(equations):
+    states = (*equations.coordinates, *equations.speeds)
+    for symbol, dimension in _with_dimensions(equations, states):
         name = symbol.published
         text = entry.start.get(name, "0")
         unit = _UNITS.get(dimension, str(dimension))
@@ -120,16 +131,10 @@ def start_of(entry: CatalogueEntry, equations: Equations) -> list[Control]:
             unit = "rad" if name in entry.start else "deg"
         made = _control(symbol, text, unit, "", values.get(name, 0.0), positive=False)
         is_extra = (
-            symbol.published not in entry.start
-            and symbol.kind is SymbolKind.COORDINATE
-            and not symbol.order
+            name not in entry.start and symbol.kind is SymbolKind.COORDINATE and not symbol.order
         )
         found.append(replace(_widened(made, dimension, found), extra=is_extra))
     return sorted(found, key=lambda control: control.name not in entry.start)
-
-
-def _states(equations: Equations) -> Iterator[tuple[Symbol, Dimension]]:
-    yield from _with_dimensions(equations, (*equations.coordinates, *equations.speeds))
 
 
 def _with_dimensions(
@@ -140,22 +145,6 @@ def _with_dimensions(
         yield symbol, base / TIME**symbol.order
 
 
-def _guess(name: str, dimension: Dimension) -> str:
-    size = _USUAL.get(dimension, 1.0)
-    return f"{size:g} {_UNITS.get(dimension, '')}".strip()
-
-
-def _plain_value(text: str) -> float | None:
-    """The value of a parameter that occurs in no equation, if it is a plain number."""
-    return read_quantity(text).value if _PLAIN.fullmatch(text) else None
-
-
-def _parameter(given: Parameter, value: float, *, positive: bool) -> Control:
-    symbol = Symbol(given.name.rstrip("_"))
-    made = _control(symbol, given.default, given.unit, given.meaning, value, positive=positive)
-    return replace(made, name=given.name)
-
-
 def _control(
     symbol: Symbol, text: str, unit: str, meaning: str, value: float, *, positive: bool
 ) -> Control:
@@ -164,7 +153,7 @@ def _control(
     shown = (plain[2] or unit).strip() if plain else unit
     one = read_quantity(f"1 {shown}") if shown else read_quantity("1")
     si = "rad" if shown in _ANGLES else _UNITS.get(one.dimension or PURE, "")
-    scaled = _tidy(value / one.value)
+    scaled = float(f"{value / one.value:.12g}")  # without the rounding error of the change of unit
     low, high, ratio = _range(scaled, shown, positive=positive)
     letter = Expr.generator(symbol).mathml()
     return Control(
@@ -181,11 +170,6 @@ def _control(
         ratio=ratio,
         extra=False,
     )
-
-
-def _tidy(value: float) -> float:
-    """Without the rounding error of a change of unit."""
-    return float(f"{value:.12g}")
 
 
 def _range(value: float, unit: str, *, positive: bool) -> tuple[float, float, bool]:

@@ -33,6 +33,19 @@ def whole(value: Any, what: str, least: int = 1) -> int:
     return int(value)
 
 
+def random_seed(seed: int | None) -> int:
+    """A given seed, or a new one.
+
+    Raises:
+        DeclarationError: for a seed that is not a whole number, zero or more.
+    """
+    if seed is None:
+        return int(np.random.SeedSequence().entropy) % 2**62  # type: ignore[arg-type]
+    if not isinstance(seed, int | np.integer) or seed < 0:
+        raise DeclarationError(f"the seed {seed!r}", expected="a whole number, zero or more")
+    return int(seed)
+
+
 def several(names: Sequence[Name] | Name, what: str) -> tuple[Name, ...]:
     """Some names, or one alone.
 

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polhode.algebra import Expr
-from polhode.base import DeclarationError, Progress, Shown, SilentProgress, extra, look_up
-from polhode.study._columns import Array, Column, Members, Name, members_of, whole
+from polhode.base import Progress, Shown, SilentProgress, extra, look_up
+from polhode.study._columns import Array, Column, Name, members_of, random_seed, whole
 from polhode.study._compute import in_shares
-from polhode.study._ensemble_runner import EnsembleSpec, Reason, ResultChunk, Subject, options_of
+from polhode.study._ensemble_runner import EnsembleSpec, Reason, Subject, options_of
 from polhode.study._grid import start_name
 from polhode.study._output import Output, Quantity
 from polhode.study._outputs import outputs_of
@@ -151,9 +151,9 @@ def ensemble(
         NumericError: for a tolerance that cannot be.
         UnitError: for a duration that cannot be read.
     """
-    chosen = np.random.SeedSequence().entropy % 2**62 if seed is None else seed  # type: ignore[operator]
+    drawn_with = random_seed(seed)
     known = None if count is None else whole(count, "members")
-    members = members_of(parameters, start, known, _seed(chosen))
+    members = members_of(parameters, start, known, drawn_with)
     options = options_of(
         forcing=forcing, tolerance=tolerance, near_flat=near_flat, until=until, events=events
     )
@@ -166,16 +166,6 @@ def ensemble(
         results = in_shares(spec, members, workers, shown.advance)
     finally:
         shown.finish()
-    return _ensemble_of(spec, members, results, chosen)
-
-
-def _seed(seed: Any) -> int:
-    if not isinstance(seed, int | np.integer) or seed < 0:
-        raise DeclarationError(f"the seed {seed!r}", expected="a whole number, zero or more")
-    return int(seed)
-
-
-def _ensemble_of(spec: EnsembleSpec, members: Members, results: ResultChunk, seed: int) -> Ensemble:
     labels = {name: output.labels(spec.legend) for name, output in spec.outputs.items()}
     return Ensemble(
         values=results.values,
@@ -183,5 +173,5 @@ def _ensemble_of(spec: EnsembleSpec, members: Members, results: ResultChunk, see
         reason=results.reason,
         failures=results.failures,
         numbers={start_name(n, spec.outputs): c for n, c in members.columns.items()},
-        seed=seed,
+        seed=drawn_with,
     )

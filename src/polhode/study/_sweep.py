@@ -23,7 +23,7 @@ from polhode.base import (
 from polhode.derive import Equations
 from polhode.model import System, write_declaration
 from polhode.simulate import Pieces
-from polhode.study._columns import Name, published_names, whole
+from polhode.study._columns import Name, published_names, random_seed, whole
 from polhode.study._compute import Compute, in_processes, on_cluster, one_after_the_other, scheduler
 from polhode.study._ensemble import USUAL
 from polhode.study._ensemble_runner import EnsembleSpec, Subject, options_of
@@ -142,11 +142,7 @@ def _seed(seed: int | None, begun: Store | None) -> int:
     if seed is None and begun is not None:
         with intact(begun.path):
             return int(begun.origin["seed"] or 0)
-    if seed is None:
-        return int(np.random.SeedSequence().entropy) % 2**62  # type: ignore[arg-type]
-    if seed < 0:
-        raise DeclarationError(f"the seed {seed}", expected="a whole number, zero or more")
-    return seed
+    return random_seed(seed)
 
 
 @contextmanager
