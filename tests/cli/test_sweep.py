@@ -48,7 +48,7 @@ def test_a_map_is_drawn(store, tmp_path, capsys):
         ([*SWEEP, *SHORT, "--workers", "0", "--out", "x"], "0 workers"),
         ([*SWEEP, *SHORT, "--out", "/dev/null/x"], "cannot be written"),
         ([*SWEEP, *SHORT, "--scheduler", "nowhere", "--out", "x"], "no scheduler answers"),
-        (["map", "nothing", "-o", "x.png"], "is not there"),
+        (["map", "nothing", "-o", "x.png"], "does not exist"),
     ],
 )
 def test_refusals(words, told, capsys, tmp_path, monkeypatch):

@@ -115,7 +115,7 @@ def test_a_full_disk_is_told_and_what_is_done_is_kept(tmp_path, whole, monkeypat
 
 def test_another_sweep_is_not_gone_on_with(whole, tmp_path):
     path, _ = whole
-    with pytest.raises(StoreError, match="is there already"):
+    with pytest.raises(StoreError, match="exists already"):
         fates(path)
     with pytest.raises(StoreError, match="other options"):
         fates(path, resume=True, near_flat=0.2)

@@ -47,10 +47,10 @@ def random_seed(seed: int | None) -> int:
 
 
 def several(names: Sequence[Name] | Name, what: str) -> tuple[Name, ...]:
-    """Some names, or one alone.
+    """Some names, given as a sequence or as one name.
 
     Raises:
-        DeclarationError: for none at all.
+        DeclarationError: for an empty sequence.
     """
     found = (names,) if isinstance(names, Name) else tuple(names)
     if not found:
@@ -63,7 +63,7 @@ class Distribution(Protocol):
     """What random values are drawn from, such as a frozen distribution of scipy.stats."""
 
     def rvs(self, *, size: int, random_state: np.random.Generator) -> Any:
-        """That many values."""
+        """As many values as `size`."""
         ...
 
 
@@ -80,7 +80,7 @@ class Column:
     unit: str = ""
 
     def value(self, member: int) -> Any:
-        """As `simulate` takes it."""
+        """The value of one member, as `simulate` takes it."""
         value = self.values[member].item()
         return (value, self.unit) if self.unit else value
 
@@ -123,7 +123,7 @@ class Members:
         return Members(count, _rows(self.parameters, rows), _rows(self.start, rows))
 
     def si_columns(self) -> dict[str, Array] | None:
-        """SI values of what differs, by name; None where they are texts."""
+        """SI values of the columns, by name; None if some are texts."""
         columns = self.columns
         if any(column.values.dtype.kind == "U" for column in columns.values()):
             return None
@@ -131,12 +131,12 @@ class Members:
 
     @property
     def has_expressions(self) -> bool:
-        """Whether a value that is common to all may depend on what differs."""
+        """Whether a common value may depend on those that differ."""
         return any(isinstance(v, Expr) for v in (*self.parameters.values(), *self.start.values()))
 
     @property
     def columns(self) -> dict[str, Column]:
-        """What differs, by name."""
+        """The values that differ, by name."""
         both = {**self.parameters, **self.start}
         return {name: value for name, value in both.items() if isinstance(value, Column)}
 
@@ -155,7 +155,7 @@ def members_of(
     """Members from arrays, distributions and single values.
 
     Raises:
-        DeclarationError: where it is not clear how many members there are.
+        DeclarationError: unless arrays and count agree on the number of members.
     """
     given = (published_names(parameters), published_names(start))
     size = _count([*given[0].items(), *given[1].items()], count)
@@ -171,7 +171,7 @@ def published_names(values: Mapping[Name, Any]) -> dict[str, Any]:
 def drawn(name: str, distribution: Distribution, count: int, seed: int) -> Array:
     """Values from a distribution.
 
-    They depend on the seed and the name alone, not on what else is drawn.
+    They depend on the seed and the name alone, not on other random values.
     """
     generator = np.random.default_rng([seed, *name.encode()])
     return np.asarray(distribution.rvs(size=count, random_state=generator), dtype=float)
@@ -187,7 +187,7 @@ def split_unit(value: Any) -> tuple[Any, str]:
 
 
 def is_many(value: Any) -> bool:
-    """Whether these are the values of several members."""
+    """Whether these are values of several members."""
     return isinstance(value, list | range) or (isinstance(value, np.ndarray) and value.ndim > 0)
 
 

@@ -22,7 +22,7 @@ from polhode.study._refused import refuse_mistakes
 if TYPE_CHECKING:
     import xarray
 
-#: What is kept unless something else is asked for.
+#: The default outputs.
 USUAL = ("mode",)
 
 
@@ -33,12 +33,12 @@ class Ensemble(Shown):
     Attributes:
         values: by output, shape (members, *shape of the output); not-a-number, and -1 for codes,
             of members without a result.
-        labels: of outputs that are codes: what each stands for.
-        reason: a `Reason` per member, 0 for those that were followed to their end.
-        failures: why members failed, in words; of the first thousand.
+        labels: meanings of the codes, for outputs that are codes.
+        reason: a `Reason` per member, 0 for those simulated to their end.
+        failures: why members failed, in words, for the first thousand.
         numbers: parameters and start values that differ, shape (members,), as given; those of
             the name of an output are called `..._start`.
-        seed: of what was drawn.
+        seed: of the random values.
     """
 
     values: Mapping[str, Array]
@@ -58,14 +58,14 @@ class Ensemble(Shown):
         """One output, or parameter or start value that differs, of all members.
 
         Raises:
-            DeclarationError: for a name that is none.
+            DeclarationError: for an unknown name.
         """
         known = {**{n: column.values for n, column in self.numbers.items()}, **self.values}
         return look_up(name, known, "output of this ensemble")
 
     @property
     def done(self) -> NDArray[np.bool_]:
-        """Which members were followed to their end, shape (members,)."""
+        """Which members were simulated to their end, shape (members,)."""
         return np.asarray(self.reason == Reason.DONE)
 
     @property
@@ -74,10 +74,10 @@ class Ensemble(Shown):
         return int(np.sum(~self.done))
 
     def named(self, name: str) -> list[str]:
-        """An output that is a code, in words; "" where there is none.
+        """An output that is a code, in words; "" where there is no result.
 
         Raises:
-            DeclarationError: for an output that is no code.
+            DeclarationError: for an output that is not a code.
         """
         words = look_up(name, self.labels, "output of this ensemble that is a code")
         return [words[int(code)] if code >= 0 else "" for code in self.values[name].ravel()]
@@ -125,8 +125,8 @@ def ensemble(
 ) -> Ensemble:
     """Simulate many motions, through their contact modes, and keep chosen outputs of each.
 
-    The answers are those of `simulate` for the same numbers. A member that fails is recorded with
-    its reason and does not stop the rest.
+    The results are those of `simulate` for the same numbers. A member that fails is recorded with
+    the reason, and the others go on.
 
     Args:
         subject: a declaration, its automaton, or equations derived from it.
@@ -137,18 +137,17 @@ def ensemble(
         duration: s.
         outputs: what is kept, by name. A quantity alone stands for its value at the end, "mode"
             for the mode at the end.
-        count: number of members, where no array tells.
-        seed: of what is drawn; a new one where none is given. Every quantity has its own random
-            numbers, which depend on the seed and its name alone.
+        count: number of members, unless an array gives it.
+        seed: of random values; by default a new one. Every quantity has its own random numbers,
+            which depend on the seed and its name alone.
         workers: processes that share the work.
-        until: events that end a motion once they happen, such as "slips"; what comes after is
-            not computed.
+        until: events that end a motion, such as "slips".
         forcing, tolerance, near_flat, events: as in `simulate`.
         progress: told of every member.
 
     Raises:
-        DeclarationError: for members or outputs that are not clear.
-        NumericError: for a tolerance that cannot be.
+        DeclarationError: for ambiguous members or outputs.
+        NumericError: for an invalid tolerance.
         UnitError: for a duration that cannot be read.
     """
     drawn_with = random_seed(seed)

@@ -1,6 +1,6 @@
-"""What is kept of every motion of an ensemble.
+"""The outputs that are kept of every motion of an ensemble.
 
-Whatever else a motion was is forgotten at once, so that memory grows with the outputs alone.
+Nothing else of a motion is kept, so memory grows with the outputs alone.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from polhode.study._output import (
 
 @dataclass(frozen=True)
 class Duration(FromEnds, Single):
-    """How long the motion went on, s: shorter than asked for where it could not be continued."""
+    """Duration of the motion, s; less than the given one where it could not be continued."""
 
     def of(self, run: Trajectory, legend: CodeTable) -> float:
         """Its value."""
@@ -44,7 +44,7 @@ class Duration(FromEnds, Single):
 
 @dataclass(frozen=True)
 class EventTime(FromEnds, Single):
-    """When something happened, s.
+    """Time of an event, s.
 
     Args:
         kind: of the event, such as "slips", "sticks", "goes flat".
@@ -69,7 +69,7 @@ class EventTime(FromEnds, Single):
 
 @dataclass(frozen=True)
 class EventCount(FromEnds, Single):
-    """How often something happened.
+    """Number of events of a kind.
 
     Args:
         kind: of the event.
@@ -88,7 +88,7 @@ class EventCount(FromEnds, Single):
 
 @dataclass(frozen=True)
 class EventTimes(FromEnds, Plain):
-    """When anything happened, s, in order; without start and end.
+    """Times of all events, s, in order, without start and end.
 
     Args:
         most: how many events are kept.
@@ -114,7 +114,7 @@ class EventTimes(FromEnds, Plain):
 
 @dataclass(frozen=True)
 class EventKinds(FromEnds):
-    """What happened, in order, as codes; without start and end.
+    """Kinds of all events as codes, in order, without start and end.
 
     Args:
         most: how many events are kept.
@@ -145,7 +145,7 @@ class EventKinds(FromEnds):
 
 @dataclass(frozen=True)
 class EndMode(FromEnds):
-    """The contact mode that the motion ends in, as a code."""
+    """The contact mode at the end of the motion, as a code."""
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -166,13 +166,13 @@ class EndMode(FromEnds):
 
 @dataclass(frozen=True)
 class Fate(FromEnds):
-    """What becomes of a motion, as a code: the first of some events that happens to it, or none.
+    """The outcome of a motion as a code: the first of some events, or none of them.
 
     A start in which a contact slips already counts as slipping.
 
     Args:
         kinds: the events that decide; for a disk on the ground those that end its rolling.
-        otherwise: what it is called where none of them happens within the time.
+        otherwise: label of motions in which none of them happens.
     """
 
     kinds: tuple[str, ...] = ("goes flat", "slips", "lifts off")
@@ -183,7 +183,7 @@ class Fate(FromEnds):
         return ()
 
     def labels(self, legend: CodeTable) -> tuple[str, ...]:
-        """What may become of it."""
+        """The possible outcomes."""
         return (self.otherwise, *self.kinds)
 
     def of(self, run: Trajectory, legend: CodeTable) -> float:
@@ -203,7 +203,7 @@ class Fate(FromEnds):
         return np.where(at_once, 1.0 + self.kinds.index("slips"), found)
 
 
-#: Outputs that tell of contacts that pull, which nobody looks for while many motions go on at once.
+#: Outputs that may ask for contacts that pull, which batches do not detect.
 OF_EVENTS = (EventTime, EventCount, EventTimes, EventKinds)
 
 

@@ -1,7 +1,7 @@
-"""Results of a sweep on disk: Zarr chunks, each whole or not there.
+"""Results of a sweep on disk: Zarr chunks, each complete or absent.
 
-What a chunk holds is written first, and that it is done last: whatever stops the work in between,
-a chunk that is not marked is computed again. The marks are read before anything is written.
+The data of a chunk are written first, its mark last: wherever the work is stopped, a chunk without
+a mark is computed again. The marks are read before anything is written.
 """
 
 from __future__ import annotations
@@ -45,18 +45,18 @@ class Store:
 
     @property
     def origin(self) -> Mapping[str, Any]:
-        """What it was made with."""
+        """Everything that the results depend on."""
         with intact(self.path):
             return dict(self.group.attrs[ATTRIBUTE])
 
     @property
     def done(self) -> NDArray[np.bool_]:
-        """Which chunks are done, shaped like the grid of chunks."""
+        """Which chunks are complete, shape of the grid of chunks."""
         with intact(self.path):
             return np.asarray(self.group[DONE][...]).astype(bool)
 
     def failed(self) -> int:
-        """How many members that were followed have no result; read chunk by chunk."""
+        """Number of members that failed; read chunk by chunk."""
         with intact(self.path):
             reason = self.group[REASON]
             return sum(
@@ -65,7 +65,7 @@ class Store:
             )
 
     def write(self, grid: Grid, place: tuple[int, ...], results: ResultChunk) -> None:
-        """Keep a chunk, and then that it is done.
+        """Write a chunk, and then its mark.
 
         Raises:
             StoreError: where it cannot be written.
@@ -81,7 +81,7 @@ class Store:
             self.group[DONE][place] = 1
 
     def failures(self, place: tuple[int, ...]) -> dict[int, str]:
-        """Why members of a chunk failed, in words, by their place in it."""
+        """Why members of a chunk failed, in words, by their index in it."""
         path = self._words(place)
         if not path.exists():
             return {}
@@ -89,7 +89,7 @@ class Store:
             return {int(i): text for i, text in json.loads(path.read_text()).items()}
 
     def _words(self, place: tuple[int, ...]) -> Path:
-        # Within an array: a group would take them for members of it.
+        # In the folder of an array: Zarr takes files in that of a group for members of the group.
         return self.path / REASON / f"words.{'.'.join(map(str, place))}.json"
 
 
@@ -100,14 +100,14 @@ def _words(results: ResultChunk) -> dict[str, str]:
 def created(
     path: Path, origin: Mapping[str, Any], grid: Grid, outputs: Outputs, legend: CodeTable
 ) -> Store:
-    """A store with nothing in it yet.
+    """A new, empty store.
 
     Raises:
-        StoreError: where it cannot be written, or something is there already.
+        StoreError: where it cannot be written, or exists already.
     """
     if path.exists() and (not path.is_dir() or any(path.iterdir())):
         raise StoreError(
-            f"{path} is there already",
+            f"{path} exists already",
             expected="a name that is still free, or the store of the same sweep to go on with",
             advice="choose another name, or go on with resume=True",
             option="resume",
@@ -155,20 +155,20 @@ def created(
 
 
 def open_store(path: Path, mode: str = "r") -> Store:
-    """A store that is there.
+    """An existing store.
 
     Raises:
         StoreError: where there is none, or one of another schema.
     """
     if not path.exists():
-        raise StoreError(f"{path} is not there", expected="a store that a sweep wrote")
+        raise StoreError(f"{path} does not exist", expected="a store that a sweep wrote")
     library = _zarr()
     try:
         group = library.open_group(path, mode=mode, zarr_format=3)
         schema = group.attrs[ATTRIBUTE]["schema"]
-    except Exception as error:  # its library raises what it likes
+    except Exception as error:  # the library raises anything
         raise StoreError(
-            f"{path} is no store of a sweep ({type(error).__name__})",
+            f"{path} is not a store of a sweep ({type(error).__name__})",
             expected="a folder that polhode sweep wrote",
         ) from error
     if schema != SCHEMA:
@@ -181,7 +181,7 @@ def open_store(path: Path, mode: str = "r") -> Store:
 
 
 def dataset(path: Path) -> xarray.Dataset:
-    """A store as a data set that reads what it needs when it needs it.
+    """A store as a data set that is read lazily.
 
     Raises:
         StoreError: where there is none, or xarray is not installed.
@@ -205,7 +205,7 @@ def _zarr() -> Any:
 
 @contextmanager
 def _whole_or_gone(path: Path) -> Iterator[None]:
-    """Leave nothing of a store that could not be begun: it would be in the way of the next."""
+    """Remove a store that could not be completed, which would be in the way of the next attempt."""
     try:
         yield
     except BaseException:
@@ -215,16 +215,16 @@ def _whole_or_gone(path: Path) -> Iterator[None]:
 
 @contextmanager
 def intact(path: Path) -> Iterator[None]:
-    """Around everything that only a store that was damaged makes fail.
+    """For code that fails only if the store is damaged.
 
     Raises:
-        StoreError: where it fails.
+        StoreError: if it fails.
     """
     try:
         yield
     except PolhodeError:
         raise
-    except Exception as error:  # of a damaged file the libraries that read it raise what they like
+    except Exception as error:  # libraries raise anything for damaged files
         raise StoreError(
             f"{path} is damaged ({type(error).__name__}: {error})"[:300],
             expected="a store as polhode sweep wrote it",
@@ -234,7 +234,7 @@ def intact(path: Path) -> Iterator[None]:
 
 @contextmanager
 def written(path: Path) -> Iterator[None]:
-    """Around everything that writes a store.
+    """For code that writes a store.
 
     Raises:
         StoreError: where it cannot be written.

@@ -67,30 +67,30 @@ def sweep(
 
     Args:
         subject: a declaration, its automaton, or equations derived from it.
-        axes: for every quantity that differs its values, as an array, or `(array, "deg")`, or a
-            distribution of scipy.stats. Arrays span a grid; what is drawn goes along one further
-            axis, `sample`. A name that is no parameter is a start value.
+        axes: values of every quantity that differs, as an array, `(array, "deg")`, or a
+            distribution of scipy.stats. Arrays span a grid; random values share one further axis,
+            `sample`. A name that is not a parameter is a start value.
         parameters: the one value of every other parameter.
         start: the one value of other start values.
         duration: s.
         out: folder to write the store to.
         outputs: as of `ensemble`.
-        samples: how many values are drawn from distributions.
-        seed: of what is drawn; a new one where none is given.
-        chunk: members of a chunk, about.
-        resume: go on with the store that is there; where there is none, begin it.
+        samples: number of values drawn from distributions.
+        seed: of random values; by default a new one.
+        chunk: approximate number of members of a chunk.
+        resume: go on with the store at `out`, if there is one.
         workers: processes of this machine that share the work.
-        client: of a Dask cluster that is to do it.
+        client: of a Dask cluster that is to compute it.
         address: of the scheduler of such a cluster.
         until: as of `ensemble`.
         forcing, tolerance, near_flat: as in `simulate`.
         progress: told of every member.
 
     Returns:
-        The store, opened: arrays over the axes that are read from disk when they are needed.
+        The store, opened: arrays over the axes, read from disk when they are needed.
 
     Raises:
-        DeclarationError: for axes or outputs that are not clear.
+        DeclarationError: for ambiguous axes or outputs.
         StoreError: where the store cannot be written or is another sweep's, or no scheduler
             answers.
         UnitError: for a duration that cannot be read.
