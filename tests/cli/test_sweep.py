@@ -53,7 +53,7 @@ def test_a_map_is_drawn(store, tmp_path, capsys):
 )
 def test_refusals(words, told, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("polhode.study._cluster._REACHED_WITHIN", 0.5)
+    monkeypatch.setattr("polhode.study._compute._REACHED_WITHIN", 0.5)
     assert main(words) == 2
     assert told in capsys.readouterr().err
 

@@ -14,7 +14,7 @@ from lab.conftest import HERE, PORT, SMALL, opened
 from polhode.catalogue import CATALOGUE
 from polhode.lab import Own
 from polhode.lab._app import app_of
-from polhode.lab._describe import plots_of, read
+from polhode.lab._describe import plots_of, summary_of
 from polhode.lab._files import KINDS
 from polhode.lab._requests import RunRequest
 from polhode.lab._system_session import SystemSession
@@ -63,7 +63,7 @@ def test_what_is_read_is_of_the_picture_and_not_computed_again():
     whole = scene(result.run, plots=plots_of(result.variant, result.run))
     seen = scenery(result.run)
     assert (seen.panels, seen.motion, seen.evidence) == ((), (), ())
-    told = read(result.variant, result.run)
+    told = summary_of(result.variant, result.run)
     assert [p.unit for p in told.panels] == [p.unit for p in whole.panels]
     assert (told.motion, told.start) == (whole.motion, whole.start)
     assert len(seen.arrows) == len(whole.arrows)

@@ -15,7 +15,7 @@ import zarr
 from polhode.base import DeclarationError, StoreError
 from polhode.catalogue import CATALOGUE
 from polhode.simulate import simulate
-from polhode.study import Final, Reason, found_in, open_store, sweep
+from polhode.study import Final, Reason, _store, found_in, open_store, sweep
 from polhode.view.figures import new_figure, outcome_map
 from study.examples import NUMBERS, disk
 from study.sweeps import AXES, fates, interrupted_after
@@ -78,6 +78,23 @@ def test_killed_and_gone_on_with_it_ends_with_the_same_bits(whole, tmp_path):
     assert same_bits(path, whole[0])
 
 
+def test_an_interrupt_waits_until_a_chunk_is_written(tmp_path, monkeypatch):
+    """Zarr has a thread that writes: it must not be left alone with a chunk."""
+    write_whole, kept = _store.write_whole, []
+
+    def interrupted(path, data):
+        signal.raise_signal(signal.SIGINT)
+        kept.append(path)
+        write_whole(path, data)
+
+    monkeypatch.setattr(_store, "write_whole", interrupted)
+    path = tmp_path / "interrupted"
+    with pytest.raises(KeyboardInterrupt):
+        fates(path)
+    assert len(kept) == 1
+    assert np.sum(open_store(path).done) == 1
+
+
 def test_an_interrupt_keeps_what_is_done(tmp_path, whole):
     path = tmp_path / "interrupted"
     with pytest.raises(KeyboardInterrupt) as caught:
@@ -123,7 +140,7 @@ def test_another_sweep_is_not_gone_on_with(whole, tmp_path):
         fates(path, resume=True, chunk=2)
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "file").touch()
-    with pytest.raises(StoreError, match="no store"):
+    with pytest.raises(StoreError, match="not a store"):
         fates(tmp_path / "other", resume=True)
     with pytest.raises(StoreError, match="cannot be written"):
         fates(tmp_path / "other" / "file" / "below")

@@ -161,8 +161,9 @@ class _Fresh:
         from subprocess import DEVNULL, Popen
 
         pipes = (questions.fileno(), replies.fileno())
+        folders = [folder for folder in sys.path if isinstance(folder, str)]
         program = (
-            f"import sys; sys.path[:] = {sys.path!r}; "
+            f"import sys; sys.path[:] = {folders!r}; "
             f"from polhode.base._processes import begin_fresh; begin_fresh{(*pipes, memory)}"
         )
         self._process = Popen(

@@ -149,10 +149,8 @@ class Worker(Generic[Question, Reply]):
             Exception: whatever was raised instead of an answer.
         """
         try:
-            kind: Message = Message.READY
-            said: Any = None
-            if not self._is_ready:
-                kind, said = self.receive()
+            ready: tuple[Message, Any] = (Message.READY, None)
+            kind, said = ready if self._is_ready else self.receive()
             while kind in (Message.READY, Message.TOLD):
                 if kind is Message.READY:
                     self.send(question, seconds)
@@ -186,8 +184,8 @@ class Worker(Generic[Question, Reply]):
                 return kind, said
             overdue = True
         ended_by = -self.close()
-        by_its_timer = ended_by == getattr(signal, "SIGPROF", None)
-        raise WorkerEndedError(out_of_time=overdue or by_its_timer, was_ready=self._is_ready)
+        out_of_time = overdue or ended_by == getattr(signal, "SIGPROF", None)
+        raise WorkerEndedError(out_of_time=out_of_time, was_ready=self._is_ready)
 
     def kill(self) -> None:
         """End the process, which whoever waits for its messages then notices."""

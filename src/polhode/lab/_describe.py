@@ -34,7 +34,7 @@ _MOVIE_RATE = 12.0  # frames per second of a movie
 _CONTACTS = ("rolling", "smooth", "friction")
 
 
-def described(chosen: Variant, declared: Variant) -> dict[str, Any]:
+def description_of(chosen: Variant, declared: Variant) -> dict[str, Any]:
     """Sliders, contacts and prescribed functions of a system, as plain data.
 
     Args:
@@ -66,17 +66,17 @@ def described(chosen: Variant, declared: Variant) -> dict[str, Any]:
     }
 
 
-def seen(chosen: Variant, run: Trajectory) -> Scene:
+def picture_of(chosen: Variant, run: Trajectory) -> Scene:
     """The picture of a motion."""
     return scenery(run, title=chosen.entry.title, about=about_with(chosen.entry, chosen.system))
 
 
-def read(chosen: Variant, run: Trajectory) -> MotionSummary:
+def summary_of(chosen: Variant, run: Trajectory) -> MotionSummary:
     """The text and plots of a motion, with those plots of the catalogue that it has."""
     return account(run, plots=plots_of(chosen, run), meanings=meanings_of(chosen))
 
 
-def shown(chosen: Variant, run: Trajectory) -> Scene:
+def scene_of(chosen: Variant, run: Trajectory) -> Scene:
     """Picture, text and plots of a motion, for a page of its own."""
     entry, plots = chosen.entry, plots_of(chosen, run)
     return scene(
@@ -93,7 +93,7 @@ def meanings_of(chosen: Variant) -> dict[str, str]:
     return {parameter.name: parameter.meaning for parameter in chosen.entry.parameters}
 
 
-def followed(run: Trajectory) -> dict[str, Any]:
+def poses_of(run: Trajectory) -> dict[str, Any]:
     """Only the poses of the bodies, for a picture that follows the hand."""
     frames = 1 + max(1, round(_POSE_RATE * run.duration))
     return {"duration": run.duration, "frames": frames, "poses": poses(run, frames)}
@@ -110,7 +110,7 @@ def plots_of(chosen: Variant, run: Trajectory) -> Sequence[Sequence[str]]:
     return [group for group in usual if group]
 
 
-def outcome(run: Trajectory) -> list[dict[str, Any]]:
+def speeds_at_ends(run: Trajectory) -> list[dict[str, Any]]:
     """Every speed at the start and at the end."""
     names = [symbol.published for symbol in run.equations.speeds]
     begin, end = run.table(names, 0.0), run.table(names, run.duration)
@@ -134,7 +134,7 @@ def exported(kind: str, motion: VariantRun) -> bytes:
         StoreError: where the file cannot be made.
     """
     if kind == "page":
-        return page_of(shown(motion.variant, motion.run)).encode("utf-8")
+        return page_of(scene_of(motion.variant, motion.run)).encode("utf-8")
     with tempfile.TemporaryDirectory(prefix="polhode-lab-") as folder:
         path = Path(folder) / f"motion.{kind}"
         _WRITERS[kind](motion, path)
@@ -147,7 +147,7 @@ def _figure(motion: VariantRun, path: Path) -> None:
 
 
 def _movie(motion: VariantRun, path: Path) -> None:
-    whole = shown(motion.variant, motion.run)
+    whole = scene_of(motion.variant, motion.run)
     movie(whole, path, speed=max(whole.duration / _LONGEST, _SLOWEST), rate=_MOVIE_RATE)
 
 

@@ -10,7 +10,14 @@ from typing import Any
 from polhode.base import Progress
 from polhode.lab._claims import answered, claims_about, judged
 from polhode.lab._controls import with_usual_numbers
-from polhode.lab._describe import described, exported, followed, outcome, read, seen
+from polhode.lab._describe import (
+    description_of,
+    exported,
+    picture_of,
+    poses_of,
+    speeds_at_ends,
+    summary_of,
+)
 from polhode.lab._files import KINDS
 from polhode.lab._offer import Own, entry_of
 from polhode.lab._requests import CONTACTS, Fields, question_of, run_request
@@ -74,19 +81,19 @@ class TaskHandler:
         fields.only("system", "contact")
         session = self._session(fields.text("system"))
         chosen = session.variant(fields.one_of("contact", CONTACTS))
-        return _json(described(chosen, session.variant("")))
+        return _json(description_of(chosen, session.variant("")))
 
     def _run(self, fields: Fields) -> bytes:
         motion = self._motion(fields)
-        return packet(seen(motion.variant, motion.run))
+        return packet(picture_of(motion.variant, motion.run))
 
     def _read(self, fields: Fields) -> bytes:
         motion = self._motion(fields)
-        account = read(motion.variant, motion.run)
-        return packet({"account": account, "outcome": outcome(motion.run)})
+        account = summary_of(motion.variant, motion.run)
+        return packet({"account": account, "outcome": speeds_at_ends(motion.run)})
 
     def _follow(self, fields: Fields) -> bytes:
-        return packet(followed(self._motion(fields).run))
+        return packet(poses_of(self._motion(fields).run))
 
     def _standing(self, fields: Fields) -> bytes:
         request = run_request(fields.only(*_RUN_FIELDS))

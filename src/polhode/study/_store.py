@@ -7,11 +7,14 @@ a mark is computed again. The marks are read before anything is written.
 from __future__ import annotations
 
 import json
+import signal
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from shutil import rmtree
+from signal import SIGINT, SIGTERM
+from threading import current_thread, main_thread
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -72,7 +75,7 @@ class Store:
         """
         region = grid.region(place)
         shape = tuple(r.stop - r.start for r in region)
-        with intact(self.path), written(self.path):
+        with intact(self.path), written(self.path), _uninterrupted():
             for name, values in results.values.items():
                 self.group[name][region] = values.reshape(*shape, *values.shape[1:])
             self.group[REASON][region] = results.reason.reshape(shape)
@@ -112,7 +115,7 @@ def created(
             advice="choose another name, or go on with resume=True",
             option="resume",
         )
-    with written(path), _whole_or_gone(path):
+    with written(path), _whole_or_gone(path), _uninterrupted():
         group = _zarr().create_group(path, zarr_format=3)
         for name, column in grid.columns.items():
             group.create_array(
@@ -201,6 +204,28 @@ def _zarr() -> Any:
     with extra("zarr", "study"):
         import zarr
     return zarr
+
+
+@contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Let Ctrl-C and SIGTERM wait for the end of this block, if they are handled in Python.
+
+    Zarr writes in a thread of its own; an exception in this one would abandon it half way.
+    """
+    if current_thread() is not main_thread():
+        yield
+        return
+    caught: list[int] = []
+    handlers = {n: h for n in (SIGINT, SIGTERM) if callable(h := signal.getsignal(n))}
+    for number in handlers:
+        signal.signal(number, lambda number, frame: caught.append(number))
+    try:
+        yield
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+        if caught:
+            signal.raise_signal(caught[0])
 
 
 @contextmanager
