@@ -17,7 +17,7 @@ PYTHON ?= $(shell for python in python3.11 python3.12 python3.13 python3; do \
 
 help:
 	@echo 'make demo    work through the systems of the catalogue; writes tour/index.html'
-	@echo 'make test    run the tests'
+	@echo 'make test    run the tests; make test T=tests/derive runs a part of them'
 	@echo 'also: check bench proof wheel docs lock clean (see CONTRIBUTING.md)'
 
 # The lock file fixes every version; the extras are then resolved against it alone, so that a
@@ -43,7 +43,7 @@ $(BROWSER): tests/browser/package-lock.json
 	@touch $@
 
 test: $(READY) $(FRONT_END) $(BROWSER)
-	@$(BIN)/python -m pytest -n 2
+	@$(BIN)/python -m pytest -n 2 --dist worksteal $(T)
 
 check: $(READY)
 	$(BIN)/ruff check

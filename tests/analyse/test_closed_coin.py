@@ -78,7 +78,7 @@ def test_small_nutation_on_edge(above):
     assert motion.period == pytest.approx(2 * np.pi / np.sqrt(9 - 4), rel=10 * above**2)
 
 
-def test_falling_flat_is_named():
+def test_falling_flat_is_refused():
     with pytest.raises(NumericError, match="a coin that falls flat on the table"):
         spun(theta=0.8)
 

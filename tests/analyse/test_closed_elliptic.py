@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 from scipy.special import ellipkm1
 
 from polhode.analyse.closed._elliptic import (
+    EllipticPhase,
     first_kind,
     jacobi,
     quarter_period,
     third_kind,
     third_kind_complete,
 )
-from polhode.analyse.closed._phase import EllipticPhase
 from polhode.analyse.closed._reals import Digits, DoubleReals
 
 DOUBLES = DoubleReals()

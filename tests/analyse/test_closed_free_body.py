@@ -121,7 +121,7 @@ def test_period_diverges_as_the_logarithm():
     assert steps[0] == pytest.approx(4 * np.log(1e5) / growth, rel=1e-8)
 
 
-def test_conditioning_tells_of_the_separatrix():
+def test_conditioning_grows_near_the_separatrix():
     calm, delicate = free((1, 2, 3), (0.1, 0.2, 5)), free((1, 2, 3), (1e-6, 5, 1e-6))
     assert calm.conditioning < 10
     assert delicate.conditioning < 10

@@ -205,7 +205,7 @@ def test_rising_to_the_vertical_takes_for_ever():
         _ = motion.period
 
 
-def test_sleeping_top_is_named():
+def test_sleeping_top_is_refused():
     with pytest.raises(NumericError, match="a sleeping top: theta at the vertical at the start"):
         spun(omega_1=6)
 

@@ -72,7 +72,7 @@ def test_a_start_may_be_an_expression_of_parameters():
     assert racquet(start, I_1=1.25, I_2=1.5, I_3=2.5).kind == "separatrix"
 
 
-def test_bad_values_are_refused_by_name():
+def test_bad_values_are_refused():
     with pytest.raises(DeclarationError, match="'omega_4' is no coordinate or independent speed"):
         racquet({"omega_4": 1})
     with pytest.raises(DeclarationError, match="I_1 = -1; expected a positive value"):

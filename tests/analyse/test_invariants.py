@@ -88,7 +88,7 @@ def test_a_wider_ansatz_says_what_it_searched():
     assert isinstance(found["omega_z"].expression, Expr)
 
 
-def test_nothing_is_said_to_be_searched_that_was_not():
+def test_only_what_was_searched_is_reported():
     assert "nothing else in driven equations" in invariants(equations("ball-on-paper")).ansatz
 
 

@@ -49,7 +49,7 @@ def test_a_marble_has_none():
     assert linear_integrals(equations("marble-on-turntable")) is None
 
 
-def test_they_are_told_with_the_other_integrals_where_no_ansatz_has_them():
+def test_they_are_listed_with_the_other_integrals_where_no_ansatz_has_them():
     found = ph.invariants(equations("rolling-disk"))
     assert found.linear is not None
     assert "dω₃/dθ = 2 φ̇ sinθ/3" in str(found)
@@ -58,5 +58,5 @@ def test_they_are_told_with_the_other_integrals_where_no_ansatz_has_them():
 @pytest.mark.parametrize(
     "system", ["gyroscope", "spinning-coin", "tennis-racquet", "ball-on-paper"]
 )
-def test_they_are_not_told_twice(system: str):
+def test_they_are_not_listed_twice(system: str):
     assert ph.invariants(equations(system)).linear is None

@@ -1,4 +1,4 @@
-"""What is learned of equations is not learned of their declaration: the difference is told."""
+"""Analysis needs equations: a declaration is refused with the advice to derive it first."""
 
 from __future__ import annotations
 

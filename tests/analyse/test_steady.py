@@ -113,14 +113,14 @@ def _eliminate(relation: Expr) -> dict[Expr, Expr]:
     return {g: -(relation - slope * g) / slope}
 
 
-def test_no_steady_motion_is_said_in_words():
+def test_no_steady_motion_is_an_error():
     derived = equations("gyroscope/vertical-plane")
     theta = symbols(derived)["theta"]
     with pytest.raises(ph.NumericError, match="steady motions of gyroscope/vertical-plane"):
         steady(derived, {theta: pi / 2})
 
 
-def test_driven_systems_are_refused_by_name():
+def test_driven_systems_are_refused():
     with pytest.raises(ph.NumericError, match=r"depend on time through .*X"):
         steady(equations("ball-on-paper"))
 

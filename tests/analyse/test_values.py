@@ -24,7 +24,7 @@ def test_an_angle_whose_sine_is_no_square_root_starts_a_closed_form(angle):
         assert values == pytest.approx(run[name], abs=1e-10)
 
 
-def test_more_digits_take_the_angle_at_its_word():
+def test_more_digits_take_the_angle_exactly():
     top, start = equations("gyroscope"), {"theta": "70 deg", "omega_1": 150}
     found = ph.closed_form(top, TOP, start, digits=40).figures["theta_1"]
     assert abs(found - found.context.pi * 7 / 18) < 1e-38

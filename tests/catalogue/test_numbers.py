@@ -89,7 +89,7 @@ def test_the_duration_replaces_the_default():
         ({}, {}, "3kg", "expected a quantity in s"),
     ],
 )
-def test_what_cannot_be_is_refused_by_name(settings, start, duration, said):
+def test_invalid_values_are_refused_with_their_name(settings, start, duration, said):
     with pytest.raises(ph.PolhodeError) as refusal:
         numbers("rolling-disk", settings, start, duration)
     assert said in str(refusal.value)

@@ -18,7 +18,8 @@ from polhode.claims._check import judged_claim
 from polhode.claims._typed import with_start
 from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.latex import Statement, read_latex, write_latex
-from polhode.claims.meaning._components import Member, Side
+from polhode.claims.meaning._meaning import Side
+from polhode.claims.meaning._relations import BoundRelation
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import AnyState
 from polhode.derive import Equations, derive
@@ -41,7 +42,7 @@ class Original:
     claim: Claim
     notation: Notation
     statement: Statement
-    asked: BoundClaim
+    bound: BoundClaim
 
     @classmethod
     def of(cls, claim: Claim) -> Original:
@@ -55,7 +56,7 @@ class Original:
     def oracle(self) -> Oracle:
         scalars = self.notation.vocabulary.mechanics.scalars.values()
         letters = (e.symbol for e in scalars if e.symbol is not None)
-        return Oracle(self.asked, self.claim.context, letters)
+        return Oracle(self.bound, self.claim.context, letters)
 
 
 @dataclass
@@ -85,7 +86,7 @@ class Counts:
         return self.total["repaired"] / self.total["caught"]
 
     def __str__(self) -> str:
-        told = ", ".join(f"{count} {what}" for what, count in sorted(self.total.items()))
+        counts = ", ".join(f"{count} {what}" for what, count in sorted(self.total.items()))
         rows = sorted({slip for slip, _ in self.slips})
         each = [
             f"  {slip}: "
@@ -95,14 +96,14 @@ class Counts:
             for slip in rows
         ]
         share = f"caught {self.caught:.2%}, repaired to the original {self.repaired:.2%}"
-        return "\n".join([told, share, *each])
+        return "\n".join([counts, share, *each])
 
 
 def true_claims(every: int = 1) -> Iterator[Original]:
     """Every so-manieth claim that holds, in contexts that the oracle can speak of."""
     for claim in [c for c in document().claims if c.context in JUDGED][::every]:
         original = Original.of(claim)
-        if original.asked.members and _verdict(original, claim.formula).answer is Answer.HOLDS:
+        if original.bound.members and _verdict(original, claim.formula).answer is Answer.HOLDS:
             yield original
 
 
@@ -116,7 +117,7 @@ def tried(
     counts = Counts()
     for original in originals:
         oracle = original.oracle()
-        if not oracle.is_true(original.asked):
+        if not oracle.is_true(original.bound):
             counts.enter("claims set aside", "")
             continue
         counts.enter("claims", "")
@@ -134,13 +135,13 @@ def _try(original: Original, oracle: Oracle, mutant: Mutant, counts: Counts) -> 
     latex = write_latex(mutant.statement)
     where = f"{original.claim.id} {mutant.slip}: {latex}"
     try:
-        asked = original.notation.asked(mutant.statement, {})
-        said = [len(r.components()) for r in (asked, original.asked)]
+        bound = original.notation.asked(mutant.statement, {})
+        counted = [len(r.components()) for r in (bound, original.bound)]
     except (PolhodeError, ArithmeticError):
         counts.enter("without meaning", mutant.slip)
         return
-    true = oracle.is_true(asked) if said[0] == said[1] else None
-    if true and _undetermined(asked):
+    true = oracle.is_true(bound) if counted[0] == counted[1] else None
+    if true and _undetermined(bound):
         true = None  # the oracle has picked one of the many ways that supports may share a load
     if true is None:
         counts.enter("set aside", mutant.slip)
@@ -169,12 +170,12 @@ def _try(original: Original, oracle: Oracle, mutant: Mutant, counts: Counts) -> 
         counts.unlike.append(f"{where} -> {first and first.latex}")
 
 
-def _undetermined(asked: BoundClaim) -> bool:
+def _undetermined(bound: BoundClaim) -> bool:
     """Whether the claim speaks of reactions that Newton's laws leave open."""
-    forces = asked.equations.components.items()
+    forces = bound.equations.components.items()
     free = {Symbol(name) for name, value in forces if value.symbol == Symbol(name)}
     open_ = {reaction_symbol(name) for name, value in forces if free & value.symbols()}
-    sides = (side for c in asked.components() for side in (c.left, c.right))
+    sides = (side for c in bound.components() for side in (c.left, c.right))
     return any(open_ & side.symbols() for side in sides)
 
 
@@ -187,19 +188,19 @@ def _verdict(original: Original, latex: str):
 def _is_original(original: Original, latex: str) -> bool:
     """Whether a correction says the same: every member but for a number that multiplies it."""
     try:
-        asked = original.notation.asked(read_latex(latex), {})
+        bound = original.notation.asked(read_latex(latex), {})
     except (PolhodeError, ArithmeticError):
         return False
-    states = original.asked.states(AnyState)
-    pairs = list(zip(asked.branches, original.asked.branches, strict=False))
-    return len(asked.branches) == len(original.asked.branches) and all(
+    states = original.bound.states(AnyState)
+    pairs = list(zip(bound.branches, original.bound.branches, strict=False))
+    return len(bound.branches) == len(original.bound.branches) and all(
         len(ours) == len(theirs)
         and all(_same(one, other, states) for one, other in zip(ours, theirs, strict=True))
         for ours, theirs in pairs
     )
 
 
-def _same(one: Member, other: Member, states: AnyState) -> bool:
+def _same(one: BoundRelation, other: BoundRelation, states: AnyState) -> bool:
     """Whether the differences of both sides are in proportion, or else the sides themselves."""
     if one.sign != other.sign:
         return False
@@ -212,7 +213,7 @@ def _same(one: Member, other: Member, states: AnyState) -> bool:
     return not any(ours) and _in_proportion(*sides)
 
 
-def _difference(relation: Member) -> Side:
+def _difference(relation: BoundRelation) -> Side:
     left, right = relation.left, relation.right
     if isinstance(left, Vector) and isinstance(right, Expr):
         return left

@@ -20,7 +20,7 @@ from oracles import balls, disks, gyroscopes
 from polhode.algebra import Expr, Symbol
 from polhode.base import PolhodeError
 from polhode.claims.balance._newton_euler import constrained_motion
-from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import BoundClaim
 
 Values = dict[str, float]
@@ -76,8 +76,8 @@ JUDGED = ("identity", "motion", "steady")
 class Oracle:
     """Tells of claims of one notation, restricted alike, whether they are true."""
 
-    def __init__(self, asked: BoundClaim, context: str, letters: Iterable[Symbol] = ()) -> None:
-        self._asked, self._context = asked, context
+    def __init__(self, claim: BoundClaim, context: str, letters: Iterable[Symbol] = ()) -> None:
+        self._claim, self._context = claim, context
         self._letters = frozenset(letters)
 
     @cached_property
@@ -91,24 +91,24 @@ class Oracle:
                 state = self._drawn(seed).obeying_relations()
             except (PolhodeError, ArithmeticError, RuntimeError):
                 continue
-            if state is not None and all(x > 0 for x in _numbers(self._asked.positive, state)):
+            if state is not None and all(x > 0 for x in _numbers(self._claim.positive, state)):
                 yield state
 
     def _drawn(self, seed: int) -> _State:
-        return _State(self._asked, self._context, seed, self._letters)
+        return _State(self._claim, self._context, seed, self._letters)
 
-    def is_true(self, asked: BoundClaim) -> bool | None:
+    def is_true(self, claim: BoundClaim) -> bool | None:
         """Whether a claim holds at all states; None where the oracle cannot tell."""
         try:
-            if self._context == "steady" and (solved := _solved(asked)):
+            if self._context == "steady" and (solved := _solved(claim)):
                 return all(self._stays(quantity, value) for quantity, value in solved)
-            return all(_met(asked, state) for state in self.states) if self.states else None
+            return all(_met(claim, state) for state in self.states) if self.states else None
         except (KeyError, ArithmeticError, ValueError, TypeError):
             return None
 
     def _stays(self, quantity: str, value: Expr) -> bool:
         """Whether nothing speeds up where a speed has the value that is claimed."""
-        name = self._asked.equations.system.name
+        name = self._claim.equations.system.name
         rest, _ = _STEADY[name]
         for state in self.states:
             still = {**state, quantity: _numbers([value], state)[0]}
@@ -121,11 +121,11 @@ class _State:
     """One draw of everything that is free."""
 
     def __init__(
-        self, asked: BoundClaim, context: str, seed: int, letters: Collection[Symbol]
+        self, claim: BoundClaim, context: str, seed: int, letters: Collection[Symbol]
     ) -> None:
-        self.asked, self.context, self.seed = asked, context, seed
-        self.system = asked.equations.system
-        every = {*_symbols(asked), *letters}
+        self.claim, self.context, self.seed = claim, context, seed
+        self.system = claim.equations.system
+        every = {*_symbols(claim), *letters}
         self.symbols = {s.published: s for s in every if s.order < 3 or not s.kind.varies}
         random = np.random.default_rng(seed)
         self.drawn = {name: float(random.uniform(0.5, 1.2)) for name in sorted(self.symbols)}
@@ -136,7 +136,7 @@ class _State:
     def obeying_relations(self) -> Values | None:
         """All numbers, with one quantity chosen for each relation so that it holds."""
         state = self.moving({})
-        for relation in self.asked.relations:
+        for relation in self.claim.relations:
             names = sorted(s.published for s in relation.symbols() if s.published in self.free)
             for name in names:
                 chosen = self._root(partial(self._left, relation, name), name)
@@ -158,13 +158,13 @@ class _State:
     @property
     def free(self) -> list[str]:
         """Parameters first, then independent speeds."""
-        equations = self.asked.equations
+        equations = self.claim.equations
         return [s.published for s in (*equations.parameters, *equations.speeds)]
 
     def moving(self, chosen: Mapping[str, float]) -> Values:
         """All numbers, of a motion that the context is about."""
         state = {**self.drawn, **chosen}
-        given = self.asked.given
+        given = self.claim.given
         for _ in given:
             for symbol, value in given.items():
                 state[symbol.published] = _numbers([value], state)[0]
@@ -172,12 +172,12 @@ class _State:
             state = self._steady(state)
         state |= self._rates(state)
         numbers = {self.symbols[n]: v for n, v in state.items() if n in self.symbols}
-        wanted = {s: state[s.published] for s in self.asked.equations.acceleration_symbols}
-        speeds = {*self.asked.equations.speeds, *self.asked.equations.coordinates}
+        wanted = {s: state[s.published] for s in self.claim.equations.acceleration_symbols}
+        speeds = {*self.claim.equations.speeds, *self.claim.equations.coordinates}
         known = {
             s: v
             for s, v in numbers.items()
-            if s in speeds or not s.kind.varies or s.base() in _prescribed(self.asked)
+            if s in speeds or not s.kind.varies or s.base() in _prescribed(self.claim)
         }
         whole = constrained_motion(self.system, known, wanted)
         return {**state, **{s.published: v for s, v in whole.items()}}
@@ -200,20 +200,20 @@ class _State:
         return {**state, f"{rest}_dot": 0.0, speed: float(newton(excess, state[speed]))}
 
 
-def _prescribed(asked: BoundClaim) -> set[Symbol]:
-    return {s.base() for s in asked.equations.functions}
+def _prescribed(claim: BoundClaim) -> set[Symbol]:
+    return {s.base() for s in claim.equations.functions}
 
 
-def _symbols(asked: BoundClaim) -> set[Symbol]:
-    equations = asked.equations
+def _symbols(claim: BoundClaim) -> set[Symbol]:
+    equations = claim.equations
     sides = [
         s
-        for b in range(len(asked.branches))
-        for c in asked.components(b)
+        for b in range(len(claim.branches))
+        for c in claim.components(b)
         for s in (c.left, c.right)
     ]
-    said = [*sides, *asked.relations, *asked.positive, *asked.given.values()]
-    found = {s for e in said for s in e.symbols()} | set(asked.given)
+    expressions = [*sides, *claim.relations, *claim.positive, *claim.given.values()]
+    found = {s for e in expressions for s in e.symbols()} | set(claim.given)
     found |= {*equations.coordinates, *equations.speeds, *equations.parameters}
     found |= set(equations.acceleration_symbols)
     found |= {Symbol(name, positive=True) for name in _ALSO.get(equations.system.name, ())}
@@ -228,9 +228,9 @@ def _numbers(expressions: list[Expr] | tuple[Expr, ...], state: Values) -> list[
     return [float(x) for x in evaluator(list(expressions))(state)] if expressions else []
 
 
-def _met(asked: BoundClaim, state: Values) -> bool:
+def _met(claim: BoundClaim, state: Values) -> bool:
     """Whether at a state one of the branches is met, in every component."""
-    every = [asked.components(branch) for branch in range(len(asked.branches))]
+    every = [claim.components(branch) for branch in range(len(claim.branches))]
     return all(any(_equal(c, state) for c in alike) for alike in zip(*every, strict=True))
 
 
@@ -239,11 +239,11 @@ def _equal(component: ScalarRelation, state: Values) -> bool:
     return bool(abs(left - right) <= _CLOSE * (1 + abs(left) + abs(right)))
 
 
-def _solved(asked: BoundClaim) -> list[tuple[str, Expr]]:
+def _solved(claim: BoundClaim) -> list[tuple[str, Expr]]:
     """Speeds that a claim on steady motion gives, with their values on every branch."""
-    rest, _ = _STEADY[asked.equations.system.name]
-    speeds = {s for s in asked.equations.speeds if s.published != f"{rest}_dot"}
-    every = [c for b in range(len(asked.branches)) for c in asked.components(b)]
+    rest, _ = _STEADY[claim.equations.system.name]
+    speeds = {s for s in claim.equations.speeds if s.published != f"{rest}_dot"}
+    every = [c for b in range(len(claim.branches)) for c in claim.components(b)]
     return [
         (c.left.symbol.published, c.right)
         for c in every

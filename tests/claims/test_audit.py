@@ -1,4 +1,4 @@
-"""A small document judged whole."""
+"""All claims of a small document judged."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def equations_of(name: str) -> ph.Equations:
     return ph.derive(CATALOGUE[name].build())
 
 
-def test_every_claim_gets_its_verdict_and_consequences_are_told():
+def test_every_claim_gets_its_verdict_and_consequences_are_listed():
     report = audit(DOCUMENT, equations_of)
     answers = {j.claim.id: j.verdict.answer for j in report.judged}
     assert answers == {"a": Answer.HOLDS, "b": Answer.FAILS, "c": Answer.UNREAD}
@@ -33,13 +33,13 @@ def test_every_claim_gets_its_verdict_and_consequences_are_told():
     assert "fails       wrong sign" in str(report)
 
 
-def test_what_a_failure_feeds_is_told():
+def test_the_consequences_of_a_failure_are_listed():
     (drawn,) = audit(DOCUMENT, equations_of).consequences
     assert (drawn.failed, drawn.feeds, drawn.results, drawn.surviving) == ("b", ("c",), ("c",), ())
     assert "(b) feeds (c); what does not: (c)" in str(drawn)
 
 
-def test_a_result_that_holds_survives_the_failure_it_was_drawn_from():
+def test_a_result_that_holds_survives_the_failure_it_was_derived_from():
     wrong = Claim("1", "7", latex=r"F_z = 2Mg")
     right = Claim("2", "7", latex=r"\dot\omega_1 = 0", follows_from=("1",))
     report = audit(Document("A text", "", (PART,), (wrong, right)), equations_of)
@@ -81,7 +81,7 @@ def test_the_table_shows_what_was_read_and_by_which_convention():
     assert lines[10:12] == [r"printed: \dot\phi = 0", r"given: \dot\phi = 0"]
 
 
-def test_some_claims_can_be_asked_for():
+def test_single_claims_can_be_judged():
     report = audit(DOCUMENT, equations_of, only=["a"])
     assert [j.claim.id for j in report.judged] == ["a"]
 

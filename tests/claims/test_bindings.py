@@ -16,13 +16,13 @@ from polhode.catalogue import CATALOGUE
 from polhode.claims._notation import Notation, letter
 from polhode.claims.document._document import Definition, Part
 from polhode.claims.latex import read_latex
+from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import Name
 from polhode.claims.meaning._bindings import Bound, bind
-from polhode.claims.meaning._letters import letters
+from polhode.claims.meaning._letters import phrases_by_letter
 from polhode.claims.meaning._meaning import BindingError, Meaning
 from polhode.claims.meaning._mechanics import Mechanics
 from polhode.claims.meaning._phrases import quantity
-from polhode.claims.meaning._spelling import name_of, spelled
 from polhode.derive import Equations
 
 
@@ -68,7 +68,7 @@ def test_every_claim_of_the_problem_set_binds(part: Part) -> None:
             assert all(asked.components(i) or found.defined for i in range(len(asked.branches)))
 
 
-def test_only_what_cannot_be_bound_as_printed_or_has_merged_fractions_is_read_otherwise() -> None:
+def test_read_as_is_used_only_for_what_cannot_be_bound_or_has_merged_fractions() -> None:
     merged = {"80", "81", "84", "85", "86", "w22", "w80"}
     for claim in document().claims:
         if claim.read_as and claim.id not in merged:
@@ -132,7 +132,7 @@ def test_a_plain_letter_of_the_declaration_is_the_scalar() -> None:
     assert isinstance(value("gyrocompass", r"\boldsymbol{\omega}"), Vector)
 
 
-def test_names_are_taken_apart_as_they_are_printed() -> None:
+def test_published_names_become_printed_letters() -> None:
     assert name_of("Fprime_rho") == Name("F", "rho", 1)
     assert name_of("lambda_") == Name("lambda")
     assert spelled(name_of("theta_ddot")) == "theta_ddot"
@@ -140,9 +140,9 @@ def test_names_are_taken_apart_as_they_are_printed() -> None:
 
 
 @pytest.mark.parametrize("name", CATALOGUE)
-def test_every_letter_known_by_itself_stands_for_something(name: str) -> None:
+def test_every_usual_letter_has_a_meaning(name: str) -> None:
     mechanics = Mechanics(equations(name))
-    for phrase in chain.from_iterable(letters(mechanics).values()):
+    for phrase in chain.from_iterable(phrases_by_letter(mechanics).values()):
         quantity(mechanics, phrase)
 
 
@@ -262,7 +262,7 @@ def test_the_word_constant_means_that_the_rate_vanishes() -> None:
     assert (str(relation.left), relation.right) == ("omega_1_dot", 0)
 
 
-def test_an_inverse_function_is_undone() -> None:
+def test_an_inverse_function_is_inverted() -> None:
     (relation,) = bound("gyroscope", r"\frac{1}{2}\tanh^{-1}\theta = t").relations
     assert relation.left == expression("gyroscope", "theta")
     assert relation.right == ph.tanh(2 * ph.time)
@@ -274,7 +274,7 @@ def test_differentials_over_dt_are_rates() -> None:
     assert relation.right == expression("tennis-racquet", "I_2")
 
 
-def test_values_in_words_are_told_apart() -> None:
+def test_values_named_in_words_are_distinguished() -> None:
     part = document().part("gyro-steady")
     own = Notation.of_part(equations(part.system), part)
     both = own.bound(read_latex(r"\omega_p \approx 1 \text{ (slow) or } 2 \text{ (fast)}"))
@@ -298,7 +298,7 @@ def test_a_decimal_number_has_half_a_unit_of_its_last_digit() -> None:
     assert found.digits == {0: expression("rolling-disk", "g") * Fraction(1, 200)}
 
 
-def test_components_in_a_bracket_are_along_the_frame_that_is_told() -> None:
+def test_components_in_a_bracket_are_along_the_stated_frame() -> None:
     own = notation("spinning-coin")
     for frame in ("axes", "body"):
         vector = own.binding({"components": frame}).value(letter(r"(0, 1, 0)"))
@@ -312,7 +312,7 @@ def test_roots_of_squares_use_the_signs_that_the_text_gives() -> None:
     assert str(own.taking_positive([r"-\Omega"]).scalar(r"|\Omega|")) == "-Omega"
 
 
-def test_restrictions_are_values_and_what_vanishes_besides() -> None:
+def test_restrictions_are_values_and_vanishing_expressions() -> None:
     own = notation("tennis-racquet").under(
         [r"\omega_1 = 0", r"2 I_2 T = \mathbf{L}\cdot\mathbf{L}"]
     )
@@ -328,12 +328,12 @@ def test_definitions_may_use_earlier_ones() -> None:
     assert own.scalar(r"\kappa") == expression("gyroscope", "(I_2 + M*a**2)/I_1")
 
 
-def test_further_letters_serve_a_correction() -> None:
+def test_a_correction_may_use_further_letters() -> None:
     asked = notation("gyroscope").asked(read_latex("c_9 = I_1"), {"c_9": Expr.of(3)})
     assert asked.members[0].left == Expr.of(3)
 
 
-def test_letters_of_a_text_all_stand_for_something() -> None:
+def test_all_letters_of_a_text_have_a_meaning() -> None:
     own = notation("gyroscope")
     assert {spelled(node) for node in own.names} >= {"theta", "phi_ddot", "omega_1", "I_2", "F_z"}
     for node in own.names:
@@ -374,7 +374,7 @@ def test_kinds_that_do_not_go_together_are_refused(latex: str, said: str) -> Non
 
 
 @pytest.mark.parametrize("latex", [r"m = 3", r"\theta = 1", r"F_z = mg"])
-def test_a_letter_of_the_declaration_is_not_defined_anew(latex: str) -> None:
+def test_a_letter_of_the_declaration_is_not_redefined(latex: str) -> None:
     with pytest.raises(ParseError, match="has already"):
         notation("rolling-disk").defining([Definition(latex)])
 
@@ -393,7 +393,7 @@ def test_a_letter_is_one_quantity(latex: str) -> None:
         letter(latex)
 
 
-def test_a_condition_that_is_no_equality_is_refused() -> None:
+def test_a_condition_other_than_an_equality_is_refused() -> None:
     own = notation("rolling-disk").under([r"\omega_3 > 0"])
     with pytest.raises(BindingError, match="the condition with >"):
         own.claimed(own.bound(read_latex(r"F_z = mg")))
@@ -405,7 +405,7 @@ def test_binding_twice_says_the_same() -> None:
     assert first == second
 
 
-def test_a_component_of_a_vector_that_the_text_names_goes_before_the_model_s_own() -> None:
+def test_a_component_of_a_vector_of_the_text_overrides_that_of_the_model() -> None:
     own = notation("gyrocompass")
     assert str(own.scalar(r"\tau_2")) == "tau_2"
     told = own.binding({r"\boldsymbol{\tau}": "Coriolis torque in Earth"})

@@ -82,7 +82,7 @@ def test_what_is_true_on_steady_motions_only_fails_on_others():
     assert ph.check(latex, coin).answer is Answer.FAILS
 
 
-def test_an_approximation_tells_its_order_and_what_it_drops():
+def test_an_approximation_gives_its_order_and_the_dropped_term():
     verdict = ph.check(
         r"\dot\phi \approx \frac{Mga}{I_1\omega_1}",
         equations("gyroscope"),
@@ -95,7 +95,7 @@ def test_an_approximation_tells_its_order_and_what_it_drops():
     assert verdict.dropped is not None
 
 
-def test_definitions_and_unknown_letters_are_told_apart():
+def test_definitions_and_unknown_letters_are_distinguished():
     gyroscope = equations("gyroscope")
     assert ph.check(r"I_{2q} = I_2 + Ma^2", gyroscope).answer is Answer.DEFINITION
     unread = ph.check(r"F_\phi = Ma q", gyroscope)
@@ -110,7 +110,7 @@ def test_a_formula_without_a_relation_states_nothing(latex):
     assert "states nothing" in unread.reason
 
 
-def test_a_known_symbol_cannot_be_defined_anew():
+def test_a_known_symbol_cannot_be_redefined():
     with pytest.raises(ph.ParseError):
         ph.check(r"F_z = Mg", equations("gyroscope"), let=["theta = 1"])
 
@@ -159,7 +159,7 @@ def test_a_power_of_e_is_an_exponential_unless_e_is_a_letter():
     assert ph.check(r"e^2 \dot\omega_1 = 0", gyroscope).answer is Answer.UNREAD
 
 
-def test_a_failure_is_told_before_its_correction():
+def test_a_failure_is_reported_before_its_correction():
     told = []
     gyroscope = ph.derive(CATALOGUE["gyroscope"].build())
     verdict = ph.check(r"F_z = Mg - Ma(\ddot\theta\sin\theta)", gyroscope, tell=told.append)

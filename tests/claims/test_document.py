@@ -82,7 +82,7 @@ def test_small_quantities_have_their_orders() -> None:
     assert claim("b").small == {r"\epsilon": 1, r"1/\omega": None}
 
 
-def test_a_part_like_another_has_all_it_has() -> None:
+def test_a_part_like_another_inherits_its_conventions() -> None:
     part = read_document(SMALL).part("2")
     assert part.system == "rolling-disk"
     assert part.bindings == {r"\alpha": "theta"}
@@ -114,7 +114,7 @@ def test_consequences_reach_through_claims() -> None:
     assert found.consequences("c") == ()
 
 
-def test_a_file_with_other_line_ends_says_the_same(tmp_path: Path) -> None:
+def test_other_line_ends_make_no_difference(tmp_path: Path) -> None:
     path = tmp_path / "claims.toml"
     path.write_bytes(SMALL.replace("\n", "\r\n").encode("utf-8"))
     assert read_document(path) == read_document(SMALL)
@@ -158,7 +158,7 @@ def test_the_line_is_that_of_the_field() -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ('[document]\ntitle = "x\n', "no TOML"),
+        ('[document]\ntitle = "x\n', "not TOML"),
         ("", "no title"),
         ("claim = 3\n[document]\ntitle = 'x'", "one [[claim]] for each"),
         ("[document]\ntitle = 'x'\n[claim]\nid = 'a'", "use double brackets"),
@@ -168,13 +168,13 @@ def test_the_line_is_that_of_the_field() -> None:
         ("x" * 5_000_000, "at most"),
     ],
 )
-def test_what_is_no_document_is_refused_in_words(text: str, said: str) -> None:
+def test_anything_but_a_document_is_refused(text: str, said: str) -> None:
     with pytest.raises(ParseError) as caught:
         read_document(text)
     assert said in str(caught.value)
 
 
-def test_twins_are_refused() -> None:
+def test_repeated_ids_are_refused() -> None:
     for old, new in (('id = "b"', 'id = "a"'), ('id = "2"', 'id = "1"')):
         with pytest.raises(ParseError, match="an id of its own"):
             read_document(changed(old, new))
@@ -188,7 +188,7 @@ def test_a_file_that_is_not_utf_8_is_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["none.toml", ".", "/dev/zero"])
-def test_what_cannot_be_read_says_so(name: str, tmp_path: Path) -> None:
+def test_an_unreadable_file_is_refused(name: str, tmp_path: Path) -> None:
     with pytest.raises(StoreError, match=r"cannot be read.*expected a document of claims in TOML"):
         read_document(tmp_path / name)
 

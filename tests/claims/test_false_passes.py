@@ -64,8 +64,8 @@ def equations(name):
     return ph.derive(OWN[name]() if name in OWN else CATALOGUE[name].build())
 
 
-def answer(name, latex, **asked):
-    return ph.check(latex, equations(name), **asked).answer
+def answer(name, latex, **options):
+    return ph.check(latex, equations(name), **options).answer
 
 
 UPRIGHT = {"context": "threshold", "given": ["alpha = 0", "beta = 0"]}
@@ -122,17 +122,17 @@ THRESHOLDS = [
 ]
 
 
-@pytest.mark.parametrize(("name", "latex", "asked"), NO_THRESHOLDS)
-def test_a_part_of_a_condition_is_not_the_condition(name, latex, asked):
-    assert answer(name, latex, **asked) not in PASSES
+@pytest.mark.parametrize(("name", "latex", "options"), NO_THRESHOLDS)
+def test_a_part_of_a_condition_is_not_the_condition(name, latex, options):
+    assert answer(name, latex, **options) not in PASSES
 
 
-@pytest.mark.parametrize(("name", "latex", "asked"), THRESHOLDS)
-def test_the_whole_condition_holds_in_every_form(name, latex, asked):
-    assert answer(name, latex, **asked) is Answer.HOLDS
+@pytest.mark.parametrize(("name", "latex", "options"), THRESHOLDS)
+def test_the_whole_condition_holds_in_every_form(name, latex, options):
+    assert answer(name, latex, **options) is Answer.HOLDS
 
 
-def test_a_threshold_is_refuted_by_bodies_that_can_be():
+def test_a_threshold_is_refuted_by_physical_bodies():
     said = r"I_1^2\omega_1^2 > 2Mga(I_2+Ma^2)"
     values = ph.check(said, equations("gyroscope/upright"), **UPRIGHT).counterexample.values
     found = {name: eval_fraction(values[name]) for name in ("M", "a", "g", "I_1", "I_2", "omega_1")}
@@ -236,14 +236,14 @@ LIMITS = [
 ]
 
 
-@pytest.mark.parametrize(("name", "latex", "asked"), NO_LIMITS)
-def test_a_printed_term_that_is_wrong_is_never_left_untested(name, latex, asked):
-    assert answer(name, latex, **asked) not in PASSES
+@pytest.mark.parametrize(("name", "latex", "options"), NO_LIMITS)
+def test_a_printed_term_that_is_wrong_is_never_left_untested(name, latex, options):
+    assert answer(name, latex, **options) not in PASSES
 
 
-@pytest.mark.parametrize(("name", "latex", "asked"), LIMITS)
-def test_an_approximation_is_true_in_every_algebraic_form(name, latex, asked):
-    assert answer(name, latex, **asked) is Answer.APPROXIMATE
+@pytest.mark.parametrize(("name", "latex", "options"), LIMITS)
+def test_an_approximation_is_true_in_every_algebraic_form(name, latex, options):
+    assert answer(name, latex, **options) is Answer.APPROXIMATE
 
 
 ELSEWHERE = [
@@ -311,9 +311,9 @@ ELSEWHERE = [
 ]
 
 
-@pytest.mark.parametrize(("name", "latex", "asked"), ELSEWHERE)
-def test_what_is_false_or_unclear_does_not_hold(name, latex, asked):
-    verdict = ph.check(latex, equations(name), **asked)
+@pytest.mark.parametrize(("name", "latex", "options"), ELSEWHERE)
+def test_what_is_false_or_unclear_does_not_hold(name, latex, options):
+    verdict = ph.check(latex, equations(name), **options)
     assert not verdict.holds
     assert verdict.reason
 
@@ -349,12 +349,12 @@ RIGHT = [
 ]
 
 
-@pytest.mark.parametrize(("name", "latex", "asked"), RIGHT)
-def test_what_is_right_still_holds(name, latex, asked):
-    assert answer(name, latex, **asked) is Answer.HOLDS
+@pytest.mark.parametrize(("name", "latex", "options"), RIGHT)
+def test_what_is_right_still_holds(name, latex, options):
+    assert answer(name, latex, **options) is Answer.HOLDS
 
 
-def test_steady_motions_that_a_relation_does_not_speak_of_are_named():
+def test_steady_motions_to_which_a_relation_does_not_apply_are_named():
     said = ph.check(r"\cos\theta = \frac{g}{\omega^2R}", equations("hoop"), context="steady")
     assert any("does not speak of theta = 0; theta = pi" in remark for remark in said.remarks)
     wrong = ph.check(r"\cos\theta = 1", equations("hoop"), context="steady")
@@ -368,7 +368,7 @@ def test_conditions_and_signs_that_were_used_are_shown():
     assert "taking sin(alpha) as positive" in said.remarks
 
 
-def test_a_known_quantity_is_not_defined_anew():
+def test_a_known_quantity_is_not_redefined():
     with pytest.raises(ph.ParseError, match="known as"):
         ph.check("E = 5", equations("plane"), let=["E = 5"])
     spelled_out = {"let": [r"\omega_3 = \dot\psi + \dot\phi\cos\theta"]}

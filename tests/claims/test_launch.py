@@ -32,7 +32,7 @@ def test_what_is_true_along_the_motion_holds(id):
         ("w71", r"\ddot{\phi} > 0", r"\ddot{\phi} < 0"),
     ],
 )
-def test_what_is_not_fails(id, old, new):
+def test_what_is_false_along_the_motion_fails(id, old, new):
     assert verdict_on(id, old, new).answer is Answer.FAILS
 
 
@@ -59,18 +59,18 @@ def test_letters_that_vanish_from_the_start_alone_have_a_number():
     assert verdict_on("13", r"\omega_2 = ", r"\omega_2 + m \omega_2 = ").answer is Answer.FAILS
 
 
-def test_a_statement_on_moments_is_not_corrected():
+def test_a_statement_on_single_moments_is_not_corrected():
     assert verdict_on("w71", r"\ddot{\phi} > 0", r"\ddot{\phi} < 0").correction is None
 
 
-def test_a_motion_integrated_from_the_balance_of_every_body_says_the_same():
+def test_a_motion_integrated_from_the_balance_of_every_body_agrees():
     verdict = verdict_on("12", r"\operatorname{sech}[k", r"\operatorname{sech}[2k")
     assert verdict.confirmation is not None
     assert verdict.confirmation.agrees
     assert verdict.confirmation.left != pytest.approx(verdict.confirmation.right)
 
 
-def test_a_printed_number_is_met_within_its_digits_when_something_comes_to_pass():
+def test_a_printed_number_holds_within_its_digits_at_an_event():
     assert verdict_on("w65", "0.7", "0.8").answer is Answer.FAILS
 
 

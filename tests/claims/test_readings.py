@@ -1,4 +1,4 @@
-"""What the letters of a claim are taken to mean, and what is said where several are usual."""
+"""What the letters of a claim are taken to mean, and the verdict where several are usual."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def swinging_rod() -> Equations:
         r"\hat{\mathbf x}\cdot\hat{\mathbf 3} = 0",
     ],
 )
-def test_no_frame_between_lends_its_directions(latex: str) -> None:
+def test_directions_are_not_those_of_an_intermediate_frame(latex: str) -> None:
     """The frames that the Euler angles pass through keep the labels x y z."""
     assert ph.check(latex, equations("tennis-racquet")).answer is Answer.FAILS
 
@@ -75,7 +75,7 @@ def test_no_frame_between_lends_its_directions(latex: str) -> None:
         r" + \cos\theta\,\hat{\mathbf 3}",
     ],
 )
-def test_components_along_the_vertical_as_books_have_them(latex: str) -> None:
+def test_components_along_the_vertical_as_in_textbooks(latex: str) -> None:
     assert ph.check(latex, heavy_top(), context="identity").answer is Answer.HOLDS
 
 
@@ -123,7 +123,7 @@ def test_a_reading_can_be_chosen(read: str, expected: Answer) -> None:
         ("L", "one = between"),
     ],
 )
-def test_a_reading_that_there_is_not_is_refused(read: str, complaint: str) -> None:
+def test_an_unknown_reading_is_refused(read: str, complaint: str) -> None:
     with pytest.raises(ParseError, match=complaint):
         ph.check(r"\dot L_z = 0", equations("gyroscope"), read=[read])
 
@@ -138,12 +138,12 @@ def test_moments_of_one_statement_are_about_one_point() -> None:
     assert ph.check(latex, equations("gyroscope")).answer is Answer.HOLDS
 
 
-def test_a_pivot_at_the_centre_of_mass_leaves_nothing_open() -> None:
+def test_a_pivot_at_the_centre_of_mass_is_unambiguous() -> None:
     body = heavy_top(about_pivot=False)
     assert ph.check(r"\dot{\mathbf L} = 0", body).answer is Answer.HOLDS
 
 
-def test_what_is_said_besides_is_read_the_same_way() -> None:
+def test_what_goes_with_a_claim_is_read_the_same_way() -> None:
     verdict = ph.check(r"\dot b = 0", equations("gyroscope"), let=["b = L_z/I_1"])
     assert verdict.answer is Answer.AMBIGUOUS
     chosen = ph.check(
@@ -210,18 +210,18 @@ def test_every_verdict_shows_its_readings() -> None:
 
 def misread(monkeypatch: pytest.MonkeyPatch, letter: str, phrase: str) -> None:
     """Let the first reader take a letter for another quantity."""
-    known = letters.letters
+    known = letters.phrases_by_letter
 
     def mistaken(mechanics):
         found = known(mechanics)
         (node,) = (n for n in found if n.letter == letter and n.decoration == "hat")
         return found | {node: (phrase,)}
 
-    monkeypatch.setattr(vocabulary, "letters", mistaken)
+    monkeypatch.setattr(vocabulary, "phrases_by_letter", mistaken)
 
 
 @pytest.mark.parametrize("latex", [r"\hat{\mathbf z} = \hat{\mathbf 3}", r"L_z = I_3\omega_3"])
-def test_a_second_reader_finds_out_what_the_first_misread(
+def test_the_second_reader_finds_what_the_first_misread(
     monkeypatch: pytest.MonkeyPatch, latex: str
 ) -> None:
     racquet = ph.derive(CATALOGUE["tennis-racquet"].build())  # nothing of it is known yet

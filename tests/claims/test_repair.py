@@ -71,7 +71,7 @@ def test_two_equal_slips_are_corrected_together():
         ("number", r"\frac{4I_{2p}}{I_2} = 2.0", "wrong factor"),
     ],
 )
-def test_claims_that_are_judged_whole_are_corrected(context, latex, what):
+def test_claims_judged_as_a_whole_are_corrected(context, latex, what):
     gyroscope = ph.derive(CATALOGUE["gyroscope"].build())
     given = [] if context == "threshold" else ["I_2 = M*a**2"]
     let = [r"I_{2p} = I_2 + Ma^2"]
@@ -103,14 +103,14 @@ def _of_the_problem_set(name: str, formula: str | None = None) -> Verdict:
     return ClaimChecker(lambda system: ph.derive(CATALOGUE[system].build())).verdict(part, said)
 
 
-def test_a_vector_is_mended_component_by_component():
+def test_a_vector_is_corrected_component_by_component():
     verdict = _of_the_problem_set("118")
     assert verdict.correction is not None
     assert verdict.correction.what == "dot lost"
     assert verdict.correction.latex.count(r"\ddot{\phi}") == 2
 
 
-def test_a_term_that_no_small_change_mends_is_written_anew():
+def test_a_term_that_no_small_change_corrects_is_rewritten():
     verdict = _of_the_problem_set("67")
     assert verdict.correction is not None
     assert verdict.correction.what == "wrong expression"
@@ -124,7 +124,7 @@ def test_a_quantity_that_a_restriction_makes_vanish_need_not_be_positive():
     assert verdict.correction.what == "wrong factor"
 
 
-def test_no_correction_brings_in_the_other_side():
+def test_no_correction_inserts_the_other_side():
     gyroscope = ph.derive(CATALOGUE["gyroscope"].build())
     verdict = ph.check(r"\dot\theta = \sqrt{2Mga/I_2}", gyroscope)
     proposed = [c for c in (verdict.correction, *verdict.alternatives) if c is not None]

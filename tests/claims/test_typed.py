@@ -1,4 +1,4 @@
-"""What a person types to go with a claim: definitions, restrictions, small quantities."""
+"""What is typed to go with a claim: definitions, restrictions, small quantities."""
 
 from functools import cache
 
@@ -38,7 +38,7 @@ def test_a_symbol_that_only_follows_from_the_declaration_may_be_defined() -> Non
 @pytest.mark.parametrize(
     "text", ["theta=3", "m = 2*a", "omega_3=0", r"\theta = 3", r"\dot{\theta} = 3"]
 )
-def test_a_known_symbol_is_not_defined_anew(text: str) -> None:
+def test_a_known_symbol_is_not_redefined(text: str) -> None:
     with pytest.raises(ParseError, match="restrict a known quantity"):
         with_let(disk(), text)
 
@@ -58,7 +58,7 @@ def test_a_restriction_gives_a_symbol_its_value(text: str, value: Expr) -> None:
     assert {symbol.published: v for symbol, v in asked.given.items()} == {"theta": value}
 
 
-def test_any_other_restriction_is_something_that_vanishes() -> None:
+def test_any_other_restriction_is_an_expression_that_vanishes() -> None:
     notation = with_given(disk(), "theta_dot**2 = phi_dot**2")
     asked = notation.claimed(notation.bound(read_latex(r"F_z = mg")))
     assert not asked.given
@@ -81,18 +81,18 @@ def test_a_letter_that_is_zero_is_still_known() -> None:
 @pytest.mark.parametrize(
     "text", ["epsilon theta", "a = b = c", "= 3", "q =", "2*q = 3", "q = omega_4"]
 )
-def test_what_is_no_definition_is_refused(text: str) -> None:
+def test_a_malformed_definition_is_refused(text: str) -> None:
     with pytest.raises(ParseError):
         with_let(disk(), text)
 
 
 @pytest.mark.parametrize("text", ["theta", "theta > 2", "omega_4 = 1", "theta = 3 furlongs"])
-def test_what_is_no_restriction_is_refused(text: str) -> None:
+def test_a_malformed_restriction_is_refused(text: str) -> None:
     with pytest.raises(ParseError):
         with_given(disk(), text)
 
 
 @pytest.mark.parametrize("text", ["theta:one", ":", "omega_4:1", ""])
-def test_what_is_no_small_quantity_is_refused(text: str) -> None:
+def test_a_malformed_small_quantity_is_refused(text: str) -> None:
     with pytest.raises(ParseError):
         with_small(disk(), text)

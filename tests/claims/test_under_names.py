@@ -7,7 +7,7 @@ import pytest
 import polhode as ph
 from polhode.algebra import named, sin
 from polhode.claims.states._numeric import number
-from polhode.claims.states._points import points
+from polhode.claims.states._sample_points import exact_point
 
 x, y, z, w = ph.symbols("x y z w", positive=True)
 theta = ph.coordinate("theta")
@@ -17,7 +17,7 @@ WRITTEN_OUT = x * y + y * z + z * w + w * x + x * sin(theta)
 def test_a_part_has_the_value_of_what_it_stands_for():
     part = named(WRITTEN_OUT)
     assert part != WRITTEN_OUT or part.generators != WRITTEN_OUT.generators
-    point = points([part], part.symbols(), seed=3)
+    point = exact_point([part], part.symbols(), seed=3)
     assert point(part) == point(WRITTEN_OUT)
     values = point.floats()
     assert number(part, values) == pytest.approx(number(WRITTEN_OUT, values))

@@ -61,7 +61,7 @@ def test_integrals_are_constant_by_sympys_own_calculus(capsys):
     assert sympy.simplify(rate) == 0
 
 
-def test_people_read_it_too(capsys):
+def test_the_text_output(capsys):
     assert main(["steady", "gyroscope", "--at", "theta=60deg"]) == 0
     assert "exists when" in capsys.readouterr().out
     assert main(["invariants", "marble-on-turntable"]) == 0
@@ -78,7 +78,7 @@ def test_people_read_it_too(capsys):
         (["invariants", "nothing"], "is no system"),
     ],
 )
-def test_what_cannot_be_is_said_in_words(capsys, words, said):
+def test_impossible_requests_are_explained(capsys, words, said):
     assert main(words) == 2
     captured = capsys.readouterr()
     assert said in captured.err

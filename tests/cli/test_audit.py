@@ -56,13 +56,13 @@ def test_the_document_has_what_the_contract_says(audit):
     assert all(claim.keys() >= KEYS for claim in document["claims"])
 
 
-def test_all_that_is_asked_for_holds(audit):
+def test_exit_code_zero_if_all_selected_claims_hold(audit):
     code, out, _ = audit(RIGHT, WRONG, options=["--only", "1"])
     assert code == 0
     assert "1 claims: 1 holds" in out
 
 
-def test_what_is_unread_is_exit_code_two(audit):
+def test_unread_claims_give_exit_code_two(audit):
     assert audit(RIGHT, UNREAD)[0] == 2
 
 

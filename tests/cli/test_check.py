@@ -63,14 +63,14 @@ def compiled(*_, **__):
 
 
 @pytest.mark.parametrize("endless", [python, compiled])
-def test_what_cannot_be_decided_in_time_is_given_up(endless, capsys, monkeypatch):
+def test_a_check_that_takes_too_long_is_abandoned(endless, capsys, monkeypatch):
     monkeypatch.setattr(CheckRequest, "judged", endless)
     monkeypatch.setattr(_check, "_LONGEST", 0.1)
     assert main(["check", "gyroscope", "F_z = M g"]) == 2
     assert "more than 0.1 s of computing" in capsys.readouterr().err
 
 
-def test_a_failure_is_told_even_where_no_correction_is_found_in_time(capsys, monkeypatch):
+def test_a_failure_is_reported_even_if_no_correction_is_found_in_time(capsys, monkeypatch):
     def failing(enquiry, equations, tell):
         tell(Verdict(Answer.FAILS, "motion", reason="for a reason"))
         compiled()
@@ -83,7 +83,7 @@ def test_a_failure_is_told_even_where_no_correction_is_found_in_time(capsys, mon
     assert "looking for a correction took more than 2 s" in told
 
 
-def test_a_process_that_ends_unasked_is_told(capsys, monkeypatch):
+def test_a_process_that_dies_is_reported(capsys, monkeypatch):
     monkeypatch.setattr(
         CheckRequest, "judged", lambda *_, **__: os.kill(os.getpid(), signal.SIGKILL)
     )
@@ -110,7 +110,7 @@ def test_an_interruption_ends_the_process_that_judges(capsys, monkeypatch):
     assert "interrupted" in capsys.readouterr().err
 
 
-def test_where_a_process_cannot_be_parted_it_is_interrupted(capsys, monkeypatch):
+def test_where_a_process_cannot_fork_it_is_interrupted(capsys, monkeypatch):
     monkeypatch.setenv("POLHODE_DEBUG", "1")
     monkeypatch.setattr(CheckRequest, "judged", python)
     monkeypatch.setattr(_check, "_LONGEST", 0.1)

@@ -43,7 +43,7 @@ def test_equations_of_the_rolling_disk(document):
     assert [sympy.expand(r - e) for r, e in zip(rows, expected, strict=True)] == [0, 0, 0]
 
 
-def test_what_is_not_determined_is_told_with_the_least_forces(document):
+def test_undetermined_reactions_are_given_with_the_least_forces(document):
     found = document("derive", "gyroscope/held")
     assert set(found["undetermined"]) == {"F_rho", "F_z", "Fprime_rho", "Fprime_z"}
     assert [*misshapen(found["least"], {str: EXPRESSION})] == []
@@ -51,7 +51,7 @@ def test_what_is_not_determined_is_told_with_the_least_forces(document):
     assert read(found["least"]["F_z"]["sympy"]) == half_the_weight
 
 
-def test_people_are_told_everything(polhode):
+def test_the_text_output_is_complete(polhode):
     code, out, err = polhode("derive", "rolling-disk")
     assert (code, err) == (0, "")
     for line in (
@@ -66,7 +66,7 @@ def test_people_are_told_everything(polhode):
         assert f"\n{line}\n" in f"\n{out}"
 
 
-def test_people_are_told_the_least_forces(polhode):
+def test_the_text_output_has_the_least_forces(polhode):
     _, out, _ = polhode("derive", "gyroscope/held")
     assert "Not determined: F_rho, F_z, Fprime_rho, Fprime_z" in out
     assert "  Fprime_z = M g/2\n" in out

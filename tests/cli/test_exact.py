@@ -55,7 +55,7 @@ def test_a_start_is_taken_exactly(document):
     assert told["max_difference"] < 1e-13
 
 
-def test_printed_for_people(polhode):
+def test_the_text_output(polhode):
     code, out, err = polhode("exact", "gyrocompass", "--duration", "30s")
     assert (code, err) == (0, "")
     assert "closed form   gyrocompass, swing" in out

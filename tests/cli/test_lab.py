@@ -8,12 +8,12 @@ from polhode.cli import main
 
 
 @pytest.mark.parametrize("port", ["abc", "-1", "65536", "80a", "٣"])
-def test_a_port_that_is_none_is_refused(port, capsys):
+def test_an_invalid_port_is_refused(port, capsys):
     assert main(["lab", "--no-browser", "--port", port]) == 2
     assert "--port" in capsys.readouterr().err
 
 
-def test_a_port_that_is_taken_is_told(capsys):
+def test_a_port_in_use_is_reported(capsys):
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
@@ -22,6 +22,6 @@ def test_a_port_that_is_taken_is_told(capsys):
     assert f"port {port} of this machine" in capsys.readouterr().err
 
 
-def test_a_file_that_is_not_there_is_told(capsys):
+def test_a_missing_file_is_reported(capsys):
     assert main(["lab", "--no-browser", "nowhere.py:swing"]) == 2
     assert "nowhere.py" in capsys.readouterr().err

@@ -10,7 +10,7 @@ from importlib.metadata import version
 import pytest
 
 from polhode import base
-from polhode.cli import _output, _parser, main
+from polhode.cli import _parser, _run_files, main
 
 POLHODE = (sys.executable, "-m", "polhode")
 
@@ -56,7 +56,7 @@ def test_an_unforeseen_failure_is_one_line(polhode, monkeypatch):
     assert err.count("\n") == 1
 
 
-def test_an_unforeseen_failure_is_shown_to_those_who_ask(polhode, monkeypatch):
+def test_an_unforeseen_failure_has_a_traceback_on_request(polhode, monkeypatch):
     monkeypatch.setattr(base.cache, "clear", fail)
     monkeypatch.setenv("POLHODE_DEBUG", "1")
     code, _, err = polhode("cache", "clear")
@@ -95,18 +95,18 @@ def test_an_interrupted_run_ends_with_130():
     assert err.startswith("polhode: interrupted")
 
 
-def test_what_an_interrupted_run_had_written_is_told(polhode, monkeypatch, tmp_path):
+def test_an_interrupted_run_names_the_files_written(polhode, monkeypatch, tmp_path):
     def interrupt(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(_output, "figure_of_run", interrupt)
+    monkeypatch.setattr(_run_files, "figure_of_run", interrupt)
     code, out, err = polhode("run", "spinning-coin", "--duration", "0.1s", "--out", str(tmp_path))
     table = tmp_path / "spinning-coin.csv"
     assert (code, out, err) == (130, "", f"polhode: interrupted; kept {table}\n")
     assert list(tmp_path.iterdir()) == [table]
 
 
-def test_a_reader_may_leave_early():
+def test_a_closed_pipe_is_no_error():
     words = f"{' '.join(POLHODE)} list --json | head -n 1; echo ${{PIPESTATUS[@]}}"
     run = subprocess.run(["bash", "-c", words], capture_output=True, text=True)
     assert run.stderr == ""

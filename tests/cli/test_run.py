@@ -25,7 +25,7 @@ def test_the_document_of_every_system(document, name):
     assert found["files"] == []
 
 
-def test_what_is_set_and_started_is_what_runs(document):
+def test_settings_and_start_values_are_used(document):
     found = document(
         *("run", "rolling-disk", "--duration", "0.1s"),
         *("--set", "m=2*a/a", "--set", "a = 20mm"),
@@ -41,7 +41,7 @@ def test_what_is_set_and_started_is_what_runs(document):
     assert final["F_z"] == pytest.approx(2 * 9.81)
 
 
-def test_constants_of_the_motion_are_watched(document):
+def test_conserved_quantities_are_checked(document):
     drifts = document("run", "gyroscope", "--duration", "0.2s")["drift"]["invariants"]
     assert drifts.keys() == {"E", "omega_1", "L_pivot_z"}
     assert max(drifts.values()) < 1e-13
@@ -69,7 +69,7 @@ def test_files_hold_the_samples_and_a_figure(document, tmp_path):
     assert (folder / "gyroscope-held.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_people_are_told_where_it_ends_and_how_exact_that_is(polhode):
+def test_the_text_output_has_the_final_state_and_the_drift(polhode):
     code, out, err = polhode("run", "rolling-disk", "--duration", "1s")
     assert (code, err) == (0, "")
     assert out.startswith("Rolling disk (rolling-disk), 1 s, in SI units\n")
@@ -77,7 +77,7 @@ def test_people_are_told_where_it_ends_and_how_exact_that_is(polhode):
         assert f"\n  {word} " in out
 
 
-def test_times_of_events_are_told_like_all_other_numbers(polhode):
+def test_times_of_events_are_printed_like_other_numbers(polhode):
     code, out, _ = polhode(
         *("run", "ball-on-paper", "--mu", "0.2", "--duration", "0.2s", "--events"),
         *("--set", "X=0", "--set", "Y=0", "--start", "v_x=0.7", "--start", "omega_y=0"),

@@ -9,7 +9,7 @@ from decimal import Decimal, localcontext
 import pytest
 
 from polhode.base import SilentProgress, StopRequested
-from polhode.cli._interrupt import Interruptible
+from polhode.cli._exit import Interruptible
 
 
 def test_all_digits_are_printed(polhode):
@@ -38,25 +38,25 @@ def test_a_table_has_all_digits(polhode, tmp_path):
 
 
 @pytest.mark.parametrize("precision", ["triple", "7", "-20", "1e9", "99999999", "nan", "½"])
-def test_a_precision_that_there_is_not(polhode, precision):
+def test_an_unknown_precision_is_refused(polhode, precision):
     code, out, err = polhode("run", "tennis-racquet", "--precision", precision)
     assert (code, out) == (2, "")
     assert err.count("\n") == 1
     assert "expected double, extended, quadruple, or a number of decimal digits" in err
 
 
-def test_a_file_of_doubles_is_not_for_more(polhode, tmp_path):
+def test_a_precise_motion_is_not_saved_in_doubles(polhode, tmp_path):
     save = str(tmp_path / "run.h5")
     code, out, err = polhode("run", "tennis-racquet", "--precision", "40", "--save", save)
     assert (code, out) == (2, "")
-    assert "a file of doubles" in err
+    assert "the file holds doubles" in err
     assert not list(tmp_path.iterdir())
 
 
 # -- interrupted -----------------------------------------------------------------------------------
 
 
-def test_an_interrupt_is_told_at_the_next_step_and_only_once():
+def test_an_interrupt_stops_at_the_next_step_and_only_once():
     progress = Interruptible(SilentProgress())
     before = signal.getsignal(signal.SIGINT)
     progress.begin("integrating")

@@ -17,7 +17,7 @@ def store(tmp_path_factory):
     return path
 
 
-def test_a_sweep_tells_its_members(store, capsys):
+def test_a_sweep_reports_its_members(store, capsys):
     assert main([*SWEEP, *SHORT, "--keep", "theta", "--out", store, "--resume", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told["members"] == 6
@@ -43,8 +43,8 @@ def test_a_map_is_drawn(store, tmp_path, capsys):
         (["sweep", "rolling-disk", "--axis", "theta=1:2:0", "--out", "x"], "0 values"),
         (["sweep", "rolling-disk", "--axis", "thete=1:2:3", "--out", "x"], "thete"),
         (["sweep", "rolling-disk", "--axis", "theta=1s:2s:3", "--out", "x"], "theta"),
-        (["sweep", "gyrocompass", "--axis", "m=1kg:2kg:3", "--out", "x"], "follows from"),
-        ([*SWEEP, *SHORT, "--start", "theta=1", "--out", "x"], "an axis and a value"),
+        (["sweep", "gyrocompass", "--axis", "m=1kg:2kg:3", "--out", "x"], "depends on a quantity"),
+        ([*SWEEP, *SHORT, "--start", "theta=1", "--out", "x"], "both an axis and a value"),
         ([*SWEEP, *SHORT, "--workers", "0", "--out", "x"], "0 workers"),
         ([*SWEEP, *SHORT, "--out", "/dev/null/x"], "cannot be written"),
         ([*SWEEP, *SHORT, "--scheduler", "nowhere", "--out", "x"], "no scheduler answers"),
@@ -58,6 +58,6 @@ def test_refusals(words, told, capsys, tmp_path, monkeypatch):
     assert told in capsys.readouterr().err
 
 
-def test_a_map_needs_an_output_that_is_there(store, tmp_path, capsys):
+def test_a_map_needs_an_existing_output(store, tmp_path, capsys):
     assert main(["map", store, "-o", str(tmp_path / "a.png"), "--show", "fates"]) == 2
     assert "fates" in capsys.readouterr().err

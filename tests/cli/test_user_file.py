@@ -53,7 +53,11 @@ def test_its_missing_numbers_are_named(polhode, ring):
 
 @pytest.mark.parametrize(
     ("variable", "said"),
-    [("", "which system of"), (":lab", "no System but a Frame"), (":nothing", "is no System")],
+    [
+        ("", "which system of"),
+        (":lab", "is not a System but a Frame"),
+        (":nothing", "is not a System"),
+    ],
 )
 def test_the_systems_of_the_file_are_offered(polhode, ring, variable, said):
     code, out, err = polhode("derive", f"{ring}{variable}")
@@ -76,7 +80,7 @@ def test_the_systems_of_the_file_are_offered(polhode, ring, variable, said):
         ("\x00", "null bytes"),
     ],
 )
-def test_errors_are_told_with_file_and_line(polhode, tmp_path, text, said):
+def test_errors_are_located_by_file_and_line(polhode, tmp_path, text, said):
     path = tmp_path / "bad.py"
     path.write_text(text)
     code, out, err = polhode("derive", f"{path}:roll")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from polhode.algebra import ZERO, Expr, Symbol, eliminate
 from polhode.derive import Equations, derive
-from polhode.derive._reactions import ReactionColumn
+from polhode.derive._balance import ReactionColumn
 from polhode.model import Smooth, System
 
 

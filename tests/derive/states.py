@@ -31,9 +31,9 @@ class Numeric:
         Reactions that are not determined are the least ones.
         """
         known = values | self._accelerations(values)
-        known |= self._told(known)
+        known |= self._dependent_values(known)
         known |= {rate_name(name): rate for name, rate in self._changes(known).items()}
-        return known | self._told_forces(known)
+        return known | self._forces_and_power(known)
 
     def _accelerations(self, values: Values) -> dict[str, float]:
         system = np.array(self._system(values))
@@ -43,7 +43,7 @@ class Numeric:
         return dict(zip(names, np.linalg.solve(mass, forcing).tolist(), strict=True))
 
     def _changes(self, known: Values) -> dict[str, float]:
-        """Rates along the motion of all that is told, by a complex step: exact to rounding."""
+        """Rates along the motion by a complex step: exact to rounding."""
         step = 1e-30
         ahead = {n: v + 1j * step * known.get(rate_name(n), 0.0) for n, v in known.items()}
         moved = self._moved(ahead)
@@ -57,12 +57,12 @@ class Numeric:
     @cached_property
     def _moving(self) -> dict[str, Expr]:
         equations = self.equations
-        told = {**equations.kinematics, **equations.dependent}
-        named = {s.published: e for s, e in told.items() if s not in equations.speeds}
+        given = {**equations.kinematics, **equations.dependent}
+        named = {s.published: e for s, e in given.items() if s not in equations.speeds}
         return named | {"T": equations.kinetic_energy, "V": equations.potential_energy}
 
     @cached_property
-    def _told(self) -> Named:
+    def _dependent_values(self) -> Named:
         return by_name(self._moving)
 
     @cached_property
@@ -70,7 +70,7 @@ class Numeric:
         return by_name(self._moving, COMPLEX)
 
     @cached_property
-    def _told_forces(self) -> Named:
+    def _forces_and_power(self) -> Named:
         return by_name({**self.equations.least, "power": self.equations.power})
 
 

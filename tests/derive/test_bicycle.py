@@ -49,7 +49,7 @@ def test_nothing_is_special_about_a_heading() -> None:
         agree(found, expected, ["F_z_R", "F_z_F"], 1e-10)
 
 
-def test_it_prints_in_a_few_lines_whatever_it_takes() -> None:
+def test_it_prints_in_a_few_lines() -> None:
     equations = bicycle()
     assert equations.in_parts
     assert len(str(equations)) < 1500
@@ -57,7 +57,7 @@ def test_it_prints_in_a_few_lines_whatever_it_takes() -> None:
     assert not equations.undetermined
 
 
-def test_what_needs_a_closed_form_is_refused_by_name() -> None:
+def test_what_needs_a_closed_form_is_refused() -> None:
     for analysis in (ph.invariants, ph.steady, ph.linear_integrals):
         with pytest.raises(ph.NumericError, match=r"named parts; .*linearise"):
             analysis(bicycle())

@@ -28,8 +28,8 @@ def moved() -> ph.Sheet:
     return ph.Sheet(LAB, motion=(x, y), angle=chi)
 
 
-def told(state: Values) -> dict[str, float]:
-    """The oracles call the angle of the sheet angle."""
+def for_oracle(state: Values) -> dict[str, float]:
+    """With the name that the oracles give to the angle of the sheet."""
     return {name.replace("chi", "angle"): value for name, value in state.items()}
 
 
@@ -64,7 +64,7 @@ STATES = {
 @pytest.mark.parametrize("support", STATES)
 def test_wheel_rolling(support: str, seed: int) -> None:
     state = draw(STATES[support], seed)
-    expected = scenarios.rolling_on_sheet(**told(state))
+    expected = scenarios.rolling_on_sheet(**for_oracle(state))
     found = wheel_on("rolling", support).at(**state)
     agree(found, expected, TURNING)
     agree(found, expected, FORCES)
@@ -76,7 +76,7 @@ def test_wheel_rolling(support: str, seed: int) -> None:
 @pytest.mark.parametrize("support", ["slope", "pulled"])
 def test_wheel_sliding_with_friction(support: str, seed: int) -> None:
     state = draw(f"{STATES[support]} mu v_x v_y", seed)
-    expected = scenarios.sliding_on_sheet(**told(state))
+    expected = scenarios.sliding_on_sheet(**for_oracle(state))
     found = wheel_on("sliding", support).at(**state)
     agree(found, expected, TURNING)
     agree(found, expected, [*FORCES, "v_x_dot", "v_y_dot"])
@@ -96,7 +96,7 @@ def sliding_ball() -> Numeric:
 @seeds
 def test_ball_sliding_on_paper(seed: int) -> None:
     state = draw(f"{BALL} mu omega_x omega_y {SHEET}", seed)
-    expected = balls.sliding_on_paper(**told(state))
+    expected = balls.sliding_on_paper(**for_oracle(state))
     found = sliding_ball().at(**state)
     agree(found, expected, ["v_x_dot", "v_y_dot"])
     agree(found, expected, ["omega_x_dot", "omega_y_dot", "omega_z_dot"])

@@ -68,7 +68,9 @@ BODIES = {
 
 @seeds
 @pytest.mark.parametrize("name", BODIES)
-def test_motion_does_not_depend_on_the_angles_that_tell_the_attitude(name: str, seed: int) -> None:
+def test_motion_does_not_depend_on_the_angles_that_describe_the_attitude(
+    name: str, seed: int
+) -> None:
     body, parameters = BODIES[name]
     state = draw(f"{parameters} omega_1 omega_2 omega_3", seed)
     by_euler = draw("phi theta psi", seed + 100)
@@ -103,7 +105,7 @@ def wheel_by(*speeds: ph.Expr) -> Numeric:
 
 
 @seeds
-def test_a_wheel_may_be_told_by_the_velocity_of_its_centre(seed: int) -> None:
+def test_a_wheel_may_be_described_by_the_velocity_of_its_centre(seed: int) -> None:
     """Its spin and steering made dependent instead, the wheel does the same."""
     by_path = wheel_by(*ph.speeds("v_x v_y"), phi.dt())
     assert {s.published for s in by_path.equations.speeds} == {"v_x", "v_y", "phi_dot"}
@@ -173,7 +175,7 @@ SHAPES: list[tuple[Callable[..., ph.Body], dict[ph.Expr, ph.Expr]]] = [
 
 
 @pytest.mark.parametrize(("shape", "moments"), SHAPES, ids=["disk", "hoop"])
-def test_moments_of_a_shape_may_be_put_in_before_or_after(shape, moments) -> None:
+def test_moments_of_a_shape_may_be_substituted_before_or_after(shape, moments) -> None:
     body = shape("wheel", mass=m, radius=a, axes=declared.following(LAB))
     before = ph.derive(ph.System(ph.Rolling(body, on=ph.Plane(LAB)), ph.Gravity(g)))
     after = declared.rolling(LAB)
@@ -185,7 +187,7 @@ def test_moments_of_a_shape_may_be_put_in_before_or_after(shape, moments) -> Non
         assert before.components[name] == force.subs(moments)
 
 
-def test_numbers_may_be_put_in_before_or_after() -> None:
+def test_numbers_may_be_substituted_before_or_after() -> None:
     values = {m: 2, a: ph.Expr.of(3) / 10, g: ph.Expr.of(981) / 100}
     body = ph.disk("wheel", mass=2, radius=0.3, axes=declared.following(LAB))
     before = ph.derive(ph.System(ph.Rolling(body, on=ph.Plane(LAB)), ph.Gravity(9.81)))

@@ -90,7 +90,7 @@ def door(*more: str) -> Equations:
     return ph.derive(ph.System(*(joints[name] for name in ("bottom", *more)), ph.Gravity(g)))
 
 
-def test_a_door_on_two_pivots_does_not_tell_which_bears_its_weight() -> None:
+def test_a_door_on_two_pivots_leaves_open_which_bears_its_weight() -> None:
     equations = door("top")
     assert set(equations.undetermined) == {"F_z", "G_z"}
     assert equations.components["F_z"] + equations.components["G_z"] == m * g
@@ -107,7 +107,7 @@ def push(equations: Equations) -> ph.Expr:
     return -m * a * ph.coordinates("theta")[0].dt() ** 2
 
 
-def test_with_a_hinge_besides_hardly_anything_is_told() -> None:
+def test_with_a_hinge_besides_hardly_any_reaction_is_determined() -> None:
     equations = door("top", "hinge")
     assert set(equations.undetermined) == {
         "F_x", "F_y", "F_z", "G_x", "G_y", "G_z", "tau_x", "tau_y",
@@ -118,7 +118,7 @@ def test_with_a_hinge_besides_hardly_anything_is_told() -> None:
     assert least["F_z"] + least["G_z"] == forced["F_z"] == m * g
 
 
-def test_a_hinge_and_one_pivot_tell_everything() -> None:
+def test_a_hinge_and_one_pivot_determine_every_reaction() -> None:
     equations = door("hinge")
     assert equations.undetermined == ()
     assert equations.least == equations.components

@@ -68,7 +68,7 @@ def test_two_wheels_on_an_axle(seed: int) -> None:
     agree(found, expected, ENERGIES)
 
 
-def test_how_the_wheels_share_the_force_along_the_axle_is_told_to_be_open() -> None:
+def test_how_the_wheels_share_the_force_along_the_axle_is_left_open() -> None:
     contacts = {f"F_{i}_{wheel}" for i in "xyz" for wheel in "12"}
     open_ = set(declared.wheels_on_axle().undetermined) & contacts
     assert open_ == {"F_x_1", "F_y_1", "F_x_2", "F_y_2"}

@@ -77,20 +77,20 @@ SYSTEMS = [
 
 @pytest.mark.parametrize("build", SYSTEMS)
 def test_the_ground_turns_alike(build: Callable[[ph.Frame], Equations]) -> None:
-    told, turned = build(EARTH), build(TURNED)
-    assert told.speeds == turned.speeds
-    assert told.dependent == turned.dependent
-    assert told.rows == turned.rows
-    assert told.components == turned.components
-    assert told.energy == turned.energy
+    on_earth, turned = build(EARTH), build(TURNED)
+    assert on_earth.speeds == turned.speeds
+    assert on_earth.dependent == turned.dependent
+    assert on_earth.rows == turned.rows
+    assert on_earth.components == turned.components
+    assert on_earth.energy == turned.energy
 
 
 @pytest.mark.parametrize("build", SYSTEMS)
 def test_a_ground_that_stops_turning_is_at_rest(build: Callable[[ph.Frame], Equations]) -> None:
-    told, rest = build(EARTH), build(LAB)
+    on_earth, rest = build(EARTH), build(LAB)
     still = {OMEGA: 0}
-    assert [row.subs(still) for row in told.rows] == list(rest.rows)
-    assert {n: f.subs(still) for n, f in told.components.items()} == rest.components
+    assert [row.subs(still) for row in on_earth.rows] == list(rest.rows)
+    assert {n: f.subs(still) for n, f in on_earth.components.items()} == rest.components
 
 
 def test_a_hinge_of_the_turning_ground_holds_as_two_guides_do() -> None:

@@ -128,7 +128,7 @@ def test_a_point_kept_at_a_height_over_the_turning_ground(held, seed: int) -> No
     agree(found, expected, [name for name in expected if name in found])
 
 
-def test_a_plane_that_turns_may_be_told_by_its_normal_or_by_its_frame() -> None:
+def test_a_plane_that_turns_may_be_declared_by_its_normal_or_by_its_frame() -> None:
     """A guide keeps an axle in a vertical plane that is driven round."""
     theta, psi = ph.coordinates("theta psi")
     axes = LAB.rotated(psi, "z").rotated(theta, "x", labels="1 2 3")
@@ -143,9 +143,9 @@ def test_a_plane_that_turns_may_be_told_by_its_normal_or_by_its_frame() -> None:
     assert first.rows == second.rows
     assert first.components == second.components
     # Where the axle is in the plane it goes round with it: ψ = Ω t, ψ̇ = Ω.
-    (told,) = (rate for symbol, rate in first.dependent.items() if symbol.published == "psi_dot")
+    (spin,) = (rate for symbol, rate in first.dependent.items() if symbol.published == "psi_dot")
     there = {psi: turn}
-    assert told.subs(there) == Omega
+    assert spin.subs(there) == Omega
 
 
 # -- places that a body moves by itself ------------------------------------------------------------
@@ -156,13 +156,13 @@ def test_a_bob_on_a_light_rod_by_its_place_is_a_pendulum() -> None:
     bob = ph.point_mass("bob", mass=m, axes=axes)
     by_place = ph.Pivot(bob, to=axes["z"] * -length, along=axes)
     by_point = ph.Pivot(bob, at=axes["z"] * length, along=axes)
-    told, known = (ph.derive(ph.System(pivot, ph.Gravity(g))) for pivot in (by_place, by_point))
-    assert told.accelerations == known.accelerations
-    assert told.on_shell(told.components["F_x"]).is_zero
+    placed, known = (ph.derive(ph.System(pivot, ph.Gravity(g))) for pivot in (by_place, by_point))
+    assert placed.accelerations == known.accelerations
+    assert placed.on_shell(placed.components["F_x"]).is_zero
     pull = m * g * ph.cos(phi) + m * length * phi.dt() ** 2
-    assert told.on_shell(told.components["F_z"]) == pull
+    assert placed.on_shell(placed.components["F_z"]) == pull
     assert known.on_shell(known.components["F_z"]) == pull
-    assert balanced(told)
+    assert balanced(placed)
 
 
 def test_what_hangs_on_such_a_bob_is_carried_too() -> None:
@@ -173,13 +173,13 @@ def test_what_hangs_on_such_a_bob_is_carried_too() -> None:
     string = ph.Pivot(second, at=lower["z"] * a, to=first.point(), along=lower, name="string")
     by_place = ph.Pivot(first, to=upper["z"] * -length, along=upper)
     by_point = ph.Pivot(first, at=upper["z"] * length, along=upper)
-    told, known = (
+    placed, known = (
         ph.derive(ph.System(pivot, string, ph.Gravity(g))) for pivot in (by_place, by_point)
     )
-    assert told.accelerations == known.accelerations
+    assert placed.accelerations == known.accelerations
     for name in ("F_x", "F_z", "F_z_2"):
-        assert told.on_shell(told.components[name]) == known.on_shell(known.components[name])
-    assert balanced(told)
+        assert placed.on_shell(placed.components[name]) == known.on_shell(known.components[name])
+    assert balanced(placed)
 
 
 def test_a_spring_on_a_ring_that_runs_along_a_rail() -> None:
@@ -187,7 +187,7 @@ def test_a_spring_on_a_ring_that_runs_along_a_rail() -> None:
     bob = ph.point_mass("bob", mass=m, axes=LAB)
     spring = ph.Spring(bob.point(), LAB["x"] * ph.coordinate("x"), stiffness=tau)
     equations = ph.derive(ph.System(spring))
-    told = {symbol.published: value for symbol, value in equations.accelerations.items()}
-    assert told["v_y_dot"] == -tau * ph.coordinate("y") / m
-    assert told["v_x_dot"].is_zero
+    rates = {symbol.published: value for symbol, value in equations.accelerations.items()}
+    assert rates["v_y_dot"] == -tau * ph.coordinate("y") / m
+    assert rates["v_x_dot"].is_zero
     assert balanced(equations)

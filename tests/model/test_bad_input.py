@@ -261,7 +261,7 @@ REFUSALS: dict[str, Refusal] = {
     "no such load": (
         lambda: ph.derive(ph.System(wheel(), ph.Gravity(g))).load_power("weight"),
         DECLARATION,
-        ("load 'weight'", "one of gravity"),
+        ("'weight' is no load", "one of gravity"),
     ),
     "no such body": (lambda: ph.System(wheel()).body("ball"), DECLARATION, ("'ball'", "wheel")),
     "no such contact": (
@@ -310,7 +310,7 @@ REFUSALS: dict[str, Refusal] = {
             ).dimensions
         ),
         UNIT,
-        ("bare number as mass of bar", "a symbol", "kg", "give its value where it is run"),
+        ("bare number as mass of bar", "a symbol", "kg", "give its value at run time"),
     ),
     # -- constraints
     "two motors at odds": (

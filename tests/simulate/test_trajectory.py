@@ -37,7 +37,7 @@ def test_several_quantities_are_computed_together(run):
     assert set(run.at(1.0)) == {"theta", "theta_dot"}
 
 
-def test_the_end_is_summed_up(run):
+def test_the_final_state(run):
     assert run.final["theta"] == run["theta"][-1]
     assert set(run.final) == {"theta", "theta_dot", "N", "S", "energy", "mode"}
     assert run.final["mode"] == "as declared"
@@ -105,7 +105,7 @@ def test_chosen_columns_replace_a_file(run, tmp_path):
     assert os.listdir(tmp_path) == ["run.csv"]
 
 
-def test_a_file_that_cannot_be_written_is_told_and_nothing_is_left(run, tmp_path):
+def test_a_file_that_cannot_be_written_is_reported_and_not_left(run, tmp_path):
     with pytest.raises(StoreError, match="cannot be written"):
         run.to_csv(tmp_path / "nowhere" / "run.csv")
     with pytest.raises(StoreError, match="cannot be written"):
@@ -129,7 +129,7 @@ class Counting:
         self.finished += 1
 
 
-def test_progress_is_told(integrator):
+def test_progress_is_reported(integrator):
     listener = Counting()
     simulate(pendulum(), UNITS, {"theta": 1}, 5, progress=listener)
     assert listener.began == ["integrating"]

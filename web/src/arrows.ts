@@ -1,4 +1,4 @@
-// Arrows: solid where they can be seen, and faint where a body hides them.
+// Arrows: solid where visible, faint where a body hides them.
 
 import { ConeGeometry, CylinderGeometry, Group, Mesh, MeshBasicMaterial, Quaternion, Vector3 } from "three";
 import type { Pose } from "./pose";
@@ -14,16 +14,16 @@ export const COLOURS: Record<ArrowKind, string> = {
 
 const UP = new Vector3(0, 1, 0);
 const HEAD = 5.5; // length of the head, in thicknesses
-// Usual lengths of the longest arrows, in reaches: unlike, so that parallel ones are told apart.
+// Default lengths of the longest arrows, in units of the body's size: unequal, so that parallel arrows can be distinguished.
 const USUAL: Record<ArrowKind, number> = { force: 2.4, load: 2.4, torque: 1.9, omega: 1.5, momentum: 1.9 };
 const SPIKE = 12; // largest over usual length, beyond which the usual one no longer decides
 
-/** Forces, or where there are none what turns. */
+/** Forces, or the rotational vectors if there are none. */
 export function usuallyShown(kinds: ArrowKind[]): Set<ArrowKind> {
   return new Set(kinds.includes("force") ? ["force"] : ["omega", "momentum"]);
 }
 
-/** Length on the screen of a vector of length one, by its kind, beside a body of this reach; m. */
+/** Drawn length of a unit vector of each kind, for a body of this size; m. */
 export function scales(arrows: ArrowData[], reach: number): (kind: ArrowKind) => number {
   const group = (kind: ArrowKind): string => (kind === "load" ? "force" : kind);
   const sizes: Record<string, number> = {};
@@ -33,7 +33,7 @@ export function scales(arrows: ArrowData[], reach: number): (kind: ArrowKind) =>
   return (kind) => (USUAL[kind] * reach) / sizes[group(kind)];
 }
 
-/** Shaft and head, solid, and once more faint: of no length yet. */
+/** Shaft and head, solid and faint, with zero length. */
 export function arrowObject(kind: ArrowKind, thick: number): Group {
   const group = new Group();
   for (const [depthTest, opacity, order] of [[true, 1, 20], [false, 0.62, 19]] as const) {
@@ -60,7 +60,7 @@ export class Arrow {
   private readonly from = new Vector3();
   private readonly turn = new Quaternion();
 
-  /** @param group what it is drawn as, of this thickness. */
+  /** @param group its drawn object, of this thickness. */
   constructor(
     readonly data: ArrowData,
     readonly group: Group,
@@ -72,12 +72,12 @@ export class Arrow {
     this.along = new Rows(data.along);
   }
 
-  /** Its length in its unit. */
+  /** Its magnitude in its unit. */
   size(frame: number): number {
     return Math.hypot(...this.along.at(frame, this.buffer));
   }
 
-  /** Where it ends at most this far from its foot, m. */
+  /** Its tip, at most this far from its foot; m. */
   tip(frame: number, most: number, out: Vector3): Vector3 {
     return this.drawn(frame, out).clampLength(0, most).add(this.start(frame, this.from));
   }
@@ -102,7 +102,7 @@ export class Arrow {
     return this.foot.count ? out.fromArray(this.foot.at(frame, this.buffer)) : this.body.placeAt(frame, out);
   }
 
-  /** As long as it is drawn. */
+  /** Its drawn length. */
   private drawn(frame: number, out: Vector3): Vector3 {
     return out.fromArray(this.along.at(frame, this.buffer)).multiplyScalar(this.scale);
   }

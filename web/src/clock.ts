@@ -1,4 +1,4 @@
-// The one clock that picture, plots and slider follow.
+// The clock that picture, plots and slider share.
 
 type Listener = (clock: Clock) => void;
 
@@ -36,7 +36,7 @@ export class Clock {
     this.tell();
   }
 
-  /** Nobody is told of anything any more. */
+  /** Remove all listeners. */
   stop(): void {
     this.playing = false;
     this.listeners.length = 0;
@@ -61,11 +61,11 @@ export class Clock {
   }
 }
 
-// From a billionth of the true speed to a billion times it.
+// From a billionth of real time to a billion times it.
 const RATES = Array.from({ length: 55 }, (_, i) => Number(`${[1, 2, 5][i % 3]}e${Math.floor(i / 3) - 9}`));
 const SHOW = 9; // s that a whole motion should take at least
 
-/** Speeds to offer, and the fastest of them that leaves time to watch. */
+/** The playback speeds offered, and the default: the fastest that leaves time to watch. */
 export function rates(duration: number): { offered: number[]; usual: number } {
   const fitting = RATES.filter((rate) => duration / rate >= SHOW);
   const usual = fitting[fitting.length - 1] ?? RATES[0];

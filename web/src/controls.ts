@@ -69,9 +69,9 @@ function speed(clock: Clock): HTMLElement {
 export function switches(stage: Stage, clock: Clock): HTMLElement {
   const arrows = stage.kinds.map((kind) => arrowSwitch(kind, stage, clock));
   const traces = toggle("Traces", stage.showsTraces, (on) => stage.showTraces(on));
-  const follow = toggle("Follow", stage.eye.follow, (on) => stage.setFollow(on));
+  const follow = toggle("Follow", stage.view.follow, (on) => stage.setFollow(on));
   const home = make("button", { type: "button", class: "switch" }, "Reset view");
-  home.addEventListener("click", () => stage.eye.home());
+  home.addEventListener("click", () => stage.view.home());
   return make(
     "div",
     { class: "switches", role: "group", "aria-label": "What is shown" },
@@ -120,7 +120,7 @@ function icon(name: keyof typeof ICONS): SVGElement {
   return svg;
 }
 
-/** Space plays and pauses, arrows go back and forth; on the picture they turn it. */
+/** Space plays and pauses, arrow keys step; on the picture they rotate the view. */
 export function keys(
   clock: Clock,
   picture: HTMLElement,
@@ -136,12 +136,12 @@ export function keys(
     End: () => clock.seek(clock.duration),
   };
   const turning: Record<string, () => void> = {
-    ArrowLeft: () => stage?.eye.orbit(-TURN, 0),
-    ArrowRight: () => stage?.eye.orbit(TURN, 0),
-    ArrowUp: () => stage?.eye.orbit(0, -TURN),
-    ArrowDown: () => stage?.eye.orbit(0, TURN),
-    "+": () => stage?.eye.zoom(1 / 1.15),
-    "-": () => stage?.eye.zoom(1.15),
+    ArrowLeft: () => stage?.view.orbit(-TURN, 0),
+    ArrowRight: () => stage?.view.orbit(TURN, 0),
+    ArrowUp: () => stage?.view.orbit(0, -TURN),
+    ArrowDown: () => stage?.view.orbit(0, TURN),
+    "+": () => stage?.view.zoom(1 / 1.15),
+    "-": () => stage?.view.zoom(1.15),
   };
   document.addEventListener("keydown", (event) => {
     const target = event.target as HTMLElement;

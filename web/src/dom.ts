@@ -1,4 +1,4 @@
-// Elements are made by hand: text is always text, whatever the names of a system say.
+// Elements are created one by one, so that text is never parsed as HTML.
 
 type Attributes = Record<string, string | number | boolean>;
 
@@ -23,7 +23,7 @@ const KEPT = new Set(
   "displaystyle display form fence stretchy width mathvariant accent separator minsize maxsize".split(" "),
 );
 
-/** A formula; anything that is not plain MathML is left out. */
+/** A formula; anything other than plain MathML is dropped. */
 export function formula(mathml: string): Node {
   const parsed = new DOMParser().parseFromString(mathml, "text/html").body.firstElementChild;
   return parsed ? clean(parsed) : document.createTextNode("");
@@ -41,7 +41,7 @@ function clean(element: Element): Node {
   return copy;
 }
 
-/** Four digits, and powers of ten where they are needed. */
+/** Four digits, with powers of ten where needed. */
 export function digits(value: number, count = 4): string {
   if (value === 0) return "0";
   const size = Math.abs(value);
@@ -51,14 +51,14 @@ export function digits(value: number, count = 4): string {
   return `${Number(mantissa)}·10${raised}`.replace(/^-/, "−");
 }
 
-/** Powers raised, as in m/s². */
+/** With superscripts, as in m/s². */
 export function raised(text: string): string {
   return text.replace(/\^(\d)/g, (_, digit: string) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)]);
 }
 
 const LATEST = 250; // ms; what is out of sight, such as a frame that was scrolled away, is not painted at all
 
-/** Once what is there now is on the screen, or would have been. */
+/** Resolves once the page has been painted, or would have been. */
 export function painted(): Promise<void> {
   return new Promise((done) => {
     requestAnimationFrame(() => setTimeout(done));

@@ -1,4 +1,4 @@
-// How much room a motion takes.
+// The extent of a motion in space.
 
 import { Box3, Object3D, Sphere, Vector3 } from "three";
 import type { Arrow } from "./arrows";
@@ -10,22 +10,22 @@ const AIR = 1.15; // radius of what is kept free about a body, in reaches
 const LONG = 2.5; // reaches of an arrow that are to be in view; a shock may make it longer
 const TURNS = 12; // instants at which a trace on a moving support is looked at
 const TIP = 0.15; // of what is kept free about the tip of an arrow or a path, in reaches
-const EDGE = 0.03; // likewise, against the room that the motion takes
+const EDGE = 0.03; // likewise, relative to the extent of the motion
 
-export interface Room {
+export interface Extent {
   up: Vector3;
-  /** Of all that is to be in view. */
+  /** Of everything that is to be in view. */
   middle: Vector3;
-  /** Of the places that bodies pass through, m. */
+  /** Of the positions of the bodies, m. */
   radius: number;
-  /** From the middle of the largest body to its farthest point, m. */
+  /** From the centre of the largest body to its farthest point, m. */
   reach: number;
-  /** What is to be in view, at many instants. */
+  /** Everything to be in view, at many instants. */
   balls: Sphere[];
 }
 
-/** The room that bodies, arrows and traces take, and points that are held. */
-export function roomOf(
+/** The extent of bodies, arrows, traces and held points. */
+export function extentOf(
   up: Vector3,
   poses: Pose[],
   reach: number,
@@ -33,7 +33,7 @@ export function roomOf(
   arrows: Arrow[],
   traced: Vector3[],
   frames: number,
-): Room {
+): Extent {
   const instants = Array.from({ length: LOOKS + 1 }, (_, i) => (i / LOOKS) * (frames - 1));
   const places = instants.flatMap((frame) => poses.map((pose) => pose.placeAt(frame, new Vector3())));
   const tips = instants.flatMap((frame) => arrows.map((arrow) => arrow.tip(frame, LONG * reach, new Vector3())));
@@ -47,7 +47,7 @@ export function roomOf(
   return { up, middle: seen.getCenter(new Vector3()), radius, reach, balls };
 }
 
-/** Points of what is left behind; on a support that moves, where they lie while it does. */
+/** Points of a trace; on a moving support, at their positions during its motion. */
 export function tracedBy({ points, support }: TraceData, supports: Pose[], frames: number): Vector3[] {
   const { data, count } = new Rows(points);
   const step = Math.max(1, Math.floor(count / LOOKS));

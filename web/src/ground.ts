@@ -1,4 +1,4 @@
-// What flat surfaces are drawn with: the light on them is the same all over, save in the shadow.
+// Material of flat surfaces: uniformly lit, except in shadow.
 
 import { Color, ShaderMaterial, UniformsLib, UniformsUtils } from "three";
 
@@ -61,9 +61,9 @@ void main() {
 }
 `;
 
-/** Lit as Lambert has it, by the sky, the sun and the eye; for planes alone, one normal each. */
+/** Lambert shading by sky, sun and camera light; only for planes, with one normal each. */
 export class Ground extends ShaderMaterial {
-  /** @param veiled whether the alpha of the colours of its points says how far it is seen through. */
+  /** @param veiled whether the alpha of the vertex colours makes it transparent. */
   constructor(veiled: boolean, offset: number) {
     super({
       vertexShader: VERTEX,

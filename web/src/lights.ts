@@ -1,4 +1,4 @@
-// Light from the sky, from where one looks, and from a sun that casts shadows.
+// Light from the sky, from the camera, and from a sun that casts shadows.
 
 import { DirectionalLight, HemisphereLight, type PerspectiveCamera, type Scene, type Vector3 } from "three";
 
@@ -14,12 +14,12 @@ export class Lights {
     world.add(camera, this.sun, this.sun.target);
   }
 
-  /** Shadows of bodies as large as this. */
+  /** Set up shadows for bodies of this size. */
   fit(reach: number): void {
     this.sun.shadow.normalBias = 0.01 * reach;
   }
 
-  /** Let the sun shine on a place, with shadows as far as a range about it. */
+  /** Aim the sun at a point, with shadows within a range around it. */
   aim(at: Vector3, range: number, up: Vector3, [side, ahead]: [Vector3, Vector3]): void {
     this.sun.target.position.copy(at);
     this.sun.position

@@ -1,4 +1,4 @@
-// Springs and dampers, drawn anew as their ends move.
+// Springs and dampers, redrawn as their ends move.
 
 import {
   BufferGeometry,
@@ -21,7 +21,7 @@ const STRAIGHT = 0.07; // share of the length at either end that is not wound
 const POT = 0.5; // of a damper's length at the middle of the motion
 const UP = new Vector3(0, 0, 1);
 
-/** What lies between two points, along its own z axis. */
+/** An object between two points, along its own z axis. */
 interface Stretched {
   readonly object: Group;
   stretch(length: number): void;
@@ -67,7 +67,7 @@ export class Link {
 
 const turn = new Quaternion();
 
-/** A place in space that something is tied to. */
+/** A fixed point to which something is attached. */
 function anchor(place: Rows, radius: number): Mesh {
   const knob = new Mesh(new SphereGeometry(radius, 24, 16), surface(PALETTE.dark));
   knob.position.fromArray(place.at(0, []));
@@ -130,7 +130,7 @@ function faces(rings: number): number[] {
   return found;
 }
 
-/** A damper: a pot at one end, a piston's rod from the other. */
+/** A damper: a cylinder at one end, a piston rod at the other. */
 class Pot implements Stretched {
   readonly object = new Group();
   private readonly pot: Mesh;

@@ -1,8 +1,8 @@
-// Puts the scene that lies in the page on the page.
+// Displays the scene that is embedded in the page.
 
 import "uplot/dist/uPlot.min.css";
 import "./page.css";
-import { makeBlind } from "./blind";
+import { makeFallback } from "./fallback";
 import { Clock, rates } from "./clock";
 import { keys, switches, transport } from "./controls";
 import { make, painted } from "./dom";
@@ -23,7 +23,7 @@ function show(scene: SceneData): void {
   theatre.append(transport(clock));
   const dark = matchMedia("(prefers-color-scheme: dark)");
 
-  // What takes its time comes after the words are on the screen: the picture, then the plots.
+  // Slow parts follow once the text is on the screen: the picture, then the plots.
   void painted().then(async () => {
     const stage = staged(scene, picture);
     keys(clock, picture, stage);
@@ -51,7 +51,7 @@ function staged(scene: SceneData, picture: HTMLElement): Stage | null {
   try {
     return new Stage(scene, picture);
   } catch {
-    makeBlind(picture, "Plots, slider and numbers");
+    makeFallback(picture, "Plots, slider and numbers");
     return null;
   }
 }

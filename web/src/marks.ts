@@ -1,4 +1,4 @@
-// Surfaces with marks on them, so that a spin is seen.
+// Surfaces with marks, so that spin is visible.
 
 import { CanvasTexture, MeshLambertMaterial, SRGBColorSpace, type Texture } from "three";
 
@@ -11,7 +11,7 @@ export const PALETTE = {
   dark: "#5b636d",
 };
 
-/** Painted once, and shared by all that wear it from then on. */
+/** Painted once and then shared. */
 function kept(paint: () => Texture): () => Texture {
   let texture: Texture | undefined;
   return () => (texture ??= paint());
@@ -64,7 +64,7 @@ function ring(pen: CanvasRenderingContext2D, middle: number, at: number, colour:
   pen.stroke();
 }
 
-/** An edge with as many blocks as the face has sectors. */
+/** An edge with one block per sector of the face. */
 export const edge = kept(() =>
   painted(1200, 8, (pen) => {
     for (let i = 0; i < 12; i++) {
@@ -74,7 +74,7 @@ export const edge = kept(() =>
   }),
 );
 
-/** A ball in panels, with a marked cap. */
+/** A ball with panels and a marked cap. */
 export const panels = kept(() =>
   painted(1024, 512, (pen) => {
     for (let i = 0; i < 8; i++) {

@@ -1,4 +1,4 @@
-// Quantities against time, with a line at the present that can be moved by a click.
+// Quantities against time, with a cursor at the present time that a click moves.
 
 import uPlot from "uplot";
 import type { Clock } from "./clock";
@@ -8,9 +8,9 @@ import { type PanelData, Rows } from "./scene";
 const DASHES = [[], [9, 4], [2, 4], [10, 4, 2, 4]];
 const HEIGHT = 150;
 const WIDE = 7; // pixels of a letter at an axis
-const ROUNDING = 1e-9; // of the largest value: what is less is told as zero
+const ROUNDING = 1e-9; // relative to the largest value: less is shown as zero
 
-/** Dashes of a series; those that share a colour differ in them. */
+/** Dashes of a series; series with the same colour differ in them. */
 const dashes = (number: number): number[] => DASHES[(number + Math.floor(number / 4)) % DASHES.length];
 
 export class Plots {
@@ -24,7 +24,7 @@ export class Plots {
     this.fitting.observe(holder);
   }
 
-  /** Other quantities take the place of those that are there; of the same kinds, their lines alone change. */
+  /** Replace the quantities; if they are of the same kinds, only the lines change. */
   show(panels: PanelData[], clock: Clock): void {
     const kinds = panels.map(kindOf).join("\n");
     if (kinds === this.kinds) this.plots.forEach((plot, i) => plot.renew(panels[i], clock));
@@ -42,7 +42,7 @@ export class Plots {
     for (const plot of this.plots) plot.draw();
   }
 
-  /** Colours are read again from the style of the page. */
+  /** Read the colours again from the style of the page. */
   theme(): void {
     for (const plot of this.plots) plot.draw();
   }
@@ -83,7 +83,7 @@ class Plot {
     this.plot?.setData(this.data);
   }
 
-  /** Draw it in place of what is there; its figure is on the page by now, and has its width. */
+  /** Draw it; its figure must already be on the page, so that its width is known. */
   draw(): void {
     this.plot?.destroy();
     this.plot = this.made();
@@ -159,7 +159,7 @@ class Plot {
         height: HEIGHT,
         legend: { show: false },
         cursor: { drag: { x: false, y: false }, y: false, points: { show: false } },
-        scales: { x: { time: false }, y: { range: room } },
+        scales: { x: { time: false }, y: { range: paddedRange } },
         axes: [
           { ...axis, size: 30, values: (_, ticks) => apart(ticks).map((tick, i) => (i ? tick : `${tick} s`)) },
           { ...axis, size: (_, labels) => Math.max(62, 20 + WIDE * longest(labels)), values: (_, ticks) => apart(ticks) },
@@ -189,7 +189,7 @@ class Plot {
   }
 }
 
-/** Numbers with as many digits as it takes to tell them apart. */
+/** Numbers with as many digits as needed to distinguish them. */
 function apart(ticks: number[]): string[] {
   for (let count = 4; count < 15; count++) {
     const told = ticks.map((tick) => digits(tick, count));
@@ -198,11 +198,11 @@ function apart(ticks: number[]): string[] {
   return ticks.map(String);
 }
 
-/** Letters of the longest of some labels. */
+/** Number of characters of the longest label. */
 const longest = (labels: string[] | null): number => Math.max(0, ...(labels ?? []).map((label) => label.length));
 
-/** Limits that do not blow rounding up to the height of the panel. */
-function room(_: uPlot, low: number, high: number): uPlot.Range.MinMax {
+/** Limits that do not magnify rounding errors to the height of the panel. */
+function paddedRange(_: uPlot, low: number, high: number): uPlot.Range.MinMax {
   const size = Math.max(Math.abs(low), Math.abs(high));
   if (high - low <= 1e-6 * size || !size) return [low - (0.2 * size || 1), high + (0.2 * size || 1)];
   const margin = 0.08 * (high - low);

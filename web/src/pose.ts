@@ -1,4 +1,4 @@
-// Where things are between two frames.
+// Positions and orientations between two frames.
 
 import { Object3D, Quaternion, Vector3 } from "three";
 import { type PoseData, Rows } from "./scene";

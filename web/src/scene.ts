@@ -1,12 +1,12 @@
-// The scene as polhode writes it; see Scene in polhode's view room for what everything means.
+// The scene as polhode writes it; the fields are documented at Scene in polhode.view.
 
-/** In a page the numbers are in base64; the lab's come as they are. */
+/** In a page the numbers are in base64; in the lab they are binary. */
 export interface Packed {
   shape: number[];
   float32: string | Float32Array;
 }
 
-/** Rows of numbers; one row stands for all where nothing changes. */
+/** Rows of numbers; a single row if nothing changes. */
 export class Rows {
   readonly data: Float32Array;
   readonly count: number;
@@ -19,7 +19,7 @@ export class Rows {
     this.width = packed.shape[1] ?? 1;
   }
 
-  /** Linear between rows; `frame` need not be whole. */
+  /** Linear interpolation between rows; `frame` need not be an integer. */
   at(frame: number, out: number[]): number[] {
     const first = Math.min(Math.floor(frame), this.count - 1);
     const second = Math.min(first + 1, this.count - 1);
@@ -143,7 +143,7 @@ export interface NoteData {
   formula: string;
 }
 
-/** What there is to read of a motion: curves, formulas and numbers. */
+/** The readable part of a motion: curves, formulas and numbers. */
 export interface AccountData {
   panels: PanelData[];
   motion: FormulaData[];

@@ -1,4 +1,4 @@
-// Bodies: every shape is built about its own z axis and then turned along the body's axes.
+// Bodies: every shape is built around its own z axis and then rotated to the body's axes.
 
 import {
   BoxGeometry,
@@ -30,7 +30,7 @@ const BUILDERS: Record<string, Builder> = {
   racquet,
 };
 
-/** A body with the thin axles to the points at which it is held, and what it turns on there. */
+/** A body with thin rods to the points at which it is held, and its joints there. */
 export function bodyObject(body: BodyData, joints: JointData[]): Object3D {
   const group = new Group();
   const build = BUILDERS[body.shape.kind] ?? BUILDERS.ball;
@@ -54,7 +54,7 @@ export function bodyObject(body: BodyData, joints: JointData[]): Object3D {
   return group;
 }
 
-/** Distance from the centre of mass to the farthest point that is drawn. */
+/** Distance from the centre of mass to the farthest drawn point. */
 export function reach(body: BodyData): number {
   const half = ["box", "rod", "racquet"].includes(body.shape.kind) ? 0.5 : 1;
   const far = half * Math.max(...body.shape.size) + Math.hypot(...body.shape.centre);
@@ -101,10 +101,10 @@ function hoop([radius, height]: number[]): Object3D {
   return group;
 }
 
-/** Radius of the tube that a hoop is. */
+/** Radius of the tube of a hoop. */
 const rim = (radius: number, height: number): number => Math.max(height / 2, 0.045 * radius);
 
-/** Its spokes end in the middle of the rim's tube, which hides their ends. */
+/** The spokes end inside the tube of the rim, which hides their ends. */
 function wheel([radius, height]: number[]): Object3D {
   const group = hoop([radius, height]);
   const thin = 0.028 * radius;
@@ -166,7 +166,7 @@ function axle(arm: Triple, thick: number): Object3D {
   return rodMesh;
 }
 
-/** What a body turns on, by how large it must be to be seen; a pin lies along z. */
+/** The joint on which a body turns, large enough to be visible; a pin lies along z. */
 const JOINTS: Record<string, (clear: number) => Object3D> = {
   pivot: (clear) => mesh(new SphereGeometry(clear, 32, 24), surface(PALETTE.metal)),
   hinge: (clear) => pin(1.6 * clear, clear),
@@ -174,7 +174,7 @@ const JOINTS: Record<string, (clear: number) => Object3D> = {
   weld: (clear) => mesh(new BoxGeometry(2 * clear, 2 * clear, 2 * clear), surface(PALETTE.dark)),
 };
 
-/** A short cylinder with an eye at either end. */
+/** A short cylinder with an eye at each end. */
 function pin(radius: number, half: number): Object3D {
   const group = new Group();
   group.add(upright(0.6 * radius, 2.8 * half, surface(PALETTE.metal)), upright(radius, 1.9 * half, surface(PALETTE.dark)));
@@ -187,7 +187,7 @@ function placed(object: Object3D, joint: JointData): Object3D {
   return object;
 }
 
-/** What stands under a point that is held, or hangs it from above. */
+/** A post under a held point, or a hanger above it. */
 export function post(height: number, thick: number): Object3D {
   const geometry = new CylinderGeometry(0.25 * thick, 1.4 * thick, height, 32);
   geometry.rotateX(Math.PI / 2);

@@ -1,36 +1,36 @@
-// The picture in three dimensions.
+// The three-dimensional picture.
 
 import { type Object3D, Vector2, Vector3 } from "three";
 import { Arrow, arrowObject, scales, usuallyShown } from "./arrows";
-import { type Room, roomOf, tracedBy } from "./extent";
-import { Eye } from "./eye";
-import { House } from "./house";
+import { type Extent, extentOf, tracedBy } from "./extent";
+import { CameraView } from "./camera_view";
+import { Display } from "./display";
 import { Link } from "./links";
 import { Pose } from "./pose";
-import { posts } from "./posts";
+import { mounts } from "./mounts";
 import { type ArrowKind, Rows, type SceneData, type SupportData, type Triple } from "./scene";
 import { bodyObject, reach } from "./shapes";
 import { boundless, paint, surfaceOf } from "./supports";
 import { Trace } from "./traces";
 import { Triad } from "./triad";
 
-const SPACIOUS = 6; // reaches: in more room than this, arrows are drawn larger
-const WANDERS = 60; // reaches: a body that takes more room would be a dot, and is followed
+const SPACIOUS = 6; // body sizes: beyond this extent, arrows are drawn larger
+const WANDERS = 60; // body sizes: beyond this extent the body would be a dot, and is followed
 const WIDE = 60; // reaches by which a sheet is wider while a hand pulls it
 const LIFT = 0.05; // of a floor below what stands on it, in reaches
 
 export class Stage {
   readonly arrows: Arrow[];
   readonly traces: Trace[];
-  readonly eye: Eye;
-  private readonly house: House;
+  readonly view: CameraView;
+  private readonly display: Display;
   private readonly shown: Set<ArrowKind>;
   private readonly links: Link[];
   private readonly triad: Triad;
   private readonly moving: { pose: Pose; object: Object3D }[] = [];
   private readonly poses: Pose[];
   private readonly carriers: Object3D[] = [];
-  private readonly room: Room;
+  private readonly extent: Extent;
   private readonly grid: number; // about how far the lines on the ground are apart, m
   private readonly fitting = new ResizeObserver(() => this.fit());
   private readonly sheets: { pose: Pose; object: Object3D; support: SupportData }[] = [];
@@ -50,8 +50,8 @@ export class Stage {
     before?: Stage,
     keepsView = false,
   ) {
-    this.house = before?.house ?? new House();
-    this.house.begin();
+    this.display = before?.display ?? new Display();
+    this.display.begin();
     this.triad = new Triad(scene.directions);
     this.poses = scene.bodies.map((body) => new Pose(body.pose));
     this.links = scene.links.map((data) => new Link(data));
@@ -59,89 +59,89 @@ export class Stage {
     this.arrows = this.makeArrows(reaches);
     this.shown = usuallyShown(this.kinds);
     const first = this.arrows.filter(({ data }) => this.shown.has(data.kind));
-    this.room = roomOf(new Vector3(...scene.up), this.poses, reaches, this.fixed(), first, this.paths(), scene.frames);
-    const follow = this.room.radius > WANDERS * reaches && !this.isTied();
+    this.extent = extentOf(new Vector3(...scene.up), this.poses, reaches, this.fixed(), first, this.paths(), scene.frames);
+    const follow = this.extent.radius > WANDERS * reaches && !this.isTied();
     this.addBodies();
-    this.grid = 1.2 * Math.max(reaches, follow ? 0 : 0.35 * this.room.radius);
+    this.grid = 1.2 * Math.max(reaches, follow ? 0 : 0.35 * this.extent.radius);
     this.addGrounds(this.grid);
     this.traces = scene.traces.map((data) => new Trace(data));
-    for (const trace of this.traces) this.carrier(trace).add(this.house.own(trace.line));
-    for (const link of this.links) this.house.own(link.object);
+    for (const trace of this.traces) this.carrier(trace).add(this.display.own(trace.line));
+    for (const link of this.links) this.display.own(link.object);
     before?.leave();
-    const from = this.house.camera.position.clone();
+    const from = this.display.camera.position.clone();
     this.fit();
     const body = (out: Vector3): Vector3 => this.poses[0].placeAt(this.frame, out);
-    this.eye = new Eye(this.house, holder, this.room, follow, body, () => this.draw());
+    this.view = new CameraView(this.display, holder, this.extent, follow, body, () => this.draw());
     this.open(from, keepsView ? before : undefined);
     holder.append(this.canvas, this.triad.element);
     this.fitting.observe(holder);
   }
 
-  /** Show what is seen first, from where an earlier stage was looked at. */
+  /** Show the first frame, from the view of an earlier stage. */
   private open(from: Vector3, before?: Stage): void {
     if (before) this.inherit(before);
     for (const { data, group } of this.arrows) group.visible = this.shown.has(data.kind);
     this.showTraces(this.traced);
     this.magnify();
-    this.eye.home();
-    if (before) this.eye.takeOver(before.eye, from);
+    this.view.home();
+    if (before) this.view.takeOver(before.view, from);
   }
 
-  /** Go along with the body, or look at all of its path. */
+  /** Follow the body, or show its whole path. */
   setFollow(follow: boolean): void {
-    this.eye.setFollow(follow);
+    this.view.setFollow(follow);
     this.magnify();
     this.draw();
   }
 
-  /** Arrows can be seen from as far away as all of a long path is. */
+  /** Arrows are large enough to be visible when a long path is in view. */
   private magnify(): void {
-    const { radius, reach } = this.room;
-    const times = this.eye.follow ? 1 : Math.max(1, radius / (SPACIOUS * reach));
+    const { radius, reach } = this.extent;
+    const times = this.view.follow ? 1 : Math.max(1, radius / (SPACIOUS * reach));
     for (const { group } of this.arrows) group.scale.setScalar(times);
   }
 
-  /** What was switched on or off stays so. */
+  /** Keep what was switched on or off. */
   private inherit(before: Stage): void {
-    this.eye.follow = before.eye.follow;
+    this.view.follow = before.view.follow;
     this.traced = before.traced;
     for (const kind of before.kinds) this.shown[before.shown.has(kind) ? "add" : "delete"](kind);
   }
 
   private leave(): void {
-    this.house.set();
+    this.display.set();
     this.stale = false;
     this.fitting.disconnect();
     this.triad.element.remove();
-    this.eye.leave();
+    this.view.leave();
   }
 
-  /** Leave out what belongs to the motion as it was, on wide sheets: a hand makes another of it. */
+  /** Hide what belongs to the previous motion, on a wide sheet, while the sheet is dragged. */
   bare(): void {
     for (const arrow of this.arrows) arrow.group.visible = false;
     for (const trace of this.traces) trace.line.removeFromParent();
     for (const sheet of this.sheets) {
       const { reach } = sheet.support;
-      const extra = WIDE * this.room.reach;
+      const extra = WIDE * this.extent.reach;
       const wide: [number, number] = [reach[0] + extra, reach[1] + extra];
       sheet.object.visible = false;
-      sheet.object = this.house.own(surfaceOf({ ...sheet.support, reach: wide }, this.grid));
+      sheet.object = this.display.own(surfaceOf({ ...sheet.support, reach: wide }, this.grid));
     }
-    paint(this.house.world, this.dark);
+    paint(this.display.world, this.dark);
   }
 
-  /** Draw bodies as other poses have them. */
+  /** Draw bodies in other poses. */
   put(poses: Pose[], frame: number): void {
     poses.forEach((pose, i) => {
       this.poses[i] = pose;
       pose.apply(frame, this.moving[i].object);
     });
     this.frame = frame;
-    this.eye.chase();
+    this.view.chase();
     this.draw();
   }
 
-  /** Draw sheets away from where they are at the start, m. */
+  /** Draw sheets displaced from their initial position, m. */
   shift(by: Triple): void {
     for (const { pose, object } of this.sheets) {
       pose.apply(0, object);
@@ -151,7 +151,7 @@ export class Stage {
   }
 
   get canvas(): HTMLCanvasElement {
-    return this.house.renderer.domElement;
+    return this.display.renderer.domElement;
   }
 
   get kinds(): ArrowKind[] {
@@ -180,7 +180,7 @@ export class Stage {
 
   theme(dark: boolean): void {
     this.dark = dark;
-    paint(this.house.world, dark);
+    paint(this.display.world, dark);
     for (const trace of this.traces) trace.theme(dark);
     this.draw();
   }
@@ -188,7 +188,7 @@ export class Stage {
   seek(time: number): void {
     this.frame = (time / this.scene.duration) * (this.scene.frames - 1);
     this.seekFrame();
-    this.eye.chase();
+    this.view.chase();
     this.draw();
   }
 
@@ -207,17 +207,17 @@ export class Stage {
     });
   }
 
-  /** Draw what is to be drawn without waiting for the next frame of the screen. */
+  /** Draw immediately, without waiting for the next animation frame. */
   drawNow(): void {
     this.stale = false;
-    this.house.draw();
-    this.triad.update(this.house.camera);
+    this.display.draw();
+    this.triad.update(this.display.camera);
   }
 
   private fit(): void {
     const { clientWidth: width, clientHeight: height } = this.holder;
     if (!width || !height) return;
-    const { camera, renderer } = this.house;
+    const { camera, renderer } = this.display;
     camera.aspect = width / height;
     camera.updateProjectionMatrix();
     const before = renderer.getSize(new Vector2());
@@ -226,14 +226,14 @@ export class Stage {
     this.draw();
   }
 
-  /** Points in space that hold something. */
+  /** Fixed points that hold something. */
   private fixed(): Vector3[] {
     const feet = this.scene.arrows.map((arrow) => new Rows(arrow.foot));
     const ends = [...feet, ...this.links.flatMap((link) => link.ends)];
     return ends.filter(({ count }) => count === 1).map((end) => new Vector3().fromArray(end.at(0, [])));
   }
 
-  /** Points of the paths that are left behind. */
+  /** Points of the traces. */
   private paths(): Vector3[] {
     const supports = this.scene.supports.map(({ pose }) => new Pose(pose));
     return this.scene.traces.flatMap((trace) => tracedBy(trace, supports, this.scene.frames));
@@ -243,61 +243,61 @@ export class Stage {
     this.scene.bodies.forEach((body, i) => {
       const { shape, arms } = body;
       const joints = this.scene.joints.filter((joint) => joint.body === i);
-      const object = this.house.part({ shape, arms, joints }, () => bodyObject(body, joints));
+      const object = this.display.part({ shape, arms, joints }, () => bodyObject(body, joints));
       this.moving.push({ pose: this.poses[i], object });
     });
   }
 
-  /** Whether a spring or damper ties a body to a place in space. */
+  /** Whether a spring or damper connects a body to a fixed point. */
   private isTied(): boolean {
     return this.links.some(({ ends }) => ends.some(({ count }) => count === 1));
   }
 
   private carrier(trace: Trace): Object3D {
-    return this.carriers[trace.data.support] ?? this.house.world;
+    return this.carriers[trace.data.support] ?? this.display.world;
   }
 
   private addGrounds(grid: number): void {
     for (const support of this.scene.supports) {
       const { kind, middle, reach } = support;
-      const object = this.house.part({ kind, middle, reach, grid }, () => surfaceOf(support, grid));
+      const object = this.display.part({ kind, middle, reach, grid }, () => surfaceOf(support, grid));
       this.carriers.push(object);
       const pose = new Pose(support.pose);
       this.moving.push({ pose, object });
       if (kind !== "sheet") continue;
       this.sheets.push({ pose, object, support });
-      this.table(pose, Math.max(...reach) + this.room.radius, grid);
+      this.table(pose, Math.max(...reach) + this.extent.radius, grid);
     }
     const { floor } = this.scene;
     if (floor === null) return;
     this.floor(floor, grid);
-    for (const post of posts(this.held(), floor, this.room)) this.house.own(post);
+    for (const post of mounts(this.held(), floor, this.extent)) this.display.own(post);
   }
 
   private table(pose: Pose, width: number, grid: number): void {
     const table = this.boundless(2.5 * width, grid);
     pose.apply(0, table);
-    table.position.addScaledVector(this.room.up, -LIFT * this.room.reach);
+    table.position.addScaledVector(this.extent.up, -LIFT * this.extent.reach);
   }
 
   private boundless(radius: number, grid: number): Object3D {
-    return this.house.part({ radius, grid }, () => boundless([0, 0], radius, grid));
+    return this.display.part({ radius, grid }, () => boundless([0, 0], radius, grid));
   }
 
   private floor(height: number, grid: number): void {
-    const { up, middle, radius } = this.room;
+    const { up, middle, radius } = this.extent;
     const floor = this.boundless(7 * radius, grid);
     floor.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), up);
     floor.position.copy(middle).addScaledVector(up, height - middle.dot(up));
   }
 
-  /** Points in space that hold a body away from its middle. */
+  /** Fixed points that hold a body away from its centre. */
   private held(): Vector3[] {
     return this.scene.arrows
       .map(({ foot, body }) => ({ foot: new Rows(foot), middle: this.poses[body].placeAt(0, new Vector3()) }))
       .filter(({ foot }) => foot.count === 1)
       .map(({ foot, middle }) => ({ point: new Vector3().fromArray(foot.at(0, [])), middle }))
-      .filter(({ point, middle }) => point.distanceTo(middle) >= 1e-6 * this.room.reach)
+      .filter(({ point, middle }) => point.distanceTo(middle) >= 1e-6 * this.extent.reach)
       .map(({ point }) => point);
   }
 
@@ -306,7 +306,7 @@ export class Stage {
     const scale = scales(this.scene.arrows, reach);
     return this.scene.arrows.map((data) => {
       const { kind, body } = data;
-      const object = this.house.part({ kind, thick }, () => arrowObject(kind, thick));
+      const object = this.display.part({ kind, thick }, () => arrowObject(kind, thick));
       return new Arrow(data, object, this.poses[body], scale(kind), thick);
     });
   }

@@ -1,4 +1,4 @@
-// What bodies stand on: planes, turntables, sheets, and a faint floor where there is none.
+// Supports: planes, turntables, sheets, and a faint floor if there is none.
 
 import {
   BufferAttribute,
@@ -33,13 +33,13 @@ const MOST = 60; // lines to either side of the middle
 const PARTS = 32; // pieces of a line
 const FADE = 0.35; // part of the radius of a boundless plane at which it begins to fade
 
-/** The surface of a support, to be moved with its pose. */
+/** The surface of a support, which moves with its pose. */
 export function surfaceOf({ kind, middle, reach }: SupportData, grid: number): Object3D {
   if (kind === "turntable") return turntable(reach[0], grid);
   return kind === "sheet" ? sheet(middle, reach, grid) : boundless(middle, 2.2 * Math.max(...reach), grid);
 }
 
-/** Ground in the colours of a light or dark page. */
+/** Ground in the colours of the light or dark page. */
 export function paint(world: Object3D, dark: boolean): void {
   const look = dark ? DARK : LIGHT;
   world.traverse((object) => {
@@ -48,7 +48,7 @@ export function paint(world: Object3D, dark: boolean): void {
   });
 }
 
-/** A plane that fades out of sight. */
+/** A plane that fades out with distance. */
 export function boundless(middle: Point, radius: number, size: number): Object3D {
   const group = new Group();
   const geometry = new RingGeometry(0, radius, 64, 12);
@@ -100,7 +100,7 @@ function fill(group: Group, geometry: BufferGeometry, colour: Colour, alpha?: (x
   group.add(mesh);
 }
 
-/** Straight lines, in pieces: a long one that passes the eye is not drawn by every machine. */
+/** Straight lines, in pieces: some machines do not draw a long line that passes the camera. */
 function lines(group: Group, ends: Point[][], colour: Colour, alpha?: (x: number, y: number) => number, parts = PARTS): void {
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(pieces(ends, parts), 3));
@@ -112,7 +112,7 @@ function lines(group: Group, ends: Point[][], colour: Colour, alpha?: (x: number
   group.add(drawn);
 }
 
-/** White, as far as can be seen through it. */
+/** White with the given transparency. */
 function veil(geometry: BufferGeometry, alpha: (x: number, y: number) => number): void {
   const place = geometry.getAttribute("position");
   const colours = new Float32Array(4 * place.count).fill(1);
@@ -125,7 +125,7 @@ function fading(share: number): number {
   return (1 - t) ** 2 * (1 + 2 * t);
 }
 
-/** Both ends of every piece of every line, in the plane z = 0. */
+/** Both ends of each piece of each line, in the plane z = 0. */
 function pieces(lines: Point[][], count: number): Float32Array {
   const places = new Float32Array(6 * count * lines.length);
   let at = 0;

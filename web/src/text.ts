@@ -1,15 +1,15 @@
-// What the page says in formulas, numbers and words.
+// The text of the page: formulas, numbers and words.
 
 import { digits, formula, make, raised } from "./dom";
 import type { AccountData, FormulaData, JudgementData, NoteData, NumberData, SceneData } from "./scene";
 
 export function heading(scene: SceneData): HTMLElement {
   const about = scene.about ? [make("p", { class: "about" }, scene.about)] : [];
-  const doubt = scene.doubt ? [make("p", { class: "doubt", role: "alert" }, doubted(scene.doubt))] : [];
+  const doubt = scene.doubt ? [make("p", { class: "doubt", role: "alert" }, warning(scene.doubt))] : [];
   return make("header", {}, make("h1", {}, scene.title), ...doubt, ...about);
 }
 
-export function doubted(doubt: string): string {
+export function warning(doubt: string): string {
   return `This motion cannot be relied on: ${doubt}.`;
 }
 
@@ -75,7 +75,7 @@ function events(scene: AccountData): HTMLElement[] {
   return [make("table", {}, make("tbody", {}, ...lines))];
 }
 
-/** Every claim with its verdict; a convention stands before the first of those that it holds for. */
+/** Every claim with its verdict; a convention precedes the first claim to which it applies. */
 export function judgements(scene: SceneData): HTMLElement[] {
   let last = "";
   const rows = scene.judgements.flatMap((judgement) => {
@@ -88,7 +88,7 @@ export function judgements(scene: SceneData): HTMLElement[] {
 }
 
 /** How a claim was read, line by line. */
-export function noted(notes: NoteData[]): HTMLElement[] {
+export function noteElements(notes: NoteData[]): HTMLElement[] {
   return notes.map(({ label, text, formula: set }) =>
     make("p", { class: "note" }, make("span", { class: "long" }, label), " ", set ? formula(set) : text),
   );
@@ -97,7 +97,7 @@ export function noted(notes: NoteData[]): HTMLElement[] {
 function judged({ claim, verdict, reason, formula: stated, correction, notes }: JudgementData): HTMLElement {
   const badge = make("strong", { class: `verdict ${verdict.replace(/\W/g, "")}` }, verdict);
   const row = make("article", { class: "judged" }, stated ? set(stated, claim) : make("p", {}, claim));
-  row.append(...noted(notes), make("p", {}, badge, ` ${reason}`));
+  row.append(...noteElements(notes), make("p", {}, badge, ` ${reason}`));
   if (correction) row.append(make("p", { class: "long" }, "It holds as"), set(correction, ""));
   return row;
 }

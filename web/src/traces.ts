@@ -1,4 +1,4 @@
-// Paths that grow as the motion goes on.
+// Paths that grow during the motion.
 
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";

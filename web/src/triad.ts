@@ -1,4 +1,4 @@
-// The directions of the laboratory, in a corner of the picture.
+// The axes of the laboratory, in a corner of the picture.
 
 import { type Camera, Vector3 } from "three";
 
@@ -21,7 +21,7 @@ export class Triad {
     });
   }
 
-  /** Turned as the camera sees them. */
+  /** Rotated as seen by the camera. */
   update(camera: Camera): void {
     this.axes.forEach(({ line, name }, i) => {
       const { x, y } = this.along.setScalar(0).setComponent(i, 1).transformDirection(camera.matrixWorldInverse);

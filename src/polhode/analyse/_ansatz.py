@@ -1,8 +1,8 @@
 """Search for integrals polynomial in the speeds, with trigonometric coefficients.
 
-The unknown coefficients solve a linear system. Its solutions are first found at random rational
-parameters and points, which shows the few monomials that matter; with those the system is solved
-exactly, parameters and all.
+The unknown coefficients solve a linear system. It is first solved at random parameters and states
+in a prime field, which shows the few monomials that matter; for those it is solved exactly, with
+the parameters as symbols.
 """
 
 from __future__ import annotations
@@ -10,10 +10,8 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from itertools import chain, combinations_with_replacement
 from math import prod
-from typing import Any
 
 from flint import nmod_mat
 
@@ -31,12 +29,12 @@ from polhode.algebra import (
     time,
     variables,
 )
-from polhode.analyse._points import points
+from polhode.analyse._finite_field import points
 from polhode.analyse._reduced import reduced
 from polhode.base import NumericError
 from polhode.derive import Equations
 
-#: Points beyond the number of unknowns, so that no accident passes for an integral.
+#: Points beyond the number of unknowns, so that no coincidence passes for an integral.
 _SPARE, _SEED = 4, 7
 
 
@@ -86,7 +84,7 @@ class AnsatzTerms:
     monomials: tuple[Monomial, ...]
 
     def expression(self, monomial: Monomial) -> Expr:
-        """A monomial written out."""
+        """A monomial as an expression."""
         return prod((self.factors[i] for i in monomial), start=ONE)
 
 
@@ -112,6 +110,7 @@ def is_searched(equations: Equations) -> bool:
 
 
 def _terms(equations: Equations, essential: tuple[Symbol, ...], ansatz: Ansatz) -> AnsatzTerms:
+    """The monomials of an ansatz for these equations."""
     factors: dict[Expr, int] = {}
 
     def place(factor: Expr) -> Monomial:
@@ -120,58 +119,51 @@ def _terms(equations: Equations, essential: tuple[Symbol, ...], ansatz: Ansatz) 
     angles = [q for q in essential if _is_angle(equations, q)]
     lengths = [q for q in equations.coordinates if not _is_angle(equations, q)]
     speeds = [place(Expr.generator(u)) for u in equations.speeds]
-    waves = [_joined(*map(place, w)) for w in _waves(angles, ansatz.trigonometric)]
-    swift = _products(speeds, ansatz.speeds)
-    found = dict.fromkeys(_joined(u, w) for u in swift for w in waves)
+    in_angles = [_joined(*map(place, w)) for w in _sines(angles, ansatz.trigonometric)]
+    in_speeds = _products(speeds, ansatz.speeds)
+    found = dict.fromkeys(_joined(u, w) for u in in_speeds for w in in_angles)
     found |= dict.fromkeys(
         _products([place(Expr.generator(q)) for q in lengths], ansatz.lengths and 1)
     )
     found[place(time)] = None
-    used = _generators(equations)
-    places = [place(Expr.generator(q)) for q in essential if q in used]
-    outside = _products(places, ansatz.lengths)
-    pairs = (_joined(u, x) for x in outside for u in swift)
-    found |= dict.fromkeys(m for m in pairs if len(m) <= ansatz.together)
-    if ansatz.lengths:
-        roots = [Expr.generator(g) for g in used if _varies(g, essential)]
-        found |= dict.fromkeys(map(place, roots))
-        shares = [place(1 / root) for root in roots]
-        found |= dict.fromkeys(_joined(s, x) for s in shares for x in _products(places, 1))
-    found.pop((), None)
-    return AnsatzTerms(tuple(factors), tuple(found))
-
-
-def _generators(equations: Equations) -> list[Generator]:
-    """Symbols outside functions, and functions, that occur in the accelerations."""
+    # Symbols and functions that occur in the equations of motion.
     entries = [e for row in equations.mass.rows for e in row]
     entries += [*equations.forcing, *equations.kinematics.values()]
-    return list(dict.fromkeys(g for e in entries for g in e.generators))
-
-
-def _varies(generator: Generator, essential: tuple[Symbol, ...]) -> bool:
-    """Whether it is a square root of coordinates."""
-    is_root = bool(generator.depth) and generator.partner() is None
-    symbols = {s for s in generator.symbols() if s.kind.varies}
-    return is_root and bool(symbols) and symbols <= set(essential)
+    used = list(dict.fromkeys(g for e in entries for g in e.generators))
+    plain = [place(Expr.generator(q)) for q in essential if q in used]
+    pairs = (_joined(u, x) for x in _products(plain, ansatz.lengths) for u in in_speeds)
+    found |= dict.fromkeys(m for m in pairs if len(m) <= ansatz.together)
+    if ansatz.lengths:
+        roots = []
+        for generator in used:
+            is_root = bool(generator.depth) and generator.partner() is None
+            symbols = {s for s in generator.symbols() if s.kind.varies}
+            if is_root and symbols and symbols <= set(essential):
+                roots.append(Expr.generator(generator))
+        found |= dict.fromkeys(map(place, roots))
+        inverse = [place(1 / root) for root in roots]
+        found |= dict.fromkeys(_joined(r, x) for r in inverse for x in _products(plain, 1))
+    found.pop((), None)
+    return AnsatzTerms(tuple(factors), tuple(found))
 
 
 def _joined(*monomials: Monomial) -> Monomial:
     return tuple(sorted(chain.from_iterable(monomials)))
 
 
-def _waves(angles: Sequence[Symbol], degree: int) -> list[list[Expr]]:
+def _sines(angles: Sequence[Symbol], degree: int) -> list[list[Expr]]:
     """Products of sines and cosines, by their factors; cos² is left out, being 1 - sin²."""
     found: dict[int, list[list[Expr]]] = {0: [[]]}
     for angle in angles:
         s, c = sin(Expr.generator(angle)), cos(Expr.generator(angle))
         own = [(j + i, [s] * j + [c] * i) for i in (0, 1) for j in range(degree + 1 - i)]
         wider: dict[int, list[list[Expr]]] = {}
-        for power, waves in found.items():
-            for extra, wave in own:
+        for power, products in found.items():
+            for extra, factors in own:
                 if power + extra <= degree:
-                    wider.setdefault(power + extra, []).extend(w + wave for w in waves)
+                    wider.setdefault(power + extra, []).extend(p + factors for p in products)
         found = wider
-    return [wave for waves in found.values() for wave in waves]
+    return [product for products in found.values() for product in products]
 
 
 def _products(factors: Sequence[Monomial], degree: int) -> list[Monomial]:
@@ -184,7 +176,11 @@ def _is_angle(equations: Equations, coordinate: Symbol) -> bool:
 
 
 def _supports(equations: Equations, terms: AnsatzTerms) -> Iterator[list[int]]:
-    """Positions of the monomials in each independent solution, at random parameters."""
+    """Positions of the monomials in each independent solution, at random parameters.
+
+    One row of a table over a prime field for every random state: the rates of all monomials there.
+    Combinations of the columns that vanish in all rows are integrals at these parameters.
+    """
     import numpy as np
 
     rates = [equations.rate(factor) for factor in terms.factors]
@@ -200,24 +196,17 @@ def _supports(equations: Equations, terms: AnsatzTerms) -> Iterator[list[int]]:
     for point in sample:
         values = np.array([*point.all(terms.factors), 1])[table]
         changes = np.array([*point.all(rates), 0])[table]
-        rows.extend(_sum_rule(values, changes, prime).tolist())
+        product, change = np.ones(width, dtype=np.int64), np.zeros(width, dtype=np.int64)
+        for value, factor_change in zip(values.T, changes.T, strict=True):  # the product rule
+            change = (change * value % prime + product * factor_change % prime) % prime
+            product = product * value % prime
+        rows.extend(change.tolist())
     echelon, rank = nmod_mat(len(sample), width, rows, prime).rref()
     columns = range(width)
     pivots = [next(j for j in columns if int(echelon[i, j])) for i in range(rank)]
     for free in (j for j in columns if j not in pivots):
         used = [pivots[i] for i in range(rank) if int(echelon[i, free])]
         yield sorted([*used, free])
-
-
-def _sum_rule(values: Any, changes: Any, prime: int) -> Any:
-    """Rates of products, of the values and rates of their factors in columns, modulo a prime."""
-    import numpy as np
-
-    product, rate = np.ones(len(values), dtype=np.int64), np.zeros(len(values), dtype=np.int64)
-    for value, change in zip(values.T, changes.T, strict=True):
-        rate = (rate * value % prime + product * change % prime) % prime
-        product = product * value % prime
-    return rate
 
 
 def _is_constant(generator: Generator) -> bool:
@@ -238,7 +227,10 @@ def _coefficients(rates: Sequence[Expr]) -> Row | None:
         for powers, number in scaled.terms():
             key = frozenset((g, p) for g, p in powers.items() if not _is_constant(g))
             constant = {g: p for g, p in powers.items() if _is_constant(g)}
-            table[key][column] = table[key][column] + _term(constant, number)
+            result = Expr.constant(number)
+            for generator, power in constant.items():
+                result = result * Expr.generator(generator) ** power
+            table[key][column] = table[key][column] + result
     outcome = eliminate(list(table.values()), [ZERO] * len(table), [0] * len(rates))
     if len(outcome.free) != 1:
         return None
@@ -248,10 +240,3 @@ def _coefficients(rates: Sequence[Expr]) -> Row | None:
     for value in values:
         scale = scale * (value * scale).denominator
     return tuple(value * scale for value in values)
-
-
-def _term(powers: dict[Generator, int], number: Fraction) -> Expr:
-    result = Expr.constant(number)
-    for generator, power in powers.items():
-        result = result * Expr.generator(generator) ** power
-    return result

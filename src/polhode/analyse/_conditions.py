@@ -1,4 +1,4 @@
-"""Conditions on signs, brought to their shortest exact form."""
+"""Conditions on signs, in their shortest exact form."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 from math import prod
 
-from polhode.algebra import ONE, ZERO, Expr, Symbol, SymbolKind, factors, is_positive
+from polhode.algebra import ONE, ZERO, Expr, SymbolKind, factors, is_positive
 from polhode.base import Shown
 
 
@@ -31,7 +31,7 @@ class Condition(Shown):
 
     @property
     def truth(self) -> Truth:
-        """Whether anything is left to ask."""
+        """Whether it depends on the parameters."""
         value = self.expression.rational
         if value is None:
             return Truth.OPEN
@@ -69,28 +69,20 @@ def _is_surely_positive(factor: Expr, assumed: Collection[Expr]) -> bool:
 
 
 def _is_definite(factor: Expr, assumed: Collection[Expr]) -> bool:
-    """Whether it is a quadratic in some speed without real roots, and positive somewhere.
+    """Whether it is quadratic in some speed or coordinate without real roots, and positive.
 
     Where its discriminant vanishes it may still touch zero: stability is then marginal.
     """
     for symbol in (s for s in factor.symbols() if s.kind is not SymbolKind.PARAMETER):
-        quadratic = _quadratic_in(factor, symbol)
-        if quadratic is None:
+        slope, at_zero = factor.diff(symbol), {symbol: ZERO}
+        a = slope.diff(symbol) / 2
+        if not a or symbol in a.symbols():
             continue
-        a, b, c = quadratic
+        b, c = slope.subs(at_zero), factor.subs(at_zero)
         below = 4 * a * c - b * b
         if below and _has_no_negative_factor(a, assumed):
             return _has_no_negative_factor(below, assumed)
     return False
-
-
-def _quadratic_in(expression: Expr, symbol: Symbol) -> tuple[Expr, Expr, Expr] | None:
-    slope = expression.diff(symbol)
-    a = slope.diff(symbol) / 2
-    if not a or symbol in a.symbols():
-        return None
-    at_zero = {symbol: ZERO}
-    return a, slope.subs(at_zero), expression.subs(at_zero)
 
 
 def _has_no_negative_factor(expression: Expr, assumed: Collection[Expr]) -> bool:

@@ -9,6 +9,9 @@ from typing import Any
 from polhode.algebra import Expr, Symbol, as_symbol, taylor
 from polhode.analyse._given import Given, images_given
 
+#: How many powers beyond the last one kept are searched for the first term left out.
+_FURTHER = 6
+
 
 @dataclass(frozen=True)
 class Expansion:
@@ -47,28 +50,21 @@ def expand(
             text with a unit.
     """
     parameter = as_symbol(small)
-    images = _with_rates(images_given(expression, about))
-    placed = expression.subs(images)
-    polynomial = taylor(placed, parameter, order)
-    return Expansion(parameter, order, polynomial, _dropped(placed, parameter, order))
-
-
-def _with_rates(images: Mapping[Symbol, Expr]) -> dict[Symbol, Expr]:
-    """Give the two rates of every quantity too, unless they were given."""
+    images = images_given(expression, about)
     table = dict(images)
-    for symbol, image in images.items():
+    for symbol, image in images.items():  # their rates and accelerations too, unless given
         rate, value = symbol, image
         while rate.kind.varies and rate.order < 2:
             rate, value = rate.derivative(), value.dt()
             table.setdefault(rate, value)
-    return table
-
-
-def _dropped(expression: Expr, small: Symbol, order: int) -> tuple[int, Expr] | None:
-    if not (expression - taylor(expression, small, order)):
-        return None
-    for power in range(order + 1, order + 7):
-        term = taylor(expression, small, power) - taylor(expression, small, power - 1)
-        if term:
-            return power, term
-    return None
+    exact = expression.subs(table)
+    polynomial = taylor(exact, parameter, order)
+    if not (exact - polynomial):
+        return Expansion(parameter, order, polynomial, None)
+    kept = polynomial
+    for power in range(order + 1, order + 1 + _FURTHER):
+        longer = taylor(exact, parameter, power)
+        if term := longer - kept:
+            return Expansion(parameter, order, polynomial, (power, term))
+        kept = longer
+    return Expansion(parameter, order, polynomial, None)

@@ -6,19 +6,8 @@ from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Any
 
-from polhode.algebra import Expr, ExprLike, Symbol, as_symbol, pi
-from polhode.base import (
-    PURE,
-    TIME,
-    Dimension,
-    Quantity,
-    UnitError,
-    Value,
-    look_up,
-    read_quantity,
-    read_unit,
-    to_si,
-)
+from polhode.algebra import Expr, ExprLike, GivenValue, Symbol, as_symbol, read_value
+from polhode.base import PURE, TIME, Quantity, Value, look_up
 from polhode.derive import Equations
 
 #: What may stand for a value: also text such as "70 deg" and pairs such as (12, "mm").
@@ -28,28 +17,39 @@ Given = ExprLike | Value
 _EXACT_FRACTION = 12
 
 
-def values_given(equations: Equations, at: Mapping[Any, Given] | None) -> dict[Symbol, Expr]:
+def values_given(
+    equations: Equations,
+    at: Mapping[Any, Given] | None,
+    names: Mapping[str, Symbol] | None = None,
+) -> dict[Symbol, Expr]:
     """Exact values of coordinates, their rates, speeds and parameters, by symbol.
 
     Args:
         equations: of the system they belong to.
         at: values by published name or by symbol.
+        names: of quantities that text may be a formula of; without them text is a number.
 
     Raises:
         DeclarationError: for a name the system does not have.
+        ParseError: for text that is no formula.
         UnitError: for a value that cannot be read or has the wrong dimension.
     """
     rates = (q.derivative() for q in equations.coordinates)
     everything = (*equations.coordinates, *rates, *equations.speeds, *equations.parameters)
     what = f"quantity of {equations.system.name}"
-    named = _by_symbol(at or {}, everything, what)
-    return {s: exact_value(value, s, equations.dimensions) for s, value in named.items()}
+    found = {}
+    for symbol, value in _by_symbol(at or {}, everything, what).items():
+        base = equations.dimensions.get(symbol.base())
+        dimension = None if base is None else base / TIME**symbol.order
+        given = read_value(symbol.published, _in_decimals(value), names)
+        found[symbol] = _exact(given.in_dimension(dimension))
+    return found
 
 
 def images_given(expression: Expr, about: Mapping[Any, Given] | None) -> dict[Symbol, Expr]:
     """The same for the symbols of an expression, of whose dimensions nothing is known."""
     named = _by_symbol(about or {}, expression.symbols(), "symbol of the expression")
-    return {s: exact_value(value, s, {}) for s, value in named.items()}
+    return {s: _exact(read_value(s.published, _in_decimals(v))) for s, v in named.items()}
 
 
 def _by_symbol(given: Mapping[Any, Given], known: Iterable[Symbol], what: str) -> dict[Symbol, Any]:
@@ -60,49 +60,26 @@ def _by_symbol(given: Mapping[Any, Given], known: Iterable[Symbol], what: str) -
     }
 
 
-def exact_value(value: Given, symbol: Symbol, dimensions: Mapping[Symbol, Dimension]) -> Expr:
-    """One value as an expression; text is the decimal it spells, but for angles.
-
-    An angle is exact where its sine is a square root, in multiples of 15 degrees; any other is the
-    decimal that it prints as in radians.
-
-    Raises `UnitError` for a value that cannot be read or has the wrong dimension.
-    """
-    if isinstance(value, Expr):
-        return value
-    exact = measured(value, symbol, dimensions)
-    return Expr.of(value) if exact is None else _workable(exact)
-
-
-def measured(value: Any, symbol: Symbol, dimensions: Mapping[Symbol, Dimension]) -> Quantity | None:
-    """What text or a pair with a unit says exactly; None for anything else.
-
-    Raises `UnitError` for what cannot be read or has the wrong dimension.
-    """
-    stated = _stated(value)
-    if stated is None:
-        return None
-    base = dimensions.get(symbol.base())
-    wanted = stated.dimension or PURE if base is None else base / TIME**symbol.order
-    to_si(value, wanted, symbol.published)
-    return stated
-
-
-def _stated(value: Any) -> Quantity | None:
+def _in_decimals(value: Any) -> Any:
+    """A value with its float as the decimal that it prints as, which is what a person means."""
     match value:
-        case str():
-            return read_quantity(value)
-        case (magnitude, str(unit)):
-            scale = read_unit(unit)
+        case (magnitude, str(unit)) if Expr.reads(magnitude):
             number = Expr.of(magnitude).rational
-            if number is None:
-                raise UnitError(f"{value!r} is not a value", expected="a number and its unit")
-            return Quantity(number * scale.coefficient, scale.pi_power, scale.dimension)
-    return None
+            return value if number is None else (number, unit)
+    return Expr.of(value) if Expr.reads(value) else value
 
 
-def _workable(quantity: Quantity) -> Expr:
-    is_turn = quantity.pi_power == 1 and quantity.dimension in (PURE, None)
-    if is_turn and _EXACT_FRACTION % quantity.coefficient.denominator:
-        return Expr.of(Fraction(repr(quantity.value)))
-    return Expr.of(quantity.coefficient) * pi**quantity.pi_power
+def _exact(value: GivenValue) -> Expr:
+    """An exact value to work with.
+
+    An angle in multiples of 15 degrees is exact: its sine is a square root. Any other would have a
+    sine that cannot be written down; it is the decimal that it prints as in radians.
+    """
+    number = value.number
+    is_decimal = (
+        isinstance(number, Quantity)
+        and number.pi_power == 1
+        and number.dimension in (PURE, None)
+        and _EXACT_FRACTION % number.coefficient.denominator
+    )
+    return Expr.of(Fraction(repr(value.rounded()))) if is_decimal else value.exact()

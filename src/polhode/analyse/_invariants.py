@@ -1,18 +1,23 @@
-"""First integrals: named ones tried first, then whatever a stated ansatz contains."""
+"""First integrals: energy, momenta and speeds first, then a search within a stated ansatz.
+
+The named momenta are taken about a stated point and along a stated direction. They are named as
+claims read them: `L_pivot_z` is printed as L with the subscripts pivot and z.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import Expr, Symbol, Vector, dot
 from polhode.analyse._ansatz import Ansatz, is_searched, search
-from polhode.analyse._independence import Independent
+from polhode.analyse._finite_field import Independent
 from polhode.analyse._linear_integrals import LinearIntegrals, linear_integrals
-from polhode.analyse._momenta import momenta
 from polhode.analyse._reduced import refuse_parts
+from polhode.analyse._symmetry import symmetry_axes
 from polhode.base import NumericError, Shown, look_up
 from polhode.derive import Equations, equations_only
+from polhode.model import Body, Contact, Frame, Gravity, Pivot
 
 
 @dataclass(frozen=True)
@@ -45,7 +50,7 @@ class Invariants(Shown):
         found: independent of one another.
         ansatz: what was searched, in words; nothing outside it is excluded.
         linear: a linear equation whose constants of integration are integrals too, where
-            not all of them were found: they are no elementary functions, or outside the ansatz.
+            not all of them were found: they are not elementary, or outside the ansatz.
     """
 
     found: tuple[Invariant, ...]
@@ -53,22 +58,21 @@ class Invariants(Shown):
     linear: LinearIntegrals | None = None
 
     def __str__(self) -> str:
-        found = [f"{i.name} = {i.expression.pretty()}    ({_told(i)})" for i in self.found]
-        limits = f"Searched: {self.ansatz}. Nothing outside it is excluded."
-        return "\n".join([*found, *self._beyond(), limits])
+        lines = []
+        for one in self.found:
+            is_plain = one.name.count("_") < 2 or one.name.endswith("_dot")
+            latex = "" if is_plain else f"; in LaTeX {one.letter}"
+            lines.append(f"{one.name} = {one.expression.pretty()}    ({one.meaning}{latex})")
+        if self.linear is not None:
+            lines += [
+                f"and the {len(self.linear.speeds)} constants of integration of",
+                *(f"  {line}" for line in str(self.linear).splitlines()),
+                "which the ansatz does not contain (linear_integrals gives them in numbers)",
+            ]
+        return "\n".join([*lines, f"Searched: {self.ansatz}. Nothing outside it is excluded."])
 
     def __repr__(self) -> str:
         return str(self)
-
-    def _beyond(self) -> list[str]:
-        if self.linear is None:
-            return []
-        count = len(self.linear.speeds)
-        return [
-            f"and the {count} constants of integration of",
-            *(f"  {line}" for line in str(self.linear).splitlines()),
-            "which the ansatz does not contain (linear_integrals gives them in numbers)",
-        ]
 
     def __iter__(self) -> Iterator[Invariant]:
         return iter(self.found)
@@ -85,13 +89,6 @@ class Invariants(Shown):
         return look_up(name, {i.name: i for i in self.found}, "invariant that was found")
 
 
-def _told(invariant: Invariant) -> str:
-    """What it is, and how it is written where that is not how it is spelled."""
-    if invariant.name.count("_") < 2 or invariant.name.endswith("_dot"):
-        return invariant.meaning
-    return f"{invariant.meaning}; in LaTeX {invariant.letter}"
-
-
 def invariants(equations: Equations, ansatz: Ansatz | None = None) -> Invariants:
     """First integrals of the motion, each verified exactly.
 
@@ -104,62 +101,130 @@ def invariants(equations: Equations, ansatz: Ansatz | None = None) -> Invariants
     equations_only(equations, "invariants")
     refuse_parts(equations)
     chosen = ansatz or Ansatz()
-    found: list[Invariant] = []
-    independent = Independent(_state(equations))
-    for candidate in (*_named(equations), *_searched(equations, chosen)):
-        constant = not equations.rate(candidate.expression)
-        if constant and independent.takes(candidate.expression):
-            found.append(candidate)
-    numbered = _numbered(found)
+    candidates = [Invariant("E", equations.energy, "energy")]
+    for speed in equations.speeds:
+        meaning = f"the speed {speed.published}"
+        candidates.append(Invariant(speed.published, Expr.generator(speed), meaning))
+    candidates += momenta(equations)
+    searched = search(equations, chosen)
+    candidates += [Invariant("", e, "found within the ansatz") for e in searched]
+    # Integrals may vary with the state and with prescribed functions, but not with time itself.
+    driven = [
+        rate
+        for f in equations.functions
+        for rate in (f, f.derivative(), f.derivative().derivative())
+    ]
+    independent = Independent([*equations.coordinates, *equations.speeds, *driven])
+    found: dict[str, Invariant] = {}
+    for candidate in candidates:
+        is_constant = not equations.rate(candidate.expression)
+        if is_constant and independent.takes(candidate.expression):
+            name, number = candidate.name, 1
+            while not name or name in found:
+                name = f"{candidate.name or 'C'}_{number}"
+                number += 1
+            found[name] = Invariant(name, candidate.expression, candidate.meaning)
+    numbered = tuple(found.values())
     beyond = chosen.describe() if is_searched(equations) else "nothing else in driven equations"
-    searched = f"energy, momenta and speeds; {beyond}"
-    return Invariants(numbered, searched, _linear(equations, numbered))
+    scope = f"energy, momenta and speeds; {beyond}"
+    return Invariants(numbered, scope, _linear(equations, numbered))
 
 
 def _linear(equations: Equations, found: Iterable[Invariant]) -> LinearIntegrals | None:
     """The linear equation of some speeds, unless its integrals have been found already."""
     try:
         linear = linear_integrals(equations)
-    except NumericError:  # driven: no angle tells where the motion is
+    except NumericError:  # driven: no angle determines where the motion is
         return None
     if linear is None or linear.known(i.expression for i in found) == len(linear.speeds):
         return None
     return linear
 
 
-def _state(equations: Equations) -> list[Symbol]:
-    """What integrals may vary with; time itself is none of it."""
-    driven = [
-        rate
-        for f in equations.functions
-        for rate in (f, f.derivative(), f.derivative().derivative())
-    ]
-    return [*equations.coordinates, *equations.speeds, *driven]
+def momenta(equations: Equations) -> Iterator[Invariant]:
+    """Momenta of every body about its axes and its centre, of all about points, and Jellett's."""
+    yield from _spins(equations)
+    places = tuple(_places(equations))
+    for place in places:
+        angular = equations.angular_momentum(place.position)
+        for name, words, direction in _directions(equations, equations.system.bodies[0].axes):
+            meaning = f"angular momentum about {place.words} along {words}"
+            letter = name and f"L_{place.name}_{name}"
+            yield Invariant(letter, angular.dot(direction), meaning)
+    for place in places:
+        angular = equations.angular_momentum(place.position)
+        square = dot(angular.components, angular.components)
+        yield Invariant("", square, f"square of the angular momentum about {place.words}")
+    root = equations.system.root
+    for label in root.labels:
+        along = equations.linear_momentum.dot(root[label])
+        yield Invariant(f"P_total_{label}", along, f"linear momentum along {label}")
+    for contact in equations.system.elements:
+        if isinstance(contact, Contact):
+            body = contact.body
+            meaning = f"Jellett's: spin of {body.name} along its line to where it touches"
+            yield Invariant(f"J{body.tag}", -_spin(equations, body).dot(contact.arm), meaning)
 
 
-def _named(equations: Equations) -> Iterator[Invariant]:
-    yield Invariant("E", equations.energy, "energy")
-    for speed in equations.speeds:
-        expression = Expr.generator(speed)
-        yield Invariant(speed.published, expression, f"the speed {speed.published}")
-    for momentum in momenta(equations):
-        yield Invariant(momentum.name, momentum.expression, momentum.meaning)
+def _spins(equations: Equations) -> Iterator[Invariant]:
+    """Angular momenta of every body about its centre of mass: along its own axes, then at rest."""
+    bodies = equations.system.bodies
+    # L_cm is that of the whole system about one centre: of a single body's spin alone.
+    letter = "L_cm" if len(bodies) == 1 else "S"
+    for body in bodies:
+        spin = _spin(equations, body)
+        for label in body.axes.labels:
+            meaning = f"angular momentum of {body.name} about its axis {label}"
+            yield Invariant(f"{letter}_{label}{body.tag}", spin.dot(body.axes[label]), meaning)
+        for axis in symmetry_axes(body):
+            meaning = f"angular momentum of {body.name} about its axis of symmetry"
+            yield Invariant("", spin.dot(axis), meaning)
+    for body in bodies:
+        spin = _spin(equations, body)
+        for name, words, direction in _directions(equations, body.axes):
+            meaning = f"angular momentum of {body.name} about its centre of mass along {words}"
+            yield Invariant(name and f"{letter}_{name}{body.tag}", spin.dot(direction), meaning)
 
 
-def _searched(equations: Equations, ansatz: Ansatz) -> Iterator[Invariant]:
-    for expression in search(equations, ansatz):
-        yield Invariant("", expression, "found within the ansatz")
+@dataclass(frozen=True)
+class _Place:
+    name: str
+    words: str
+    position: Vector
 
 
-def _numbered(found: list[Invariant]) -> tuple[Invariant, ...]:
+def _places(equations: Equations) -> Iterator[_Place]:
+    """Where contacts and joints act, and the origin."""
+    kinetics = equations.kinetics
     taken: set[str] = set()
-    result = []
-    for invariant in found:
-        name = invariant.name
-        number = 1
-        while not name or name in taken:
-            name = f"C_{number}" if not invariant.name else f"{invariant.name}_{number}"
-            number += 1
-        taken.add(name)
-        result.append(Invariant(name, invariant.expression, invariant.meaning))
-    return tuple(result)
+    for element in kinetics.elements:
+        restraints = [r for r in kinetics.restraints[element.name] if not r.is_couple]
+        name = element.name
+        if not name.isalnum():  # no subscript: take what texts call the first of its kind
+            kinds = ((Contact, "contact"), (Pivot, "pivot"))
+            word = next((word for kind, word in kinds if isinstance(element, kind)), "")
+            name = "" if word in taken else word
+        first = restraints[0] if restraints else None
+        if first is not None and first.arm is not None and name:
+            taken.add(name)
+            touching = isinstance(element, Contact)
+            words = f"the point of contact at {element.name}" if touching else element.name
+            yield _Place(name, words, kinetics.places[first.body] + first.arm)
+    yield _Place("O", "the origin", equations.system.root.zero)
+
+
+def _directions(equations: Equations, axes: Frame) -> Iterator[tuple[str, str, Vector]]:
+    """Name, words and unit vector of directions at rest; no name where the letter is ambiguous."""
+    root = equations.system.root
+    moving: Sequence[str] = () if axes == root else axes.labels
+    for label in reversed(root.labels):
+        yield ("" if label in moving else label), label, root[label]
+    for load in equations.system.loads:
+        if isinstance(load, Gravity) and load.up is not None:
+            yield "", "the vertical", load.up
+
+
+def _spin(equations: Equations, body: Body) -> Vector:
+    """Angular momentum about the centre of mass."""
+    angular_velocity = equations.kinetics.velocities[body][1]
+    return Vector(body.inertia.times(angular_velocity.components), angular_velocity.triad)

@@ -1,4 +1,4 @@
-"""Integrals that are no elementary functions: speeds that obey a linear equation in an angle.
+"""Integrals that are not elementary functions: speeds that obey a linear equation in an angle.
 
 For a disk or any solid of revolution that rolls on a plane, the rates of steering and spinning
 change only as the tilt does: du/dt = (dθ/dt) A(θ) u, so that u as a function of θ alone solves
@@ -18,6 +18,7 @@ from polhode.algebra import (
     Compiled,
     Expr,
     Matrix,
+    Row,
     Symbol,
     compile_program,
     linear_parts,
@@ -50,7 +51,7 @@ class LinearIntegrals(Shown):
 
     @cached_property
     def slopes(self) -> tuple[Expr, ...]:
-        """A u: what each speed gains with the angle."""
+        """A u: the rate of change of each speed with the angle."""
         speeds = [Expr.generator(s) for s in self.speeds]
         return tuple(
             sum((entry * u for entry, u in zip(row, speeds, strict=True)), ZERO)
@@ -58,7 +59,7 @@ class LinearIntegrals(Shown):
         )
 
     def known(self, integrals: Iterable[Expr]) -> int:
-        """How many of the integrals given are of u and θ alone."""
+        """How many of some integrals depend on u and θ alone."""
         own = {self.angle, *self.speeds}
         varying = ({s for s in i.symbols() if s.kind.varies} for i in integrals)
         return sum(bool(symbols) and symbols <= own for symbols in varying)
@@ -74,7 +75,7 @@ class LinearIntegrals(Shown):
         return compile_program(entries, (self.angle, *self._parameters)).function()
 
     def values(self, parameters: Mapping[str, float], state: Mapping[str, Any], at: float) -> Any:
-        """The integrals: what the speeds are when the angle passes `at`, rad/s.
+        """The integrals: the speeds at the moment when the angle is `at`, rad/s.
 
         Args:
             parameters: by published name, SI.
@@ -95,6 +96,7 @@ class LinearIntegrals(Shown):
         here = float(state[self.angle.published])
         if here == at:
             return start
+        # Tolerances close to the rounding of doubles.
         done = solve_ivp(slope, (here, at), start, method="DOP853", rtol=1e-13, atol=1e-14)
         if not done.success:
             raise NumericError(
@@ -119,13 +121,13 @@ def linear_integrals(equations: Equations) -> LinearIntegrals | None:
     for angle in system.essential:
         rate = angle.derivative()
         if rate in system.speeds:
-            found = _closed(equations, angle, rate)
+            found = _closed_set(equations, angle, rate)
             if found is not None:
                 return found
     return None
 
 
-def _closed(equations: Equations, angle: Symbol, rate: Symbol) -> LinearIntegrals | None:
+def _closed_set(equations: Equations, angle: Symbol, rate: Symbol) -> LinearIntegrals | None:
     """The largest set of speeds whose slopes are linear in the set itself."""
     slopes = {
         speed: equations.accelerations[speed.derivative()] / Expr.generator(rate)
@@ -133,23 +135,19 @@ def _closed(equations: Equations, angle: Symbol, rate: Symbol) -> LinearIntegral
         if speed != rate
     }
     kept = tuple(slopes)
-    while kept:
-        rows = {s: _row(slopes[s], kept, angle) for s in kept}
-        good = tuple(s for s, row in rows.items() if row is not None)
-        if good == kept:
+    while True:
+        rows: dict[Symbol, Row] = {}
+        for speed in kept:
+            try:
+                row, rest = linear_parts(slopes[speed], kept)
+            except NumericError:  # not a polynomial in these speeds
+                continue
+            varying = {s for entry in row for s in entry.symbols() if s.kind.varies}
+            if not rest and varying <= {angle}:
+                rows[speed] = row
+        if len(rows) == len(kept):
             break
-        kept = good
-    moving = [s for s in kept if slopes[s]]
-    if not moving:
+        kept = tuple(rows)
+    if not any(slopes[speed] for speed in kept):
         return None
-    matrix = Matrix(tuple(row for s in kept if (row := rows[s]) is not None))
-    return LinearIntegrals(angle, kept, matrix)
-
-
-def _row(slope: Expr, speeds: tuple[Symbol, ...], angle: Symbol) -> tuple[Expr, ...] | None:
-    try:
-        row, rest = linear_parts(slope, speeds)
-    except NumericError:
-        return None
-    varying = {s for entry in row for s in entry.symbols() if s.kind.varies}
-    return None if rest or varying - {angle} else row
+    return LinearIntegrals(angle, kept, Matrix(tuple(rows.values())))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from polhode.algebra import Expr, Row, Symbol, SymbolKind, variables
+from polhode.algebra import Row, Symbol, SymbolKind, variables
 from polhode.base import NumericError
 from polhode.derive import Equations
 
@@ -14,7 +14,7 @@ class Reduced:
     """Essential coordinates and speeds, closed under the equations of motion.
 
     Attributes:
-        equations: the whole.
+        equations: of the whole system.
         essential: coordinates that the accelerations depend on, directly or through one another.
         speeds: all independent speeds.
         rates: of the essential coordinates.
@@ -46,7 +46,12 @@ def reduced(equations: Equations) -> Reduced:
             expected="autonomous equations: steady motions and integrals need them",
             advice="let the supports rest or move steadily",
         )
-    essential = _closure(equations, variables(entries))
+    used, done = variables(entries), set[Symbol]()
+    while found := [q for q in equations.coordinates if q in used and q not in done]:
+        # What the rates of essential coordinates depend on is essential too.
+        used |= variables(equations.kinematics[q.derivative()] for q in found)
+        done.update(found)
+    essential = tuple(q for q in equations.coordinates if q in used)
     return Reduced(
         equations,
         essential,
@@ -61,15 +66,5 @@ def refuse_parts(equations: Equations) -> None:
         raise NumericError(
             f"equations of {equations.system.name!r} in named parts",
             expected="equations in closed form, short enough to be written out",
-            advice="see how a motion at numbers behaves with linearise, or simulate",
+            advice="linearise about a motion at given numbers, or simulate",
         )
-
-
-def _closure(equations: Equations, used: frozenset[Symbol]) -> tuple[Symbol, ...]:
-    while True:
-        essential = tuple(q for q in equations.coordinates if q in used)
-        rates: list[Expr] = [equations.kinematics[q.derivative()] for q in essential]
-        more = used | variables(rates)
-        if not (more - used) & set(equations.coordinates):
-            return essential
-        used = more

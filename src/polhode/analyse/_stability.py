@@ -31,10 +31,10 @@ class Stability(Shown):
         family: the steady motion.
         polynomial: coefficients of the characteristic polynomial, lowest power first.
         neutral: multiplicity of the exponent zero.
-        directions: independent departures that neither grow nor oscillate; along the family
-            itself and its parameters. Fewer than `neutral` of them means steady drift.
-        is_marginal: whether values given besides bring exponents to zero that are not so all along
-            the family, with departures that grow in proportion to time: the very threshold.
+        directions: number of independent departures that neither grow nor oscillate: along the
+            family itself and its parameters. Fewer than `neutral` means steady drift.
+        is_marginal: whether the values given bring to zero exponents that are not zero all along
+            the family, with departures that grow in proportion to time: exactly the threshold.
     """
 
     family: SteadyMotion
@@ -56,17 +56,18 @@ class Stability(Shown):
     @property
     def is_even(self) -> bool:
         """Whether exponents come in pairs ±, as where nothing dissipates."""
-        return not any(self._holds_not(c) for c in self.oscillating[1::2])
-
-    def _holds_not(self, coefficient: Expr) -> bool:
-        return not vanishes(coefficient, self.family)
+        return not any((not vanishes(c, self.family)) for c in self.oscillating[1::2])
 
     @cached_property
     def conditions(self) -> tuple[Condition, ...]:
-        """All of them together are linear stability; what holds anyway is left out."""
+        """Together equivalent to linear stability; those that always hold are left out."""
         if self.is_marginal:
             return (Condition(-ONE),)
-        demanded = _even(self.oscillating[::2]) if self.is_even else _hurwitz(self.oscillating)
+        demanded = (
+            _undamped(self.oscillating[::2])
+            if self.is_even
+            else _hurwitz_determinants(self.oscillating)
+        )
         assumed = self.family.reduced.equations.assumed_positive
         found = dict.fromkeys(_condition(e, self.family, assumed) for e in demanded)
         if any(c.truth is Truth.NEVER for c in found):
@@ -143,23 +144,35 @@ def stability(family: SteadyMotion, at: Mapping[Any, Given] | None = None) -> St
     """
     given = values_given(family.reduced.equations, at)
     if not given:
-        return _about(family)
-    there = _about(_narrowed(family, given))
+        return _linearised_about(family)
+    fixed = {s: v.subs(given) for s, v in family.fixed.items()} | dict(given)
+    relations = tuple(r for e in family.relations if (r := e.subs(given)))
+    there = _linearised_about(SteadyMotion(family.reduced, fixed, relations))
     if not there.drifts or there.neutral < 2:
         return there
     with suppress(NumericError):  # without the values the relations may not be linear
-        everywhere = _about(family)
+        everywhere = _linearised_about(family)
         shortfall = everywhere.neutral - everywhere.directions
         return replace(there, is_marginal=there.neutral - there.directions > shortfall)
     return there
 
 
-def _about(family: SteadyMotion) -> Stability:
-    left, right = _linearised(family)
+def _linearised_about(family: SteadyMotion) -> Stability:
+    """The characteristic polynomial det(λ B - A), its roots at zero, and their eigenvectors."""
+    left, right = _matrices(family)
     size = range(len(left))
     exponent = Expr.generator(_EXPONENT)
     matrix = tuple(tuple(exponent * left[i][j] - right[i][j] for j in size) for i in size)
-    polynomial = _coefficients(_determinant(matrix), len(left))
+    determinant = _determinant(matrix)
+    coefficients, scale = [ZERO] * (len(left) + 1), ONE / determinant.denominator
+    for powers, number in determinant.terms():
+        term = Expr.constant(number)
+        for generator, power in powers.items():
+            if generator != _EXPONENT:
+                term = term * Expr.generator(generator) ** power
+        degree = powers.get(_EXPONENT, 0)
+        coefficients[degree] = coefficients[degree] + term * scale
+    polynomial = tuple(coefficients)
     if vanishes(polynomial[-1], family):
         raise NumericError(
             f"stability of {family} of {family.reduced.equations.system.name}",
@@ -172,13 +185,7 @@ def _about(family: SteadyMotion) -> Stability:
     return Stability(family, polynomial, neutral, len(left) - rank)
 
 
-def _narrowed(family: SteadyMotion, given: Mapping[Symbol, Expr]) -> SteadyMotion:
-    fixed = {s: v.subs(given) for s, v in family.fixed.items()} | dict(given)
-    relations = tuple(r for e in family.relations if (r := e.subs(given)))
-    return SteadyMotion(family.reduced, fixed, relations)
-
-
-def _linearised(family: SteadyMotion) -> tuple[tuple[Row, ...], tuple[Row, ...]]:
+def _matrices(family: SteadyMotion) -> tuple[tuple[Row, ...], tuple[Row, ...]]:
     """Matrices B, A of B x' = A x for small departures x of the reduced state.
 
     The accelerations vanish on the family, so that the mass matrix need not be varied.
@@ -201,7 +208,7 @@ def _linearised(family: SteadyMotion) -> tuple[tuple[Row, ...], tuple[Row, ...]]
 
 
 def _condition(expression: Expr, family: SteadyMotion, assumed: Collection[Expr]) -> Condition:
-    """The condition that it is positive, as it stands or with a relation of the family used."""
+    """The condition that it is positive, as it stands or by a relation of the family."""
     plain = expression.subs(family.fixed)
     condition = positive(plain, assumed)
     for relation in family.relations:
@@ -247,7 +254,7 @@ def _linear_in(relation: Expr) -> tuple[tuple[Symbol, Expr], ...]:
 
 
 def _determinant(matrix: Sequence[Row]) -> Expr:
-    """By minors, smallest column counts first; exact and without division."""
+    """By minors along the rows, each computed once; exact and without division."""
 
     @cache
     def minor(columns: tuple[int, ...]) -> Expr:
@@ -265,21 +272,12 @@ def _determinant(matrix: Sequence[Row]) -> Expr:
     return minor(tuple(range(len(matrix))))
 
 
-def _coefficients(polynomial: Expr, degree: int) -> Row:
-    found = [ZERO] * (degree + 1)
-    scale = ONE / polynomial.denominator
-    for powers, number in polynomial.terms():
-        term = Expr.constant(number)
-        for generator, power in powers.items():
-            if generator != _EXPONENT:
-                term = term * Expr.generator(generator) ** power
-        place = powers.get(_EXPONENT, 0)
-        found[place] = found[place] + term * scale
-    return tuple(found)
+def _undamped(coefficients: Row) -> tuple[Expr, ...]:
+    """Positive where all roots of a polynomial in the squared exponent are real and negative.
 
-
-def _even(coefficients: Row) -> tuple[Expr, ...]:
-    """When all roots of a polynomial in the square of the exponent are real and negative."""
+    Coefficients of one sign (Descartes) exclude positive roots, a positive discriminant complex
+    ones.
+    """
     lead = coefficients[-1]
     signs = tuple(c * lead for c in coefficients[:-1])
     if len(coefficients) <= 2:
@@ -289,8 +287,8 @@ def _even(coefficients: Row) -> tuple[Expr, ...]:
         return (*signs, b * b - 4 * a * c)
     if len(coefficients) == 4:
         d, c, b, a = coefficients
-        quartic = 18 * a * b * c * d - 4 * b**3 * d + b * b * c * c - 4 * a * c**3
-        return (*signs, quartic - 27 * a * a * d * d)
+        discriminant = 18 * a * b * c * d - 4 * b**3 * d + b * b * c * c - 4 * a * c**3
+        return (*signs, discriminant - 27 * a * a * d * d)
     raise NumericError(
         f"a characteristic polynomial of degree {2 * len(coefficients) - 2}",
         expected="degree six at most",
@@ -298,8 +296,8 @@ def _even(coefficients: Row) -> tuple[Expr, ...]:
     )
 
 
-def _hurwitz(coefficients: Row) -> tuple[Expr, ...]:
-    """Routh and Hurwitz: all roots have negative real parts."""
+def _hurwitz_determinants(coefficients: Row) -> tuple[Expr, ...]:
+    """Leading minors of Hurwitz's matrix: positive where all roots have negative real parts."""
     degree = len(coefficients) - 1
     falling = tuple(c * coefficients[-1] for c in reversed(coefficients))
 

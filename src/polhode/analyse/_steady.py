@@ -1,11 +1,14 @@
-"""Steady motions: essential coordinates and all speeds constant."""
+"""Steady motions: essential coordinates and all speeds constant; exact, and at given numbers."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
+
+from flint import fmpq, fmpq_poly
 
 from polhode.algebra import (
     ONE,
@@ -13,6 +16,7 @@ from polhode.algebra import (
     Expr,
     Symbol,
     SymbolKind,
+    as_symbol,
     cos,
     eliminate,
     factors,
@@ -72,7 +76,7 @@ class SteadyMotion(Shown):
         """The relation solved for one quantity, with all roots; none for several relations."""
         if len(self.relations) != 1:
             return ()
-        return tuple(_branches(self.relations[0], self.reduced))
+        return _branches(self.relations[0], self.reduced)
 
     @property
     def conditions(self) -> tuple[Expr, ...]:
@@ -121,30 +125,34 @@ def steady(equations: Equations, at: Mapping[Any, Given] | None = None) -> tuple
     equations_only(equations, "steady motions")
     system = reduced(equations)
     given = values_given(equations, at)
-    _refuse_strangers(equations, given)
+    _check_values(equations, given)
     rows = [row.subs(given) for row in (*system.rates, *equations.forcing)]
     found = [
         SteadyMotion(system, {**given, **fixed}, relations)
         for fixed, relations in _families(rows, system)
         if not _breaks_away(system, {**given, **fixed})
     ]
-    families = tuple(_without_special_cases(found))
+    families: list[SteadyMotion] = []
+    for family in sorted(found, key=lambda f: len(f.fixed)):
+        if not any(_contains(other, family) for other in families):
+            families.append(family)
     if not families:
         raise NumericError(
             f"steady motions of {equations.system.name}",
             expected="at least one; the conditions contradict one another",
             advice="give other values, or none",
         )
-    return families
+    return tuple(families)
 
 
-def _refuse_strangers(equations: Equations, given: Values) -> None:
+def _check_values(equations: Equations, given: Values) -> None:
+    """Refuse values of unknown quantities, and of positive parameters values that are not."""
     known = {*equations.coordinates, *equations.speeds, *equations.parameters}
     rates = {q.derivative() for q in equations.coordinates}
-    strangers = [s.published for s in given if s not in known | rates]
-    if strangers:
+    unknown = [s.published for s in given if s not in known | rates]
+    if unknown:
         raise NumericError(
-            f"a value for {', '.join(strangers)}, which {equations.system.name} does not have",
+            f"a value for {', '.join(unknown)}, which {equations.system.name} does not have",
             expected="values of its coordinates, speeds and parameters",
             advice=", ".join(sorted(s.published for s in known)),
         )
@@ -160,14 +168,21 @@ def _refuse_strangers(equations: Equations, given: Values) -> None:
 def _families(
     rows: list[Expr], system: Reduced
 ) -> Iterator[tuple[dict[Symbol, Expr], tuple[Expr, ...]]]:
-    """Branch over the factors of the first condition that is not met yet."""
+    """Branch over the factors of the shortest condition that is not met yet.
+
+    A factor that gives a speed or an angle is substituted into the other conditions; any other
+    factor is kept as a relation.
+    """
     pending = [row.numerator for row in rows if row]
     if not pending:
         yield {}, ()
         return
     row = min(pending, key=lambda e: len(e.num))
     rest = [other for other in pending if other is not row]
-    for factor in _vanishing(row, system):
+    assumed = system.equations.assumed_positive
+    for factor in factors(row)[1]:
+        if not factor.symbols() & set(system.state) or is_positive(factor) or factor in assumed:
+            continue  # no state makes it vanish
         solutions = list(_solved(factor, system))
         for symbol, value in solutions:
             narrowed = [other.subs({symbol: value}) for other in rest]
@@ -183,7 +198,7 @@ def _families(
 def _breaks_away(system: Reduced, fixed: Values) -> bool:
     """Whether the conditions hold only because the coordinates are singular there.
 
-    Beside a true steady motion the accelerations are small; beside these they are without bound.
+    Near a true steady motion the accelerations are small; near such a place they are unbounded.
     """
     mass = [[entry.subs(fixed) for entry in row] for row in system.equations.mass.rows]
     if not eliminate(mass, [ZERO] * len(mass)).free:
@@ -196,26 +211,15 @@ def _breaks_away(system: Reduced, fixed: Values) -> bool:
 
 
 def _order(expression: Expr) -> int:
-    """How often it vanishes on the family, as one goes aside from it."""
+    """Order of its zero on the family, in a small departure from it."""
     order = 0
     while not expression.subs({_ASIDE: ZERO}):
         expression, order = expression.diff(_ASIDE), order + 1
     return order
 
 
-def _vanishing(row: Expr, system: Reduced) -> list[Expr]:
-    """Factors that some state can make vanish."""
-    state = set(system.state)
-    assumed = system.equations.assumed_positive
-    return [
-        factor
-        for factor in factors(row)[1]
-        if factor.symbols() & state and not is_positive(factor) and factor not in assumed
-    ]
-
-
 def _solved(factor: Expr, system: Reduced) -> Iterator[tuple[Symbol, Expr]]:
-    """A speed that the factor gives without dividing by what may vanish, or an angle."""
+    """Where a factor vanishes: a speed, if its coefficient depends on no state, or an angle."""
     for speed in system.speeds:
         slope = factor.diff(speed)
         if slope and not slope.symbols() & set(system.state):
@@ -229,15 +233,8 @@ def _solved(factor: Expr, system: Reduced) -> Iterator[tuple[Symbol, Expr]]:
             yield from ((angle, pi / 2), (angle, -pi / 2))
 
 
-def _without_special_cases(found: list[SteadyMotion]) -> Iterator[SteadyMotion]:
-    seen: list[SteadyMotion] = []
-    for family in sorted(found, key=lambda f: len(f.fixed)):
-        if not any(_contains(other, family) for other in seen):
-            seen.append(family)
-            yield family
-
-
 def _contains(wide: SteadyMotion, narrow: SteadyMotion) -> bool:
+    """Whether one family is a special case of another."""
     fixed = all(
         narrow.fixed.get(s, Expr.generator(s)) == value.subs(narrow.fixed)
         for s, value in wide.fixed.items()
@@ -248,40 +245,100 @@ def _contains(wide: SteadyMotion, narrow: SteadyMotion) -> bool:
     )
 
 
-def _branches(relation: Expr, system: Reduced) -> Iterator[Branch]:
-    for quantity in _candidates(relation, system):
-        coefficients = _quadratic(relation, quantity)
-        if coefficients is None:
-            continue
-        yield from _roots(quantity, coefficients, system)
-        return
+def _branches(relation: Expr, system: Reduced) -> tuple[Branch, ...]:
+    """The relation solved for the first speed in which it is linear or quadratic.
 
-
-def _candidates(relation: Expr, system: Reduced) -> list[Symbol]:
-    """Rates of ignorable coordinates first: a text solves for the rate of precession."""
+    Rates of ignorable coordinates come first: a text solves for the rate of precession.
+    """
     inside = [s for s in system.speeds if s in relation.symbols()]
-    return sorted(inside, key=lambda s: (s.kind is SymbolKind.SPEED, s.published))
+    for symbol in sorted(inside, key=lambda s: (s.kind is SymbolKind.SPEED, s.published)):
+        if relation - taylor(relation, symbol, 2):
+            continue
+        slope, at_zero = relation.diff(symbol), {symbol: ZERO}
+        a, b, c = slope.diff(symbol) / 2, slope.subs(at_zero), relation.subs(at_zero)
+        quantity = Expr.generator(symbol)
+        if not a:
+            return (Branch(quantity, -c / b, ()),)
+        discriminant = b * b - 4 * a * c
+        exists = positive(discriminant, system.equations.assumed_positive)
+        root = sqrt(discriminant)
+        values = ((-b + sign * root) / (2 * a) for sign in (ONE, -ONE))
+        return tuple(Branch(quantity, value, (exists,)) for value in values)
+    return ()
 
 
-def _quadratic(relation: Expr, symbol: Symbol) -> tuple[Expr, Expr, Expr] | None:
-    series = taylor(relation, symbol, 2)
-    if relation - series:
-        return None
-    at_zero = {symbol: ZERO}
-    slope = relation.diff(symbol)
-    return slope.diff(symbol) / 2, slope.subs(at_zero), relation.subs(at_zero)
+# At given numbers: all real roots of the one relation that is left.
+
+#: Relations of a higher degree in the unknown are refused.
+LARGEST_DEGREE = 24
 
 
-def _roots(
-    symbol: Symbol, coefficients: tuple[Expr, Expr, Expr], system: Reduced
-) -> Iterator[Branch]:
-    a, b, c = coefficients
-    quantity = Expr.generator(symbol)
-    if not a:
-        yield Branch(quantity, -c / b, ())
-        return
-    discriminant = b * b - 4 * a * c
-    exists = positive(discriminant, system.equations.assumed_positive)
-    root = sqrt(discriminant)
-    for sign in (ONE, -ONE):
-        yield Branch(quantity, (-b + sign * root) / (2 * a), (exists,))
+@dataclass(frozen=True)
+class SteadyValues(Shown):
+    """All values of one quantity on a family of steady motions.
+
+    Attributes:
+        quantity: the one left open.
+        values: all real roots, ascending; angles in (-π, π].
+        degree: of the polynomial they are roots of, which bounds their number.
+    """
+
+    quantity: Symbol
+    values: tuple[float, ...]
+    degree: int
+
+
+def steady_values(family: SteadyMotion, at: Mapping[Any, Given]) -> SteadyValues:
+    """Every value that one quantity can have when all others are given numbers.
+
+    The roots are isolated in exact arithmetic: none is missed and none is spurious.
+
+    Args:
+        family: with one relation.
+        at: numbers for all parameters and all state variables but one: by name or symbol, in SI
+            units or as text with a unit.
+    """
+    given = values_given(family.reduced.equations, at)
+    relations = [r for e in family.relations if (r := e.subs(family.fixed).subs(given))]
+    unknown = sorted({s for r in relations for s in r.symbols()}, key=lambda s: s.published)
+    if len(relations) != 1 or len(unknown) != 1:
+        names = ", ".join(s.published for s in unknown) or "nothing"
+        raise NumericError(
+            f"a steady motion with {names} left open",
+            expected="one relation in one unknown",
+            advice="give numbers for all other quantities with at=",
+        )
+    (symbol,) = unknown
+    polynomial, is_half_tangent = _polynomial(relations[0], symbol)
+    # Isolated in ball arithmetic: a root is real if its ball reaches the real axis.
+    isolated: Any = polynomial.complex_roots() if polynomial.degree() > 0 else []
+    roots = [float(root.real.mid()) for root, _ in isolated if root.imag.contains(0)]
+    if is_half_tangent:
+        roots = [2 * math.atan(root) for root in roots]
+        if not relations[0].subs({symbol: pi}):  # π itself has no half tangent
+            roots.append(math.pi)
+    return SteadyValues(symbol, tuple(sorted(roots)), polynomial.degree())
+
+
+def _polynomial(relation: Expr, symbol: Symbol) -> tuple[fmpq_poly, bool]:
+    """The relation as a polynomial in the symbol, or in the tangent of half of it."""
+    tangent = Expr.generator(Symbol("half_tangent"))
+    below = 1 + tangent**2
+    images = {}
+    for generator in relation.generators:
+        for function in generator.companions():
+            is_even = function.partner() is not None
+            images[function] = ((1 - tangent**2) if is_even else 2 * tangent) / below
+    variable = as_symbol(tangent) if images else symbol
+    expression = relation.recast(images).numerator if images else relation.numerator
+    coefficients = [fmpq(0)] * (LARGEST_DEGREE + 1)
+    for powers, number in expression.terms():
+        degree = powers.pop(variable, 0)
+        if powers or degree > LARGEST_DEGREE:
+            raise NumericError(
+                f"the relation {relation} = 0",
+                expected=f"an algebraic one of degree {LARGEST_DEGREE} at most in one unknown",
+                advice="give the angle, and ask for the speed",
+            )
+        coefficients[degree] = fmpq(number.numerator, number.denominator)
+    return fmpq_poly(coefficients), bool(images)

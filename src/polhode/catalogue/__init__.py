@@ -1,14 +1,13 @@
 """The seven systems of the problem set, by name."""
 
-from polhode.catalogue._about import about_with as about_with
-from polhode.catalogue._about import contact_numbers as contact_numbers
 from polhode.catalogue._audit import audit as audit
 from polhode.catalogue._audit import document_of as document_of
+from polhode.catalogue._audit import problem_set as problem_set
 from polhode.catalogue._entry import CatalogueEntry as CatalogueEntry
 from polhode.catalogue._entry import Parameter as Parameter
-from polhode.catalogue._exact import exact_values as exact_values
+from polhode.catalogue._entry import about_with as about_with
+from polhode.catalogue._entry import contact_numbers as contact_numbers
 from polhode.catalogue._numbers import RunNumbers as RunNumbers
-from polhode.catalogue._numbers import exactly as exactly
+from polhode.catalogue._numbers import exact_values as exact_values
 from polhode.catalogue._numbers import numbers_of as numbers_of
-from polhode.catalogue._problem_set import problem_set as problem_set
 from polhode.catalogue._systems import CATALOGUE as CATALOGUE

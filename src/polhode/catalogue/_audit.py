@@ -3,16 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from polhode.base import Progress, look_up, terminal_progress
-from polhode.catalogue._problem_set import problem_set
 from polhode.catalogue._systems import CATALOGUE
 from polhode.model import System
 
 if TYPE_CHECKING:
     from polhode.claims import ClaimLimits, Document, Report
+
+
+def problem_set() -> str:
+    """The document, as the TOML text that `polhode.claims` reads; docs/claims-format.md tells how.
+
+    It holds all 162 numbered equations of the problem set, byte for byte as its transcript prints
+    them, and statements in words.
+    """
+    return (files("polhode.catalogue") / "problem_set.toml").read_text("utf-8")
 
 
 def audit(
@@ -26,21 +35,21 @@ def audit(
 ) -> Report:
     """Judge every claim of a document, each against the system that its part treats.
 
-    Several processes judge; a claim that takes too long is given up and reported as unread. An
-    interruption keeps what is judged by then.
+    Several processes judge; a claim that takes too long is abandoned and reported as unread. An
+    interruption keeps the verdicts found so far.
 
     Args:
-        document: a document, its TOML text or a file that holds it; the problem set by default.
-        systems: those that the document names, besides the catalogue's.
+        document: a document, its TOML text or a file of it; by default the problem set.
+        systems: systems that the document names, besides those of the catalogue.
         only: ids of the claims to judge; all of them if empty.
         workers: number of processes.
         limits: of time and memory for one claim.
-        progress: told of every claim judged; by default a line where there is a terminal.
+        progress: called after every claim; by default a line in the terminal.
 
     Raises:
-        ParseError: for what is no document, and for an id that it does not have.
+        ParseError: for text that is not a document, and for an id that it does not contain.
     """
-    from polhode.claims import audit_apart  # only here: a list of the catalogue needs no claims
+    from polhode.claims import audit_apart  # deferred: the catalogue itself needs no claims
 
     own = systems or {}
 
@@ -58,7 +67,7 @@ def audit(
 
 
 def document_of(source: Document | str | Path | None) -> Document:
-    """A document as such, from its TOML text, or from a file; the problem set for None."""
+    """A document, read if it is TOML text or a file; the problem set for None."""
     from polhode.claims import Document, read_document
 
     if isinstance(source, Document):

@@ -1,11 +1,12 @@
-"""What the catalogue knows of a system: its declaration, default numbers, and what to plot."""
+"""An entry of the catalogue: declaration, default numbers, description, and what to plot."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from polhode.model import System
+from polhode.algebra import Expr, compile_program
+from polhode.model import Contact, Coulomb, Rolling, Sheet, System
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ class CatalogueEntry:
     """A system of the catalogue.
 
     Attributes:
-        name: what the command line calls it.
+        name: as on the command line.
         title: heading.
         about: the problem in a few sentences.
         build: makes the declaration.
@@ -55,7 +56,7 @@ class CatalogueEntry:
 
     @classmethod
     def bare(cls, name: str, title: str, system: System) -> CatalogueEntry:
-        """A system of somebody's own, with no defaults."""
+        """The entry of a user's own system, without defaults."""
         return cls(
             name=name,
             title=title,
@@ -69,3 +70,61 @@ class CatalogueEntry:
 
 
 GRAVITY = Parameter("g", "m/s^2", "9.81 m/s^2", "acceleration of gravity")
+
+
+# -- what it is about, with the contacts that a run gives it ---------------------------------------
+
+
+def about_with(entry: CatalogueEntry, system: System) -> str:
+    """The description of an entry; with contacts of another kind, the part that still holds."""
+    declared = [type(contact) for contact in _contacts(entry.build())]
+    contacts = _contacts(system)
+    if [type(contact) for contact in contacts] == declared:
+        return entry.about
+    sentences = dict.fromkeys(_sentence(contact) for contact in contacts)
+    return " ".join(filter(None, (entry.whatever_touches, *sentences)))
+
+
+def contact_numbers(system: System) -> dict[str, float]:
+    """Coefficients of friction and edges of sheets declared as numbers, by name, SI.
+
+    Where the contacts differ, the name of the contact precedes: "ground_mu".
+    """
+    contacts = _contacts(system)
+    found = {contact.name: dict(_numbers(contact)) for contact in contacts}
+    if all(numbers == found[contacts[0].name] for numbers in found.values()):
+        return next(iter(found.values()), {})
+    return {f"{name}_{c}": value for c, known in found.items() for name, value in known.items()}
+
+
+def _numbers(contact: Contact) -> Iterator[tuple[str, float]]:
+    known = dict[str, Expr | None]()
+    if isinstance(contact, Coulomb):
+        known["mu"] = contact.mu
+        known["mu_static"] = None if contact.mu_static == contact.mu else contact.mu_static
+    if isinstance(contact.on, Sheet):
+        known["edge"] = contact.on.edge
+    for name, value in known.items():
+        if value is not None and not value.symbols():
+            yield name, float(compile_program([value], ()).function()()[0])
+
+
+def _contacts(system: System) -> list[Contact]:
+    return [element for element in system.elements if isinstance(element, Contact)]
+
+
+def _sentence(contact: Contact) -> str:
+    if isinstance(contact, Rolling):
+        return "It rolls without slipping."
+    if not isinstance(contact, Coulomb):
+        return "There is no friction at the contact."
+    known = dict(_numbers(contact))
+    letters = {"mu": "μ", "mu_static": "static μ"}
+    stated = " and ".join(
+        f"{letters[name]} = {value:g}" for name, value in known.items() if name in letters
+    )
+    with_what = f" with {stated}" if stated else ""
+    return (
+        f"Coulomb friction{with_what} acts at the contact: it rolls where that is enough, and "
+        "slides where it is not."
+    )

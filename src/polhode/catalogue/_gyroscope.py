@@ -2,13 +2,17 @@
 
 import polhode as ph
 from polhode.catalogue._entry import GRAVITY, CatalogueEntry, Parameter
-from polhode.catalogue._text_axes import axle_axes, cylindrical_axes
 
 
 def _top() -> tuple[ph.Body, ph.Pivot, ph.Gravity]:
     mass, a, first, second, g = ph.symbols("M a I_1 I_2 g", positive=True)
-    cylindrical = cylindrical_axes(ph.Frame("lab"))
-    axes = axle_axes(cylindrical)
+    # Directions ρ, φ, z that turn with the azimuth φ about the vertical (problem 7).
+    cylindrical = ph.Frame("lab").rotated(
+        ph.coordinate("phi"), "z", labels="rho phi z", name="cylindrical"
+    )
+    # Axes 1 along the axle at θ to the vertical, 2 along φ, 3 = 1 × 2 (equation 90).
+    theta = ph.coordinate("theta")
+    axes = cylindrical.rotated(theta - ph.pi / 2, "phi", labels="1 2 3", name="axes")
     moments = (first, second, second)
     top = ph.Body("gyroscope", mass=mass, inertia=moments, axes=axes, spin_about="1")
     return top, ph.Pivot(top, at=axes["1"] * -a, along=cylindrical), ph.Gravity(g)

@@ -1,46 +1,67 @@
-"""The numbers of one run: catalogue values, what was asked for instead, and what follows."""
+"""The numbers of one run: catalogue values, those given instead, and those that follow."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from graphlib import CycleError, TopologicalSorter
 from types import MappingProxyType
 from typing import Any
 
-from polhode.algebra import Expr, Symbol, SymbolKind, dimension_of, pi
-from polhode.base import (
-    PURE,
-    TIME,
-    DeclarationError,
-    Dimension,
-    UnitError,
-    look_up,
-    read_quantity,
-    read_unit,
-)
+from polhode.algebra import Expr, GivenValue, Symbol, SymbolKind, dimension_of, read_value
+from polhode.analyse import values_given
+from polhode.base import PURE, TIME, DeclarationError, Dimension, UnitError, look_up, read_unit
 from polhode.catalogue._entry import CatalogueEntry
-from polhode.catalogue._values import in_si, read_value
 from polhode.derive import Equations
 
 _NOTHING: Mapping[str, str] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
+class ExactNumbers:
+    """What `simulate` is given for more than double precision: constant expressions, SI.
+
+    Attributes:
+        parameters, start, duration: as of `RunNumbers`, each the decimal that was written.
+    """
+
+    parameters: Mapping[Any, Expr]
+    start: Mapping[Any, Expr]
+    duration: Expr
+
+
+@dataclass(frozen=True)
 class RunNumbers:
-    """What `simulate` is given, by published name and in SI units.
+    """What `simulate` is given, by published name, in SI units and double precision.
 
     Attributes:
         parameters: those that the motion or the bodies depend on.
         forcing: prescribed functions, as expressions of time and parameters.
         start: coordinates and speeds that were chosen; the rest is assumed.
         duration: s.
+        exact: the same numbers exactly.
     """
 
     parameters: Mapping[Any, Any]
     forcing: Mapping[Any, Expr]
     start: Mapping[Any, Any]
     duration: Any
+    exact: ExactNumbers
+
+
+def exact_values(equations: Equations, texts: Mapping[str, str]) -> dict[Symbol, Expr]:
+    """Coordinates, speeds and parameters given exactly, by symbol: what "theta=pi/2" means.
+
+    Args:
+        equations: of the system they belong to.
+        texts: expressions of parameters, or numbers with a unit, by published name.
+
+    Raises:
+        DeclarationError: for a name the system does not have.
+        ParseError: for text that is not a value; UnitError for one of the wrong dimension.
+    """
+    constants = {symbol.published: symbol for symbol in equations.parameters}
+    return values_given(equations, texts, constants)
 
 
 def numbers_of(
@@ -53,9 +74,9 @@ def numbers_of(
 ) -> RunNumbers:
     """The numbers of a run.
 
-    Values are numbers with a unit or exact expressions of parameters: a default such as
-    ``m*a**2/2`` follows the m that was set. A start that is given is given for all speeds: those
-    it does not name are at rest. Coordinates it does not name keep their catalogue value.
+    Values are numbers with a unit or expressions of parameters: a default such as ``m*a**2/2``
+    follows the m that was set. If any start value is given, speeds that are not named are zero;
+    coordinates that are not named keep their catalogue value.
 
     Args:
         entry: the system, with its defaults.
@@ -63,115 +84,67 @@ def numbers_of(
         settings: parameters and prescribed functions in place of the defaults.
         start: coordinates and speeds in place of the defaults.
         duration: in place of the default.
-        flight: equations of the mode in which nothing touches: a start may name heights of theirs.
+        flight: equations of the mode without contact, whose coordinates a start may name too.
 
     Raises:
         DeclarationError: for a name the system does not have, and for values that are missing or
-            depend on themselves.
-        ParseError: for text that is no value.
+            depend on one another in a circle.
+        ParseError: for text that is not a value.
         UnitError: for a value of the wrong dimension, or without a finite one.
     """
-    constants = _constants(entry, equations)
+    named = {p.name: Symbol(p.name) for p in entry.parameters}
+    # also parameters that occur only in the values of others, such as a radius
+    constants = named | {symbol.published: symbol for symbol in equations.parameters}
     functions = {symbol.published: symbol for symbol in equations.functions}
     for name in settings:
         look_up(name, constants | functions, f"parameter of {entry.name}")
-    dimensions = _dimensions(entry, equations, constants)
-    chosen = {**_defaults(entry), **settings}
-    values = _resolved({n: chosen[n] for n in constants if n in chosen}, constants, dimensions)
-    missing = [symbol.published for symbol in equations.parameters if symbol not in values]
+    stated = {
+        constants[p.name]: read_unit(p.unit).dimension if p.unit else PURE for p in entry.parameters
+    }
+    dimensions = {**equations.dimensions, **stated}
+    defaults = {p.name: p.default for p in entry.parameters} | dict(entry.forcing)
+    chosen = {**defaults, **settings}
+    values = _parameters({n: chosen[n] for n in constants if n in chosen}, constants, dimensions)
+    missing = [symbol.published for symbol in equations.parameters if symbol not in values.doubles]
     missing += [name for name in functions if name not in chosen]
     if missing:
         raise _missing(missing)
     forcing = {name: _forced(name, chosen[name], constants) for name in functions}
     wanted = _wanted(equations, forcing.values())
+    used = {s.published: s for s in values.doubles if s in wanted}
+    texts = _chosen_start(entry, equations, start)
+    begun = _start((equations, flight or equations), texts, constants, dimensions, values)
+    time = _duration(duration or entry.duration)
     return RunNumbers(
-        parameters={s.published: value for s, value in values.items() if s in wanted},
+        parameters={name: values.doubles[symbol] for name, symbol in used.items()},
         forcing=forcing,
-        start=_start(
-            (equations, flight or equations),
-            _asked(entry, equations, start),
-            constants,
-            dimensions,
-            values,
+        start={name: value.rounded(values.doubles) for name, value in begun.items()},
+        duration=time.rounded(),
+        exact=ExactNumbers(
+            {name: values.exact[symbol] for name, symbol in used.items()},
+            {name: value.exact(values.exact) for name, value in begun.items()},
+            time.exact(),
         ),
-        duration=_duration(duration or entry.duration),
     )
 
 
-def exactly(
-    entry: CatalogueEntry,
-    equations: Equations,
-    numbers: RunNumbers,
-    settings: Mapping[str, str] = _NOTHING,
-    start: Mapping[str, str] = _NOTHING,
-    duration: str = "",
-) -> RunNumbers:
-    """The same numbers as constant expressions, each the decimal that was written.
+@dataclass(frozen=True)
+class _Parameters:
+    """Values by symbol, in double precision and exactly."""
 
-    Args:
-        numbers: from `numbers_of`, which has checked them.
-        entry, equations, settings, start, duration: what it was given.
-    """
-    constants = _constants(entry, equations)
-    chosen = {**_defaults(entry), **settings}
-    read = {n: read_value(n, chosen[n], constants) for n in constants if n in chosen}
-    values: dict[Any, Expr] = {}
-    for name in _in_order(read):
-        values[constants[name]] = _constant(read[name], values)
-    asked = _asked(entry, equations, start)
-    texts = {name: read_value(name, text, constants) for name, text in asked.items()}
-    wanted = read_value("duration", duration or entry.duration, {})
-    return replace(
-        numbers,
-        parameters={name: values[constants[name]] for name in numbers.parameters},
-        start={name: _constant(text, values) for name, text in texts.items()},
-        duration=_constant(wanted, {}),
-    )
+    doubles: Mapping[Symbol, float]
+    exact: Mapping[Symbol, Expr]
 
 
-def _constant(value: Expr | str, known: Mapping[Any, Expr]) -> Expr:
-    if isinstance(value, Expr):
-        return value.subs(dict(known))
-    quantity = read_quantity(value)
-    return Expr.of(quantity.coefficient) * pi**quantity.pi_power
-
-
-def _constants(entry: CatalogueEntry, equations: Equations) -> dict[str, Symbol]:
-    """All that has a value, also what only other values are made of."""
-    named = {p.name: Symbol(p.name) for p in entry.parameters}
-    return named | {symbol.published: symbol for symbol in equations.parameters}
-
-
-def _defaults(entry: CatalogueEntry) -> dict[str, str]:
-    return {p.name: p.default for p in entry.parameters} | dict(entry.forcing)
-
-
-def _dimensions(
-    entry: CatalogueEntry, equations: Equations, constants: Mapping[str, Symbol]
-) -> dict[Symbol, Dimension]:
-    stated = {
-        constants[p.name]: read_unit(p.unit).dimension if p.unit else PURE for p in entry.parameters
-    }
-    return {**equations.dimensions, **stated}
-
-
-def _resolved(
+def _parameters(
     texts: Mapping[str, str],
     constants: Mapping[str, Symbol],
     dimensions: Mapping[Symbol, Dimension],
-) -> dict[Symbol, float]:
+) -> _Parameters:
     """Values of parameters, each after those that it is an expression of."""
-    read = {name: read_value(name, text, constants) for name, text in texts.items()}
-    values: dict[Symbol, float] = {}
-    for name in _in_order(read):
-        _refuse_unvalued(name, read[name], values)
-        symbol = constants[name]
-        values[symbol] = in_si(name, read[name], dimensions.get(symbol), dimensions, values)
-    return {constants[name]: values[constants[name]] for name in texts}
-
-
-def _in_order(read: Mapping[str, Expr | str]) -> list[str]:
-    needs = {name: {symbol.published for symbol in _used(value)} for name, value in read.items()}
+    given = {name: read_value(name, text, constants) for name, text in texts.items()}
+    doubles, exact = dict[Symbol, float](), dict[Symbol, Expr]()
+    needs = {name: {symbol.published for symbol in v.symbols} for name, v in given.items()}
     try:
         order = list(TopologicalSorter(needs).static_order())
     except CycleError as error:
@@ -179,25 +152,28 @@ def _in_order(read: Mapping[str, Expr | str]) -> list[str]:
         raise DeclarationError(
             f"values that depend on one another: {circle}", expected="one of them as a number"
         ) from error
-    return [name for name in order if name in read]
+    for name in (name for name in order if name in given):
+        symbol = constants[name]
+        _refuse_unvalued(given[name], doubles)
+        value = given[name].in_dimension(dimensions.get(symbol), dimensions)
+        doubles[symbol], exact[symbol] = value.rounded(doubles), value.exact(exact)
+    return _Parameters({constants[name]: doubles[constants[name]] for name in texts}, exact)
 
 
-def _used(value: Expr | str) -> frozenset[Symbol]:
-    return frozenset() if isinstance(value, str) else value.symbols() - {Symbol("pi")}
-
-
-def _refuse_unvalued(name: str, value: Expr | str, values: Mapping[Symbol, float]) -> None:
-    for symbol in _used(value):
+def _refuse_unvalued(value: GivenValue, known: Mapping[Symbol, float]) -> None:
+    for symbol in value.symbols:
         if symbol.kind is SymbolKind.TIME:
-            raise DeclarationError(f"{name} = {value} varies", expected="a constant value")
-        if symbol not in values:
+            raise DeclarationError(
+                f"{value.name} = {value.number} varies", expected="a constant value"
+            )
+        if symbol not in known:
             raise _missing([symbol.published])
 
 
 def _forced(name: str, text: str, constants: Mapping[str, Symbol]) -> Expr:
     """A prescribed function of time; its bare numbers are SI."""
     value = read_value(name, text, constants)
-    return Expr.of(in_si(name, value, None, {}, {})) if isinstance(value, str) else value
+    return value.number if isinstance(value.number, Expr) else Expr.of(value.rounded())
 
 
 def _wanted(equations: Equations, forcing: Iterable[Expr]) -> set[Symbol]:
@@ -206,7 +182,9 @@ def _wanted(equations: Equations, forcing: Iterable[Expr]) -> set[Symbol]:
     return set(equations.parameters).union(*(e.symbols() for e in (*parts, *forcing)))
 
 
-def _asked(entry: CatalogueEntry, equations: Equations, start: Mapping[str, str]) -> dict[str, str]:
+def _chosen_start(
+    entry: CatalogueEntry, equations: Equations, start: Mapping[str, str]
+) -> dict[str, str]:
     if not start:
         return dict(entry.start)
     places = {symbol.published for symbol in equations.coordinates}
@@ -218,8 +196,8 @@ def _start(
     texts: Mapping[str, str],
     constants: Mapping[str, Symbol],
     dimensions: Mapping[Symbol, Dimension],
-    values: Mapping[Symbol, float],
-) -> dict[str, float]:
+    values: _Parameters,
+) -> dict[str, GivenValue]:
     known = {
         s.published: (s, e)
         for e in reversed(modes)
@@ -230,9 +208,9 @@ def _start(
         system = modes[0].system.name
         symbol, equations = look_up(name, known, f"coordinate or speed of {system}")
         value = read_value(name, text, constants)
-        _refuse_unvalued(name, value, values)
+        _refuse_unvalued(value, values.doubles)
         dimension = _dimension_of_state(symbol, equations, dimensions)
-        found[name] = in_si(name, value, dimension, dimensions, values)
+        found[name] = value.in_dimension(dimension, dimensions)
     return found
 
 
@@ -246,7 +224,7 @@ def _dimension_of_state(
     return None if meaning is None else dimension_of(meaning, dimensions)
 
 
-def _duration(text: str) -> float:
+def _duration(text: str) -> GivenValue:
     if not text:
         raise DeclarationError(
             "no duration",
@@ -254,9 +232,9 @@ def _duration(text: str) -> float:
             advice="give one, such as 10 s",
             option="duration",
         )
-    duration = in_si("duration", read_value("duration", text, {}), TIME, {}, {})
-    if duration <= 0:
-        raise UnitError(f"a duration of {duration:g} s", expected="a positive one")
+    duration = read_value("duration", text, {}).in_dimension(TIME, {})
+    if duration.rounded() <= 0:
+        raise UnitError(f"a duration of {duration.rounded():g} s", expected="a positive one")
     return duration
 
 

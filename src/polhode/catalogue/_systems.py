@@ -1,12 +1,13 @@
 """All systems of the catalogue, by name."""
 
+from __future__ import annotations
+
 from polhode.catalogue._ball_on_paper import BALL_ON_PAPER
+from polhode.catalogue._disks import ROLLING_DISK, SPINNING_COIN
 from polhode.catalogue._entry import CatalogueEntry
 from polhode.catalogue._gyrocompass import GYROCOMPASS, MOTOR_DRIVEN
 from polhode.catalogue._gyroscope import GYROSCOPE, HELD, IN_VERTICAL_PLANE, UPRIGHT
 from polhode.catalogue._marble_on_turntable import MARBLE_ON_TURNTABLE, TILTED
-from polhode.catalogue._rolling_disk import ROLLING_DISK
-from polhode.catalogue._spinning_coin import SPINNING_COIN
 from polhode.catalogue._tennis_racquet import TENNIS_RACQUET
 
 #: Every catalogue system, in the order of the problem set.

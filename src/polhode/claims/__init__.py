@@ -1,7 +1,6 @@
 """Claims of texts, read, bound to a model, and judged.
 
-What judges whole documents is fetched when first asked for, so that one check loads no more than
-it needs.
+What judges whole documents is imported on first use, so that a single check stays light.
 """
 
 from importlib import import_module
@@ -24,8 +23,8 @@ from polhode.claims.latex import Statement as Statement
 from polhode.claims.latex import read_latex as read_latex
 from polhode.claims.latex import write_latex as write_latex
 from polhode.claims.meaning._bindings import Bound as Bound
-from polhode.claims.meaning._bindings import BoundRelation as BoundRelation
 from polhode.claims.meaning._meaning import BindingError as BindingError
+from polhode.claims.meaning._relations import BoundRelation as BoundRelation
 from polhode.claims.processes._limited_check import check as check
 from polhode.claims.processes._limited_check import uncorrected as uncorrected
 
@@ -35,7 +34,7 @@ if TYPE_CHECKING:
     from polhode.claims.document._report import Consequence as Consequence
     from polhode.claims.document._report import Judged as Judged
     from polhode.claims.document._report import Report as Report
-    from polhode.claims.document._report import told as told
+    from polhode.claims.document._report import tally as tally
     from polhode.claims.processes._parallel_audit import ClaimLimits as ClaimLimits
     from polhode.claims.processes._parallel_audit import audit_apart as audit_apart
     from polhode.claims.repair import tidied as tidied
@@ -48,7 +47,7 @@ _LATE = {
     "Consequence": "document._report",
     "Judged": "document._report",
     "Report": "document._report",
-    "told": "document._report",
+    "tally": "document._report",
     "tidied": "repair",
 }
 

@@ -24,7 +24,7 @@ Resolver = Callable[[str], Equations]
 
 @dataclass(frozen=True)
 class ClaimChecker:
-    """Where claims are judged; what a part says of its letters is worked out once.
+    """Judges the claims of a document; the notation of each part is worked out once.
 
     Attributes:
         resolver: gives the equations of a system by its name.
@@ -43,7 +43,7 @@ class ClaimChecker:
     ) -> Verdict:
         """The verdict on one claim; unread where it, or its part, cannot be read or bound.
 
-        A failure is told before a correction is looked for.
+        `tell` is called with a failure before a correction is sought.
         """
         try:
             return judged_claim(
@@ -51,7 +51,7 @@ class ClaimChecker:
                 partial(self._notation, part, claim),
                 claim.context,
                 claim.when,
-                partial(_spoken, part, claim),
+                partial(_accompanying, part, claim),
                 tell,
             )
         except PolhodeError as error:
@@ -59,17 +59,14 @@ class ClaimChecker:
 
     def _notation(self, part: Part, claim: Claim, chosen: Chosen) -> Notation:
         start = (f"{name} = {value}" for name, value in claim.start.items())
-        return reduce(with_start, start, self._of_part(part, chosen).of_claim(claim))
-
-    def _of_part(self, part: Part, chosen: Chosen) -> Notation:
         key = part.id, frozenset(chosen.items())
         if key not in self._notations:
             self._notations[key] = Notation.of_part(self.resolver(part.system), part, chosen)
-        return self._notations[key]
+        return reduce(with_start, start, self._notations[key].of_claim(claim))
 
 
-def _spoken(part: Part, claim: Claim) -> Iterator[Statement]:
-    """What a document says besides the claim, in formulas."""
+def _accompanying(part: Part, claim: Claim) -> Iterator[Statement]:
+    """Formulas that a document states with the claim."""
     definitions = (d.latex for d in (*part.definitions, *claim.definitions))
     for text in (*definitions, *part.positive, *part.given, *claim.given, *claim.small):
         yield _read(text)
@@ -84,7 +81,7 @@ def audit(document: Document, resolver: Resolver, *, only: Iterable[str] = ()) -
     """Judge every claim of a document, or those with some ids, in this process.
 
     Args:
-        document: what a text states, and how its symbols are meant.
+        document: the claims of a text, and the meaning of its symbols.
         resolver: gives the equations of a system by its name.
         only: ids of the claims to judge; all of them if empty.
 
@@ -92,10 +89,10 @@ def audit(document: Document, resolver: Resolver, *, only: Iterable[str] = ()) -
         ParseError: for an id that the document does not have.
     """
     began = perf_counter()
-    desk = ClaimChecker(cache(resolver))
-    asked = asked_for(document, only)
-    verdicts = {c.id: desk.verdict(document.part_of(c), c) for c in asked}
-    return reported(document, asked, verdicts, perf_counter() - began)
+    checker = ClaimChecker(cache(resolver))
+    claims = asked_for(document, only)
+    verdicts = {c.id: checker.verdict(document.part_of(c), c) for c in claims}
+    return reported(document, claims, verdicts, perf_counter() - began)
 
 
 def asked_for(document: Document, only: Iterable[str]) -> tuple[Claim, ...]:
@@ -109,10 +106,10 @@ def asked_for(document: Document, only: Iterable[str]) -> tuple[Claim, ...]:
 
 
 def reported(
-    document: Document, asked: Sequence[Claim], verdicts: Mapping[str, Verdict], seconds: float
+    document: Document, claims: Sequence[Claim], verdicts: Mapping[str, Verdict], seconds: float
 ) -> Report:
-    """A report of verdicts by id of their claim; those asked for that have none are left."""
-    found = ((claim.id, verdicts.get(claim.id)) for claim in asked)
+    """A report of verdicts by id of their claim; claims without a verdict were not reached."""
+    found = ((claim.id, verdicts.get(claim.id)) for claim in claims)
     failed = [id for id, verdict in found if verdict and verdict.answer is Answer.FAILS]
     reached = {id: document.consequences(id) for id in failed}
     judged = tuple(
@@ -123,8 +120,8 @@ def reported(
             tuple(id for id in failed if claim.id in reached[id]),
             part.convention,
         )
-        for claim, part in ((claim, document.part_of(claim)) for claim in asked)
+        for claim, part in ((claim, document.part_of(claim)) for claim in claims)
         if claim.id in verdicts
     )
-    left = tuple(claim.id for claim in asked if claim.id not in verdicts)
+    left = tuple(claim.id for claim in claims if claim.id not in verdicts)
     return Report(document, judged, left, seconds)

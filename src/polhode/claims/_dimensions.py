@@ -1,4 +1,4 @@
-"""Whether all terms of a claim have one dimension, as far as the declaration tells."""
+"""Whether all terms of a claim have one dimension, as far as the declaration determines."""
 
 from __future__ import annotations
 
@@ -7,41 +7,38 @@ from fractions import Fraction
 
 from polhode.algebra import Expr, Generator, Symbol, under_name
 from polhode.base import PURE, TIME, Dimension, PolhodeError
-from polhode.claims.meaning._components import ScalarRelation
 from polhode.claims.states._bound_claim import BoundClaim
 
 
-def dimensions_at_odds(asked: BoundClaim) -> str:
-    """The members whose terms have different dimensions, in words; empty where there are none."""
+def dimensions_at_odds(claim: BoundClaim) -> str:
+    """The members whose terms have different dimensions, in words; empty if all are consistent."""
     try:
-        gauge = _Gauge(asked.equations.dimensions)
+        analysis = _DimensionalAnalysis(claim.equations.dimensions)
     except PolhodeError:
         return ""
-    odd = {c.member: found for c in asked.components() if (found := _dimensions(c, gauge))}
-    told = (f"{_listed(found)} in member {member + 1}" for member, found in odd.items())
-    return f"terms of different dimensions: {'; '.join(told)}" if odd else ""
+    odd: dict[int, set[Dimension]] = {}
+    for component in claim.components():
+        found = {d for side in (component.left, component.right) for d in analysis.terms(side)}
+        if len(found) > 1:
+            odd[component.member] = found
+    if not odd:
+        return ""
+    listed = (
+        f"{' and '.join(sorted(map(str, found)))} in member {member + 1}"
+        for member, found in odd.items()
+    )
+    return f"terms of different dimensions: {'; '.join(listed)}"
 
 
-def _listed(found: tuple[Dimension, ...]) -> str:
-    return " and ".join(sorted(map(str, found)))
-
-
-def _dimensions(component: ScalarRelation, gauge: _Gauge) -> tuple[Dimension, ...]:
-    """The dimensions of a component's terms, where they are not all the same."""
-    every = [d for side in (component.left, component.right) for d in gauge.terms(side)]
-    found = tuple(dict.fromkeys(every))
-    return found if len(found) > 1 else ()
-
-
-class _Gauge:
-    """Tells dimensions by those of the symbols; of a generator only once."""
+class _DimensionalAnalysis:
+    """Dimensions of expressions from those of the symbols; of each generator only once."""
 
     def __init__(self, known: Mapping[Symbol, Dimension]) -> None:
         self._known = known
         self._found: dict[Generator, Dimension | None] = {}
 
     def terms(self, side: Expr) -> Iterator[Dimension]:
-        """Of every term of which the dimension is known, over the first term below."""
+        """Of every term whose dimension is known, over the first term of the denominator."""
         below = next((self._product(powers) for powers, _ in side.denominator.terms()), PURE)
         for powers, _ in side.numerator.terms():
             above = self._product(powers)
@@ -52,23 +49,20 @@ class _Gauge:
         """Of a product of powers; None where it has a letter of unknown dimension."""
         whole = PURE
         for generator, power in powers.items():
-            found = self._of(generator)
+            if generator not in self._found:
+                self._found[generator] = self._dimension(generator)
+            found = self._found[generator]
             if found is None:
                 return None
             whole = whole * (found if power == 1 else found**power)
         return whole
-
-    def _of(self, generator: Generator) -> Dimension | None:
-        if generator not in self._found:
-            self._found[generator] = self._dimension(generator)
-        return self._found[generator]
 
     def _dimension(self, generator: Generator) -> Dimension | None:
         if isinstance(generator, Symbol):
             base = PURE if generator.name == "pi" else self._known.get(generator.base())
             return None if base is None else base / TIME**generator.order
         if under_name(generator) is not None:
-            return None  # it would have to be looked into
+            return None  # unknown without expanding it
         if not generator.depth or generator.partner() is not None:
             return PURE
         inside = next(iter(generator.arguments[0].numerator.terms()))[0]

@@ -1,4 +1,4 @@
-"""One text's notation: its letters, definitions, restrictions and small quantities, on a system."""
+"""The notation of a text on a system: letters, definitions, restrictions, small quantities."""
 
 from __future__ import annotations
 
@@ -10,24 +10,24 @@ from polhode.algebra import Expr, Symbol, as_symbol
 from polhode.base import ParseError
 from polhode.claims.document._document import Claim, Definition, Part
 from polhode.claims.latex import read_latex
+from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import Name, Node, Statement
-from polhode.claims.meaning._bindings import EQUAL, Bound, BoundRelation, bind, restrictions
-from polhode.claims.meaning._components import Side
+from polhode.claims.meaning._bindings import EQUAL, Bound, bind, restrictions
 from polhode.claims.meaning._evaluate import Evaluator
-from polhode.claims.meaning._meaning import BindingError, Meaning, as_scalar, signed, sort
+from polhode.claims.meaning._meaning import BindingError, Meaning, Side, as_scalar, signed, sort
 from polhode.claims.meaning._phrases import quantity
-from polhode.claims.meaning._spelling import name_of, spelled
+from polhode.claims.meaning._relations import BoundRelation
 from polhode.claims.meaning._vocabulary import Vocabulary, constant
 from polhode.claims.states._bound_claim import SENSE, BoundClaim, Small
 from polhode.derive import Equations
 
-#: A binding of this name tells the frame that components in a bracket are along.
+#: The binding that names the frame of components in a bracket.
 COLUMNS = "components"
 
 
 @dataclass(frozen=True, eq=False)
 class Notation:
-    """How statements about one system are to be understood.
+    """What statements about one system mean.
 
     Attributes:
         vocabulary: letters of the text.
@@ -43,7 +43,7 @@ class Notation:
 
     @classmethod
     def of(cls, equations: Equations) -> Notation:
-        """With nothing but the names of the declaration."""
+        """With only the names of the declaration."""
         return cls(Vocabulary.of(equations))
 
     @classmethod
@@ -67,7 +67,7 @@ class Notation:
         )
 
     def of_claim(self, claim: Claim) -> Notation:
-        """Of one claim of that part, with what is said for it alone."""
+        """Of one claim of that part, with what is stated for it alone."""
         return (
             self.binding(claim.bindings)
             .defining(claim.definitions)
@@ -75,7 +75,7 @@ class Notation:
             .with_small(claim.small)
         )
 
-    # -- saying more ----------------------------------------------------------------------------
+    # -- more of it -----------------------------------------------------------------------------
 
     def choosing(self, chosen: Mapping[Name, str]) -> Notation:
         """With letters of several meanings read as quantities of the model."""
@@ -88,24 +88,29 @@ class Notation:
         mechanics = self.vocabulary.mechanics
         columns = bindings.get(COLUMNS, self.vocabulary.columns)
         mechanics.frame(columns)
-        told = {
+        meanings = {
             letter(latex): quantity(mechanics, phrase)
             for latex, phrase in bindings.items()
             if latex != COLUMNS
         }
-        return replace(self, vocabulary=replace(self.vocabulary.saying(told), columns=columns))
+        vocabulary = replace(self.vocabulary.stating(meanings), columns=columns)
+        return replace(self, vocabulary=vocabulary)
 
     def with_constants(self, letters: Iterable[str]) -> Notation:
         """With letters, as LaTeX, that stand for constants without a value."""
         found = [letter(latex) for latex in letters]
-        return self._saying({node: constant(node) for node in found})
+        return self._stating({node: constant(node) for node in found})
 
     def taking_positive(self, quantities: Iterable[str]) -> Notation:
         """With quantities, as LaTeX, whose sign is known."""
-        values = tuple(self.scalar(latex) for latex in quantities)
-        positive = (*self.vocabulary.positive, *values)
-        told = {node: signed(value, positive) for node, value in self.vocabulary.told.items()}
-        return replace(self, vocabulary=replace(self.vocabulary, positive=positive, told=told))
+        return self.with_positive([self.scalar(latex) for latex in quantities])
+
+    def with_positive(self, values: Iterable[Expr]) -> Notation:
+        """With quantities whose sign is known, which may simplify what is stated so far."""
+        vocabulary = self.vocabulary
+        positive = (*vocabulary.positive, *values)
+        stated = {node: signed(meaning, positive) for node, meaning in vocabulary.stated.items()}
+        return replace(self, vocabulary=replace(vocabulary, positive=positive, stated=stated))
 
     def defining(self, definitions: Iterable[Definition]) -> Notation:
         """With new letters, each by an equation that has it on the left.
@@ -114,7 +119,7 @@ class Notation:
         """
         notation = self
         for definition in definitions:
-            notation = notation._saying(notation._defined(definition.latex))
+            notation = notation._stating(notation._defined(definition.latex))
         return notation
 
     def _defined(self, latex: str) -> dict[Node, Meaning]:
@@ -133,7 +138,7 @@ class Notation:
                     advice="restrict a known quantity to a value instead",
                     option="given",
                 )
-            found[new] = self._saying(found).value(value)
+            found[new] = self._stating(found).value(value)
         return found
 
     def under(self, given: Iterable[str]) -> Notation:
@@ -148,8 +153,8 @@ class Notation:
         found = [Small(self.scalar(latex), order) for latex, order in small.items()]
         return replace(self, small=(*self.small, *found)) if found else self
 
-    def _saying(self, told: Mapping[Node, Meaning]) -> Notation:
-        return replace(self, vocabulary=self.vocabulary.saying(told)) if told else self
+    def _stating(self, meanings: Mapping[Node, Meaning]) -> Notation:
+        return replace(self, vocabulary=self.vocabulary.stating(meanings)) if meanings else self
 
     # -- reading --------------------------------------------------------------------------------
 
@@ -162,24 +167,30 @@ class Notation:
 
         What it merely defines is not among the members.
         """
-        further = self._knowing(tuple(extra.items()))
-        return further.claimed(further.bound(statement))
-
-    def _knowing(self, extra: tuple[tuple[str, Expr], ...]) -> Notation:
-        if extra not in self._wider:
-            self._wider[extra] = self._saying({name_of(name): value for name, value in extra})
-        return self._wider[extra]
+        key = tuple(extra.items())
+        if key not in self._wider:
+            self._wider[key] = self._stating({name_of(name): value for name, value in key})
+        wider = self._wider[key]
+        return wider.claimed(wider.bound(statement))
 
     @cached_property
     def _wider(self) -> dict[tuple[tuple[str, Expr], ...], Notation]:
-        """The same with further letters, so that what they were found to mean is kept."""
+        """Notations with further letters, kept with the values found so far."""
         return {(): self}
 
     def claimed(self, bound: Bound) -> BoundClaim:
         """The claim that a bound statement makes under this notation's restrictions."""
         equalities = [r for r in bound.conditions if r.sign in EQUAL]
         values, vanishing = restrictions((*self.given, *equalities))
-        _refuse_unclear(bound, values)
+        for relation in bound.values:
+            if relation.left not in values and relation.right not in values:
+                said = f"{relation.left} = {relation.right} in brackets"
+                raise ParseError(
+                    f"{said}, which may be a condition or a claim",
+                    expected="a word that tells which, such as (if ...)",
+                    advice="write \\text{if} inside the bracket, or state it as given",
+                    option="given",
+                )
         given: dict[Symbol, Expr] = {as_symbol(s): value for s, value in values.items()}
         equations = self.vocabulary.mechanics.equations
         return BoundClaim(
@@ -231,16 +242,3 @@ def _ranges(bound: Bound) -> Iterator[Expr]:
         if relation.sign in SENSE:
             left, right = (as_scalar(s, "a bound") for s in (relation.left, relation.right))
             yield (left - right) * SENSE[relation.sign]
-
-
-def _refuse_unclear(bound: Bound, given: Mapping[Expr, Expr]) -> None:
-    """A value in brackets that nothing else says may be a condition, or said as well."""
-    for relation in bound.values:
-        if relation.left not in given and relation.right not in given:
-            raise ParseError(
-                f"{relation.left} = {relation.right} in brackets, which was read but may be a "
-                "condition or a claim",
-                expected="a word that tells, such as (if ...)",
-                advice="write \\text{if} inside the bracket, or state it as given",
-                option="given",
-            )

@@ -1,11 +1,12 @@
-"""What a person types to go with a claim: `theta = pi/2`, `epsilon = theta - pi/2`, `epsilon:1`.
+"""What is typed to go with a claim: `theta = pi/2`, `epsilon = theta - pi/2`, `epsilon:1`.
 
-LaTeX is taken as well; text without a backslash or a brace is read in published names.
+Text with a backslash or a brace is read as LaTeX, other text in published names.
 """
 
 from __future__ import annotations
 
 import re
+from contextlib import suppress
 from dataclasses import replace
 
 from polhode.algebra import Expr, pi, read_expression
@@ -13,17 +14,17 @@ from polhode.base import ParseError, UnitError, read_quantity
 from polhode.claims._notation import Notation, letter
 from polhode.claims.document._document import Definition
 from polhode.claims.latex import read_latex
+from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import Dots, Name, Node, Piece
-from polhode.claims.meaning._bindings import BoundRelation
-from polhode.claims.meaning._meaning import BindingError, Meaning, signed
-from polhode.claims.meaning._spelling import name_of, spelled
+from polhode.claims.meaning._meaning import BindingError, Meaning
+from polhode.claims.meaning._relations import BoundRelation
 from polhode.claims.states._bound_claim import Small
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
 
-def spoken(text: str) -> tuple[Piece, ...]:
-    """The letters of a text that goes with a claim, or the statement that it makes in LaTeX."""
+def pieces_of(text: str) -> tuple[Piece, ...]:
+    """The letters in a text that goes with a claim, or the statement that it makes in LaTeX."""
     if _is_latex(text):
         return (read_latex(text),)
     letters = map(name_of, _NAME.findall(text))
@@ -59,26 +60,27 @@ def with_let(notation: Notation, text: str) -> Notation:
     Raises `ParseError` for a symbol that the system has already.
     """
     if _is_latex(text):
-        told = notation.defining([Definition(text)])
-        for new in told.vocabulary.told.keys() - notation.vocabulary.told.keys():
-            _refuse_redefined(notation, new, told.vocabulary.told[new])
-        return told
+        extended = notation.defining([Definition(text)])
+        meanings = extended.vocabulary.stated
+        for new in meanings.keys() - notation.vocabulary.stated.keys():
+            _refuse_redefined(notation, new, meanings[new])
+        return extended
     name, value = _sides(text, "a new symbol and its value")
     new = name_of(name)
     if _NAME.fullmatch(name) is None or new in notation.vocabulary.declared:
         raise ParseError(
             f"the definition {text!r}",
-            expected=f"a new symbol; {spelled(new)} is none",
+            expected=f"a new symbol, which {spelled(new)} is not",
             advice="restrict a known quantity to a value instead",
             option="given",
         )
     meaning = typed(notation, value)
     _refuse_redefined(notation, new, meaning)
-    return replace(notation, vocabulary=notation.vocabulary.saying({new: meaning}))
+    return replace(notation, vocabulary=notation.vocabulary.stating({new: meaning}))
 
 
 def _refuse_redefined(notation: Notation, new: Node, meaning: Meaning) -> None:
-    """A quantity of the motion may be spelled out, but a text cannot make another one of it."""
+    """A quantity of the motion may be written out, but not redefined as another one."""
     known = notation.vocabulary.find(new)
     if not isinstance(known, Expr) or not isinstance(meaning, Expr):
         return
@@ -115,19 +117,16 @@ def with_small(notation: Notation, text: str) -> Notation:
     quantity, colon, order = text.rpartition(":")
     if colon and not order.strip().isdigit():
         raise ParseError(f"{text!r}", expected="SYMBOL or SYMBOL:ORDER", advice="as in epsilon:1")
-    wanted = (quantity if colon else text).strip()
-    value = notation.scalar(wanted) if _is_latex(wanted) else typed(notation, wanted)
-    small = Small(value, int(order) if colon else None)
-    return replace(notation, small=(*notation.small, small))
+    small = (quantity if colon else text).strip()
+    value = notation.scalar(small) if _is_latex(small) else typed(notation, small)
+    found = Small(value, int(order) if colon else None)
+    return replace(notation, small=(*notation.small, found))
 
 
 def with_positive(notation: Notation, text: str) -> Notation:
     """With a quantity whose sign is stated: `sin(alpha)`, `v_y`, `-F_x`."""
     value = notation.scalar(text) if _is_latex(text) else typed(notation, text)
-    vocabulary = notation.vocabulary
-    positive = (*vocabulary.positive, value)
-    told = {node: signed(meaning, positive) for node, meaning in vocabulary.told.items()}
-    return replace(notation, vocabulary=replace(vocabulary, positive=positive, told=told))
+    return notation.with_positive([value])
 
 
 def typed(notation: Notation, text: str) -> Expr:
@@ -135,24 +134,20 @@ def typed(notation: Notation, text: str) -> Expr:
 
     Raises `ParseError` for what is neither, naming the symbol at fault.
     """
-    known = {name: _known(notation, name) for name in _NAME.findall(text)}
-    names = {name: value for name, value in known.items() if value is not None}
+    values: dict[str, Expr] = {}
+    for name in _NAME.findall(text):
+        with suppress(BindingError):
+            value = notation.value(name_of(name))
+            if isinstance(value, Expr):
+                values[name] = value
     try:
-        return read_expression(text, names)
+        return read_expression(text, values)
     except ParseError as error:
         try:
             quantity = read_quantity(text.strip())
         except UnitError:
             raise error from None
         return Expr.of(quantity.coefficient) * pi**quantity.pi_power
-
-
-def _known(notation: Notation, name: str) -> Expr | None:
-    try:
-        value = notation.value(name_of(name))
-    except BindingError:
-        return None
-    return value if isinstance(value, Expr) else None
 
 
 def _sides(text: str, expected: str) -> tuple[str, str]:

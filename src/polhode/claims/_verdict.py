@@ -1,4 +1,4 @@
-"""What is said of a claim, and the evidence for it."""
+"""Verdicts on claims, with the evidence for them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _TAG = re.compile(r"\\tag\{[^{}]*\}")
 
 
 class Answer(Enum):
-    """What a claim turned out to be."""
+    """The answer of a verdict."""
 
     HOLDS = "holds"
     AMBIGUOUS = "ambiguous"
@@ -43,7 +43,7 @@ class Read:
 
     @property
     def is_worth_saying(self) -> bool:
-        """Whether another quantity may be thought of; the axes 1, 2, 3 of a body are its own."""
+        """Whether a reader might doubt it; the axes 1, 2, 3 of a body are unambiguous."""
         return not self.meaning.startswith("axis ") or self.plain in ("x", "y", "z")
 
     def to_json(self) -> dict[str, str]:
@@ -53,7 +53,7 @@ class Read:
 
 @dataclass(frozen=True)
 class Residual:
-    """What is left of one component of one member, left side less right, where the claim is asked.
+    """The residual of one component of one member: left side less right, in the claim's context.
 
     Attributes:
         member: which link of a chain or row of a block, counted from 0.
@@ -90,7 +90,7 @@ class Counterexample:
 
 @dataclass(frozen=True)
 class Confirmation:
-    """The two sides at one state by numbers, with accelerations and reactions found anew.
+    """Numbers for the two sides at one state, accelerations and reactions computed independently.
 
     Attributes:
         values: numbers of all quantities that enter, SI.
@@ -128,18 +128,18 @@ class Verdict(Shown):
 
     Attributes:
         answer: holds, ambiguous, approximate, definition, fails or unread.
-        context: where the claim was asked to hold.
-        reason: the judgement in a sentence.
+        context: where the claim is to hold.
+        reason: the verdict explained in a sentence.
         residuals: every component that does not vanish, exactly.
         counterexample: for a failure, a state that refutes the claim.
-        confirmation: the same by numbers that share nothing with the derivation.
+        confirmation: the same in numbers, computed without the derivation.
         correction: the smallest change that makes the claim hold.
         alternatives: other changes just as small.
         order: for an approximation, the highest order to which it is true.
         dropped: for an approximation, the first term left out.
-        remarks: what else was noticed, such as roots that are not covered.
+        remarks: further notes, such as roots that are not covered.
         readings: what letters that mean the same in most texts were taken to mean.
-        option: where it is not decided, the argument that would help, such as "let" or "read".
+        option: where it is undecided, the argument that would help, such as "let" or "read".
     """
 
     answer: Answer
@@ -158,13 +158,13 @@ class Verdict(Shown):
 
     @classmethod
     def unread(cls, context: str, error: Exception, hint: str = "") -> Verdict:
-        """Of what could not be read, bound or decided, for the reason that an error gives."""
+        """On what could not be read, bound or decided, for the reason that an error gives."""
         option = error.option if isinstance(error, PolhodeError) else ""
         return cls(Answer.UNREAD, context, reason=f"{error}{hint}", option=option)
 
     @classmethod
     def undecided(cls, context: str, error: Exception) -> Verdict:
-        """Of what was read but could not be decided, for the reason that an error gives."""
+        """On what was read but could not be decided, for the reason that an error gives."""
         return replace(cls.unread(context, error), reason=f"it was read, but not decided: {error}")
 
     @property
@@ -183,7 +183,7 @@ class Verdict(Shown):
         return self
 
     def _repr_latex_(self) -> str:
-        """The answer with the correction, or else with what is left of each component."""
+        """The answer with the correction, or else with the residual of each component."""
         rows = [rf"\text{{{self.answer.value}}}"]
         if self.correction is not None:
             what = rf"\text{{{self.correction.what}; it holds as}}"
@@ -195,22 +195,22 @@ class Verdict(Shown):
         return rf"$\displaystyle \begin{{array}}{{l}} {table} \end{{array}}$"
 
     def __str__(self) -> str:
-        said = self.answer.value
+        text = self.answer.value
         if self.correction is not None:
-            said += f"; {self.correction.what}: {self.correction.latex}"
-        return f"{said} ({self.reason})" if self.reason else said
+            text += f"; {self.correction.what}: {self.correction.latex}"
+        return f"{text} ({self.reason})" if self.reason else text
 
 
-#: A state that refutes a claim, and a second opinion on it, as far as they can be found.
+#: A state that refutes a claim, and an independent check of it, as far as they can be found.
 Evidence = tuple[Counterexample | None, Confirmation | None]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Refuted(Verdict):
-    """A failure that is certain, with evidence that is worked out only if somebody asks for it.
+    """A failure that is certain, with evidence that is computed only on request.
 
     Attributes:
-        evidence: works it out.
+        evidence: computes it.
     """
 
     evidence: Callable[[], Evidence]
@@ -218,5 +218,5 @@ class Refuted(Verdict):
     def proved(self) -> Verdict:
         """With its evidence."""
         example, second = self.evidence()
-        told = {entry.name: getattr(self, entry.name) for entry in fields(Verdict)}
-        return Verdict(**{**told, "counterexample": example, "confirmation": second})
+        known = {entry.name: getattr(self, entry.name) for entry in fields(Verdict)}
+        return Verdict(**{**known, "counterexample": example, "confirmation": second})

@@ -7,12 +7,9 @@ from pathlib import Path
 
 from polhode.base import Exit
 from polhode.catalogue import audit, document_of
-from polhode.claims import Document, Report
-from polhode.cli._document import print_document
-from polhode.cli._endings import PAGES, refuse_other_endings
-from polhode.cli._parser import Parser
+from polhode.cli._parser import PAGES, Parser, refuse_other_endings
+from polhode.cli._printing import print_document
 from polhode.cli._systems import entry_of
-from polhode.model import System
 
 
 def configure(parser: Parser) -> None:
@@ -28,14 +25,18 @@ def configure(parser: Parser) -> None:
 
 
 def run(options: Namespace) -> int:
-    """Judge them and print the report; 0 where all hold, 1 where one fails, 2 where one is open.
+    """Judge all claims and print the report; exit 0 if all hold, 1 if one fails, 2 if one is open.
 
     Raises:
         StoreError: for a document that cannot be read, and a page that cannot be written.
     """
     refuse_other_endings("--html", options.html, PAGES)
     document = document_of(options.file)
-    report = audit(document, systems=_own(document, options.file), only=options.only)
+    # Python files named in the document are relative to its folder.
+    folder = Path() if options.file is None else options.file.parent
+    named = {part.system for part in document.parts if ".py" in part.system}
+    systems = {name: entry_of(str(folder / name)).build() for name in sorted(named)}
+    report = audit(document, systems=systems, only=options.only)
     if options.html is not None:
         from polhode.view import audit_page
 
@@ -44,17 +45,6 @@ def run(options: Namespace) -> int:
         print_document(report.to_json())
     else:
         print(report)
-    return _code(report)
-
-
-def _own(document: Document, path: Path | None) -> dict[str, System]:
-    """Systems in Python files that the document names, as seen from its folder."""
-    folder = Path() if path is None else path.parent
-    named = {part.system for part in document.parts if ".py" in part.system}
-    return {name: entry_of(str(folder / name)).build() for name in sorted(named)}
-
-
-def _code(report: Report) -> int:
     if report.left:
         return Exit.INTERRUPTED
     if report.failures:

@@ -9,7 +9,7 @@ from polhode.cli._parser import Parser
 
 
 def configure(parser: Parser) -> None:
-    """Add what can be done with the cache."""
+    """Add the actions on the cache."""
     parser.add_argument("action", choices=("clear",), help="clear: empty it")
 
 

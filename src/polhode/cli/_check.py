@@ -8,14 +8,14 @@ from typing import Any
 
 from polhode.base import NumericError, Tell, within
 from polhode.claims import Answer, CheckRequest, Verdict, uncorrected
-from polhode.cli._document import document, printed
-from polhode.cli._failure import flag
+from polhode.cli._exit import flag
 from polhode.cli._parser import Parser
+from polhode.cli._printing import document, printed
 from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.derive import derive
 
-#: Exit code, and what is printed.
-Said = tuple[int, str]
+#: Exit code and text of an answer.
+Result = tuple[int, str]
 
 _LONGEST = 60.0  # s of computing
 _ADVICE = "judge its members one by one, or restrict it with --given"
@@ -49,47 +49,51 @@ def configure(parser: Parser) -> None:
 
 
 def run(options: Namespace) -> int:
-    """Judge one equation and print the verdict; 0 where it holds, 1 where it fails, else 2."""
+    """Judge one equation and print the verdict; exit 0 if it holds, 1 if it fails, else 2."""
     system = entry_of(options.name).build()
-    said_besides = (options.let, options.given, options.small, options.read, options.positive)
-    extra = map(tuple, said_besides)
-    enquiry = CheckRequest(options.latex, options.context, *extra)
+    details = (options.let, options.given, options.small, options.read, options.positive)
+    request = CheckRequest(options.latex, options.context, *map(tuple, details))
+    interim: list[Result] = []
 
-    said = _in_json if options.json else _in_words
-    told: list[Said] = []
+    def result(verdict: Verdict) -> Result:
+        text = document(_document(verdict)) if options.json else "\n".join(_lines(verdict))
+        return _CODES.get(verdict.answer, 0), text
 
-    def judged(tell: Tell[Said]) -> Said:
+    def judged(tell: Tell[Result]) -> Result:
         def tell_failure(failure: Verdict) -> None:
-            tell(said(uncorrected(failure, _LONGEST)))
+            tell(result(uncorrected(failure, _LONGEST)))
 
-        return said(enquiry.judged(derive(system), tell_failure))
+        return result(request.judged(derive(system), tell_failure))
 
     try:
-        code, text = within(_LONGEST, judged, advice=_ADVICE, heard=told.append)
-    except NumericError:
-        if not told:
+        code, text = within(_LONGEST, judged, advice=_ADVICE, heard=interim.append)
+    except NumericError:  # out of time: a failure found before is reported without a correction
+        if not interim:
             raise
-        code, text = told[-1]
+        code, text = interim[-1]
     print(text)
     return code
 
 
-def _in_json(verdict: Verdict) -> Said:
-    return _CODES.get(verdict.answer, 0), document(_document(verdict))
-
-
-def _in_words(verdict: Verdict) -> Said:
-    return _CODES.get(verdict.answer, 0), "\n".join(_told(verdict))
-
-
 def _document(verdict: Verdict) -> dict[str, Any]:
+    example, confirmation = verdict.counterexample, verdict.confirmation
     return {
         "verdict": verdict.answer.value,
         "context": verdict.context,
         "correction": verdict.correction and verdict.correction.to_json(),
         "alternatives": [other.to_json() for other in verdict.alternatives],
-        "counterexample": _counterexample(verdict),
-        "confirmation": _confirmation(verdict),
+        "counterexample": example
+        and {
+            "values": dict(example.values),
+            "left": str(example.left),
+            "right": str(example.right),
+        },
+        "confirmation": confirmation
+        and {
+            "left": confirmation.left,
+            "right": confirmation.right,
+            "agrees": confirmation.agrees,
+        },
         "order": verdict.order,
         "dropped": None if verdict.dropped is None else printed(verdict.dropped),
         "residual": [
@@ -102,21 +106,7 @@ def _document(verdict: Verdict) -> dict[str, Any]:
     }
 
 
-def _counterexample(verdict: Verdict) -> dict[str, Any] | None:
-    found = verdict.counterexample
-    if found is None:
-        return None
-    return {"values": dict(found.values), "left": str(found.left), "right": str(found.right)}
-
-
-def _confirmation(verdict: Verdict) -> dict[str, Any] | None:
-    found = verdict.confirmation
-    if found is None:
-        return None
-    return {"left": found.left, "right": found.right, "agrees": found.agrees}
-
-
-def _told(verdict: Verdict) -> Iterator[str]:
+def _lines(verdict: Verdict) -> Iterator[str]:
     yield verdict.answer.value
     if verdict.reason:
         yield f"  {verdict.reason}{flag(verdict.option)}"
@@ -132,8 +122,8 @@ def _told(verdict: Verdict) -> Iterator[str]:
         yield f"  for example at {state}:"
         yield f"    left {found.left}, right {found.right}"
     if (second := verdict.confirmation) is not None:
-        said = "the same" if second.agrees else "otherwise"
-        yield f"  numeric Newton-Euler says {said}: {second.left:.9g} and {second.right:.9g}"
+        agreement = "agrees" if second.agrees else "disagrees"
+        yield f"  numerical Newton-Euler {agreement}: {second.left:.9g} and {second.right:.9g}"
     if verdict.dropped is not None:
         yield f"  left out: {verdict.dropped}"
     yield from (f"  {note}" for note in verdict.notes)

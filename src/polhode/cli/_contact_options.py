@@ -1,4 +1,4 @@
-"""Friction, sheets, edges and events as they are asked for on the command line."""
+"""Options for friction, edges, the motion of a sheet, and events."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from argparse import Namespace
 from collections.abc import Sequence
 
 from polhode.algebra import Expr, read_expression
-from polhode.base import LENGTH, PURE, DeclarationError, Dimension, to_si
+from polhode.base import LENGTH, PURE, DeclarationError, to_si
 from polhode.catalogue import CatalogueEntry
 from polhode.derive import Equations
 from polhode.model import Contact, System, with_edge, with_friction
@@ -14,28 +14,24 @@ from polhode.simulate import Pieces, read_sheet
 
 
 def declared(entry: CatalogueEntry, options: Namespace, settings: dict[str, str]) -> System:
-    """The catalogue's declaration with the friction and the edge that were asked for."""
+    """The declaration of an entry with the friction and the edge given as options."""
     system = entry.build()
     if "edge" in settings and any(isinstance(e, Contact) for e in system.elements):
-        system = with_edge(system, _number(settings.pop("edge"), LENGTH))
+        system = with_edge(system, to_si(settings.pop("edge"), LENGTH, "edge"))
     if options.mu_static and not options.mu:
         raise DeclarationError(
             "--mu-static without --mu",
             expected="the coefficient of kinetic friction too",
-            advice="say --mu 0.2 --mu-static 0.25",
+            advice="for instance --mu 0.2 --mu-static 0.25",
         )
     if not options.mu:
         return system
-    static = _number(options.mu_static, PURE) if options.mu_static else None
-    return with_friction(system, _number(options.mu, PURE), static)
-
-
-def _number(text: str, dimension: Dimension) -> float:
-    return to_si(text, dimension, "value")
+    static = to_si(options.mu_static, PURE, "mu_static") if options.mu_static else None
+    return with_friction(system, to_si(options.mu, PURE, "mu"), static)
 
 
 def sheet_of(options: Namespace, equations: Equations) -> dict[str, Pieces]:
-    """The motion of the sheet, from a file."""
+    """The motion of the sheet read from a file."""
     if options.sheet is None:
         return {}
     names = [symbol.published for symbol in equations.functions]
@@ -49,8 +45,8 @@ def sheet_of(options: Namespace, equations: Equations) -> dict[str, Pieces]:
     return {"X": path.X, "Y": path.Y, angle: path.angle}
 
 
-def watched_for(texts: Sequence[str], equations: Equations) -> dict[str, Expr]:
-    """Expressions whose zeros are to be recorded."""
+def event_expressions(texts: Sequence[str], equations: Equations) -> dict[str, Expr]:
+    """Expressions whose zeros are recorded as events, by their text."""
     known = {
         s.published: Expr.generator(s)
         for s in (*equations.coordinates, *equations.speeds, *equations.dependent)

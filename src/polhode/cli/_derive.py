@@ -9,10 +9,9 @@ from typing import Any
 
 from polhode.algebra import Expr, Symbol
 from polhode.catalogue import CatalogueEntry
-from polhode.cli._document import print_document, printed
 from polhode.cli._parser import Parser
+from polhode.cli._printing import print_document, printed, wrapped
 from polhode.cli._systems import NAME_HELP, entry_of
-from polhode.cli._text import wrapped
 from polhode.derive import Equations, derive, lettered
 
 
@@ -33,7 +32,7 @@ def run(options: Namespace) -> int:
     if options.json:
         print_document(_document(entry, equations, reactions) | {"seconds": seconds})
     else:
-        print("\n".join(_told(entry, equations)))
+        print("\n".join(_lines(entry, equations)))
         print(f"\nDerived in {seconds:.3f} s.")
     return 0
 
@@ -58,7 +57,7 @@ def _document(
     }
 
 
-def _told(entry: CatalogueEntry, equations: Equations) -> Iterator[str]:
+def _lines(entry: CatalogueEntry, equations: Equations) -> Iterator[str]:
     yield f"{entry.title} ({entry.name})"
     yield from wrapped("coordinates", _names(equations.coordinates))
     yield from wrapped("speeds", _names(equations.speeds))

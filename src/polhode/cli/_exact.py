@@ -1,4 +1,4 @@
-"""The closed form of a motion beside its simulation."""
+"""The closed form of a motion, compared with its simulation."""
 
 from __future__ import annotations
 
@@ -12,10 +12,9 @@ import numpy as np
 from polhode.analyse import ClosedForm, closed_form
 from polhode.base import NumericError, terminal_progress
 from polhode.catalogue import CatalogueEntry, exact_values, numbers_of
-from polhode.cli._document import print_document
 from polhode.cli._parser import Parser, assignments
+from polhode.cli._printing import print_document, values, wrapped
 from polhode.cli._systems import NAME_HELP, entry_of
-from polhode.cli._text import values, wrapped
 from polhode.derive import derive
 from polhode.simulate import Trajectory, simulate
 
@@ -68,13 +67,20 @@ def run(options: Namespace) -> int:
     if options.json:
         print_document(document)
     else:
-        print("\n".join(_told(entry, document)))
+        print("\n".join(_lines(entry, document)))
     return 0
 
 
 def _document(entry: CatalogueEntry, exact: ClosedForm, motion: Trajectory) -> dict[str, Any]:
     solved = exact.at(motion.t)
-    differences = {name: _difference(values, motion[name]) for name, values in solved.items()}
+    differences = {}
+    for name, solution in solved.items():
+        # relative to the largest value where that exceeds one
+        scale = max(1.0, float(np.max(np.abs(solution))))
+        differences[name] = float(np.max(np.abs(solution - motion[name]))) / scale
+    period = None
+    with suppress(NumericError):  # steady motions and separatrices have none
+        period = float(exact.period)
     return {
         "system": entry.name,
         "closed_form": exact.name,
@@ -84,30 +90,18 @@ def _document(entry: CatalogueEntry, exact: ClosedForm, motion: Trajectory) -> d
         "parameters": dict(motion.parameters),
         "assumed": dict(motion.assumed),
         "quantities": {
-            name: {"final": float(values[-1]), "difference": differences[name]}
-            for name, values in solved.items()
+            name: {"final": float(solution[-1]), "difference": differences[name]}
+            for name, solution in solved.items()
         },
         "max_difference": max(differences.values()),
-        "period": _period(exact),
+        "period": period,
         "conditioning": {"data": exact.conditioning, "steps": exact.stepwise_conditioning},
         "figures": {name: float(value) for name, value in exact.figures.items()},
         "drift": motion.drift.as_json(),
     }
 
 
-def _difference(exact: Any, simulated: Any) -> float:
-    """Largest difference, against the largest value where that is above one."""
-    scale = max(1.0, float(np.max(np.abs(exact))))
-    return float(np.max(np.abs(exact - simulated))) / scale
-
-
-def _period(exact: ClosedForm) -> float | None:
-    with suppress(NumericError):  # steady motions and separatrices have none
-        return float(exact.period)
-    return None
-
-
-def _told(entry: CatalogueEntry, document: Mapping[str, Any]) -> Iterator[str]:
+def _lines(entry: CatalogueEntry, document: Mapping[str, Any]) -> Iterator[str]:
     yield f"{entry.title} ({entry.name}), {document['duration']:g} s, in SI units"
     yield from wrapped("closed form", [f"{document['closed_form']},", document["kind"]])
     yield from wrapped("parameters", values(document["parameters"]))
@@ -115,15 +109,11 @@ def _told(entry: CatalogueEntry, document: Mapping[str, Any]) -> Iterator[str]:
     yield from wrapped("assumed", values(document["assumed"]))
     quantities = document["quantities"].items()
     yield from wrapped("final", values({name: value["final"] for name, value in quantities}))
-    yield from wrapped("simulated", _differences(document["quantities"]))
+    differences = (f"{name} differs by at most {v['difference']:.1e}," for name, v in quantities)
+    yield from wrapped("simulated", differences)
     period, conditioning = document["period"], document["conditioning"]
     yield from wrapped("period", ["none" if period is None else f"{period:.15g} s"])
     if period is not None:
-        grown = (f"{where} {size:.3g}," for where, size in conditioning.items())
-        yield from wrapped("conditioning", grown)
+        factors = (f"{where} {size:.3g}," for where, size in conditioning.items())
+        yield from wrapped("conditioning", factors)
     yield from wrapped("figures", values(document["figures"]))
-
-
-def _differences(quantities: Mapping[str, Mapping[str, float]]) -> Iterator[str]:
-    for name, value in quantities.items():
-        yield f"{name} differs by {value['difference']:.1e} at most,"

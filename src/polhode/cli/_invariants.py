@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from typing import Any
 
-from polhode.analyse import Invariant, LinearIntegrals, invariants
-from polhode.cli._document import print_document, printed
+from polhode.analyse import invariants
 from polhode.cli._parser import Parser
+from polhode.cli._printing import print_document, printed
 from polhode.cli._systems import NAME_HELP, entry_of
 from polhode.derive import derive
 
@@ -23,8 +22,13 @@ def run(options: Namespace) -> int:
     entry = entry_of(options.name)
     found = invariants(derive(entry.build()))
     if options.json:
-        described = [_document(invariant) for invariant in found]
-        linear = found.linear and _linear_document(found.linear)
+        described = [{"name": i.name, **printed(i.expression), "meaning": i.meaning} for i in found]
+        linear = found.linear and {
+            "angle": found.linear.angle.published,
+            "speeds": [speed.published for speed in found.linear.speeds],
+            # d(speed)/d(angle), one slope for each speed
+            "slopes": [printed(slope) for slope in found.linear.slopes],
+        }
         print_document(
             {
                 "system": entry.name,
@@ -37,20 +41,3 @@ def run(options: Namespace) -> int:
     print(f"Integrals of {entry.name}")
     print(found)
     return 0
-
-
-def _document(invariant: Invariant) -> dict[str, str]:
-    return {
-        "name": invariant.name,
-        **printed(invariant.expression),
-        "meaning": invariant.meaning,
-    }
-
-
-def _linear_document(linear: LinearIntegrals) -> dict[str, Any]:
-    """d(speeds)/d(angle), one slope for each speed."""
-    return {
-        "angle": linear.angle.published,
-        "speeds": [speed.published for speed in linear.speeds],
-        "slopes": [printed(slope) for slope in linear.slopes],
-    }

@@ -20,7 +20,7 @@ def configure(parser: Parser) -> None:
         default="",
         help="a System of your own, offered beside the catalogue",
     )
-    parser.add_argument("--port", metavar="P", default="", help="to listen at, on this machine")
+    parser.add_argument("--port", metavar="P", default="", help="port of this machine to listen on")
     parser.add_argument("--no-browser", action="store_true", help="do not open a browser")
 
 
@@ -29,13 +29,8 @@ def run(options: Namespace) -> int:
     own = None
     if options.name and options.name not in CATALOGUE:
         own = Own.of(entry_of(options.name))
-    serve(own, port=_port(options.port), browser=not options.no_browser)
+    port = options.port
+    if port and not (port.isascii() and port.isdigit() and int(port[:6]) < 65536):
+        raise ParseError(f"--port {port}", expected="a number from 0 to 65535, 0 for any free one")
+    serve(own, port=int(port) if port else None, browser=not options.no_browser)
     return 0
-
-
-def _port(text: str) -> int | None:
-    if not text:
-        return None
-    if not (text.isascii() and text.isdigit() and 0 <= int(text[:6]) < 65536):
-        raise ParseError(f"--port {text}", expected="a number from 0 to 65535, 0 for any free one")
-    return int(text)

@@ -8,9 +8,8 @@ from dataclasses import asdict
 from typing import Any
 
 from polhode.catalogue import CATALOGUE, CatalogueEntry
-from polhode.cli._document import print_document
 from polhode.cli._parser import Parser
-from polhode.cli._text import wrapped
+from polhode.cli._printing import print_document, wrapped
 from polhode.derive import derive
 
 
@@ -25,7 +24,7 @@ def run(options: Namespace) -> int:
     if options.json:
         print_document({"systems": systems})
     else:
-        print("\n\n".join("\n".join(_told(system)) for system in systems))
+        print("\n\n".join("\n".join(_lines(system)) for system in systems))
     return 0
 
 
@@ -41,7 +40,7 @@ def _described(entry: CatalogueEntry) -> dict[str, Any]:
     }
 
 
-def _told(system: dict[str, Any]) -> Iterator[str]:
+def _lines(system: dict[str, Any]) -> Iterator[str]:
     yield f"{system['name']:<28}{system['title']}"
     for what in ("coordinates", "speeds", "reactions"):
         yield from wrapped(what, system[what])

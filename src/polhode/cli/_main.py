@@ -1,4 +1,4 @@
-"""The command `polhode`: finds the command that was asked for, runs it, and tells what failed."""
+"""The program `polhode`: loads and runs the requested command, and reports what failed."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from types import ModuleType
 from warnings import catch_warnings, simplefilter
 
 from polhode.base import DriftWarning, installed_version
-from polhode.cli._failure import report
+from polhode.cli._exit import report
 from polhode.cli._parser import Parser
 
 COMMANDS = {
@@ -21,7 +21,7 @@ COMMANDS = {
     "run": "simulate a system",
     "steady": "steady motions of a system, and their stability",
     "invariants": "first integrals of a system",
-    "exact": "the closed form of a motion, beside its simulation",
+    "exact": "the closed form of a motion, compared with its simulation",
     "check": "judge a published equation against a system",
     "audit": "judge every claim of a document, such as the problem set",
     "lab": "play with a system in the browser",
@@ -36,19 +36,21 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; returns its exit code.
 
     Args:
-        argv: what follows the word `polhode`; by default what the process was started with.
+        argv: the arguments after `polhode`; by default those of the process.
     """
-    _print_whatever_the_terminal_can()
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(AttributeError):  # a stream that stands in for the terminal's
+            stream.reconfigure(errors="replace")  # type: ignore[union-attr]
     arguments = sys.argv[1:] if argv is None else list(argv)
     try:
         with catch_warnings():
-            simplefilter("ignore")  # what matters of them comes as an error
-            simplefilter("always", DriftWarning)  # but for this
-            warnings.showwarning = _tell
+            simplefilter("ignore")  # warnings of libraries: what matters comes as an error
+            simplefilter("always", DriftWarning)
+            warnings.showwarning = _show_warning
             options = _parser(arguments).parse_args(arguments)
             code = int(options.run(options))
         sys.stdout.flush()
-    except SystemExit as leaving:  # how argparse ends after --help and --version
+    except SystemExit as leaving:  # argparse, after --help and --version
         return int(leaving.code or 0)
     except BaseException as error:
         return report(error)
@@ -56,13 +58,14 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _parser(arguments: Sequence[str]) -> Parser:
-    """The parser; only the command that is asked for is loaded."""
+    """The parser; only the requested command is loaded."""
     parser = Parser(
         prog="polhode",
         description="Rigid-body mechanics: declare once, derive exactly, check, simulate, look.",
         epilog="See 'polhode COMMAND --help' for one command, and 'polhode list' for the systems.",
     )
-    version = f"polhode {_version()}" if "--version" in arguments[:1] else ""
+    wanted = "--version" in arguments[:1]  # looked up only then: it takes a while
+    version = f"polhode {installed_version('polhode') or '(not installed)'}" if wanted else ""
     parser.add_argument("--version", action="version", version=version)
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for name, summary in COMMANDS.items():
@@ -76,7 +79,7 @@ def _parser(arguments: Sequence[str]) -> Parser:
 
 
 def _loaded(command: str) -> ModuleType:
-    """The file of a command; nothing that it loads becomes garbage, so that none is looked for."""
+    """The module of a command, imported with garbage collection off: nothing becomes garbage."""
     gc.disable()
     try:
         return import_module(f"polhode.cli._{command}")
@@ -84,15 +87,5 @@ def _loaded(command: str) -> ModuleType:
         gc.enable()
 
 
-def _tell(message: Warning | str, *_: object, **__: object) -> None:
+def _show_warning(message: Warning | str, *_: object, **__: object) -> None:
     print(f"polhode: warning: {message}", file=sys.stderr)
-
-
-def _version() -> str:
-    return installed_version("polhode") or "(not installed)"
-
-
-def _print_whatever_the_terminal_can() -> None:
-    for stream in (sys.stdout, sys.stderr):
-        with suppress(AttributeError):  # a stream put in place of the terminal's
-            stream.reconfigure(errors="replace")  # type: ignore[union-attr]

@@ -1,12 +1,12 @@
-"""Draw what a sweep over two quantities found, with the exact thresholds of stability over it."""
+"""Draw the results of a sweep over two quantities, with the exact thresholds of stability."""
 
 from __future__ import annotations
 
 from argparse import Namespace
 from pathlib import Path
 
-from polhode.cli._document import print_document
 from polhode.cli._parser import Parser
+from polhode.cli._printing import print_document
 from polhode.study import found_in
 
 _EXAMPLES = """examples:
@@ -18,11 +18,11 @@ _EXAMPLES = """examples:
 def configure(parser: Parser) -> None:
     """Add the options of the command."""
     parser.epilog = _EXAMPLES
-    parser.add_argument("store", metavar="STORE", type=Path, help="that polhode sweep wrote")
+    parser.add_argument("store", metavar="STORE", type=Path, help="folder that polhode sweep wrote")
     parser.add_argument(
         "-o", dest="file", metavar="FILE", type=Path, required=True, help=".png, .svg or .pdf"
     )
-    parser.add_argument("--show", metavar="OUTPUT", default="", help="what to draw")
+    parser.add_argument("--show", metavar="OUTPUT", default="", help="the output to draw")
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 
@@ -35,8 +35,10 @@ def run(options: Namespace) -> int:
     drawn = outcome_map(found, ax=figure.add_subplot())
     save_figure(figure, options.file, origin=found.origin)
     if options.json:
-        told = [f"{t.family}: {t.condition} = 0" for t in found.thresholds]
-        print_document({"file": str(options.file), "output": found.output, "thresholds": told})
+        thresholds = [f"{t.family}: {t.condition} = 0" for t in found.thresholds]
+        print_document(
+            {"file": str(options.file), "output": found.output, "thresholds": thresholds}
+        )
     else:
         print(f"{options.file}: {found.output} of {found.system}")
         for threshold in drawn.conditions:

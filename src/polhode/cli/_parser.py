@@ -1,18 +1,19 @@
-"""Reading of the command line by argparse, with values that may begin with a minus sign."""
+"""The command line: an argparse parser, ``name=value`` options, and endings of file names."""
 
 from __future__ import annotations
 
 from argparse import ArgumentParser, RawDescriptionHelpFormatter
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any, NoReturn
 
-from polhode.base import ParseError
+from polhode.base import ParseError, StoreError
 
 
 class Parser(ArgumentParser):
-    """An argument parser that raises `ParseError`, takes no abbreviations, and reads ``-2*a``.
+    """An argument parser that raises `ParseError` and takes no abbreviations.
 
-    Options are the words that begin with two dashes, and those declared with one.
+    Options begin with two dashes, or are declared with one, so that ``-2*a`` is a value.
     """
 
     def __init__(self, **settings: Any) -> None:
@@ -24,14 +25,14 @@ class Parser(ArgumentParser):
         raise ParseError(message, advice=f"see '{self.prog} --help'")
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
-        """As it was, but with nothing left over: so a command refuses what is not its own."""
+        """Parse as usual, but refuse what is left over, also for subcommands."""
         known, unknown = super().parse_known_args(args, namespace)
         if unknown:
             self.error(f"unrecognized arguments: {' '.join(unknown)}")
         return known, unknown
 
     def _get_values(self, action: Any, arg_strings: Any) -> Any:
-        if action.option_strings and arg_strings == ["--"]:  # argparse would take it for no value
+        if action.option_strings and arg_strings == ["--"]:  # argparse would take it as no value
             self.error(f"argument {'/'.join(action.option_strings)}: -- where a value is expected")
         return super()._get_values(action, arg_strings)
 
@@ -56,3 +57,25 @@ def assignments(texts: Iterable[str]) -> dict[str, str]:
             raise ParseError(f"{name} is given twice", expected="one value for it")
         values[name] = value
     return values
+
+
+# -- endings of file names -------------------------------------------------------------------------
+
+PAGES = (".html", ".htm")
+MOTIONS = (".h5", ".hdf5")
+
+
+def refuse_other_endings(option: str, path: Path | None, endings: tuple[str, ...]) -> None:
+    """Refuse a file name whose ending stands for another format; one without an ending passes.
+
+    Raises:
+        StoreError: with the endings that are possible.
+    """
+    if path is None or not path.suffix or path.suffix.lower() in endings:
+        return
+    first = endings[0]
+    raise StoreError(
+        f"{option} {path}: {path.suffix} files are not written there",
+        expected=f"a name that ends in {' or '.join(endings)}",
+        advice=f"for instance {option} {path.with_suffix(first)}",
+    )

@@ -1,4 +1,4 @@
-"""Simulate a system, and report where it ends, how exact that is, and what it took."""
+"""Simulate a system, and report its final state, accuracy and computing time."""
 
 from __future__ import annotations
 
@@ -15,16 +15,14 @@ from typing import Any
 from polhode.algebra import Expr
 from polhode.analyse import Ansatz, invariants
 from polhode.base import DeclarationError, Exit, NumericError, StoreError, terminal_progress
-from polhode.catalogue import CatalogueEntry, about_with, contact_numbers, exactly, numbers_of
-from polhode.cli._contact_options import declared, sheet_of, watched_for
-from polhode.cli._document import print_document
-from polhode.cli._endings import MOTIONS, PAGES, refuse_other_endings
-from polhode.cli._interrupt import Interruptible
-from polhode.cli._parser import Parser, assignments
+from polhode.catalogue import CatalogueEntry, about_with, contact_numbers, numbers_of
+from polhode.cli._contact_options import declared, event_expressions, sheet_of
+from polhode.cli._exit import Interruptible
+from polhode.cli._parser import MOTIONS, PAGES, Parser, assignments, refuse_other_endings
+from polhode.cli._printing import print_document, values, wrapped
 from polhode.cli._systems import NAME_HELP, entry_of
-from polhode.cli._text import values, wrapped
 from polhode.derive import Equations, automaton
-from polhode.simulate import EquationsOfMotion, Trajectory, numbers_for, simulate
+from polhode.simulate import Trajectory, numbers_for, simulate
 
 _SHOWN = 12  # events in a line; a bouncing ball has hundreds
 _EXAMPLES = """examples:
@@ -99,23 +97,21 @@ def run(options: Namespace) -> int:
     sheet = sheet_of(options, equations)
     _check_precision(options)
     claims = _claims(options, entry)
-    asked = (settings, assignments(options.start), options.duration)
-    numbers = numbers_of(entry, equations, *asked, flight=modes.apart.equations)
-    given = exactly(entry, equations, numbers, *asked) if _is_finer(options) else numbers
-    trajectory = _kept(
-        simulate(
-            modes,
-            given.parameters,
-            given.start,
-            given.duration,
-            forcing=dict[Any, Any](numbers.forcing) | sheet,
-            invariants=_watched(equations),
-            events=watched_for(options.events, equations),
-            progress=Interruptible(terminal_progress()),
-            precision=options.precision,
-        ),
-        equations,
+    choices = (settings, assignments(options.start), options.duration)
+    numbers = numbers_of(entry, equations, *choices, flight=modes.apart.equations)
+    given = numbers.exact if _is_finer(options) else numbers
+    motion = simulate(
+        modes,
+        given.parameters,
+        given.start,
+        given.duration,
+        forcing=dict[Any, Any](numbers.forcing) | sheet,
+        invariants=_candidates(equations),
+        events=event_expressions(options.events, equations),
+        progress=Interruptible(terminal_progress()),
+        precision=options.precision,
     )
+    trajectory = _with_conserved(motion, equations)
     document = _document(entry, trajectory, numbers.start, seconds)
     document["parameters"] = contact_numbers(system) | document["parameters"]
     _refuse_overflow(document["final"] | document["drift"])
@@ -123,7 +119,7 @@ def run(options: Namespace) -> int:
     if options.json:
         print_document(document | {"files": [str(path) for path in files]})
     else:
-        lines = _told(entry, document, files, trajectory.doubt, everything=bool(options.events))
+        lines = _lines(entry, document, files, trajectory.doubt, everything=bool(options.events))
         print("\n".join(lines))
     return _code(trajectory)
 
@@ -144,48 +140,47 @@ def _check_precision(options: Namespace) -> None:
     numbers_for(options.precision)
     if _is_finer(options) and options.save:
         raise StoreError(
-            f"--save with --precision {options.precision}: a file of doubles",
+            f"--save with --precision {options.precision}: the file holds doubles",
             expected="one or the other",
             advice="write the samples with --out, which keeps all digits",
         )
 
 
 def _claims(options: Namespace, entry: CatalogueEntry) -> tuple[str, ...]:
-    """What is to be judged; refused before the run where there is no page, or nothing to judge."""
+    """Ids of the claims to judge; refused before the run if there is no page or no claim."""
     if not options.verdicts:
         return ()
     if options.page is None:
         raise DeclarationError(
             "--verdicts without a page",
-            expected="--page F.html, which shows them",
+            expected="--page F.html, which shows the verdicts",
             advice="polhode audit prints verdicts in a table",
         )
-    from polhode.cli._verdicts import claims_about
+    from polhode.cli._run_files import claims_about
 
     return claims_about(entry)
 
 
-def _watched(equations: Equations) -> dict[str, Expr]:
-    """Energy, momenta and speeds that stay constant."""
-    with suppress(NumericError):  # systems too large to be solved for their accelerations
+def _candidates(equations: Equations) -> dict[str, Expr]:
+    """Conserved energy, momenta and speeds."""
+    with suppress(NumericError):  # too large to be solved for its accelerations
         found = invariants(equations, Ansatz(0, 0, 0))
         return {invariant.name: invariant.expression for invariant in found}
     return {}
 
 
-def _kept(trajectory: Trajectory, found_in: Equations) -> Trajectory:
-    """Watching only what no contact mode that was visited changes."""
+def _with_conserved(trajectory: Trajectory, together: Equations) -> Trajectory:
+    """The motion with those invariants only that every contact mode visited conserves."""
     visited = {id(s.dynamics): s.dynamics.equations for s in trajectory.segments}.values()
     kept = {
         name: expression
         for name, expression in trajectory.invariants.items()
-        if all(mode is found_in or _is_constant(expression, mode) for mode in visited)
+        if all(
+            mode is together or (isinstance(mode, Equations) and mode.rate(expression).is_zero)
+            for mode in visited
+        )
     }
     return replace(trajectory, invariants=kept)
-
-
-def _is_constant(expression: Expr, equations: EquationsOfMotion) -> bool:
-    return isinstance(equations, Equations) and equations.rate(expression).is_zero
 
 
 def _written(
@@ -201,7 +196,7 @@ def _written(
         files.append(options.save)
     if not (options.out or options.page):
         return files
-    from polhode.cli._output import write_page, write_run  # a bare run can do without their load
+    from polhode.cli._run_files import write_page, write_run  # deferred: they load the figures
 
     if options.out:
         files += write_run(options.out, entry, trajectory)
@@ -229,7 +224,7 @@ def _document(
 
 
 def _plain(value: Any) -> float | str:
-    """As it is, or with all its digits as text: readers of JSON round numbers to doubles."""
+    """A double as it is, finer numbers as text: readers of JSON round numbers to doubles."""
     return value if isinstance(value, float | str) else str(value)
 
 
@@ -237,13 +232,13 @@ def _refuse_overflow(results: Mapping[str, Any]) -> None:
     for name, value in results.items():
         if isinstance(value, float) and not isfinite(value):
             raise NumericError(
-                f"{name} has no finite value along the motion",
-                expected="numbers that can be squared and summed",
+                f"{name} is not finite along the motion",
+                expected="numbers small enough to be squared and summed",
                 advice="check the sizes of the parameters and of the start",
             )
 
 
-def _told(
+def _lines(
     entry: CatalogueEntry,
     document: Mapping[str, Any],
     files: Sequence[Path],
@@ -269,13 +264,13 @@ def _told(
 
 
 def _events(events: Sequence[Mapping[str, Any]], everything: bool) -> Iterator[str]:
-    """The first of them in a line, or all in a table."""
+    """The first events in a line, or all in a table."""
     if everything:
         yield "events"
         for event in events:
             modes = " to ".join(mode for mode in (event["from"], event["to"]) if mode)
             yield f"  {float(event['time']):<14.9g} s  {event['kind']}: {modes}"
         return
-    told = [f"{float(event['time']):g} s {event['kind']}," for event in events[:_SHOWN]]
+    shown = [f"{float(event['time']):g} s {event['kind']}," for event in events[:_SHOWN]]
     rest = [f"and {len(events) - _SHOWN} more (--events)"] if len(events) > _SHOWN else []
-    yield from wrapped("events", told + rest)
+    yield from wrapped("events", shown + rest)

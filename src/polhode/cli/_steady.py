@@ -10,7 +10,6 @@ from polhode.algebra import Expr
 from polhode.analyse import (
     ALWAYS,
     PROVES,
-    Branch,
     Condition,
     Stability,
     SteadyMotion,
@@ -20,10 +19,9 @@ from polhode.analyse import (
 )
 from polhode.base import NumericError
 from polhode.catalogue import exact_values
-from polhode.cli._document import print_document, printed, printed_all
 from polhode.cli._parser import Parser, assignments
+from polhode.cli._printing import in_decimals, print_document, printed, printed_all
 from polhode.cli._systems import NAME_HELP, entry_of
-from polhode.cli._text import in_decimals
 from polhode.derive import derive
 
 
@@ -41,28 +39,25 @@ def configure(parser: Parser) -> None:
 
 
 def run(options: Namespace) -> int:
-    """Find the steady motions of one system and print what is known of them."""
+    """Find the steady motions of one system and print their existence and stability."""
     entry = entry_of(options.name)
     equations = derive(entry.build())
     at = exact_values(equations, assignments(options.at))
-    families = [(family, _judged(family)) for family in steady(equations, at)]
+    families = list[tuple[SteadyMotion, Stability | NumericError]]()
+    for family in steady(equations, at):
+        try:
+            families.append((family, stability(family)))
+        except NumericError as undecided:  # such as in singular coordinates
+            families.append((family, undecided))
     if options.json:
         described = [_document(family, judged) for family, judged in families]
         print_document({"system": entry.name, "families": described})
     else:
         print(f"Steady motions of {entry.name}")
         for family, judged in families:
-            print(in_decimals("\n".join(_told(family, judged))))
+            print(in_decimals("\n".join(_lines(family, judged))))
         print(f"\n{PROVES}")
     return 0
-
-
-def _judged(family: SteadyMotion) -> Stability | NumericError:
-    """Stability, or why the coordinates cannot tell."""
-    try:
-        return stability(family)
-    except NumericError as undecided:
-        return undecided
 
 
 def _document(family: SteadyMotion, judged: Stability | NumericError) -> dict[str, Any]:
@@ -70,7 +65,14 @@ def _document(family: SteadyMotion, judged: Stability | NumericError) -> dict[st
     document: dict[str, Any] = {
         "latex": family.latex(),
         "sympy": printed_all(family.conditions),
-        "branches": [_branch(branch) for branch in family.branches],
+        "branches": [
+            {
+                "quantity": printed(branch.quantity),
+                **printed(branch.value),
+                "exists_when": _inequalities(branch.exists)[0],
+            }
+            for branch in family.branches
+        ],
         "exists_when": _inequalities(exists)[0],
     }
     if isinstance(judged, NumericError):
@@ -85,11 +87,6 @@ def _document(family: SteadyMotion, judged: Stability | NumericError) -> dict[st
     }
 
 
-def _branch(branch: Branch) -> dict[str, Any]:
-    quantity, value = printed(branch.quantity), printed(branch.value)
-    return {"quantity": quantity, **value, "exists_when": _inequalities(branch.exists)[0]}
-
-
 def _inequalities(conditions: Sequence[Condition]) -> list[dict[str, str]]:
     return [_inequality(condition) for condition in conditions or (ALWAYS,)]
 
@@ -102,7 +99,7 @@ def _inequality(condition: Condition) -> dict[str, str]:
     return {"latex": condition.latex(), "sympy": f"StrictGreaterThan({left}, Integer(0))"}
 
 
-def _told(family: SteadyMotion, judged: Stability | NumericError) -> Iterator[str]:
+def _lines(family: SteadyMotion, judged: Stability | NumericError) -> Iterator[str]:
     yield f"\n  {family}"
     for branch in family.branches:
         yield f"    {branch.quantity.pretty()} = {branch.value.pretty()}"

@@ -1,4 +1,4 @@
-"""Simulate a system over a grid of values, and keep what becomes of every motion in a store."""
+"""Simulate a system over a grid of values, and keep the outcome of every motion in a store."""
 
 from __future__ import annotations
 
@@ -15,11 +15,10 @@ import numpy as np
 from polhode.base import DeclarationError, ParseError, terminal_progress
 from polhode.catalogue import CatalogueEntry, RunNumbers, numbers_of
 from polhode.cli._contact_options import declared
-from polhode.cli._document import print_document
-from polhode.cli._interrupt import ended_in_order
+from polhode.cli._exit import terminating_like_interrupt
 from polhode.cli._parser import Parser, assignments
+from polhode.cli._printing import print_document, wrapped
 from polhode.cli._systems import NAME_HELP, entry_of
-from polhode.cli._text import wrapped
 from polhode.derive import Equations, automaton
 from polhode.study import Duration, Fate, Final, Output, open_store, sweep
 
@@ -53,7 +52,11 @@ def configure(parser: Parser) -> None:
     parser.add_argument("--mu", metavar="MU", default="", help="kinetic friction at the contacts")
     parser.add_argument("--mu-static", metavar="MU", default="", help="static friction there")
     parser.add_argument(
-        "--keep", metavar="k", action="append", default=[], help="a quantity at the end, kept too"
+        "--keep",
+        metavar="k",
+        action="append",
+        default=[],
+        help="also keep this quantity at the end of each motion",
     )
     parser.add_argument(
         "--until",
@@ -62,16 +65,14 @@ def configure(parser: Parser) -> None:
         default=[],
         help='end a motion when this happens, such as "lifts off"',
     )
-    parser.add_argument("--workers", metavar="N", type=int, default=1, help="processes to use")
-    parser.add_argument("--scheduler", metavar="A", default="", help="of a Dask cluster to use")
-    parser.add_argument(
-        "--resume", action="store_true", help="go on with the store, if it is there"
-    )
+    parser.add_argument("--workers", metavar="N", type=int, default=1, help="number of processes")
+    parser.add_argument("--scheduler", metavar="A", default="", help="address of a Dask scheduler")
+    parser.add_argument("--resume", action="store_true", help="continue a store that was begun")
     parser.add_argument("--json", action="store_true", help="print one JSON document")
 
 
 def run(options: Namespace) -> int:
-    """Sweep one system and print what came of it."""
+    """Sweep one system and print a summary."""
     began = time.perf_counter()
     entry = entry_of(options.name)
     settings = assignments(options.settings)
@@ -79,10 +80,13 @@ def run(options: Namespace) -> int:
     equations = modes.together.equations
     axes = [_axis(name, text) for name, text in assignments(options.axis).items()]
     numbers = _numbers(entry, equations, options, settings, axes)
+    first, last = ({**n.parameters, **n.start} for n in numbers)
     spread: dict[Any, Any] = {
-        axis.name: axis.values(*(_of(n, axis.name) for n in numbers)) for axis in axes
+        axis.name: np.linspace(float(first[axis.name]), float(last[axis.name]), axis.count)
+        for axis in axes
     }
-    with _resumable(), ended_in_order() if options.workers > 1 else nullcontext():
+    usual: dict[str, Output] = {"fate": Fate(), "duration": Duration()}
+    with _resumable(), terminating_like_interrupt() if options.workers > 1 else nullcontext():
         sweep(
             modes,
             spread,
@@ -90,7 +94,7 @@ def run(options: Namespace) -> int:
             {name: v for name, v in numbers[0].start.items() if name not in spread},
             numbers[0].duration,
             out=options.out,
-            outputs=_kept(options.keep),
+            outputs={**usual, **{name: Final(name) for name in options.keep}},
             workers=options.workers,
             address=options.scheduler,
             resume=options.resume,
@@ -108,33 +112,30 @@ def run(options: Namespace) -> int:
     if options.json:
         print_document(document)
     else:
-        told = (f"{document['members']} members,", f"{document['failed']} failed,")
-        print("\n".join(wrapped("sweep", [*told, f"{document['seconds']:.1f} s"])))
+        counts = (f"{document['members']} members,", f"{document['failed']} failed,")
+        print("\n".join(wrapped("sweep", [*counts, f"{document['seconds']:.1f} s"])))
         print("\n".join(wrapped("store", [document["store"]])))
     return 0
 
 
 @contextmanager
 def _resumable() -> Iterator[None]:
-    """An interrupt is told how to go on."""
+    """Add to an interrupt how to continue."""
     try:
         yield
     except KeyboardInterrupt as interrupt:
-        interrupt.add_note("go on with --resume")
+        interrupt.add_note("continue with --resume")
         raise
 
 
 @dataclass(frozen=True)
 class _Axis:
-    """Equally spaced values, the ends as texts with their units."""
+    """Equally spaced values; the ends are texts with their units."""
 
     name: str
     first: str
     last: str
     count: int
-
-    def values(self, first: float, last: float) -> np.ndarray[Any, Any]:
-        return np.linspace(first, last, self.count)
 
 
 def _axis(name: str, text: str) -> _Axis:
@@ -143,7 +144,7 @@ def _axis(name: str, text: str) -> _Axis:
         raise ParseError(
             f"the axis {name}={text!r}",
             expected="FROM:TO:COUNT, with units on the ends",
-            advice="say --axis omega_3=0rad/s:60rad/s:200, for instance",
+            advice="for instance --axis omega_3=0rad/s:60rad/s:200",
         )
     count = int(parts[2])
     if not 1 <= count <= _MOST:
@@ -163,36 +164,26 @@ def _numbers(
     start = assignments(options.start)
     for axis in axes:
         if axis.name in settings or axis.name in start:
-            raise ParseError(f"{axis.name} is an axis and a value", expected="one of them")
+            raise ParseError(f"{axis.name} is both an axis and a value", expected="one of them")
     ends = []
     for end in ("first", "last"):
-        given = {axis.name: getattr(axis, end) for axis in axes}
-        own = {name: text for name, text in given.items() if name in constants}
-        moved = {name: text for name, text in given.items() if name not in constants}
-        ends.append(
-            numbers_of(entry, equations, {**settings, **own}, {**start, **moved}, options.duration)
-        )
+        values = {axis.name: getattr(axis, end) for axis in axes}
+        varied = {name: text for name, text in values.items() if name in constants}
+        begun = {name: text for name, text in values.items() if name not in constants}
+        chosen, started = {**settings, **varied}, {**start, **begun}
+        ends.append(numbers_of(entry, equations, chosen, started, options.duration))
     first, last = ends
-    _refuse_followers(first, last, {axis.name for axis in axes})
+    _refuse_dependent(first, last, {axis.name for axis in axes})
     return first, last
 
 
-def _refuse_followers(first: RunNumbers, last: RunNumbers, axes: set[str]) -> None:
-    """Refuse parameters whose default is made of one that differs."""
+def _refuse_dependent(first: RunNumbers, last: RunNumbers, axes: set[str]) -> None:
+    """Refuse parameters whose default depends on one that varies along an axis."""
     before, after = ({**n.parameters, **n.start} for n in (first, last))
     for name, value in before.items():
         if name not in axes and value != after[name]:
             raise DeclarationError(
-                f"{name} follows from a quantity along an axis",
+                f"the default of {name} depends on a quantity that varies along an axis",
                 expected=f"one value of {name} for all members, or an axis of its own",
                 advice=f"add --set {name}=...",
             )
-
-
-def _of(numbers: RunNumbers, name: str) -> float:
-    return float({**numbers.parameters, **numbers.start}[name])
-
-
-def _kept(names: list[str]) -> dict[str, Output]:
-    usual: dict[str, Output] = {"fate": Fate(), "duration": Duration()}
-    return {**usual, **{name: Final(name) for name in names}}

@@ -2,21 +2,89 @@
 
 from __future__ import annotations
 
+import sys
+import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
+from types import ModuleType
 
-from polhode.base import DeclarationError, look_up
+from polhode.base import DeclarationError, ParseError, PolhodeError, StoreError, look_up
 from polhode.catalogue import CATALOGUE, CatalogueEntry
-from polhode.cli._user_file import load
 from polhode.model import System
+
+# -- a Python file of the user's, loaded as a module; its errors are located -----------------------
+
+
+def load(path: Path) -> ModuleType:
+    """Run a Python file as a module; what it prints goes to standard error.
+
+    Raises:
+        DeclarationError: for an error in the file (polhode's own errors keep their kind).
+        ParseError: where the file is not Python.
+        StoreError: where it cannot be read.
+    """
+    if not path.is_file():
+        raise StoreError(
+            f"there is no file {path}", expected="a Python file that declares a System"
+        )
+    name = f"polhode_file_{path.stem}"
+    loader = SourceFileLoader(name, str(path))
+    spec = spec_from_loader(name, loader)
+    assert spec is not None  # a loader of source files always has one
+    module = module_from_spec(spec)
+    sys.modules[name] = module
+    folder = str(path.resolve().parent)  # whose other modules the file may import
+    sys.path.insert(0, folder)
+    try:
+        with _failures_located(path), redirect_stdout(sys.stderr):
+            loader.exec_module(module)
+    finally:
+        sys.path.remove(folder)
+    return module
+
+
+@contextmanager
+def _failures_located(path: Path) -> Iterator[None]:
+    try:
+        yield
+    except SyntaxError as error:
+        place = f"{error.filename}, line {error.lineno}" if error.filename else str(path)
+        raise ParseError(f"{place}: {error.msg}", expected="a Python file") from error
+    except PolhodeError as error:
+        given = f"{_place(path, error)}: {error.given}"
+        raise type(error)(given, expected=error.expected, advice=error.advice) from error
+    except OSError as error:
+        raise StoreError(f"{_place(path, error)}: {error}") from error
+    except (Exception, SystemExit) as error:
+        raise DeclarationError(
+            f"{_place(path, error)}: {type(error).__name__}: {error}",
+            expected="a file that declares a System",
+        ) from error
+
+
+def _place(path: Path, error: BaseException) -> str:
+    """The last line of the file in the traceback of an error."""
+    lines = [
+        frame.lineno
+        for frame in traceback.extract_tb(error.__traceback__)
+        if frame.filename == str(path)
+    ]
+    return f"{path}, line {lines[-1]}" if lines else str(path)
+
+
+# -- the NAME --------------------------------------------------------------------------------------
 
 NAME_HELP = "a system of 'polhode list', or path/to/file.py:name of a System"
 
 
 def entry_of(name: str) -> CatalogueEntry:
-    """The catalogue's entry, or one without defaults for a system in a file.
+    """The entry of the catalogue, or one without defaults for a system in a file.
 
     Raises:
-        DeclarationError: for a name that means no system, and for errors in a file.
+        DeclarationError: for a name without a system, and for errors in a file.
         ParseError: for a file that is not Python.
         StoreError: for a file that cannot be read.
     """
@@ -36,7 +104,7 @@ def _declared(name: str, path: Path, variable: str) -> CatalogueEntry:
     found = vars(load(path))
     systems = [key for key, value in found.items() if isinstance(value, System)]
     if variable not in systems:
-        what = f"{variable!r} in {path} is no System" if variable else f"which system of {path}?"
+        what = f"{variable!r} in {path} is not a System" if variable else f"which system of {path}?"
         raise DeclarationError(
             what if variable not in found else f"{what} but a {type(found[variable]).__name__}",
             expected=" or ".join(f"{path}:{key}" for key in systems) or "a System in that file",

@@ -22,14 +22,14 @@ def configure(parser: Parser) -> None:
 
 
 def run(options: Namespace) -> int:
-    """Write the tour and print what it shows; a check that does not hold is a failure."""
+    """Write the tour and print its checks; exit 1 if one of them fails."""
     progress = terminal_progress()
 
-    def tell(text: str) -> None:
-        progress.finish()  # wipes its line, which the next step writes anew
+    def show(text: str) -> None:
+        progress.finish()  # clears its line, which the next step writes again
         print(text, flush=True)
 
-    report = write_tour(Path(options.directory), progress, tell)
+    report = write_tour(Path(options.directory), progress, show)
     print(f"{report.table()}\n\n{report.audit_table()}")
     print(f"\nwritten to {report.page}")
     return Exit.DONE if report.all_hold else Exit.FAILED

@@ -1,14 +1,14 @@
 """From a declaration to exact equations of motion and every reaction."""
 
-from polhode.derive._angles import is_angle as is_angle
 from polhode.derive._automaton import Automaton as Automaton
+from polhode.derive._automaton import Guard as Guard
 from polhode.derive._automaton import Mode as Mode
+from polhode.derive._automaton import Touch as Touch
 from polhode.derive._automaton import automaton as automaton
+from polhode.derive._automaton import slips_along as slips_along
 from polhode.derive._derive import derive as derive
-from polhode.derive._derive import equations_only as equations_only
-from polhode.derive._display import lettered as lettered
 from polhode.derive._equations import Equations as Equations
 from polhode.derive._equations import Reaction as Reaction
-from polhode.derive._guards import Guard as Guard
-from polhode.derive._touch import Touch as Touch
-from polhode.derive._touch import slips_along as slips_along
+from polhode.derive._equations import equations_only as equations_only
+from polhode.derive._equations import is_angle as is_angle
+from polhode.derive._equations import lettered as lettered

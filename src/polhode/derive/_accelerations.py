@@ -1,4 +1,4 @@
-"""Accelerations solved for, where the mass matrix lets them stay small."""
+"""Accelerations, where the mass matrix splits into blocks small enough to invert exactly."""
 
 from __future__ import annotations
 
@@ -15,12 +15,13 @@ from polhode.algebra import (
 )
 from polhode.base import NumericError
 
-#: A block of the mass matrix that couples more speeds than this is not inverted symbolically.
+#: A block of the mass matrix that couples more speeds than this is not inverted symbolically: its
+#: determinant has up to n! terms.
 LARGEST_SYMBOLIC = 5
 
 
 def accelerations_in_parts(mass: Matrix, forcing: Row) -> Row:
-    """The accelerations of all speeds, with what is long under names."""
+    """The accelerations of all speeds, with long expressions under names."""
     if mass == mass.T:
         return solve_definite(mass.rows, forcing)
     solved = eliminate_in_parts(mass.rows, forcing).solved
@@ -31,7 +32,7 @@ def solve_accelerations(speeds: tuple[Symbol, ...], mass: Matrix, forcing: Row) 
     """The accelerations of all speeds, block by block.
 
     Raises:
-        NumericError: for a block of more than five speeds, and for motions that nothing resists.
+        NumericError: for a block of more than five speeds, and for speeds without inertia.
     """
     found: dict[int, Expr] = {}
     for block in _blocks(mass):

@@ -1,18 +1,21 @@
-"""Contact modes: the equations of each, and how a motion is handed from one to another."""
+"""Contact modes of a system: the equations of each, and the guards whose zeros end it.
+
+A hybrid automaton in the usual sense: each mode has its own equations, the guards say when it ends,
+and the expressions of the contacts (gap, slip, distance to the edge) say which mode follows.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import product
 
-from polhode.algebra import Expr, Symbol, SymbolKind, variables
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, variables
 from polhode.base import DeclarationError, Shown, look_up
 from polhode.derive._derive import derive
 from polhode.derive._equations import Equations
-from polhode.derive._guards import Guard, guards_of
-from polhode.derive._touch import Touch, touch_of
+from polhode.derive._motion import Kinematics
 from polhode.model import (
     FLIGHT,
     Apart,
@@ -24,6 +27,96 @@ from polhode.model import (
     phases,
     with_elements,
 )
+
+
+@dataclass(frozen=True)
+class Touch:
+    """Where a body and a support are, or would be, in contact; along the axes of the support.
+
+    Attributes:
+        contact: as declared.
+        reserve: distance to the support's edge, m, positive on the support; zero without an edge.
+        room: the same, positive on the side of the edge whose surface is touched.
+        gap: height of the lowest point of the body above the support, m.
+        closing: its rate, m/s.
+        slip: velocity of that point along the support, m/s.
+    """
+
+    contact: Contact
+    reserve: Expr
+    room: Expr
+    gap: Expr
+    closing: Expr
+    slip: tuple[Expr, Expr]
+
+    @property
+    def expressions(self) -> tuple[Expr, ...]:
+        """All of these but `room`."""
+        return (self.reserve, self.gap, self.closing, *self.slip)
+
+
+def touch_of(equations: Equations, declared: Contact, phase: Phase) -> Touch:
+    """Gap, slip and distance to the edge of a contact that rolls, slides or is open."""
+    motion = equations.kinetics
+    # Beyond the edge the body may touch what lies there: a table beside a sheet of paper.
+    beyond = declared.on.beyond
+    contact = declared.on_support(beyond) if phase.is_beyond and beyond is not None else declared
+    place = motion.places[contact.body]
+    gap = (place + contact.arm).dot(contact.on.up)
+    slips = slips_along(motion, contact, (*contact.on.tangents, contact.on.normal))
+    reserve = declared.on.reserve(place + contact.arm)
+    room = -reserve if phase.is_beyond else reserve
+    return Touch(contact, reserve, room, gap, slips[2], (slips[0], slips[1]))
+
+
+def slips_along(motion: Kinematics, contact: Contact, labels: Iterable[str]) -> list[Expr]:
+    """Velocity of a body against its support where they touch, along axes of the support, m/s."""
+    return [
+        motion.slip(contact.restraint(label, motion.places)).dot(contact.on.axes[label])
+        for label in labels
+    ]
+
+
+@dataclass(frozen=True)
+class Guard:
+    """An expression whose reaching zero ends a mode.
+
+    Attributes:
+        contact: what it belongs to; None for the side on which the equations hold.
+        kind: "slips", "sticks", "lifts off", "touches down", "crosses the edge" or "near-flat".
+        positive: greater than zero while the mode lasts.
+    """
+
+    contact: Contact | None
+    kind: str
+    positive: Expr
+
+
+def guards_of(
+    equations: Equations, touches: tuple[Touch, ...], phases: tuple[Phase, ...]
+) -> Iterator[Guard]:
+    """The guards of a mode, exact; accelerations and reactions occur in them as derived."""
+    for touch, phase in zip(touches, phases, strict=True):
+        if phase.flies:
+            yield Guard(touch.contact, "touches down", touch.gap)
+            continue
+        contact = touch.contact
+        normal = equations.components[contact.component(contact.on.normal)]
+        yield Guard(contact, "lifts off", normal)
+        if phase.rolls and isinstance(contact, Coulomb):
+            # How far the square of the friction force is below its static limit, N². Squares keep
+            # the guard free of roots, and smooth where there is no friction force.
+            friction = (equations.components[name] for name, _ in contact.directions())
+            limit = (contact.mu_static * normal) ** 2
+            yield Guard(contact, "slips", limit - sum((f * f for f in friction), ZERO))
+        if touch.reserve:
+            yield Guard(contact, "crosses the edge", touch.room)
+        if phase.slides:
+            first, second = touch.slip
+            yield Guard(contact, "sticks", first * first + second * second)
+    for side in equations.assumed_positive:
+        yield Guard(None, "near-flat", side)
+
 
 #: The phase of every contact, in the order of the declaration.
 Phases = tuple[Phase, ...]
@@ -37,8 +130,8 @@ class Mode:
         name: rolling, sliding, frictionless, flight; with several contacts that of each.
         phases: of every contact.
         equations: exact, on the speeds that the mode leaves independent.
-        touches: what is known of every contact, in terms of this mode's coordinates and speeds.
-        guards: what must stay positive while the mode lasts.
+        touches: gaps and slips of all contacts, in terms of this mode's coordinates and speeds.
+        guards: expressions that stay positive while the mode lasts.
         lifted: coordinates and speeds of the mode in which nothing touches, in terms of this
             one's.
     """
@@ -62,7 +155,7 @@ class Mode:
 
 @dataclass(frozen=True)
 class Automaton(Shown):
-    """All contact modes of a system; each is derived when it is first asked for.
+    """All contact modes of a system; each is derived when it is first needed.
 
     Coordinates, speeds and reactions have the same names in every mode.
     """
@@ -101,7 +194,13 @@ class Automaton(Shown):
         modes = (self.together, self.apart)
         own = [s for mode in modes for s in mode.equations.parameters]
         shapes = [e for mode in modes for touch in mode.touches for e in touch.expressions]
-        used = variables([*shapes, *self._coefficients()])
+        coefficients: list[Expr] = []
+        for contact in self.contacts:
+            coefficients.append(contact.restitution)
+            if isinstance(contact, Coulomb):
+                coefficients += (contact.mu, contact.mu_static, contact.viscous)
+                coefficients += () if contact.stribeck is None else (contact.stribeck,)
+        used = variables([*shapes, *coefficients])
         found = [s for s in used if s.kind is SymbolKind.PARAMETER and s.name != "pi"]
         return tuple(sorted({*own, *found}, key=lambda s: s.published))
 
@@ -113,13 +212,6 @@ class Automaton(Shown):
         moving = [e for mode in modes for touch in mode.touches for e in touch.expressions]
         used = (s.base() for s in variables(moving) if s.kind is SymbolKind.FUNCTION)
         return tuple(sorted({*own, *used}, key=lambda s: s.published))
-
-    def _coefficients(self) -> Iterator[Expr]:
-        for contact in self.contacts:
-            yield contact.restitution
-            if isinstance(contact, Coulomb):
-                yield from (contact.mu, contact.mu_static, contact.viscous)
-                yield from () if contact.stribeck is None else (contact.stribeck,)
 
     def mode(self, chosen: Phases) -> Mode:
         """The mode with these phases of the contacts.
@@ -133,12 +225,12 @@ class Automaton(Shown):
 
     @property
     def known(self) -> tuple[Mode, ...]:
-        """The modes that were asked for, as they are derived by now."""
+        """The modes derived so far."""
         return tuple(self._known.values())
 
     @cached_property
     def names(self) -> tuple[str, ...]:
-        """Of all contact modes that there could be."""
+        """Of all possible contact modes."""
         return tuple(self._name(chosen) for chosen in product(*self.options))
 
     def named(self, name: str) -> Phases:
@@ -181,7 +273,7 @@ class Automaton(Shown):
         return ", ".join(f"{contact.name} {phase.value}" for contact, phase in pairs)
 
     def _lifted(self, equations: Equations) -> dict[Symbol, Expr]:
-        """Heights are no coordinates in contact: there they follow from the attitude."""
+        """Heights and their rates, which in contact are no coordinates but follow from the rest."""
         motion = equations.kinetics
         lifted = {}
         for option, contact in zip(self.options, self.contacts, strict=True):

@@ -1,12 +1,25 @@
-"""Newton and Euler for every body: what the reactions have to supply."""
+"""Where constraints become forces: Newton's and Euler's equations of every body, with reactions.
+
+A restraint prescribes one component of relative velocity; a rolling contact has three, such as the
+problem set's eqs. (29) and (43). `derive._constraints` eliminates speeds with it. Here the same
+restraint supplies an unknown reaction along the same direction: a `ReactionColumn`, as F in
+eqs. (34), (35) and (44). The balance of every body is
+
+    Σ reaction · column = required wrench,
+
+with the wrench m dv/dt - F and dL/dt - τ about the centre of mass. `derive._derive` projects these
+balances on the motions that the constraints allow, which gives the equations of motion;
+`derive._reactions` solves them for the reactions.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from polhode.algebra import Vector
+from polhode.base import ConstraintError
 from polhode.derive._motion import Kinematics
-from polhode.model import Action, Body
+from polhode.model import Body, Friction, Restraint
 
 
 @dataclass(frozen=True)
@@ -17,34 +30,101 @@ class Wrench:
     couple: Vector
 
 
-def demands(motion: Kinematics) -> dict[Body, Wrench]:
-    """Rate of change of momentum less the loads, and of angular momentum less their moments.
+@dataclass(frozen=True)
+class ReactionColumn:
+    """The wrench that one unit of a reaction component exerts on a body (and its opposite).
 
-    m dv/dt - F and dL/dt - τ about the centre of mass; the reactions must equal them.
+    Attributes:
+        restraint: whose reaction it is.
+        direction: of the reaction; for a normal force with sliding friction, that of both.
     """
-    actions = applied(motion)
-    return {body: _demand(motion, body, actions) for body in motion.system.bodies}
+
+    restraint: Restraint
+    direction: Vector
+
+    @property
+    def name(self) -> str:
+        """Name of the reaction component."""
+        return self.restraint.name
+
+    @property
+    def has_friction(self) -> bool:
+        """Whether sliding friction goes with the normal force."""
+        return self.direction != self.restraint.direction
+
+    def on(self, body: Body) -> Wrench | None:
+        """What one unit does to a body."""
+        if body == self.restraint.body:
+            direction, arm = self.direction, self.restraint.arm
+        elif body == self.restraint.other:
+            direction, arm = -self.direction, self.restraint.other_arm
+        else:
+            return None
+        if arm is None:
+            return Wrench(body.axes.zero, direction)
+        return Wrench(direction, arm.cross(direction))
+
+    @property
+    def wrenches(self) -> tuple[tuple[Body, Wrench], ...]:
+        """The bodies that one unit acts on, and what it does to each."""
+        bodies = (self.restraint.body, self.restraint.other)
+        return tuple((b, w) for b in bodies if b is not None and (w := self.on(b)) is not None)
 
 
-def applied(motion: Kinematics) -> tuple[Action, ...]:
-    """Everything the loads do."""
-    system = motion.system
-    return tuple(
+def required_wrenches(motion: Kinematics) -> dict[Body, Wrench]:
+    """What the reactions on every body must add up to: m dv/dt - F and dL/dt - τ.
+
+    Newton's and Euler's equations about the centre of mass, with F and τ the loads.
+    """
+    system, form = motion.system, motion.form
+    actions = [
         action
         for load in system.loads
         for action in load.actions(system.bodies, motion.places, motion.velocities)
-    )
+    ]
+    found = {}
+    for body in system.bodies:
+        velocity, _ = motion.velocities[body]
+        force = motion.derivative(velocity) * body.mass
+        couple = motion.derivative(motion.spin(body))
+        for action in actions:
+            if action.body == body:
+                force = force - action.force
+                couple = couple - action.couple - action.arm.cross(action.force).express(body.axes)
+        wrench = Wrench(
+            form.kept(force, motion.accelerations), form.kept(couple, motion.accelerations)
+        )
+        form.refuse_outgrown((*wrench.force.components, *wrench.couple.components))
+        found[body] = wrench
+    return found
 
 
-def _demand(motion: Kinematics, body: Body, actions: tuple[Action, ...]) -> Wrench:
-    velocity, _ = motion.velocities[body]
-    force = motion.derivative(velocity) * body.mass
-    couple = motion.derivative(motion.spin(body))
-    for action in actions:
-        if action.body == body:
-            force = force - action.force
-            couple = couple - action.couple - action.arm.cross(action.force).express(body.axes)
-    form, accelerations = motion.form, motion.accelerations
-    wrench = Wrench(form.kept(force, accelerations), form.kept(couple, accelerations))
-    form.settle((*wrench.force.components, *wrench.couple.components))
-    return wrench
+def reaction_columns(motion: Kinematics) -> tuple[ReactionColumn, ...]:
+    """One column for every restraint; sliding friction is inclined with its normal force."""
+    found = []
+    for element in motion.elements:
+        frictions = {f.normal.name: f for f in element.friction(motion.places)}
+        for restraint in motion.restraints[element.name]:
+            direction = restraint.direction
+            if restraint.name in frictions:
+                direction = direction + _friction(motion, frictions[restraint.name])
+            found.append(ReactionColumn(restraint, direction))
+    return tuple(found)
+
+
+def _friction(motion: Kinematics, friction: Friction) -> Vector:
+    """Coulomb's friction per unit of normal force: -μ along the slip velocity."""
+    (_, first), (_, second) = friction.directions
+    if friction.slip is not None:
+        along, across = friction.slip
+        return (first * along + second * across) * -friction.coefficient
+    slip = motion.slip(friction.normal)
+    along, across = slip.dot(first), slip.dot(second)
+    speed = (first * along + second * across).norm()
+    if not speed:
+        raise ConstraintError(
+            f"sliding friction at {friction.normal.name} of a contact that cannot slip",
+            expected="a slip velocity that is not identically zero",
+            advice="declare the contact Rolling",
+        )
+    return (first * along + second * across) * (-friction.coefficient / speed)

@@ -1,12 +1,19 @@
-"""Velocity constraints: which speeds they leave free, and the others in terms of those."""
+"""Velocity constraints: which speeds stay independent, and all others in terms of those.
+
+Every restraint of a contact or joint, holonomic or not, is one linear equation in the speeds
+(Neimark and Fufaev, Dynamics of Nonholonomic Systems, 1972; the motion constraints of Kane and
+Levinson, Dynamics: Theory and Applications, 1985). Those of a rolling contact say that the material
+point of the body at the contact has the velocity of the support there (problem set, eqs. (29) and
+(43)). The reactions that enforce the constraints are in `derive._balance`.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from polhode.algebra import Expr, Row, Symbol, Vector, dot, eliminate, linear_parts
-from polhode.base import ConstraintError
+from polhode.base import ConstraintError, DeclarationError
 from polhode.derive._form import Form
 from polhode.model import Body, Restraint
 
@@ -14,8 +21,55 @@ Velocities = Mapping[Body, tuple[Vector, Vector]]
 Speeds = tuple[Symbol, ...]
 
 
-def against(restraint: Restraint, velocities: Velocities, form: Form, speeds: Speeds) -> Vector:
-    """Velocity of the restrained point, or of the body's rotation, against the other body."""
+def elimination_ranks(
+    rates: Iterable[Symbol],
+    rotations: Iterable[Symbol],
+    translations: Mapping[Symbol, Body],
+    independent: Iterable[Symbol],
+) -> dict[Symbol, int]:
+    """In what order the constraints eliminate speeds: low ranks first.
+
+        0  velocities of centres of mass
+        1  angular velocities
+        2  velocities of centres of mass of balls
+        3  rates of coordinates, such as those of angles
+        4  speeds declared independent
+
+    That is how a text eliminates: it describes a disk by its rotation and eliminates the velocity
+    of its centre (problem set, eq. (33)), but a ball, whose attitude does not matter, by the
+    velocity of its centre (eqs. (45) to (47)). Within a rank the simplest pivot is taken, so that
+    no expression grows without need.
+
+    Args:
+        rates: speeds that are rates of coordinates.
+        rotations: components of angular velocities.
+        translations: components of the velocities of centres of mass, each with its body.
+        independent: speeds to be kept if possible, as declared.
+
+    Raises:
+        DeclarationError: for a speed declared independent that does not exist.
+    """
+    ranks = dict.fromkeys(rates, 3) | dict.fromkeys(rotations, 1)
+    ranks |= {speed: 2 if body.is_isotropic else 0 for speed, body in translations.items()}
+    for symbol in independent:
+        if symbol not in ranks:
+            raise DeclarationError(
+                f"independent={symbol.published}",
+                expected=f"one of the speeds {', '.join(s.published for s in ranks)}",
+                advice="name the rate of a coordinate, as in theta.dt()",
+            )
+    return ranks | dict.fromkeys(independent, 4)
+
+
+def partial_velocity(velocity: Vector, speed: Symbol) -> Vector:
+    """Change of a velocity, linear or angular, per unit of a speed (Kane and Levinson)."""
+    return Vector(tuple(c.diff(speed) for c in velocity.components), velocity.triad)
+
+
+def relative_velocity(
+    restraint: Restraint, velocities: Velocities, form: Form, speeds: Speeds
+) -> Vector:
+    """Velocity of the restrained point, or of the body's rotation, relative to the other body."""
 
     def of(body: Body, arm: Vector | None) -> Vector:
         velocity, angular = velocities[body]
@@ -46,21 +100,27 @@ def dependent_speeds(
     ranks: Mapping[Symbol, int],
     form: Form,
 ) -> dict[Symbol, Expr]:
-    """The speeds that the constraints give, in terms of the independent ones.
+    """The speeds that the constraints determine, in terms of the independent ones.
 
     Args:
         restraints: what contacts and joints prescribe.
         velocities: of every body, in terms of all speeds.
         rates: of the coordinates that are not speeds themselves.
-        ranks: all speeds, and how readily each is given up, low first.
+        ranks: of all speeds, from `elimination_ranks`.
         form: closed, or in named parts.
 
     Raises:
-        ConstraintError: for constraints that no motion obeys, by name.
+        ConstraintError: for constraints that no motion satisfies, naming them.
         NumericError: for loops whose exact solution is too long to be of use.
     """
     speeds = tuple(ranks)
-    equations = [e for r in restraints if (e := _equation(r, velocities, rates, speeds, form))]
+    equations = []
+    for restraint in restraints:
+        slip = relative_velocity(restraint, velocities, form, speeds) - restraint.velocity
+        along = slip.dot(restraint.direction)
+        coefficients, rest = linear_parts(form.keep(along.subs(rates), speeds), speeds)
+        if any(coefficients) or rest:  # else it holds whatever the speeds are
+            equations.append(_Constraint(restraint.name, coefficients, -rest))
     rows, right = [e.coefficients for e in equations], [e.right for e in equations]
     outcome = form.eliminate(rows, right, list(ranks.values()), ())
     for i in outcome.contradictory:
@@ -69,29 +129,13 @@ def dependent_speeds(
     return {speeds[j]: dot(row, free) + known for j, (row, known) in outcome.solved.items()}
 
 
-def _equation(
-    restraint: Restraint,
-    velocities: Velocities,
-    rates: Mapping[Symbol, Expr],
-    speeds: tuple[Symbol, ...],
-    form: Form,
-) -> _Constraint | None:
-    """What a restraint demands of the speeds; nothing if it holds whatever they are."""
-    slip = (against(restraint, velocities, form, speeds) - restraint.velocity).dot(
-        restraint.direction
-    )
-    coefficients, rest = linear_parts(form.keep(slip.subs(rates), speeds), speeds)
-    demands = any(coefficients) or rest
-    return _Constraint(restraint.name, coefficients, -rest) if demands else None
-
-
 def _contradiction(one: _Constraint, others: list[_Constraint]) -> ConstraintError:
-    """Names a constraint together with those that say otherwise, each of which it takes."""
+    """The error for a constraint, naming those others whose combination contradicts it."""
     columns = list(zip(*(other.coefficients for other in others), strict=True))
     shares = eliminate(columns, one.coefficients).solved if others else {}
     involved = [other.name for j, other in enumerate(others) if j in shares and shares[j][1]]
     return ConstraintError(
         f"constraints that contradict one another, at {', '.join([*involved, one.name])}",
-        expected="constraints that some motion obeys",
-        advice="remove one of them, or let the support move as the others demand",
+        expected="constraints that some motion satisfies",
+        advice="remove one of them, or let the support move as the others require",
     )

@@ -1,8 +1,8 @@
-"""Derivation: the balance of every body, projected on the motions the constraints allow."""
+"""Derivation: the balance of every body, projected on the motions that the constraints allow."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from polhode.algebra import (
     ZERO,
@@ -11,18 +11,21 @@ from polhode.algebra import (
     OutgrownError,
     Row,
     Symbol,
-    Vector,
     linear_parts,
     total,
 )
 from polhode.base import DeclarationError
-from polhode.derive._balance import Wrench, demands
+from polhode.derive._balance import Wrench, reaction_columns, required_wrenches
+from polhode.derive._checks import (
+    refuse_shared_names,
+    refuse_unbalanced,
+    refuse_unknown_coordinates,
+)
+from polhode.derive._constraints import partial_velocity
 from polhode.derive._equations import Equations
 from polhode.derive._form import CLOSED, IN_PARTS, Form
 from polhode.derive._motion import Kinematics, motion_of
-from polhode.derive._names import refuse_shared_names, refuse_unknown_coordinates
-from polhode.derive._reactions import ReactionColumn, lines, solve_reactions
-from polhode.derive._unbalanced import refuse_unbalanced
+from polhode.derive._reactions import solve_reactions
 from polhode.model import Body, System
 
 
@@ -30,8 +33,8 @@ def derive(system: System) -> Equations:
     """Exact equations of motion and reactions of a system as declared.
 
     Newton's and Euler's equations of every body are projected on the motions that the velocity
-    constraints allow (Jourdain's principle), which removes all reactions that do no work. Where
-    that grows too long to be written out, long expressions stand under names of their own.
+    constraints allow (Jourdain's principle; Kane's equations), which removes all reactions that do
+    no work. Where that grows too long to be written out, long expressions are kept under names.
 
     Raises:
         ConstraintError: for constraints that contradict one another.
@@ -49,44 +52,52 @@ def derive(system: System) -> Equations:
         return _derived(system, IN_PARTS)
 
 
-def equations_only(given: object, what: str) -> None:
-    """Refuse to learn something of anything but equations.
-
-    Raises:
-        DeclarationError: for anything else.
-    """
-    if not isinstance(given, Equations):
-        raise DeclarationError(
-            f"{what} of a {type(given).__name__}",
-            expected="equations of motion",
-            advice="derive them first: ph.derive(system)",
-        )
-
-
 def _derived(system: System, form: Form) -> Equations:
+    """Kinematics, required wrenches and reaction columns, then one row per independent speed.
+
+    The row of speed u is Σ ∂v/∂u · (m dv/dt - F) + ∂ω/∂u · (dL/dt - τ) over the bodies: Kane's
+    equations with partial velocities ∂v/∂u and ∂ω/∂u (Kane and Levinson, Dynamics: Theory and
+    Applications, 1985).
+    """
     motion = motion_of(system, form)
-    needs = demands(motion)
-    refuse_shared_names(motion, needs)
-    refuse_unknown_coordinates(motion, needs)
-    columns = lines(motion)
-    rows = _projected(motion, needs)
-    rubbing = [c for c in columns if c.leans]
-    if rubbing:
-        values = solve_reactions(motion, needs, columns).values
-        rows = tuple(
-            row - sum((values[c.name] * _virtual_power(motion, c, u) for c in rubbing), ZERO)
-            for row, u in zip(rows, motion.speeds, strict=True)
-        )
+    required = required_wrenches(motion)
+    refuse_shared_names(motion, required)
+    refuse_unknown_coordinates(motion, required)
+    columns = reaction_columns(motion)
+    rows: list[Expr] = []
+    for speed in motion.speeds:
+        row = total(_power(motion, body, need, speed) for body, need in required.items())
+        rows.append(motion.form.keep(row, motion.accelerations))
+        motion.form.refuse_outgrown(rows)
+    if any(column.has_friction for column in columns):
+        # Sliding friction does work, so that the projection keeps it. The normal forces follow from
+        # the other balances, and stand in the rows in terms of the accelerations.
+        values = solve_reactions(motion, required, columns).values
+        for i, speed in enumerate(motion.speeds):
+            works = ZERO
+            for column in (c for c in columns if c.has_friction):
+                virtual = sum((_power(motion, b, w, speed) for b, w in column.wrenches), ZERO)
+                works = works + values[column.name] * virtual
+            rows[i] = rows[i] - works
     parts = [linear_parts(row, motion.accelerations) for row in rows]
     mass = _mirrored([coefficients for coefficients, _ in parts])
     forcing = tuple(-rest for _, rest in parts)
-    equations = Equations(system, motion, needs, columns, rows, mass, forcing)
+    equations = Equations(system, motion, required, columns, tuple(rows), mass, forcing)
     refuse_unbalanced(equations)
     return equations
 
 
+def _power(motion: Kinematics, body: Body, wrench: Wrench, speed: Symbol) -> Expr:
+    """Power of a wrench on a body that moves with one unit of a speed alone."""
+    velocity, angular = (partial_velocity(v, speed) for v in motion.velocities[body])
+    return velocity.dot(wrench.force) + angular.dot(wrench.couple)
+
+
 def _mirrored(rows: Sequence[Row]) -> Matrix:
-    """The matrix, of two entries that mirror each other and are equal one written twice."""
+    """The mass matrix, with equal entries across the diagonal written alike.
+
+    Equal entries may come out written differently; alike, they make `mass == mass.T` hold.
+    """
 
     def entry(i: int, j: int) -> Expr:
         above, below = rows[min(i, j)][max(i, j)], rows[max(i, j)][min(i, j)]
@@ -94,31 +105,3 @@ def _mirrored(rows: Sequence[Row]) -> Matrix:
 
     size = range(len(rows))
     return Matrix(tuple(tuple(entry(i, j) for j in size) for i in size))
-
-
-def _projected(motion: Kinematics, needs: Mapping[Body, Wrench]) -> tuple[Expr, ...]:
-    """One row per independent speed: power of all demands in a unit of that speed alone."""
-    rows = []
-    for speed in motion.speeds:
-        row = total(_share(motion, body, need, speed) for body, need in needs.items())
-        rows.append(motion.form.keep(row, motion.accelerations))
-        motion.form.settle(rows)
-    return tuple(rows)
-
-
-def _share(motion: Kinematics, body: Body, need: Wrench, speed: Symbol) -> Expr:
-    velocity, angular = (_partial(v, speed) for v in motion.velocities[body])
-    return velocity.dot(need.force) + angular.dot(need.couple)
-
-
-def _partial(vector: Vector, speed: Symbol) -> Vector:
-    return Vector(tuple(c.diff(speed) for c in vector.components), vector.triad)
-
-
-def _virtual_power(motion: Kinematics, line: ReactionColumn, speed: Symbol) -> Expr:
-    total = ZERO
-    for body in (line.restraint.body, line.restraint.other):
-        wrench = line.on(body) if body is not None else None
-        if body is not None and wrench is not None:
-            total = total + _share(motion, body, wrench, speed)
-    return total

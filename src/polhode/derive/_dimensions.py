@@ -28,14 +28,14 @@ def infer(uses: Iterable[Use]) -> dict[Symbol, Dimension]:
     """Dimension of every symbol that the uses determine.
 
     Every term of every expression must have the dimension of its role, and every argument of a
-    function none; that is a linear system for the exponents.
+    function must be dimensionless: a linear system for the exponents.
 
     Raises `UnitError` where two uses contradict one another, naming both.
     """
     system = _Exponents()
     for use in uses:
         for term in _terms(use):
-            system.demand(term, use.role)
+            system.add(term, use.role)
     return system.dimensions()
 
 
@@ -51,7 +51,13 @@ def _terms(use: Use) -> Iterator[_Term]:
     parts = (use.expression.numerator, use.expression.denominator)
     monomials = [[_dimensional(powers) for powers, _ in part.terms()] for part in parts]
     for generator in use.expression.generators:
-        yield from _inside(generator, use.role)
+        # Arguments of sines and exponentials are numbers; radicands are homogeneous.
+        for argument in generator.arguments:
+            if not generator.depth or generator.partner() is not None:
+                yield from _terms(Use(use.role, argument, PURE))
+            else:
+                first, *others = (_dimensional(powers) for powers, _ in argument.terms())
+                yield from (_quotient(other, first, PURE) for other in others)
     if not monomials[0]:
         return
     below = monomials[1][0]
@@ -61,18 +67,8 @@ def _terms(use: Use) -> Iterator[_Term]:
         yield _quotient(other, below, PURE)
 
 
-def _inside(generator: Generator, role: str) -> Iterator[_Term]:
-    """Arguments of sines and exponentials are numbers; radicands are homogeneous."""
-    for argument in generator.arguments:
-        if not generator.depth or generator.partner() is not None:
-            yield from _terms(Use(role, argument, PURE))
-        else:
-            first, *others = (_dimensional(powers) for powers, _ in argument.terms())
-            yield from (_quotient(other, first, PURE) for other in others)
-
-
 def _dimensional(powers: Mapping[Generator, int]) -> _Term:
-    """Powers of symbols in a monomial; a root counts as half of the first term under it."""
+    """Powers of symbols in a monomial; a root counts as half the powers of its first term."""
     found: dict[Generator, Fraction] = {}
     dimension = PURE
     for generator, power in powers.items():
@@ -110,33 +106,39 @@ class _Exponents:
         self._rows: dict[Generator, _Term] = {}
         self._roles: dict[Generator, str] = {}
 
-    def demand(self, term: _Term, role: str) -> None:
+    def add(self, term: _Term, role: str) -> None:
+        """A term whose dimension is known.
+
+        Raises:
+            UnitError: where that contradicts terms added before, or a bare number has a unit.
+        """
         reduced = self._reduced(term)
         pivot = next((s for s, power in reduced.powers.items() if power), None)
         if pivot is not None:
             self._rows[pivot] = _scaled(reduced, 1 / reduced.powers[pivot])
             self._roles[pivot] = role
         elif not any(term.powers.values()) and term.dimension != PURE:
-            raise _number(role, term.dimension)
+            raise UnitError(
+                f"a bare number as {role}",
+                expected=f"a symbol for it, since its unit is {term.dimension}",
+                advice="write m = polhode.symbol('m') or the like, and give its value at run time",
+            )
         elif reduced.dimension != PURE:
-            raise self._conflict(term, role, reduced.dimension)
+            involved = [s for s, power in term.powers.items() if power]
+            earlier = dict.fromkeys(self._roles[s] for s in involved if s in self._roles)
+            names = ", ".join(s.published if isinstance(s, Symbol) else "a part" for s in involved)
+            raise UnitError(
+                f"dimensions of {names}: as {role} they are off by {reduced.dimension}",
+                expected="one dimension for each quantity; before, it followed from "
+                + (" and from ".join(earlier) or "the role alone"),
+                advice="look for a missing length, mass or time, or a bare number in place of one",
+            )
 
     def _reduced(self, term: _Term) -> _Term:
         while known := next((s for s, p in term.powers.items() if p and s in self._rows), None):
             row = _scaled(self._rows[known], term.powers[known])
             term = _Term(_difference(term.powers, row.powers), term.dimension / row.dimension)
         return term
-
-    def _conflict(self, term: _Term, role: str, excess: Dimension) -> UnitError:
-        involved = [s for s, power in term.powers.items() if power]
-        earlier = dict.fromkeys(self._roles[s] for s in involved if s in self._roles)
-        names = ", ".join(_told(s) for s in involved)
-        return UnitError(
-            f"dimensions of {names}: as {role} they are off by {excess}",
-            expected="one dimension for each quantity; before, it followed from "
-            + (" and from ".join(earlier) or "the role alone"),
-            advice="look for a missing length, mass or time, or a bare number in place of one",
-        )
 
     def dimensions(self) -> dict[Symbol, Dimension]:
         found = {}
@@ -145,18 +147,6 @@ class _Exponents:
             if isinstance(symbol, Symbol) and not any(solved.powers.values()):
                 found[symbol] = PURE / solved.dimension
         return found
-
-
-def _number(role: str, excess: Dimension) -> UnitError:
-    return UnitError(
-        f"a bare number as {role}",
-        expected=f"a symbol for it, since its unit is to be {excess}",
-        advice="write m = polhode.symbol('m') or the like, and give its value where it is run",
-    )
-
-
-def _told(generator: Generator) -> str:
-    return generator.published if isinstance(generator, Symbol) else "a part"
 
 
 def _scaled(term: _Term, factor: Fraction) -> _Term:
@@ -169,7 +159,7 @@ def uses_of(
     energies: Mapping[str, Expr],
     reactions: Mapping[str, tuple[Expr, Dimension]],
 ) -> Iterator[Use]:
-    """Every role that a system gives to expressions, the most telling first."""
+    """Every role that a system gives to expressions, the most informative in errors first."""
     yield Use("time", time, TIME)
     for body in motion.system.bodies:
         yield Use(f"mass of {body.name}", body.mass, MASS)

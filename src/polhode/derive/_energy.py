@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 from polhode.algebra import ZERO, Expr, SymbolKind, Vector
+from polhode.derive._balance import ReactionColumn
 from polhode.derive._motion import Kinematics
-from polhode.derive._reactions import ReactionColumn
-from polhode.model import Body, Frame, Load
+from polhode.model import Frame, Load
 
 
 def kinetic_energy(motion: Kinematics) -> Expr:
-    """Kinetic energy in inertial space, J."""
-    return sum((_kinetic(motion, body) for body in motion.system.bodies), ZERO)
-
-
-def _kinetic(motion: Kinematics, body: Body) -> Expr:
-    velocity, angular = motion.velocities[body]
-    spin = angular.dot(motion.spin(body))
-    energy = (body.mass * velocity.dot(velocity) + spin) / 2
-    return motion.form.keep(energy, motion.speeds)
+    """Kinetic energy in inertial space, J: ½ m v² + ½ ω·L of every body (König)."""
+    energies = []
+    for body in motion.system.bodies:
+        velocity, angular = motion.velocities[body]
+        spin = angular.dot(motion.spin(body))
+        energy = (body.mass * velocity.dot(velocity) + spin) / 2
+        energies.append(motion.form.keep(energy, motion.speeds))
+    return sum(energies, ZERO)
 
 
 def potential_energy(motion: Kinematics) -> Expr:
@@ -33,16 +32,13 @@ def load_power(motion: Kinematics, load: Load) -> Expr:
     return sum((action.power(motion.velocities) for action in actions), ZERO)
 
 
-def reaction_power(motion: Kinematics, line: ReactionColumn, value: Expr) -> Expr:
+def reaction_power(motion: Kinematics, column: ReactionColumn, value: Expr) -> Expr:
     """Rate of work of one reaction component on the whole system, W.
 
-    Zero for a support at rest; a support that moves, a motor and sliding friction do work.
+    Zero for a support at rest; a moving support, a motor and sliding friction do work.
     """
     total = ZERO
-    for body in (line.restraint.body, line.restraint.other):
-        wrench = line.on(body) if body is not None else None
-        if body is None or wrench is None:
-            continue
+    for body, wrench in column.wrenches:
         velocity, angular = motion.velocities[body]
         total = total + velocity.dot(wrench.force) + angular.dot(wrench.couple)
     return total * value if total else ZERO
@@ -53,26 +49,22 @@ def supplied_power(
 ) -> Expr:
     """Rate of change of kinetic plus potential energy, W."""
     loads = (_supplied_by(motion, load) for load in motion.system.loads)
-    reactions = (reaction_power(motion, line, values[line.name]) for line in columns)
+    reactions = (reaction_power(motion, column, values[column.name]) for column in columns)
     return sum((*loads, *reactions), ZERO)
 
 
 def _supplied_by(motion: Kinematics, load: Load) -> Expr:
-    """What a load adds to the energy: all its work, less what its own potential loses.
+    """The energy per time that a load adds: all its work, less what its own potential loses.
 
     With a potential that is only the work of moving its sources, such as the far end of a spring.
     """
     potential = load.potential(motion.system.bodies, motion.places)
     if potential is None:
         return load_power(motion, load)
-    if _is_at_rest(motion, potential):
+    driven = any(s.kind in (SymbolKind.FUNCTION, SymbolKind.TIME) for s in potential.symbols())
+    if not driven and not any(motion.system.root.turned):
         return ZERO
     return motion.on_speeds(potential).chain(motion.rate) + load_power(motion, load)
-
-
-def _is_at_rest(motion: Kinematics, potential: Expr) -> bool:
-    driven = any(s.kind in (SymbolKind.FUNCTION, SymbolKind.TIME) for s in potential.symbols())
-    return not driven and not any(motion.system.root.turned)
 
 
 def linear_momentum(motion: Kinematics) -> Vector:

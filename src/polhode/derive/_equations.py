@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from math import gcd, lcm
 
 from polhode.algebra import (
     ZERO,
@@ -14,20 +15,22 @@ from polhode.algebra import (
     Symbol,
     SymbolKind,
     Vector,
+    dimension_of,
+    dot,
     has_parts,
+    lowest_numerator,
+    under_letters,
     variables,
 )
-from polhode.base import Dimension, Shown
+from polhode.base import PURE, DeclarationError, Dimension, Shown
 from polhode.derive import _dimensions as units
 from polhode.derive import _energy as energies
 from polhode.derive._accelerations import LARGEST_SYMBOLIC as LARGEST_SYMBOLIC
 from polhode.derive._accelerations import accelerations_in_parts, solve_accelerations
-from polhode.derive._balance import Wrench
-from polhode.derive._display import equations_latex, equations_text
+from polhode.derive._balance import ReactionColumn, Wrench
 from polhode.derive._form import IN_PARTS
 from polhode.derive._motion import Kinematics
-from polhode.derive._reactions import ReactionColumn, Reactions, solve_reactions
-from polhode.derive._textbook import without_idle_factors
+from polhode.derive._reactions import Reactions, solve_reactions
 from polhode.model import Body, Contact, System
 
 
@@ -52,12 +55,12 @@ class Reaction(Shown):
     undetermined: tuple[str, ...]
 
     def __repr__(self) -> str:
-        told = [f"force {self.force}", f"arm {self.arm}"]
+        pieces = [f"force {self.force}", f"arm {self.arm}"]
         if not self.couple.is_zero:
-            told.append(f"couple {self.couple}")
+            pieces.append(f"couple {self.couple}")
         if self.undetermined:
-            told.append(f"not determined: {', '.join(self.undetermined)}")
-        return f"Reaction of {self.name!r} on {self.body.name!r}: {'; '.join(told)}"
+            pieces.append(f"not determined: {', '.join(self.undetermined)}")
+        return f"Reaction of {self.name!r} on {self.body.name!r}: {'; '.join(pieces)}"
 
 
 @dataclass(frozen=True, repr=False)
@@ -69,44 +72,75 @@ class Equations(Shown):
     Attributes:
         system: the declaration they come from.
         kinetics: positions and velocities of all bodies.
-        demands: what the reactions have to supply to every body.
-        lines: along which the reactions act.
-        rows: the equations as they come, each an expression equal to zero, one per speed.
+        required: the wrench that the reactions must supply to every body.
+        lines: the direction of every reaction component, with its body and arm.
+        rows: the equations as derived, each an expression equal to zero, one per speed.
         mass: mass matrix over the accelerations.
         forcing: right-hand sides.
     """
 
     system: System
     kinetics: Kinematics
-    demands: dict[Body, Wrench]
+    required: dict[Body, Wrench]
     lines: tuple[ReactionColumn, ...]
     rows: tuple[Expr, ...]
     mass: Matrix
     forcing: Row
 
     def __str__(self) -> str:
-        return equations_text(self)
+        """Kinematics, equations of motion and reactions, one to a line."""
+        lines = [f"Equations of motion of {self.system.name}"]
+        if self.motion_in_parts:
+            rows, legend = lettered(self, self._mass_form)
+            lines += [f"  {row.pretty()} = 0" for row in rows]
+            lines += legend
+            lines.append(f"Reactions: {', '.join(line.name for line in self.lines)}")
+        else:
+            lines += [f"  {row.pretty()} = 0" for row in self.motion]
+            rates = {s: e for s, e in self.kinematics.items() if s not in self.speeds}
+            if rates:
+                lines.append("with")
+                lines += [
+                    f"  {Expr.generator(s).pretty()} = {e.pretty()}" for s, e in rates.items()
+                ]
+            if self.components:
+                lines.append("Reactions")
+                values, legend = lettered(self, self.components.values())
+                named = zip(self.components, values, strict=True)
+                lines += [f"  {name} = {value.pretty()}" for name, value in named]
+                lines += legend
+        if self.undetermined:
+            lines.append(f"Not determined: {', '.join(self.undetermined)}")
+        return "\n".join(lines)
 
     __repr__ = __str__
 
     def latex(self) -> str:
         """LaTeX of the equations of motion, aligned."""
-        return equations_latex(self)
+        written = self.motion
+        if self.motion_in_parts:
+            written, _ = lettered(self, self._mass_form)
+        rows = r" \\ ".join(f"{row.latex()} &= 0" for row in written)
+        return rf"\begin{{aligned}} {rows} \end{{aligned}}"
+
+    @property
+    def _mass_form(self) -> tuple[Expr, ...]:
+        """Mass times accelerations less forcing, row by row."""
+        accelerations = [Expr.generator(symbol) for symbol in self.acceleration_symbols]
+        pairs = zip(self.mass.rows, self.forcing, strict=True)
+        return tuple(dot(row, accelerations) - force for row, force in pairs)
 
     def _repr_latex_(self) -> str:
         return f"$\\displaystyle {self.latex()}$"
 
     @property
     def motion_in_parts(self) -> bool:
-        """Whether long expressions of the equations of motion stand under names."""
+        """Whether long expressions of the equations of motion are kept under names."""
         return self.kinetics.form == IN_PARTS
 
     @property
     def in_parts(self) -> bool:
-        """Whether long expressions stand under names, because in closed form they are too long.
-
-        They may do so in reactions alone, while the equations of motion are closed.
-        """
+        """Whether any expression, reactions included, is too long for closed form."""
         return self.motion_in_parts or any(map(has_parts, self.components.values()))
 
     @property
@@ -143,8 +177,8 @@ class Equations(Shown):
     def accelerations(self) -> dict[Symbol, Expr]:
         """Every acceleration, solved for.
 
-        Raises `NumericError` beyond five coupled speeds, where only the blocks are kept, and for
-        motions that nothing resists.
+        Raises `NumericError` beyond five coupled speeds, where only mass and forcing are kept, and
+        for speeds that no inertia resists.
         """
         if self.motion_in_parts:
             solved = accelerations_in_parts(self.mass, self.forcing)
@@ -161,8 +195,7 @@ class Equations(Shown):
 
     def rate(self, expression: Expr) -> Expr:
         """Time derivative along true motions."""
-        settled = self.kinetics.on_speeds(expression)
-        return settled.chain(self._true_rate)
+        return self.kinetics.on_speeds(expression).chain(self._true_rate)
 
     def _true_rate(self, symbol: Symbol) -> Expr:
         if symbol in self.speeds:
@@ -173,7 +206,7 @@ class Equations(Shown):
 
     @cached_property
     def _solved(self) -> Reactions:
-        return solve_reactions(self.kinetics, self.demands, self.lines)
+        return solve_reactions(self.kinetics, self.required, self.lines)
 
     @cached_property
     def components(self) -> dict[str, Expr]:
@@ -185,7 +218,7 @@ class Equations(Shown):
 
     @cached_property
     def least(self) -> dict[str, Expr]:
-        """The same with the smallest sum of squares where they are not determined."""
+        """The same, with the smallest sum of squares where they are not determined."""
         return {**self._solved.least, **self._friction(self._solved.least)}
 
     def _friction(self, values: Mapping[str, Expr]) -> dict[str, Expr]:
@@ -204,32 +237,31 @@ class Equations(Shown):
 
     @property
     def unexplained(self) -> tuple[Expr, ...]:
-        """Balances of bodies that no reaction takes up; they vanish along the motion."""
+        """Balances of bodies that no reaction supplies; they vanish along the motion."""
         return self._solved.unexplained
 
     @cached_property
     def reactions(self) -> dict[str, Reaction]:
         """Force and couple of every contact and joint on its body, by its name."""
-        return {
-            name: self._reaction(name, [restraint.name for restraint in restraints])
-            for name, restraints in self.kinetics.restraints.items()
-            if restraints
-        }
-
-    def _reaction(self, element: str, names: list[str]) -> Reaction:
-        own = [line for line in self.lines if line.name in names]
-        first = own[0].restraint
-        zero = first.direction.triad
-        force = couple = first.direction * 0
-        for line in own:
-            share = line.direction * self.components[line.name]
-            if line.restraint.is_couple:
-                couple = couple + share
-            else:
-                force = force + share
-        arm = next((c.restraint.arm for c in own if c.restraint.arm), Vector.along(zero, (0, 0, 0)))
-        loose = tuple(name for name in names if name in self.undetermined)
-        return Reaction(element, first.body, force, couple, arm, loose)
+        found = {}
+        for element, restraints in self.kinetics.restraints.items():
+            names = [restraint.name for restraint in restraints]
+            own = [line for line in self.lines if line.name in names]
+            if not own:
+                continue
+            first = own[0].restraint
+            force = couple = first.direction * 0
+            for line in own:
+                share = line.direction * self.components[line.name]
+                if line.restraint.is_couple:
+                    couple = couple + share
+                else:
+                    force = force + share
+            arms = (line.restraint.arm for line in own if line.restraint.arm)
+            arm = next(arms, Vector.along(first.direction.triad, (0, 0, 0)))
+            loose = tuple(name for name in names if name in self.undetermined)
+            found[element] = Reaction(element, first.body, force, couple, arm, loose)
+        return found
 
     # -- energies and momenta -------------------------------------------------------------------
 
@@ -264,12 +296,11 @@ class Equations(Shown):
         powers = {load.name: self.load_power(load.name) for load in self.system.loads}
         lines = {line.name: line for line in self.lines}
         for name, restraints in self.kinetics.restraints.items():
-            own = [lines[r.name] for r in restraints if r.name in lines]
-            powers[name] = sum((self._reaction_power(line) for line in own), ZERO)
+            powers[name] = ZERO
+            for line in (lines[r.name] for r in restraints if r.name in lines):
+                value = self._solved.least[line.name]
+                powers[name] += energies.reaction_power(self.kinetics, line, value)
         return powers
-
-    def _reaction_power(self, line: ReactionColumn) -> Expr:
-        return energies.reaction_power(self.kinetics, line, self._solved.least[line.name])
 
     def load_power(self, name: str) -> Expr:
         """Rate of work of one load, W."""
@@ -310,12 +341,12 @@ class Equations(Shown):
 
     @cached_property
     def parameters(self) -> tuple[Symbol, ...]:
-        """Constants that occur, also in how supports move, in alphabetical order."""
+        """Constants that occur, those of moving supports included, in alphabetical order."""
         return self._of_kind(SymbolKind.PARAMETER)
 
     @cached_property
     def functions(self) -> tuple[Symbol, ...]:
-        """Prescribed functions of time that occur likewise, without their derivatives."""
+        """Prescribed functions of time that occur, without their derivatives."""
         found = (s.base() for s in self._of_kind(SymbolKind.FUNCTION))
         return tuple(dict.fromkeys(found))
 
@@ -335,17 +366,87 @@ class Equations(Shown):
         }
         return units.infer(units.uses_of(self.kinetics, energy, forces))
 
-    def _motion_of_supports(self) -> Iterator[Expr]:
-        """How what is touched moves, whether the contact feels it or not."""
-        for element in self.kinetics.elements:
-            if isinstance(element, Contact):
-                yield from (element.on.turning, *element.on.drift.components)
-
     def _of_kind(self, kind: SymbolKind) -> tuple[Symbol, ...]:
-        needs = (v for need in self.demands.values() for v in (need.force, need.couple))
-        balances = [component for vector in needs for component in vector.components]
+        wrenches = (v for wrench in self.required.values() for v in (wrench.force, wrench.couple))
+        balances = [component for vector in wrenches for component in vector.components]
         rates = self.kinematics.values()
-        own = (*self.rows, *balances, self.energy, *rates, *self.closures)
-        used = variables((*own, *self._motion_of_supports()))
+        own = [*self.rows, *balances, self.energy, *rates, *self.closures]
+        for element in self.kinetics.elements:
+            if isinstance(element, Contact):  # how its support moves, whether it is felt or not
+                own += (element.on.turning, *element.on.drift.components)
+        used = variables(own)
         found = (s for s in used if s.kind is kind and s.name != "pi")
         return tuple(sorted(found, key=lambda s: s.published))
+
+
+def equations_only(given: object, what: str) -> None:
+    """Refuse anything but equations of motion.
+
+    Raises:
+        DeclarationError: for anything else.
+    """
+    if not isinstance(given, Equations):
+        raise DeclarationError(
+            f"{what} of a {type(given).__name__}",
+            expected="equations of motion",
+            advice="derive them first: ph.derive(system)",
+        )
+
+
+def without_idle_factors(row: Expr) -> Expr:
+    """Numerator without the number, parameters and sines common to all terms.
+
+    What is left vanishes wherever the sine does not, and by continuity there too.
+    """
+    numerator = lowest_numerator(row)
+    terms = list(numerator.terms())
+    if not terms:
+        return row
+    shared = {
+        g: min(powers.get(g, 0) for powers, _ in terms)
+        for g in terms[0][0]
+        if not isinstance(g, Symbol) or g.kind is SymbolKind.PARAMETER
+    }
+    above = gcd(*(abs(c.numerator) for _, c in terms))
+    below = lcm(*(c.denominator for _, c in terms))
+    result = numerator * below / above
+    for generator, power in shared.items():
+        result = result / Expr.generator(generator) ** power
+    return result
+
+
+def is_angle(equations: Equations, symbol: Symbol) -> bool:
+    """Whether a quantity is an angle, which people read in degrees.
+
+    A dimensionless coordinate is one, and so is a dimensionless parameter that stands as such, or
+    as a term of a sum, in the argument of a sine or cosine.
+    """
+    if dimension_of(Expr.generator(symbol), equations.dimensions) not in (PURE, None):
+        return False
+    if symbol in equations.coordinates:
+        return True
+    for row in (*equations.motion, equations.potential_energy):
+        for generator in row.generators:
+            if getattr(generator, "name", "") in ("sin", "cos") and symbol in generator.symbols():
+                slopes = (argument.diff(symbol) for argument in generator.arguments)
+                if any(slope and not slope.symbols() for slope in slopes):
+                    return True
+    return False
+
+
+def lettered(
+    equations: Equations, expressions: Iterable[Expr]
+) -> tuple[tuple[Expr, ...], tuple[str, ...]]:
+    """Expressions with a letter for every long part, and a line that explains the letters.
+
+    The letters differ from all symbols of the equations. Without letters there is no such line.
+    """
+    known = (*equations.coordinates, *equations.kinetics.dependent, *equations.parameters)
+    written, parts = under_letters(tuple(expressions), known)
+    names = [Expr.generator(symbol).pretty() for symbol in parts]
+    if not names:
+        return written, ()
+    one = f"{names[0]} is a long expression"
+    several = f"{names[0]}, ..., {names[-1]} are long expressions"
+    explained = one if len(names) == 1 else several
+    return written, (f"where {explained} of coordinates and speeds, kept under names",)

@@ -1,4 +1,4 @@
-"""The form in which equations are derived: in closed form, or in named parts."""
+"""The form of derived expressions: written out in full, or with long parts under names."""
 
 from __future__ import annotations
 
@@ -21,7 +21,10 @@ from polhode.algebra import (
 
 
 class Solver(Protocol):
-    """Solves linear equations; what it gives stays a polynomial in the visible symbols."""
+    """Solves linear equations whose right-hand sides stay polynomials in the visible symbols.
+
+    Unknowns of low rank are solved for first; those of high rank are left free.
+    """
 
     def __call__(
         self,
@@ -39,14 +42,14 @@ class Form:
 
     Attributes:
         name: what the form is called.
-        keep: an expression as it is worked on; polynomials in some symbols stay such.
-        settle: what has become of an equation; it may be refused as too long.
-        eliminate: how linear equations are solved.
+        keep: brings an expression to this form; polynomials in the visible symbols stay such.
+        refuse_outgrown: raises `OutgrownError` for equations too long for this form.
+        eliminate: solves linear equations.
     """
 
     name: str
     keep: Callable[[Expr, Iterable[Symbol]], Expr]
-    settle: Callable[[Iterable[Expr]], None]
+    refuse_outgrown: Callable[[Iterable[Expr]], None]
     eliminate: Solver
 
     def express(self, vector: Vector, triad: Triad) -> Vector:

@@ -1,4 +1,10 @@
-"""Kinematics: coordinates, independent speeds, and the velocity of every body in terms of them."""
+"""Kinematics: coordinates, independent speeds, and the velocity of every body in terms of them.
+
+Order of the work: contacts and joints place the bodies; coordinates and speeds are gathered; every
+velocity is written in all of these speeds; the constraints eliminate the dependent speeds
+(`derive._constraints`, which also says in what order and why); velocities are resolved along the
+axes of their bodies in the independent speeds alone.
+"""
 
 from __future__ import annotations
 
@@ -15,11 +21,9 @@ from polhode.algebra import (
     variables,
 )
 from polhode.base import ConstraintError, DeclarationError
-from polhode.derive._constraints import Speeds, against, dependent_speeds
+from polhode.derive._constraints import dependent_speeds, elimination_ranks, relative_velocity
 from polhode.derive._form import IN_PARTS, Form
-from polhode.derive._second_spins import refuse_second_spins
-from polhode.derive._unanswered import refuse_unanswered
-from polhode.derive._unconstrained import Unconstrained
+from polhode.derive._unconstrained import Unconstrained, refuse_second_spins, refuse_unfelt_forces
 from polhode.model import Body, Element, Restraint, System
 
 
@@ -71,11 +75,14 @@ class Kinematics:
 
     def resolve(self, vector: Vector) -> Vector:
         """A vector with rates and dependent speeds put in terms of the independent speeds."""
-        settled = Vector(tuple(self.on_speeds(c) for c in vector.components), vector.triad)
-        return self.form.kept(settled, self.speeds)
+        resolved = Vector(tuple(self.on_speeds(c) for c in vector.components), vector.triad)
+        return self.form.kept(resolved, self.speeds)
 
     def derivative(self, vector: Vector) -> Vector:
-        """Time derivative in inertial space along the motion."""
+        """Time derivative in inertial space along the motion: d/dt along the triad, plus Ω ×.
+
+        Goldstein, Classical Mechanics, § 4.9; problem set, eq. (5).
+        """
         components = tuple(c.chain(self.rate) for c in vector.components)
         turning = self.resolve(vector.triad.angular_velocity)
         rate = Vector(components, vector.triad) + turning.cross(vector)
@@ -91,42 +98,52 @@ class Kinematics:
         return self.form.kept(spin, self.speeds)
 
     def slip(self, restraint: Restraint) -> Vector:
-        """Velocity of the restrained point (or of the body's rotation) against its support."""
-        own = against(restraint, self.velocities, self.form, self.speeds)
+        """Velocity of the restrained point (or of the body's rotation) relative to its support."""
+        own = relative_velocity(restraint, self.velocities, self.form, self.speeds)
         return own - self.resolve(restraint.velocity)
 
 
 def motion_of(system: System, form: Form) -> Kinematics:
     """Place every body, gather coordinates and speeds, and solve the velocity constraints.
 
-    Where places of contact are in named parts already, so is all that follows.
+    Speeds are rates of coordinates or, where a body or contact declares them, quasi-velocities
+    (generalized speeds of Kane and Levinson): angular velocities along the body's axes, velocities
+    of centres of mass. Where points of contact are in named parts, so is all that follows.
 
     Raises:
-        DeclarationError: for bodies that share coordinates, or independent speeds that are none.
+        DeclarationError: for bodies that share coordinates, or unknown independent speeds.
         ConstraintError: for constraints that contradict one another.
     """
-    elements, places, brought = _placed(system)
-    _refuse_gaps(elements, places)
+    elements, places, contact_rates = _placed(system)
+    _refuse_open_loops(elements, places)
     restraints = {e.name: e.restraints(places) for e in elements}
     prescribed = [r for group in restraints.values() for r in group]
     if any(r.is_in_parts for r in prescribed):
         form = IN_PARTS
-    given = _given_rates(system, brought)
-    coordinates = _coordinates(system, places, given)
-    bare = tuple(q.derivative() for q in coordinates if q not in given)
-    quasi = tuple(_quasi_speeds(system, brought))
-    rates = {q.derivative(): rate for q, rate in given.items()}
-    speeds = bare + quasi
-    raw = {
-        body: _kept(_raw_velocity(body, places[body], rates), form, speeds)
-        for body in system.bodies
-    }
+    quasi_rates = {_symbol(q): rate for body in system.bodies for q, rate in body.rates.items()}
+    quasi_rates |= {q: rate for q, (_, rate) in contact_rates.items()}
+    coordinates = _coordinates(system, places, quasi_rates)
+    bare = tuple(q.derivative() for q in coordinates if q not in quasi_rates)
+    rotations = _rotational_speeds(system)
+    translations = {_symbol(rate): body for body, rate in contact_rates.values()}
+    speeds = bare + tuple(dict.fromkeys([*rotations, *translations]))
+    rates = {q.derivative(): rate for q, rate in quasi_rates.items()}
+    raw = {}
+    for body in system.bodies:
+        pair = (places[body].dt(), body.angular_velocity)
+        velocity, angular = (form.kept(_substituted(v, rates), speeds) for v in pair)
+        raw[body] = velocity, angular
     unconstrained = Unconstrained(system, elements, places, restraints, raw, rates, speeds)
     refuse_second_spins(unconstrained)
-    refuse_unanswered(unconstrained)
-    ranks = _ranks(system, bare, quasi, brought)
+    refuse_unfelt_forces(unconstrained)
+    ranks = elimination_ranks(bare, rotations, translations, system.independent)
     dependent = dependent_speeds(prescribed, raw, rates, ranks, form)
     independent = tuple(s for s in speeds if s not in dependent)
+
+    def along_axes(vector: Vector, body: Body) -> Vector:
+        solved = form.kept(_substituted(vector, dependent), independent)
+        return form.kept(form.express(solved, body.axes), independent)
+
     kinematics = {q.derivative(): Expr.generator(q.derivative()) for q in coordinates} | rates
     return Kinematics(
         system,
@@ -137,18 +154,19 @@ def motion_of(system: System, form: Form) -> Kinematics:
         {rate: form.keep(e.subs(dependent), independent) for rate, e in kinematics.items()},
         dependent,
         restraints,
-        {body: _settled(body, pair, dependent, form, independent) for body, pair in raw.items()},
+        {b: (along_axes(v, b), along_axes(w, b)) for b, (v, w) in raw.items()},
         form,
     )
 
 
-Brought = Mapping[Symbol, tuple[Body, Expr]]
+#: Coordinates that contacts and joints introduce: the body they place, and the rate.
+ContactRates = Mapping[Symbol, tuple[Body, Expr]]
 
 
-def _placed(system: System) -> tuple[tuple[Element, ...], dict[Body, Vector], Brought]:
-    """Bodies placed by contacts and joints, in whatever order that works; the rest fly freely."""
+def _placed(system: System) -> tuple[tuple[Element, ...], dict[Body, Vector], ContactRates]:
+    """Centres of mass by contacts and joints, in whatever order works; other bodies fly freely."""
     places: dict[Body, Vector] = {}
-    brought: dict[Symbol, tuple[Body, Expr]] = {}
+    contact_rates: dict[Symbol, tuple[Body, Expr]] = {}
     flights: tuple[Element, ...] = ()
 
     def place(elements: Iterable[Element]) -> bool:
@@ -160,7 +178,7 @@ def _placed(system: System) -> tuple[tuple[Element, ...], dict[Body, Vector], Br
                 places[body] = centre
                 progress = True
                 for coordinate, rate in element.rates().items():
-                    first, _ = brought.setdefault(_symbol(coordinate), (body, rate))
+                    first, _ = contact_rates.setdefault(_symbol(coordinate), (body, rate))
                     if first != body:
                         raise _shared(f"coordinate {coordinate}", first, body)
         return progress
@@ -170,7 +188,19 @@ def _placed(system: System) -> tuple[tuple[Element, ...], dict[Body, Vector], Br
             waiting = system.flights(places)[:1]
             flights += waiting
             place(waiting)
-    return system.elements + flights, places, brought
+    return system.elements + flights, places, contact_rates
+
+
+def _refuse_open_loops(elements: Iterable[Element], places: Mapping[Body, Vector]) -> None:
+    """Refuse loops that no configuration closes."""
+    for element in elements:
+        for gap in element.closures(places):
+            if not any(s.kind is SymbolKind.COORDINATE for s in gap.symbols()):
+                raise ConstraintError(
+                    f"{element.name!r}, which never closes: {gap} would have to vanish",
+                    expected="bodies that can be where all contacts and joints require them",
+                    advice="check lengths and places, or leave this one out",
+                )
 
 
 def _shared(what: str, first: Body, second: Body) -> DeclarationError:
@@ -181,16 +211,34 @@ def _shared(what: str, first: Body, second: Body) -> DeclarationError:
     )
 
 
-def _refuse_gaps(elements: Iterable[Element], places: Mapping[Body, Vector]) -> None:
-    """A loop that no configuration closes."""
-    for element in elements:
-        for gap in element.closures(places):
-            if not any(s.kind is SymbolKind.COORDINATE for s in gap.symbols()):
-                raise ConstraintError(
-                    f"{element.name!r}, which never closes: {gap} would have to vanish",
-                    expected="bodies that can be where all contacts and joints want them",
-                    advice="check lengths and places, or leave this one out",
-                )
+def _coordinates(
+    system: System, places: Mapping[Body, Vector], quasi_rates: Mapping[Symbol, Expr]
+) -> tuple[Symbol, ...]:
+    """In order of appearance: angles of the axes from the root on, spin, place, body by body."""
+
+    def varying(expressions: Iterable[Expr]) -> list[Symbol]:
+        return sorted(variables(expressions), key=lambda symbol: symbol.published)
+
+    found: dict[Symbol, None] = {}
+    for body in system.bodies:
+        symbols = [s for frame in reversed(body.axes.lineage) for s in varying([frame.angle])]
+        symbols += [_symbol(q) for q in body.rates]
+        symbols += varying(places[body].components)
+        for symbol in symbols:
+            if symbol.kind is SymbolKind.COORDINATE:
+                found.setdefault(symbol.base())
+    return tuple(found | dict.fromkeys(quasi_rates))
+
+
+def _rotational_speeds(system: System) -> list[Symbol]:
+    """Angular velocities that bodies declare; only bodies that turn alike may share one."""
+    owners: dict[Symbol, Body] = {}
+    for body in system.bodies:
+        for speed in map(_symbol, body.speeds):
+            first = owners.setdefault(speed, body)
+            if (first.axes, first.spin) != (body.axes, body.spin):
+                raise _shared(f"speed {speed.published}", first, body)
+    return list(owners)
 
 
 def _symbol(expression: Expr) -> Symbol:
@@ -198,93 +246,5 @@ def _symbol(expression: Expr) -> Symbol:
     return symbol
 
 
-def _given_rates(system: System, brought: Brought) -> dict[Symbol, Expr]:
-    given = {_symbol(q): rate for body in system.bodies for q, rate in body.rates.items()}
-    return given | {q: rate for q, (_, rate) in brought.items()}
-
-
-def _coordinates(
-    system: System, places: Mapping[Body, Vector], given: Mapping[Symbol, Expr]
-) -> tuple[Symbol, ...]:
-    found: dict[Symbol, None] = {}
-    for body in system.bodies:
-        angles = [frame.angle for frame in reversed(body.axes.lineage)]
-        own = [_symbol(q) for q in body.rates]
-        ordered = [*(sorted(variables([a]), key=_published) for a in angles), own]
-        ordered.append(sorted(variables(places[body].components), key=_published))
-        for symbol in (s for group in ordered for s in group):
-            if symbol.kind is SymbolKind.COORDINATE:
-                found.setdefault(symbol.base())
-    for symbol in given:
-        found.setdefault(symbol)
-    return tuple(found)
-
-
-def _published(symbol: Symbol) -> str:
-    return symbol.published
-
-
-def _quasi_speeds(system: System, brought: Brought) -> dict[Symbol, None]:
-    rotational: dict[Symbol, Body] = {}
-    for body in system.bodies:
-        for speed in map(_symbol, body.speeds):
-            first = rotational.setdefault(speed, body)
-            if (first.axes, first.spin) != (body.axes, body.spin):
-                raise _shared(f"speed {speed.published}", first, body)
-    return dict.fromkeys([*rotational, *(_symbol(rate) for _, rate in brought.values())])
-
-
-def _raw_velocity(body: Body, place: Vector, rates: Mapping[Symbol, Expr]) -> tuple[Vector, Vector]:
-    velocity = place.dt()
-    moved = Vector(tuple(c.subs(rates) for c in velocity.components), velocity.triad)
-    angular = body.angular_velocity
-    return moved, Vector(tuple(c.subs(rates) for c in angular.components), angular.triad)
-
-
-def _ranks(
-    system: System,
-    bare: tuple[Symbol, ...],
-    quasi: tuple[Symbol, ...],
-    brought: Brought,
-) -> dict[Symbol, int]:
-    """How readily each speed is given up: translation first, but for balls their rotation.
-
-    That is how a text eliminates: a disk is described by its rotation, a ball by its velocity.
-    """
-    ranks = dict.fromkeys(bare, 3) | dict.fromkeys(quasi, 1)
-    for body, rate in brought.values():
-        ranks[_symbol(rate)] = 2 if body.is_isotropic else 0
-    _refuse_unknown(system.independent, ranks)
-    return ranks | dict.fromkeys(system.independent, 4)
-
-
-def _refuse_unknown(wanted: Iterable[Symbol], speeds: Mapping[Symbol, int]) -> None:
-    for symbol in wanted:
-        if symbol not in speeds:
-            raise DeclarationError(
-                f"independent={symbol.published}",
-                expected=f"one of the speeds {', '.join(s.published for s in speeds)}",
-                advice="name the rate of a coordinate, as in theta.dt()",
-            )
-
-
-Pair = tuple[Vector, Vector]
-
-
-def _kept(pair: Pair, form: Form, speeds: Speeds) -> Pair:
-    first, second = (form.kept(vector, speeds) for vector in pair)
-    return first, second
-
-
-def _settled(
-    body: Body, pair: Pair, dependent: Mapping[Symbol, Expr], form: Form, speeds: Speeds
-) -> Pair:
-    """Both in terms of the independent speeds, along the body's axes."""
-
-    def settled(vector: Vector) -> Vector:
-        solved = Vector(tuple(c.subs(dependent) for c in vector.components), vector.triad)
-        along = form.express(form.kept(solved, speeds), body.axes)
-        return form.kept(along, speeds)
-
-    velocity, angular = map(settled, pair)
-    return velocity, angular
+def _substituted(vector: Vector, table: Mapping[Symbol, Expr]) -> Vector:
+    return Vector(tuple(c.subs(table) for c in vector.components), vector.triad)

@@ -1,4 +1,9 @@
-"""Reactions: solved from the balance of every body, component by component."""
+"""Reactions: solved from the balances of the bodies, component by component.
+
+There are six balances for every body and as many unknowns as restraints. As many balances as there
+are independent speeds are left over: they are the equations of motion. Components that Newton's
+laws leave open (a body on more supports than needed) stay as symbols.
+"""
 
 from __future__ import annotations
 
@@ -18,44 +23,12 @@ from polhode.algebra import (
     dot,
 )
 from polhode.base import ConstraintError
-from polhode.derive._balance import Wrench
+from polhode.derive._balance import ReactionColumn, Wrench
 from polhode.derive._form import IN_PARTS, Form
 from polhode.derive._motion import Kinematics
-from polhode.model import Body, Friction, Restraint
+from polhode.model import Body
 
 Solve = Callable[[Sequence[Row], Sequence[Expr]], Elimination]
-
-
-@dataclass(frozen=True)
-class ReactionColumn:
-    """The force or couple that one unit of a reaction puts on a body (and its opposite)."""
-
-    restraint: Restraint
-    direction: Vector
-
-    @property
-    def name(self) -> str:
-        """Name of the reaction component."""
-        return self.restraint.name
-
-    @property
-    def leans(self) -> bool:
-        """Whether friction goes with it."""
-        return self.direction != self.restraint.direction
-
-    def on(self, body: Body) -> Wrench | None:
-        """What one unit does to a body."""
-        if body == self.restraint.body:
-            return _acting(body, self.direction, self.restraint.arm)
-        if body == self.restraint.other:
-            return _acting(body, -self.direction, self.restraint.other_arm)
-        return None
-
-
-def _acting(body: Body, direction: Vector, arm: Vector | None) -> Wrench:
-    if arm is None:
-        return Wrench(body.axes.zero, direction)
-    return Wrench(direction, arm.cross(direction))
 
 
 @dataclass(frozen=True)
@@ -68,7 +41,7 @@ class Reactions:
         undetermined: components that Newton's laws leave open, or that depend on open ones.
         least: the values with the smallest sum of squares of all forces and, where these leave
             couples open, with the smallest sum of squares of all couples.
-        unexplained: what the balances demand that no component can supply.
+        unexplained: remainders of balances that no component can supply.
     """
 
     values: dict[str, Expr]
@@ -77,61 +50,28 @@ class Reactions:
     unexplained: tuple[Expr, ...]
 
 
-def lines(motion: Kinematics) -> tuple[ReactionColumn, ...]:
-    """Lines of action of all reactions; a normal force with friction leans against the slip."""
-    found = []
-    for element in motion.elements:
-        leaning = {f.normal.name: f for f in element.friction(motion.places)}
-        for restraint in motion.restraints[element.name]:
-            direction = restraint.direction
-            if restraint.name in leaning:
-                direction = direction + friction_lean(motion, leaning[restraint.name])
-            found.append(ReactionColumn(restraint, direction))
-    return tuple(found)
-
-
-def friction_lean(motion: Kinematics, friction: Friction) -> Vector:
-    """Friction per unit of normal force: -μ along the slip velocity."""
-    (_, first), (_, second) = friction.directions
-    if friction.slip is not None:
-        along, across = friction.slip
-        return (first * along + second * across) * -friction.coefficient
-    slip = motion.slip(friction.normal)
-    along, across = slip.dot(first), slip.dot(second)
-    speed = (first * along + second * across).norm()
-    if not speed:
-        raise ConstraintError(
-            f"sliding friction at {friction.normal.name} of a contact that cannot slip",
-            expected="a slip velocity that is not zero identically",
-            advice="declare the contact Rolling",
-        )
-    return (first * along + second * across) * (-friction.coefficient / speed)
-
-
 def solve_reactions(
-    motion: Kinematics, demands: Mapping[Body, Wrench], columns: tuple[ReactionColumn, ...]
+    motion: Kinematics, required: Mapping[Body, Wrench], columns: tuple[ReactionColumn, ...]
 ) -> Reactions:
-    """Every reaction component, from the balance of all bodies, the last declared first.
+    """Every reaction component, from the balances of all bodies, the last declared first.
 
-    What hangs on others is mostly declared after them, and tells the reactions that carry it.
+    A body that hangs on others is mostly declared after them, and the reactions that carry it
+    follow from its own balance.
     """
-    balances = list(_balances(motion, demands, columns))
-    if any(line.leans for line in columns):
-        return _from(_held(balances, motion), motion, columns, 0)
-    return _from(balances, motion, columns, len(motion.speeds))
-
-
-def _held(balances: list[_Balance], motion: Kinematics) -> list[_Balance]:
-    """Without as many as there are independent speeds, for which the projections on these stand.
-
-    With friction a projection would tell a reaction too, over the slip; and what is told by it,
-    put into the same projection, would leave no equation of motion.
-    """
-    rates = [_part(b.moved, b.triad, b.place) for b in balances]
-    reach = [tuple(rate.diff(speed) for rate in rates) for speed in motion.speeds]
-    nothing = [ZERO] * len(reach)
-    told = motion.form.eliminate(reach, nothing, [0] * len(balances), motion.accelerations).solved
-    return [b for i, b in enumerate(balances) if i not in told]
+    balances, spare = list(_balances(motion, required, columns)), len(motion.speeds)
+    if any(column.has_friction for column in columns):
+        # The equations of motion contain the normal force now, so it must not be solved from the
+        # balances that they are made of: as many balances are left out as there are independent
+        # speeds, those along which the bodies can move.
+        rates = [_component(b.moved, b.triad, b.axis) for b in balances]
+        partial = [tuple(rate.diff(speed) for rate in rates) for speed in motion.speeds]
+        zeros, equal = [ZERO] * len(partial), [0] * len(balances)
+        movable = motion.form.eliminate(partial, zeros, equal, motion.accelerations).solved
+        balances, spare = [b for i, b in enumerate(balances) if i not in movable], 0
+    try:
+        return _solved(motion, motion.form, balances, columns, spare)
+    except OutgrownError:
+        return _solved(motion, IN_PARTS, balances, columns, spare)
 
 
 @dataclass(frozen=True)
@@ -140,46 +80,41 @@ class _Balance:
 
     Attributes:
         body: that body.
-        row: what a unit of each reaction gives to it.
-        demand: what the motion asks for.
-        moved: what it does work on: the body's velocity, or its angular velocity.
+        row: the component of every reaction column.
+        required: the component of the required wrench.
+        moved: the velocity it does work on: the body's, or its angular velocity.
         triad: along one of whose axes it is taken.
-        place: of that axis.
+        axis: index of that axis.
     """
 
     body: Body
     row: Row
-    demand: Expr
+    required: Expr
     moved: Vector
     triad: Triad
-    place: int
+    axis: int
 
 
 def _balances(
-    motion: Kinematics, demands: Mapping[Body, Wrench], columns: tuple[ReactionColumn, ...]
+    motion: Kinematics, required: Mapping[Body, Wrench], columns: tuple[ReactionColumn, ...]
 ) -> Iterator[_Balance]:
-    for body in tuple(demands)[::-1]:
-        demand = demands[body]
+    """Forces along the axes in which the first reaction is written, couples along the body's."""
+    for body in tuple(required)[::-1]:
         velocity, angular = motion.velocities[body]
-        unit = [line.on(body) for line in columns]
+        unit = [column.on(body) for column in columns]
         triad = next((w.force.triad for w in unit if w and w.force.components), body.axes)
-        forces = demand.force.express(triad).components
+        forces = required[body].force.express(triad).components
         for i in range(3):
-            row = tuple(_part(w.force, triad, i) if w else ZERO for w in unit)
+            row = tuple(_component(w.force, triad, i) if w else ZERO for w in unit)
             yield _Balance(body, row, forces[i], velocity, triad, i)
+        couples = required[body].couple.components
         for i in range(3):
-            row = tuple(_part(w.couple, body.axes, i) if w else ZERO for w in unit)
-            yield _Balance(body, row, demand.couple.components[i], angular, body.axes, i)
+            row = tuple(_component(w.couple, body.axes, i) if w else ZERO for w in unit)
+            yield _Balance(body, row, couples[i], angular, body.axes, i)
 
 
-def _from(
-    balances: list[_Balance], motion: Kinematics, columns: tuple[ReactionColumn, ...], spare: int
-) -> Reactions:
-    """From balances of which some, but no more, may be left over as equations of motion."""
-    try:
-        return _solved(motion, motion.form, balances, columns, spare)
-    except OutgrownError:
-        return _solved(motion, IN_PARTS, balances, columns, spare)
+def _component(vector: Vector, triad: Triad, axis: int) -> Expr:
+    return vector.express(triad).components[axis] if any(vector.components) else ZERO
 
 
 def _solved(
@@ -189,24 +124,36 @@ def _solved(
     columns: tuple[ReactionColumn, ...],
     spare: int,
 ) -> Reactions:
-    def eliminated(table: Sequence[Row], values: Sequence[Expr]) -> Elimination:
+    """From balances of which no more than `spare` may be left over as equations of motion."""
+
+    def solve(table: Sequence[Row], values: Sequence[Expr]) -> Elimination:
         ranks = [0] * (len(table[0]) if table else len(columns))
         return form.eliminate(table, values, ranks, motion.accelerations)
 
-    outcome = eliminated([b.row for b in balances], [b.demand for b in balances])
+    outcome = solve([b.row for b in balances], [b.required for b in balances])
     if len(outcome.contradictory) > spare:
-        raise _unheld(motion, [balances[i].body for i in outcome.contradictory])
-    return _named(outcome, columns, eliminated)
+        raise _missing_support(motion, [balances[i].body for i in outcome.contradictory])
+    names = [column.name for column in columns]
+    leftover = tuple(outcome.leftover[i] for i in outcome.contradictory)
+    if not outcome.free:
+        values = {names[j]: constant for j, (_, constant) in outcome.solved.items()}
+        ordered = {name: values[name] for name in names}
+        return Reactions(ordered, (), ordered, leftover)
+    general = _in_terms_of_free(outcome)
+    symbols = tuple(Expr.generator(Symbol(names[j])) for j in outcome.free)
+    least = _least_squares(general, columns, solve)
+    return Reactions(
+        {name: _value(general[j], symbols) for j, name in enumerate(names)},
+        tuple(name for j, name in enumerate(names) if any(general[j][0])),
+        {name: _value(general[j], least) for j, name in enumerate(names)},
+        leftover,
+    )
 
 
-def _part(vector: Vector, triad: Triad, index: int) -> Expr:
-    return vector.express(triad).components[index] if any(vector.components) else ZERO
-
-
-def _unheld(motion: Kinematics, demanding: list[Body]) -> ConstraintError:
-    """Balances are left over that are no equations of motion: a support is missing."""
+def _missing_support(motion: Kinematics, unbalanced: list[Body]) -> ConstraintError:
+    """The error where more balances are left over than there are equations of motion."""
     held = {r.body for group in motion.restraints.values() for r in group if r.is_couple}
-    suspects = [body.name for body in demanding if body not in held]
+    suspects = [body.name for body in unbalanced if body not in held]
     names = ", ".join(dict.fromkeys(suspects or [body.name for body in motion.system.bodies]))
     return ConstraintError(
         f"nothing supplies the couple that keeps the axes of {names} as they are declared",
@@ -215,77 +162,55 @@ def _unheld(motion: Kinematics, demanding: list[Body]) -> ConstraintError:
     )
 
 
-def _named(
-    outcome: Elimination, columns: tuple[ReactionColumn, ...], eliminated: Solve
-) -> Reactions:
-    names = [line.name for line in columns]
-    left = tuple(outcome.leftover[i] for i in outcome.contradictory)
-    if not outcome.free:
-        values = {names[j]: constant for j, (_, constant) in outcome.solved.items()}
-        ordered = {name: values[name] for name in names}
-        return Reactions(ordered, (), ordered, left)
-    told = _in_terms_of_open(outcome)
-    open_ = tuple(Expr.generator(Symbol(names[j])) for j in outcome.free)
-    least_open = _least(told, columns, eliminated)
-    return Reactions(
-        {name: _sum(told[j], open_) for j, name in enumerate(names)},
-        tuple(name for j, name in enumerate(names) if any(told[j][0])),
-        {name: _sum(told[j], least_open) for j, name in enumerate(names)},
-        left,
-    )
-
-
-#: A linear expression: coefficients, and the rest.
+#: A linear expression: coefficients, and the constant term.
 Linear = tuple[Row, Expr]
 
 
-def _sum(linear: Linear, values: Row) -> Expr:
-    coefficients, rest = linear
-    return dot(coefficients, values) + rest
+def _value(linear: Linear, values: Row) -> Expr:
+    coefficients, constant = linear
+    return dot(coefficients, values) + constant
 
 
-def _in_terms_of_open(outcome: Elimination) -> dict[int, Linear]:
-    """Every component in terms of those that stay open."""
-    return outcome.solved | {j: (_unit(k, outcome.free), ZERO) for k, j in enumerate(outcome.free)}
+def _in_terms_of_free(outcome: Elimination) -> dict[int, Linear]:
+    """Every unknown in terms of those that stay free, these included."""
+    size = len(outcome.free)
+    return outcome.solved | {j: (_unit(k, size), ZERO) for k, j in enumerate(outcome.free)}
 
 
-def _unit(place: int, among: Sequence[int]) -> Row:
-    return tuple(ONE if i == place else ZERO for i in range(len(among)))
+def _unit(place: int, size: int) -> Row:
+    return tuple(ONE if i == place else ZERO for i in range(size))
 
 
-def _least(
-    told: Mapping[int, Linear], columns: tuple[ReactionColumn, ...], eliminated: Solve
+def _least_squares(
+    general: Mapping[int, Linear], columns: tuple[ReactionColumn, ...], solve: Solve
 ) -> Row:
     """Open components that make the sum of squares of all forces smallest, then of all couples.
 
-    A force and a couple are not of one dimension: a sum of squares of both would depend on the
-    unit of length.
+    A force and a couple differ in dimension: a sum of squares of both would depend on the unit of
+    length. The normal equations of the couples are solved in what those of the forces leave free.
     """
-    size = len(told[0][0])
-    open_: list[Linear] = [(_unit(k, range(size)), ZERO) for k in range(size)]
+    size = len(general[0][0])
+    found: list[Linear] = [(_unit(k, size), ZERO) for k in range(size)]
     for couples in (False, True):
-        group = [told[j] for j, line in enumerate(columns) if line.restraint.is_couple is couples]
-        unknowns = len(open_[0][0])
+        group = [general[j] for j, c in enumerate(columns) if c.restraint.is_couple is couples]
+        unknowns = range(len(found[0][0]))
         if group and unknowns:
-            chosen = _smallest([_composed(one, open_) for one in group], unknowns, eliminated)
-            open_ = [_composed(one, chosen) for one in open_]
-    return tuple(rest for _, rest in open_)
+            terms = [_composed(one, found) for one in group]
+            normal = [
+                tuple(sum((row[i] * row[j] for row, _ in terms), ZERO) for j in unknowns)
+                for i in unknowns
+            ]
+            right = [-sum((row[i] * constant for row, constant in terms), ZERO) for i in unknowns]
+            best = _in_terms_of_free(solve(normal, right))
+            found = [_composed(one, [best[j] for j in unknowns]) for one in found]
+    return tuple(constant for _, constant in found)
 
 
 def _composed(linear: Linear, inner: Sequence[Linear]) -> Linear:
     """A linear expression of linear expressions."""
-    coefficients, rest = linear
+    coefficients, constant = linear
     columns = zip(*(row for row, _ in inner), strict=True)
     return (
         tuple(dot(coefficients, column) for column in columns),
-        dot(coefficients, [constant for _, constant in inner]) + rest,
+        dot(coefficients, [c for _, c in inner]) + constant,
     )
-
-
-def _smallest(group: Sequence[Linear], unknowns: int, eliminated: Solve) -> list[Linear]:
-    """The unknowns that make the sum of squares smallest, in terms of those it leaves free."""
-    size = range(unknowns)
-    normal = [tuple(sum((row[i] * row[j] for row, _ in group), ZERO) for j in size) for i in size]
-    right = [-sum((row[i] * rest for row, rest in group), ZERO) for i in size]
-    told = _in_terms_of_open(eliminated(normal, right))
-    return [told[j] for j in size]

@@ -1,4 +1,4 @@
-"""How everything moves as long as no constraint is kept: what depends on which speeds."""
+"""How everything moves before any constraint is imposed, and what is refused on that ground."""
 
 from __future__ import annotations
 
@@ -6,12 +6,14 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from polhode.algebra import Expr, Symbol, SymbolKind, Vector, linear_parts, variables
+from polhode.base import DeclarationError
+from polhode.derive._constraints import partial_velocity
 from polhode.model import Body, Element, Places, Restraint, System, Velocities
 
 
 @dataclass(frozen=True)
 class Unconstrained:
-    """How everything moves as long as no constraint is kept.
+    """How everything moves as long as no constraint is imposed.
 
     Attributes:
         system: the declaration.
@@ -31,53 +33,139 @@ class Unconstrained:
     rates: Mapping[Symbol, Expr]
     speeds: tuple[Symbol, ...]
 
-    def moving(self, velocity: Vector, direction: Vector) -> list[Symbol]:
-        """The speeds on which the component of a place's velocity along a direction depends."""
-        if not is_moved(velocity):
+    def speeds_along(self, velocity: Vector, direction: Vector) -> list[Symbol]:
+        """The speeds on which the velocity of a place depends along a direction."""
+        if not depends_on_motion(velocity):
             return []
         along = velocity.dot(direction).subs(self.rates)
         slopes, _ = linear_parts(along, self.speeds)
         return [speed for speed, slope in zip(self.speeds, slopes, strict=True) if slope]
 
-    def gaining(self, velocity: Vector) -> list[Symbol]:
-        """The speeds on which a place's velocity depends in any direction."""
+    def speeds_of(self, velocity: Vector) -> list[Symbol]:
+        """The speeds on which the velocity of a place depends."""
         return [
-            s for s in self.speeds if is_moved(velocity) and not self.slope(velocity, s).is_zero
+            s
+            for s in self.speeds
+            if depends_on_motion(velocity) and not self.slope(velocity, s).is_zero
         ]
 
     def slope(self, velocity: Vector, speed: Symbol) -> Vector:
-        """What a velocity gains with a speed."""
-        given = (c.subs(self.rates) for c in velocity.components)
-        return Vector(tuple(c.diff(Expr.generator(speed)) for c in given), velocity.triad)
+        """The partial velocity of a place, with its rates in terms of the speeds."""
+        given = tuple(c.subs(self.rates) for c in velocity.components)
+        return partial_velocity(Vector(given, velocity.triad), speed)
 
-    def movers(self, speeds: Iterable[Symbol]) -> list[Body]:
-        """The bodies that move, or turn and resist it, with one of these speeds."""
-        wanted = set(speeds)
-        return [body for body in self.system.bodies if wanted & self._moving(body)]
-
-    def _moving(self, body: Body) -> frozenset[Symbol]:
-        velocity, angular = self.velocities[body]
-        resists = any(entry for row in body.inertia.rows for entry in row)
-        return variables((*velocity.components, *(angular.components if resists else ())))
+    def bodies_moved(self, speeds: Iterable[Symbol]) -> list[Body]:
+        """The bodies that move, or turn against inertia, with one of these speeds."""
+        wanted, found = set(speeds), []
+        for body in self.system.bodies:
+            velocity, angular = self.velocities[body]
+            resists = any(entry for row in body.inertia.rows for entry in row)
+            moving = (*velocity.components, *(angular.components if resists else ()))
+            if wanted & variables(moving):
+                found.append(body)
+        return found
 
     def carried(self, *bodies: Body | None) -> set[Body]:
         """Some bodies, and all that hang on them."""
         found = {body for body in bodies if body is not None}
-        while more := [e.bodies[0] for e in self.elements if self._hangs(e, found)]:
+        while True:
+            more = []
+            for element in self.elements:
+                body, *others = element.bodies
+                hangs = body not in found and not found.isdisjoint(others)
+                if hangs and body in element.centre(self.places):
+                    more.append(body)
+            if not more:
+                return found
             found.update(more)
-        return found
-
-    def _hangs(self, element: Element, carriers: set[Body]) -> bool:
-        body, *others = element.bodies
-        free = body not in carriers and not carriers.isdisjoint(others)
-        return free and body in element.centre(self.places)
 
 
-def is_moved(velocity: Vector) -> bool:
+def depends_on_motion(velocity: Vector) -> bool:
     """Whether a velocity depends on how the system moves, and not on places and time alone."""
-    return any(map(_is_free, variables(velocity.components)))
+    return any(
+        s.kind is SymbolKind.SPEED or (s.kind is SymbolKind.COORDINATE and s.order > 0)
+        for s in variables(velocity.components)
+    )
 
 
-def _is_free(symbol: Symbol) -> bool:
-    rate = symbol.kind is SymbolKind.COORDINATE and symbol.order > 0
-    return rate or symbol.kind is SymbolKind.SPEED
+# Supports carried by bodies that do not feel the reaction.
+#
+# The reaction to what holds a body acts on whatever owns the supporting point. Where other bodies
+# carry that point, because it is given by their coordinates and not as a point of theirs, the
+# motion would come out right, but their balance would lack that force.
+
+
+def refuse_unfelt_forces(motion: Unconstrained) -> None:
+    """Refuse supports and loads whose place moves with bodies that do not feel the force there.
+
+    Raises:
+        DeclarationError: naming the contact, joint or load, and what moves its place.
+    """
+    for element in motion.elements:
+        for restraint in motion.restraints[element.name]:
+            moving = motion.speeds_along(restraint.velocity, restraint.direction)
+            held = motion.carried(restraint.body, restraint.other) if moving else set()
+            others = [b for b in motion.bodies_moved(moving) if b not in held]
+            _refuse_unfelt(element.name, moving, others)
+        for friction in element.friction(motion.places):
+            for _, direction in friction.directions:
+                moving = motion.speeds_along(friction.normal.velocity, direction)
+                if moving:
+                    _refuse_unfelt(element.name, moving, motion.bodies_moved(moving))
+    for load in motion.system.loads:
+        for push in load.on_places(motion.places, motion.velocities):
+            moving = motion.speeds_of(push.velocity)
+            held = motion.carried(*load.bodies)
+            others = [b for b in motion.bodies_moved(moving) if b not in held]
+            works = [s for s in moving if motion.slope(push.velocity, s).dot(push.force)]
+            _refuse_unfelt(load.name, moving, others or motion.bodies_moved(works))
+
+
+def _refuse_unfelt(name: str, moving: Iterable[Symbol], unfeeling: Iterable[Body]) -> None:
+    bodies = ", ".join(body.name for body in unfeeling)
+    if bodies:
+        speeds = ", ".join(s.published for s in dict.fromkeys(moving))
+        raise DeclarationError(
+            f"{name!r}, whose support moves with {speeds}: {bodies} would not feel the force on it",
+            expected="a support that moves with time alone, or a body",
+            advice="name the body that carries it: to=body.point(offset), or to=body; strings and "
+            "gears are not modelled",
+        )
+
+
+# Bodies whose axes already turn about the axis of spin.
+
+
+def refuse_second_spins(motion: Unconstrained) -> None:
+    """Refuse axes that turn about the axis of spin with a coordinate that moves nothing else.
+
+    Raises:
+        DeclarationError: naming the body and the coordinate.
+    """
+    for body in motion.system.bodies:
+        loose = body.spin.loose(body.axes)
+        angles = variables(frame.angle for frame in body.axes.lineage) if loose else ()
+        idle = [s for s in angles if s.kind is SymbolKind.COORDINATE and _is_idle(motion, body, s)]
+        if idle:
+            raise DeclarationError(
+                f"body {body.name!r}, which spins about {', '.join(loose)} while its axes turn "
+                f"about the same axis with {', '.join(sorted(s.published for s in idle))}",
+                expected="axes that do not turn about the axis of spin, or turn with other bodies",
+                advice="use spin=WithAxes() if the axes are fixed in the body, or leave out that "
+                "rotation",
+            )
+
+
+def _is_idle(motion: Unconstrained, body: Body, angle: Symbol) -> bool:
+    """Whether a coordinate moves the system no differently than the spin of a body does."""
+    rate = angle.derivative()
+    if rate not in motion.speeds or set(motion.bodies_moved([rate])) - {body}:
+        return False
+    held = (r.velocity for group in motion.restraints.values() for r in group)
+    if any(rate in variables(velocity.components) for velocity in held):
+        return False
+    velocity, angular = motion.velocities[body]
+    axes = [body.axes[label] for label in body.spin.loose(body.axes)]
+    turned = motion.slope(angular, rate)
+    across = turned if len(axes) > 1 else turned.cross(axes[0])
+    return across.is_zero and rate not in variables(velocity.components)

@@ -6,15 +6,14 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, Vector, named, principal_root
-from polhode.model._checks import constant, not_negative, positive, quantity
-from polhode.model._declared import FieldwiseRepr
+from polhode.model._declared import Declared, constant, not_negative, positive, quantity
 from polhode.model._frame import Frame
 
 #: Terms of a squared length beyond which what follows from its root is too long to be written out.
 _LONG = 10
 
 
-class Surface(FieldwiseRepr, ABC):
+class Surface(Declared, ABC):
     """A convex surface fixed to a body's axes, or symmetric about the axis it spins on."""
 
     @property
@@ -31,7 +30,7 @@ class Surface(FieldwiseRepr, ABC):
         """Whether it looks the same however it is turned about this one of the axes."""
 
     def assumed_positive(self, axes: Frame, normal: Vector) -> tuple[Expr, ...]:
-        """Expressions whose sign had to be taken as positive."""
+        """Expressions whose sign is assumed to be positive."""
         return ()
 
 

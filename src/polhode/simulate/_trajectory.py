@@ -1,4 +1,4 @@
-"""A computed motion, and everything that can be read from it."""
+"""A computed motion, with every quantity at any time, its tables and its file."""
 
 from __future__ import annotations
 
@@ -6,19 +6,33 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol
-from polhode.base import NumericError, Shown, look_up
+from polhode.algebra import Expr, Symbol, SymbolKind, dimension_of
+from polhode.base import (
+    LENGTH,
+    MASS,
+    PURE,
+    TIME,
+    NumericError,
+    Shown,
+    StoreError,
+    UnitError,
+    look_up,
+)
+from polhode.derive import Equations
+from polhode.model import write_declaration
 from polhode.simulate._drift import Drift, drift_of
-from polhode.simulate._dynamics import Dynamics, EquationsOfMotion
+from polhode.simulate._dynamics import Dynamics, EquationsOfMotion, readable
 from polhode.simulate._event import Event, placed
-from polhode.simulate._readable import readable
-from polhode.simulate._segment import Segment
-from polhode.simulate.files._csv import write_csv
-from polhode.simulate.integrate._ascending import occurring
+from polhode.simulate._segment import Segment, TrajectoryPiece
+from polhode.simulate.files._archive import Archive, ChebyshevPiece, Sampled, series_of
+from polhode.simulate.files._details import Details, label
+from polhode.simulate.files._store import write_archive
+from polhode.simulate.files._tables import to_pandas, to_xarray, write_csv
+from polhode.simulate.integrate._arrays import occurring
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._stepping import Array
 
@@ -40,18 +54,17 @@ class Trajectory(Shown):
         system: the declaration that moves.
         segments: one per contact mode that was visited, in order.
         parameters: value of every parameter by name.
-        duration: s; less than was asked for where the motion could not go on.
+        duration: s; shorter than requested where the motion could not continue.
         t: times of the samples, s.
         mode: name of the contact mode it ends in.
-        events: start, changes of contact mode, events asked for, end.
+        events: start, changes of contact mode, requested events, end.
         assumed: start values that were not given, by name.
         seconds: time spent to derive, compile and integrate.
         integrator: what integrated it.
-        invariants: expressions that the motion should keep constant, watched by `drift`.
-        resolution: of prescribed motions given as Python functions, by name, s: what such a
-            function does for less than that may have been missed.
-        doubt: what speaks against the motion: a drift beyond what rounding explains. Empty where
-            nothing does.
+        invariants: expressions that the motion should conserve, checked by `drift`.
+        resolution: of prescribed motions given as Python functions, by name, s: changes that last
+            less than that may have been missed.
+        doubt: why the motion is doubtful: a drift that rounding does not explain. Empty otherwise.
     """
 
     system: Any
@@ -70,15 +83,12 @@ class Trajectory(Shown):
 
     def __repr__(self) -> str:
         modes = ", ".join(dict.fromkeys(segment.mode for segment in self.segments))
-        told = (
+        unseen = "".join(f"; {n} resolved to {time:.3g} s" for n, time in self.resolution.items())
+        summary = (
             f"Trajectory of {self.system.name!r} over {float(self.duration):.6g} s: {modes}; "
-            f"{len(self.events)} events{self._unseen}"
+            f"{len(self.events)} events{unseen}"
         )
-        return f"{told}; CANNOT BE RELIED ON: {self.doubt}" if self.doubt else told
-
-    @property
-    def _unseen(self) -> str:
-        return "".join(f"; {n} resolved to {time:.3g} s" for n, time in self.resolution.items())
+        return f"{summary}; CANNOT BE RELIED ON: {self.doubt}" if self.doubt else summary
 
     @property
     def dynamics(self) -> Dynamics:
@@ -92,9 +102,9 @@ class Trajectory(Shown):
 
     @cached_property
     def quantities(self) -> dict[str, Expr]:
-        """Everything that can be read by name, as it is in the first mode.
+        """Every quantity that has a name, as an expression in the first mode.
 
-        "power" is that of all that is not in the potential, "work" what it did since the start.
+        "power" is that of all forces without a potential, "work" their work since the start.
         """
         return self._readable[0]
 
@@ -111,11 +121,11 @@ class Trajectory(Shown):
 
     @property
     def precision(self) -> str:
-        """What it was computed in: double, extended, quadruple, or so many digits."""
+        """The precision it was computed in: double, extended, quadruple, or a number of digits."""
         return self._numbers.name
 
     def rounded(self) -> Trajectory:
-        """The same motion in doubles, for all that works with doubles only."""
+        """The same motion in double precision."""
         segments = tuple(segment.rounded() for segment in self.segments)
         double = DOUBLES.array
         return replace(
@@ -182,8 +192,8 @@ class Trajectory(Shown):
     def to_csv(self, path: str | Path, names: Iterable[str] | None = None) -> None:
         """Write the samples: by default coordinates, speeds, rates, reactions and energy.
 
-        A line that begins with # says what the file was made with. A file already there is
-        replaced only once the new one is complete.
+        A first line that begins with # tells what the file was computed from. A file already there
+        is replaced only once the new one is complete.
 
         Raises:
             StoreError: where the file cannot be written.
@@ -195,20 +205,18 @@ class Trajectory(Shown):
         """The samples over the coordinate `t` (s), each with its unit as an attribute.
 
         Args:
-            names: what to take; by default coordinates, speeds, rates, reactions, energy, power,
+            names: published names; by default coordinates, speeds, rates, reactions, energy, power,
                 work and the invariants watched.
 
         Raises:
             StoreError: where xarray is not installed.
         """
-        from polhode.simulate.files import _sampling, _tables
-
-        return _tables.to_xarray(self.t, _sampling.samples_of(self, names), self._origin)
+        return to_xarray(self.t, samples_of(self, names), self._origin)
 
     def to_pandas(self, names: Iterable[str] | None = None) -> pandas.DataFrame:
         """The samples as a table with the times `t` (s) as its index.
 
-        Its `attrs` say what it was made with, and under "units" the unit of every column.
+        Its `attrs` hold what it was computed from and, under "units", the unit of every column.
 
         Args:
             names: as for `to_xarray`.
@@ -216,26 +224,29 @@ class Trajectory(Shown):
         Raises:
             StoreError: where pandas is not installed.
         """
-        from polhode.simulate.files import _sampling, _tables
-
-        return _tables.to_pandas(self.t, _sampling.samples_of(self, names), self._origin)
+        return to_pandas(self.t, samples_of(self, names), self._origin)
 
     def save(self, path: str | Path) -> None:
-        """Keep the whole motion in a file that `polhode.load` reads: HDF5, NetCDF-4 to others.
+        """Save the whole motion in a file that `polhode.load` reads.
 
-        With it go the declaration, the parameters and the samples, which others' tools read.
+        With it go the declaration, the parameters and the samples, which other tools read as HDF5
+        or NetCDF-4.
 
         Raises:
             StoreError: where the file cannot be written, h5py is not installed, or the system has
                 parts of classes that are not polhode's own.
         """
-        from polhode.simulate.files._saved import save
-
-        save(self, path)
+        if self.precision != DOUBLES.name:
+            raise StoreError(
+                f"a motion in {self.precision} precision, and a file that holds doubles",
+                expected="a motion in doubles",
+                advice="save run.rounded(), or its samples with to_csv, which keeps all digits",
+            )
+        write_archive(path, archive_of(self), samples_of(self))
 
     @property
     def _origin(self) -> dict[str, Any]:
-        """What the samples were made with."""
+        """What the samples were computed from."""
         return {
             "system": self.system.name,
             "mode": self.mode,
@@ -291,5 +302,104 @@ class Trajectory(Shown):
         return found.reshape(len(wanted), *times.shape)
 
 
-#: What a quantity is in a mode that does not have it, such as the force of an open contact.
+#: The value of a quantity in a mode without it, such as the force of an open contact.
 _NOTHING = Expr.of(0)
+
+
+# -- samples with their units ----------------------------------------------------------------------
+
+_ENERGY = MASS * LENGTH**2 / TIME**2
+_NAMED = {PURE: "", _ENERGY: "J", _ENERGY / LENGTH: "N", _ENERGY / TIME: "W"}
+_TURNING = {PURE: "rad", PURE / TIME: "rad/s", PURE / TIME**2: "rad/s^2"}
+_WORDS = {"energy": "J", "work": "J", "power": "W"}
+
+
+def samples_of(run: Trajectory, names: Iterable[str] | None = None) -> dict[str, Sampled]:
+    """Quantities at the sample times of a motion.
+
+    Args:
+        run: the motion.
+        names: published names; by default coordinates, speeds, rates, reactions, energy, power,
+            work and the invariants watched.
+    """
+    if names is None:
+        states = (name for name in run.final if name not in ("energy", "mode"))
+        names = dict.fromkeys((*states, *_WORDS, *run.invariants))
+    table = run.table(names)
+    return {name: Sampled(unit_of(run, name), values) for name, values in table.items()}
+
+
+def unit_of(run: Trajectory, name: str) -> str:
+    """SI unit of a quantity of a motion; empty for a pure number, and where it is not known."""
+    if name in _WORDS:
+        return _WORDS[name]
+    if name in run.reactions:
+        modes = (cast(Equations, segment.dynamics.equations) for segment in run.segments)
+        couples = {n.name for mode in modes for n in mode.lines if n.restraint.is_couple}
+        return "N m" if name in couples else "N"
+    expression = run.quantities[name]
+    try:
+        known = cast(Equations, run.equations).dimensions
+        dimension = dimension_of(expression, known) or PURE
+    except UnitError:
+        return ""
+    kind = None if expression.symbol is None else expression.symbol.kind
+    if kind in (SymbolKind.COORDINATE, SymbolKind.SPEED) and dimension in _TURNING:
+        return _TURNING[dimension]
+    return _NAMED.get(dimension, str(dimension))
+
+
+# -- what a file keeps of a motion -----------------------------------------------------------------
+
+
+def archive_of(run: Trajectory) -> Archive:
+    """The data that a file keeps of a motion.
+
+    Raises:
+        StoreError: for a system with parts of classes that are not polhode's own.
+    """
+    parts = [
+        (i, segment, part)
+        for i, segment in enumerate(run.segments)
+        for part in segment.parts
+        if part.begin < part.end
+    ]
+    solutions = [part.solution for segment in run.segments for part in segment.parts]
+    sides = {i: tuple(s.dynamics.sides.values()) for i, s in enumerate(run.segments)}
+    details = Details(
+        duration=run.duration,
+        mode=run.mode,
+        assumed=run.assumed,
+        seconds=run.seconds,
+        integrator=run.integrator,
+        resolution=run.resolution,
+        turned={s: t for solution in solutions for s, t in solution.turned.items()},
+        prescribed=run.dynamics.prescribed,
+        invariants=run.invariants,
+        sides={i: s for i, s in sides.items() if s},
+        doubt=run.doubt,
+    )
+    return Archive(
+        declaration=write_declaration(run.system),
+        parameters=run.parameters,
+        stretches=tuple(_chebyshev(i, segment, part) for i, segment, part in parts),
+        events=tuple(event.as_json() for event in run.events),
+        times=run.t,
+        details=details.as_json(),
+    )
+
+
+def _chebyshev(number: int, segment: Segment, part: TrajectoryPiece) -> ChebyshevPiece:
+    solution = part.solution
+    steps = np.append(solution.steps[solution.steps < part.end], part.end)
+    knots, series = series_of(solution.at, steps)
+    names = (symbol.published for symbol in segment.dynamics.parameters)
+    return ChebyshevPiece(
+        segment=number,
+        mode=segment.mode,
+        states=tuple(map(label, solution.symbols)),
+        constants=dict(zip(names, part.constants.tolist(), strict=True)),
+        steps=steps,
+        knots=knots,
+        series=series,
+    )

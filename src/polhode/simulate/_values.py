@@ -3,30 +3,43 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
-from polhode.algebra import FLOATS, Compiled, Expr, Symbol, compile_program
-from polhode.base import (
-    PURE,
-    TIME,
-    DeclarationError,
-    Dimension,
-    UnitError,
-    look_up,
-    read_quantity,
-    read_unit,
-    to_si,
+from polhode.algebra import (
+    FLOATS,
+    Compiled,
+    Expr,
+    GivenValue,
+    Symbol,
+    compile_program,
+    read_value,
 )
+from polhode.base import TIME, DeclarationError, Dimension, look_up
 from polhode.model import check_inertia, check_mass
 from polhode.simulate._dynamics import Dynamics, EquationsOfMotion, constants
 from polhode.simulate._names import Name, by_name, published
 
 Numbers = Mapping[Symbol, float]
+
+
+def given_values(given: Mapping[Name, Any]) -> dict[Name, GivenValue]:
+    """Values by published name, each read once.
+
+    Raises:
+        DeclarationError: for a name that is given twice.
+        UnitError: for a value that cannot be read.
+    """
+    values: dict[Name, GivenValue] = {}
+    for key, value in given.items():
+        name = published(key)
+        if name in values:
+            raise DeclarationError(f"{name} is given twice", expected="one value for it")
+        values[name] = read_value(name, value)
+    return values
 
 
 def read_values(
@@ -36,43 +49,38 @@ def read_values(
     dimensions: Mapping[Symbol, Dimension],
     known: Numbers,
 ) -> dict[Symbol, float]:
-    """SI values of quantities given by name.
+    """SI values of quantities given by name, rounded to doubles.
 
     Args:
         given: numbers, texts with a unit, or expressions of `known` symbols.
-        symbols: what may be given.
-        what: what these are called in messages.
-        dimensions: what is known of the dimension of each.
-        known: values of symbols that expressions may use.
+        symbols: the quantities that may be given, by published name.
+        what: what they are called in messages.
+        dimensions: of those whose dimension is known.
+        known: values of the symbols that expressions may use.
 
     Raises:
-        DeclarationError: for a name that is not known or given twice.
+        DeclarationError: for a name that is unknown or given twice.
         UnitError: for a value that cannot be read or has the wrong dimension.
     """
     values: dict[Symbol, float] = {}
-    for key, value in given.items():
-        name = published(key)
-        symbol = look_up(name, symbols, what)
-        if symbol in values:
-            raise DeclarationError(f"{name} is given twice", expected="one value for it")
-        values[symbol] = _number(value, name, _dimension(symbol, dimensions), known)
+    for name in map(published, given):
+        look_up(name, symbols, what)
+    for value in given_values(given).values():
+        symbol = symbols[value.name]
+        base = dimensions.get(symbol.base())
+        dimension = None if base is None else base / TIME**symbol.order
+        values[symbol] = value.in_dimension(dimension).rounded(known)
     return values
-
-
-def _dimension(symbol: Symbol, dimensions: Mapping[Symbol, Dimension]) -> Dimension | None:
-    """Of a quantity, or of the rate of one."""
-    base = dimensions.get(symbol.base())
-    return None if base is None else base / TIME**symbol.order
 
 
 def read_parameters(
     dynamics: Dynamics, given: Mapping[Name, Any], supplied: Numbers = MappingProxyType({})
 ) -> dict[Symbol, float]:
-    """The value of every parameter; those `supplied` by prescribed motions are not asked for.
+    """The value of every parameter; those `supplied` by prescribed motions need none.
 
     Raises:
-        DeclarationError: for a name that is not known, a parameter without a value, or values
-            that no body can have.
+        DeclarationError: for an unknown name, a parameter without a value, or values that no body
+            can have.
         UnitError: for a value that cannot be read or has the wrong dimension.
     """
     wanted = [symbol for symbol in dynamics.parameters if symbol not in supplied]
@@ -80,13 +88,19 @@ def read_parameters(
     values = read_values(given, by_name(wanted), "parameter", dimensions, {})
     missing = [symbol.published for symbol in wanted if symbol not in values]
     refuse_missing(missing)
-    _check_signs(values)
+    for symbol, value in values.items():
+        if symbol.positive and value <= 0:
+            raise DeclarationError(
+                f"{symbol.published} = {value:g}",
+                expected="a positive value, as it was declared",
+                advice=f"check the sign of {symbol.published}",
+            )
     _check_bodies(dynamics, values)
     return {symbol: values[symbol] for symbol in wanted}
 
 
 def refuse_missing(parameters: Sequence[str]) -> None:
-    """Refuse parameters without a value, if there are any.
+    """Refuse parameters that have no value.
 
     Raises:
         DeclarationError: with their names.
@@ -100,7 +114,7 @@ def refuse_missing(parameters: Sequence[str]) -> None:
 
 
 def idle_parameters(equations: EquationsOfMotion, given: Mapping[Name, Any]) -> tuple[Symbol, ...]:
-    """Parameters of the bodies among those given, needed by the motion or not."""
+    """Given parameters of the bodies, whether the motion depends on them or not."""
     names = {published(name) for name in given}
     bodies = getattr(equations.system, "bodies", ())
     parts = [part for body in bodies for part in (body.mass, *sum(body.inertia.rows, ()))]
@@ -118,33 +132,6 @@ def _function(expressions: tuple[Expr, ...], symbols: tuple[Symbol, ...]) -> Com
     return compile_program(expressions, symbols).function(FLOATS)
 
 
-def _number(value: Any, name: str, dimension: Dimension | None, known: Numbers) -> float:
-    if isinstance(value, Expr):
-        value = evaluate(value, known)
-    return to_si(value, _stated(value) if dimension is None else dimension, name)
-
-
-def _stated(value: Any) -> Dimension:
-    """The dimension a value comes with, taken at its word where none is known."""
-    with suppress(UnitError):  # what cannot be read is refused with its name, later
-        match value:
-            case str():
-                return read_quantity(value).dimension or PURE
-            case (_, str(unit)):
-                return read_unit(unit).dimension
-    return PURE
-
-
-def _check_signs(values: Numbers) -> None:
-    for symbol, value in values.items():
-        if symbol.positive and value <= 0:
-            raise DeclarationError(
-                f"{symbol.published} = {value:g}",
-                expected="a positive value, as it was declared",
-                advice=f"check the sign of {symbol.published}",
-            )
-
-
 def _check_bodies(dynamics: Dynamics, values: Numbers) -> None:
     for body in getattr(dynamics.equations.system, "bodies", ()):
         if values.keys() >= set(constants([body.mass])):
@@ -154,7 +141,7 @@ def _check_bodies(dynamics: Dynamics, values: Numbers) -> None:
             inertia = _function(entries, tuple(values))(*values.values())
             if not np.isfinite(inertia).all():
                 raise DeclarationError(
-                    f"inertia of body {body.name!r}: beyond all numbers, with these values",
+                    f"inertia of body {body.name!r}: not finite, with these values",
                     expected="moments of at most 1e308 kg m²",
                     advice="check the units of masses and lengths",
                 )

@@ -182,10 +182,10 @@ class VariedMotion:
                 expected="times within the motion",
                 advice="ask for earlier ones",
             )
-        dynamics = run.segments[0].dynamics.without_carried
+        dynamics = run.segments[0].dynamics.without_auxiliary
         known = {s.published: s for s in (*dynamics.parameters, *dynamics.states)}
         by = [look_up(name, known, "parameter or state at the start") for name in self._by]
-        slides = any(symbol.published.startswith("slip_") for symbol in run.dynamics.carried)
+        slides = any(symbol.published.startswith("slip_") for symbol in run.dynamics.auxiliary)
         if slides or any(0 < event.time <= end for event in _dividing_events(run)):
             return self._differenced(run, times)
         if self._tangents is None:
@@ -204,7 +204,7 @@ class VariedMotion:
 
     def _differenced(self, run: Trajectory, times: Array) -> MotionDerivatives:
         """By differences: motions with the same sequence of events depend smoothly on the start."""
-        dynamics = run.segments[0].dynamics.without_carried
+        dynamics = run.segments[0].dynamics.without_auxiliary
         start: dict[Any, Any] = {s.published: x for s, x in _initial_states(run, dynamics).items()}
         middle = self._read(run, times)
         found = [self._slope(run, middle, start, name, times) for name in self._by]

@@ -54,11 +54,11 @@ def test_what_is_read_can_be_written_and_read_again(number: str) -> None:
         ("118", [6]),
     ],
 )
-def test_chains_go_on_over_lines(number: str, sides: list[int]) -> None:
+def test_chains_continue_over_lines(number: str, sides: list[int]) -> None:
     assert [len(relation.sides) for relation in relations(number)] == sides
 
 
-def test_a_sum_goes_on_over_lines() -> None:
+def test_a_sum_continues_over_lines() -> None:
     (relation,) = relations("144")
     assert len(relation.sides) == 2
     assert len(relation.sides[1].terms) == 3
@@ -91,12 +91,12 @@ def test_slow_or_fast_are_cases() -> None:
     assert [case.words for case in value.cases] == ["slow", "fast"]
 
 
-def test_labels_in_brackets_tell_letters_apart() -> None:
+def test_labels_in_brackets_distinguish_letters() -> None:
     assert relations("129")[0].sides[0] == Name("omega", "p,slow")
     assert relations("130")[0].sides[0] == Name("omega", "p,fast")
 
 
-def test_boldness_that_the_transcript_lost_is_not_made_up() -> None:
+def test_boldness_that_the_transcript_lost_is_not_invented() -> None:
     names = {piece for piece in walk(relations("97")[0]) if isinstance(piece, Name)}
     assert Name("omega", "123") in names
     assert Name("1", decoration="hat") in names

@@ -77,6 +77,6 @@ def test_a_word_of_any_length_comes_back() -> None:
     assert read_latex(write_latex(word)).relations == (word,)
 
 
-def test_what_is_no_part_of_a_tree_is_not_written() -> None:
+def test_only_parts_of_trees_are_written() -> None:
     with pytest.raises(TypeError, match="str"):
         write_latex("x")

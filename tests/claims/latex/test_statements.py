@@ -85,7 +85,7 @@ def test_two_relations_in_one_display(latex: str) -> None:
         r"a = b \n= c \n+ d",
     ],
 )
-def test_a_row_that_begins_with_a_sign_goes_on(latex: str) -> None:
+def test_a_row_that_begins_with_a_sign_continues(latex: str) -> None:
     assert read_latex(latex).relations == (Relation((a, b, Sum((c, d))), ("=", "=")),)
 
 

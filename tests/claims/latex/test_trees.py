@@ -254,5 +254,5 @@ def test_combinations(latex: str, tree: Node) -> None:
 
 
 @pytest.mark.parametrize(("latex", "plain"), LAID_OUT.items())
-def test_layout_says_nothing(latex: str, plain: str) -> None:
+def test_layout_makes_no_difference(latex: str, plain: str) -> None:
     assert read(latex) == read(plain)

@@ -14,7 +14,7 @@ import polhode as ph
 from oracles import ball_on_paper, ball_on_paper_edge
 from oracles.ball_on_paper import Ball, Stretch
 from polhode.derive import Automaton, automaton
-from polhode.simulate.forcing._spline import sampled
+from polhode.simulate.forcing._samples import sampled
 from simulate.contact import paper
 from simulate.contact.paper import LAST, MASS, RADIUS, pieces
 

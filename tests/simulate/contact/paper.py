@@ -13,7 +13,7 @@ import polhode as ph
 from oracles.ball_on_paper import Ball, Stretch, bumps, polynomials
 from polhode.derive import Automaton, automaton
 from polhode.simulate.forcing._pieces import Pieces
-from polhode.simulate.forcing._spline import sampled
+from polhode.simulate.forcing._samples import sampled
 
 RADIUS, MASS = 0.02, 0.05
 NAMES = ("X", "Y", "chi")

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from polhode.simulate.files import _store
-from polhode.simulate.files._payload import counted
+from polhode.simulate.files._archive import counted
 
 Document = dict[str, Any]
 Path = tuple[Any, ...]

@@ -9,11 +9,11 @@ import pytest
 import polhode as ph
 from polhode.base import StoreError
 from polhode.simulate import Trajectory
+from polhode.simulate._trajectory import archive_of, samples_of, unit_of
 from polhode.simulate.files._archive import Archive
-from polhode.simulate.files._sampling import samples_of, unit_of
-from polhode.simulate.files._saved import archive_of, load, trajectory_of
+from polhode.simulate.files._saved import load, trajectory_of
 from polhode.simulate.forcing._pieces import Pieces
-from polhode.simulate.forcing._spline import sampled
+from polhode.simulate.forcing._samples import sampled
 
 m, r, k, g, mu, a = ph.symbols("m r k g mu a", positive=True)
 lab = ph.Frame("lab")
@@ -95,7 +95,7 @@ def assert_same(first: Trajectory, second: Trajectory) -> None:
         assert other.state_after == pytest.approx(one.state_after, abs=3e-13)
 
 
-def test_a_motion_through_slips_and_jerks(tmp_path, yanked):
+def test_a_motion_with_slip_and_velocity_jumps(tmp_path, yanked):
     assert {"slips", "sticks", "jerk"} <= {event.kind for event in yanked.events}
     again = kept(tmp_path, yanked)
     assert_same(yanked, again)
@@ -136,7 +136,7 @@ def test_a_system_without_contacts(tmp_path):
     assert again.equations.motion == run.equations.motion
 
 
-def test_what_is_kept_is_kept_the_same_way_again(tmp_path, yanked):
+def test_a_loaded_motion_is_saved_identically(tmp_path, yanked):
     first = archive_of(yanked)
     second = archive_of(trajectory_of(first))
     assert first.declaration == second.declaration
@@ -205,7 +205,7 @@ BAD = {
 
 
 @pytest.mark.parametrize("name", BAD)
-def test_archives_that_do_not_fit_together_are_refused(yanked, name):
+def test_inconsistent_archives_are_refused(yanked, name):
     archive = archive_of(yanked)
     with pytest.raises(StoreError):
         trajectory_of(BAD[name](archive))

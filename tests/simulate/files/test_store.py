@@ -12,8 +12,15 @@ import xarray
 
 from polhode.base import StoreError
 from polhode.simulate.files import _store
-from polhode.simulate.files._archive import Archive, ChebyshevPiece, Sampled, series_of
-from polhode.simulate.files._payload import counted, packed, unpacked
+from polhode.simulate.files._archive import (
+    Archive,
+    ChebyshevPiece,
+    Sampled,
+    counted,
+    packed,
+    series_of,
+    unpacked,
+)
 from polhode.simulate.files._store import read_archive, write_archive
 
 
@@ -128,7 +135,7 @@ def test_hdf5_shows_what_it_was_made_of(path, content):
 @pytest.mark.parametrize("part", [0.0, 0.1, 0.5, 0.9, 0.999])
 def test_a_file_cut_short_is_refused(path, content, part):
     path.write_bytes(content[: int(len(content) * part)])
-    with pytest.raises(StoreError, match="no motion that polhode wrote, or it was cut short"):
+    with pytest.raises(StoreError, match="is not a motion that polhode wrote, or it was truncated"):
         read_archive(path)
 
 
@@ -138,7 +145,7 @@ def test_any_changed_byte_is_noticed(path, content):
         place = rng.randrange(len(content))
         changed = content[place] ^ rng.randrange(1, 256)
         path.write_bytes(content[:place] + bytes([changed]) + content[place + 1 :])
-        with pytest.raises(StoreError, match=r"is damaged|no motion that polhode wrote"):
+        with pytest.raises(StoreError, match=r"is damaged|is not a motion that polhode wrote"):
             read_archive(path)
 
 
@@ -147,7 +154,7 @@ def test_any_changed_byte_is_noticed(path, content):
 )
 def test_foreign_files_are_refused(path, junk):
     path.write_bytes(junk)
-    with pytest.raises(StoreError, match="no motion that polhode wrote"):
+    with pytest.raises(StoreError, match="is not a motion that polhode wrote"):
         read_archive(path)
 
 
@@ -161,7 +168,7 @@ def test_a_folder_that_is_not_there(tmp_path):
         write_archive(tmp_path / "none" / "motion.h5", ARCHIVE, SAMPLES)
 
 
-def test_what_was_there_is_kept_if_writing_fails(path, content):
+def test_an_existing_file_is_kept_if_writing_fails(path, content):
     with pytest.raises(TypeError):
         write_archive(path, replace(ARCHIVE, events=({"time": object()},)), SAMPLES)
     assert path.read_bytes() == content
@@ -179,7 +186,7 @@ def test_a_motion_is_read_without_h5py(path, content, monkeypatch):
     assert_same(read_archive(path), ARCHIVE)
 
 
-def test_what_precedes_the_motion_is_not_looked_at(path, content):
+def test_the_samples_are_not_read_on_loading(path, content):
     path.write_bytes(sealed(packed(ARCHIVE), before=b"\x89HDF\r\n\x1a\n" + b"\xff" * 5000))
     assert_same(read_archive(path), ARCHIVE)
 
@@ -191,7 +198,7 @@ def test_a_file_of_an_earlier_version_says_so(path):
 
 
 @pytest.mark.parametrize("name", ["/dev/zero", "."])
-def test_what_is_no_file(name):
+def test_an_unreadable_path_is_refused(name):
     with pytest.raises(StoreError, match="cannot be read"):
         read_archive(name)
 
@@ -294,7 +301,7 @@ CHANGES = {
 
 
 @pytest.mark.parametrize("name", CHANGES)
-def test_files_that_were_tampered_with_are_refused(path, name):
+def test_tampered_files_are_refused(path, name):
     path.write_bytes(sealed(CHANGES[name](*taken_apart(packed(ARCHIVE)))))
     with pytest.raises(StoreError, match="is damaged"):
         read_archive(path)
@@ -307,7 +314,7 @@ def test_a_length_that_is_longer_than_the_file(path):
         read_archive(path)
 
 
-def test_a_file_altered_in_nothing_is_read(path):
+def test_an_unaltered_file_is_read(path):
     path.write_bytes(sealed(put_together(*taken_apart(packed(ARCHIVE)))))
     assert_same(read_archive(path), ARCHIVE)
 

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from scipy.interpolate import make_smoothing_spline
 
 from polhode.base import NumericError
-from polhode.simulate.forcing._callable import approximated
+from polhode.simulate.forcing._approximation import approximated
 from polhode.simulate.forcing._pieces import Pieces
-from polhode.simulate.forcing._spline import _smoothed, sampled
+from polhode.simulate.forcing._samples import _smoothed, sampled
 
 PARABOLAS = Pieces(np.array([1.0, 3.0, 4.0]), np.array([[2.0, 0.0, 0.5], [4.0, -1.0, 3.0]]), (1,))
 
@@ -26,7 +26,7 @@ def test_rest_before_and_after():
     assert PARABOLAS.acceleration(times).tolist() == [0.0, 0.0, 1.0, 1.0, 6.0, 6.0, 0.0, 0.0]
 
 
-def test_jerks_are_where_the_rate_jumps():
+def test_jumps_are_where_the_rate_jumps():
     middle, last = PARABOLAS.jumps
     assert (middle.time, middle.value, middle.velocity) == (3.0, (4.0, 4.0), (2.0, -1.0))
     assert (last.time, last.value, last.velocity) == (4.0, (6.0, 6.0), (5.0, 0.0))
@@ -59,7 +59,7 @@ def test_times_of_any_shape():
         ([0.0, math.inf], [[1.0]]),
     ],
 )
-def test_pieces_that_are_none(knots, table):
+def test_invalid_pieces_are_refused(knots, table):
     with pytest.raises(NumericError):
         Pieces(np.array(knots), np.array(table))
 
@@ -116,7 +116,7 @@ def test_error_falls_with_the_fourth_power_of_the_step():
     assert 10 < error(41) / error(81) < 25
 
 
-def test_segments_jerk_from_one_to_the_next():
+def test_the_rate_jumps_between_segments():
     first, second = np.linspace(0, 1, 11), np.linspace(1, 2, 11)
     times = np.concatenate([first, second])
     values = np.concatenate([first**2, 1 - 3 * (second - 1)])
@@ -127,7 +127,7 @@ def test_segments_jerk_from_one_to_the_next():
     assert stop.velocity == pytest.approx((-3.0, 0.0))
 
 
-def test_a_segment_sets_out_where_the_last_one_ended():
+def test_a_segment_starts_where_the_last_one_ended():
     jerk, _ = sampled([0, 1, 2, 3], [0, 1, 0, -1], starts=[2]).jumps
     assert (jerk.time, jerk.value) == (1.0, (1.0, 1.0))
     assert jerk.velocity == pytest.approx((2.0, -1.0))
@@ -204,7 +204,7 @@ def test_noise_too_small_to_tell_leaves_the_samples():
         ([0, 1e-200], [0, 1e200], {}, "moderate size"),
     ],
 )
-def test_samples_that_are_no_motion(times, values, more, told):
+def test_invalid_samples_are_refused(times, values, more, told):
     with pytest.raises(NumericError, match=told):
         sampled(times, values, **more)
 
@@ -254,7 +254,7 @@ def test_pieces_of_a_function_meet_with_equal_rates():
         assert ends == pytest.approx(curve.coefficients[1:, order], abs=2e-14)
 
 
-def test_named_corners_are_jerks():
+def test_given_corners_are_jumps():
     curve = approximated(lambda t: abs(t - 1) + (t >= 2), 0.0, 3.0, corners=[2, 1])
     jerks = {jump.time: jump for jump in curve.jumps}
     assert jerks[1.0].velocity == pytest.approx((-1.0, 1.0))
@@ -283,7 +283,7 @@ def _fails(t):
         (_fails, "no such time"),
     ],
 )
-def test_functions_that_are_no_motion(function, told):
+def test_invalid_functions_are_refused(function, told):
     with pytest.raises(NumericError, match=told):
         approximated(function, 0.0, 3.0)
 

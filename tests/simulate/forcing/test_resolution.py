@@ -9,8 +9,7 @@ import pytest
 
 import polhode as ph
 from polhode.base import NumericError
-from polhode.simulate.forcing._approximation import looked_at
-from polhode.simulate.forcing._callable import approximated
+from polhode.simulate.forcing._approximation import approximated, sampling_times
 
 
 def box(begin, width):
@@ -55,7 +54,7 @@ def test_a_smooth_bump_is_resolved(half):
 
 
 def test_what_is_shorter_than_the_resolution_may_be_missed_and_the_resolution_says_so():
-    times = looked_at(0.0, 1.0, 1 / 2000)
+    times = sampling_times(0.0, 1.0, 1 / 2000)
     before = int(np.argmax(np.diff(times) > 4e-4))
     function = box(times[before] + 1e-4, 2e-4)
     curve = approximated(function, 0.0, 1.0)
@@ -72,7 +71,7 @@ def test_the_times_at_which_it_is_evaluated():
     for _ in range(200):
         left, span = rng.uniform(-5, 5), 10 ** rng.uniform(-6, 6)
         resolution = span / rng.uniform(0.1, 3000)
-        times = looked_at(left, left + span, resolution)
+        times = sampling_times(left, left + span, resolution)
         gaps = np.diff([left, *times, left + span])
         assert np.all(gaps > 0)
         assert np.max(gaps) <= resolution * (1 + 1e-9)
@@ -81,7 +80,7 @@ def test_the_times_at_which_it_is_evaluated():
 
 @pytest.mark.parametrize("count", [100, 618, 1000, 1618, 2000, 3236, 3237, 4000])
 @pytest.mark.parametrize("phase", [0.0, 0.3, 0.7])
-def test_pulses_that_come_again_do_not_hide_between(count, phase):
+def test_periodic_pulses_are_not_missed(count, phase):
     """Each is a fifth of its period wide, and less than half of the resolution."""
 
     def pulses(t):
@@ -113,7 +112,7 @@ def test_it_costs_few_calls():
 
 
 @pytest.mark.parametrize("resolution", [0.0, -1.0, math.nan, math.inf, 1e-12])
-def test_a_resolution_that_is_none(resolution):
+def test_an_invalid_resolution_is_refused(resolution):
     with pytest.raises(NumericError, match="a resolution of"):
         approximated(math.sin, 0.0, 3.0, resolution=resolution)
 
@@ -146,7 +145,7 @@ class Shaken:
 @pytest.mark.parametrize(
     ("subject", "numbers"), [(SLIPPING, RUBBED), (ROLLING, NUMBERS), (ph.derive(ROLLING), NUMBERS)]
 )
-def test_a_motion_looks_at_the_function_again(subject, numbers):
+def test_a_motion_evaluates_the_function_again(subject, numbers):
     shaken = Shaken()
     curve = approximated(shaken, 0.0, 1.5)
     before = set(shaken.times)
@@ -168,7 +167,7 @@ def test_a_motion_of_something_else_is_an_error_that_names_the_time(subject, num
         ph.simulate(subject, numbers, {}, 1.5, forcing={X: curve, Y: 0})
 
 
-def test_named_corners_are_not_looked_at_from_the_wrong_side():
+def test_named_corners_are_not_sampling_times_from_the_wrong_side():
     corners = [math.pi / 3 * n for n in (1, 2)]
     curve = approximated(lambda t: 0.05 * abs(math.sin(3 * t)), 0.0, 2.5, corners=corners)
     run = ph.simulate(SLIPPING, RUBBED, {"v_x": 0.2}, 3.0, forcing={X: curve, Y: lambda t: 0.0})

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from polhode.base import PolhodeError, StoreError
-from polhode.simulate.forcing._sheet_file import read_sheet
+from polhode.simulate.forcing._samples import read_sheet
 
 PLAIN = "t,x,y\n0,0,0\n1,0.5,0\n2,2,-1\n"
 
@@ -115,7 +115,7 @@ BAD = {
     "formula": (HEADER + "0,0,0\n1,=1+1,1\n", "line 3 of the sheet: x = '=1\\+1'"),
     "segment again": (
         NAMED + "0,0,0,1\n1,0,0,1\n2,0,0,2\n3,0,0,2\n4,0,0,1\n5,0,0,1\n",
-        "line 6 of the sheet: segment '1' once more",
+        "line 6 of the sheet: segment '1' again",
     ),
     "one-row segment": (NAMED + "0,0,0,1\n1,0,0,1\n2,0,0,2\n", "line 4 of the sheet: segment '2'"),
     "nameless segment": (NAMED + "0,0,0,1\n1,0,0,\n", "line 3 of the sheet: no segment"),
@@ -127,8 +127,8 @@ BAD = {
         NAMED + "0,0,0,1\n1,0,0,1\n5,0,0,2\n6,0,0,2\n",
         "line 4 of the sheet: 4 s without a row",
     ),
-    "open quote": (HEADER + '0,0,0\n1,"1,1\n', "of the sheet: a line that is no row"),
-    "binary": (b"\x89PNG\r\n\x1a\n\xff\x00", "line 1 of the sheet: bytes that are no text"),
+    "open quote": (HEADER + '0,0,0\n1,"1,1\n', "of the sheet: a malformed row"),
+    "binary": (b"\x89PNG\r\n\x1a\n\xff\x00", "line 1 of the sheet: bytes that are not UTF-8 text"),
     "binary below": (HEADER.encode() + b"0,0,0\n1,\xff,0\n", "line 3 of the sheet: bytes"),
     "zeros": (b"\x00" * 1000, "line 1 of the sheet"),
     "junk in one line": ("x" * 1_000_000, "line 1 of the sheet"),

@@ -1,9 +1,9 @@
-// The claims of the problem set about a system, judged one after the other, and one's own.
+// The claims of the problem set about a system, judged one after the other, and the user's own.
 
 import { formula, make } from "../dom";
-import { noted } from "../text";
-import { ask, RefusedError } from "./ask";
-import { badge } from "./standing";
+import { noteElements } from "../text";
+import { ask, RefusedError } from "./requests";
+import { badge } from "./steady";
 import type { Stated, Verdict } from "./types";
 
 const CONTEXTS: Record<string, string> = {
@@ -18,7 +18,7 @@ export class Claims {
   private system = "";
   private judging = new AbortController();
 
-  /** Show the claims about a system, and judge them; nothing is done twice. */
+  /** Show the claims about a system and judge them, each only once. */
   async open(system: string): Promise<void> {
     if (system === this.system) return;
     this.system = system;
@@ -30,7 +30,7 @@ export class Claims {
       const { claims } = await ask<{ claims: Stated[] }>("claims", { system }, signal);
       await this.judge(claims, signal);
     } catch (error) {
-      if (!signal.aborted) this.panel.replaceChildren(make("p", {}, said(error)));
+      if (!signal.aborted) this.panel.replaceChildren(make("p", {}, explanation(error)));
     }
   }
 
@@ -59,7 +59,7 @@ async function judged(system: string, id: string, signal: AbortSignal): Promise<
     return await ask<Verdict>("judge", { system, id }, signal);
   } catch (error) {
     if (signal.aborted) throw error;
-    return { verdict: "unread", reason: said(error), correction: null, residuals: [], counterexample: null, remarks: [] };
+    return { verdict: "unread", reason: explanation(error), correction: null, residuals: [], counterexample: null, remarks: [] };
   }
 }
 
@@ -76,7 +76,7 @@ function stated(claim: Stated): HTMLElement {
     "article",
     { class: "claim" },
     make("span", { class: "number id" }, `(${claim.id})`),
-    make("div", {}, text, ...noted(claim.notes), make("div", { class: "verdict-place" }, make("span", { class: "long" }, "…"))),
+    make("div", {}, text, ...noteElements(claim.notes), make("div", { class: "verdict-place" }, make("span", { class: "long" }, "…"))),
   );
 }
 
@@ -97,8 +97,8 @@ function details(title: string, text: string): HTMLElement {
   return make("details", {}, make("summary", {}, title), make("p", { class: "long code" }, text));
 }
 
-/** A field for an equation of one's own. */
-export function asking(subject: () => { system: string; contact: string }): HTMLElement {
+/** A field for the user's own equation. */
+export function ownEquation(subject: () => { system: string; contact: string }): HTMLElement {
   const field = make("textarea", { rows: 3, spellcheck: "false", "aria-label": "Equation in LaTeX", placeholder: "\\dot{\\omega}_3 = 0" });
   const context = make("select", { "aria-label": "Where it is to hold" });
   for (const [name, words] of Object.entries(CONTEXTS)) context.append(make("option", { value: name }, words));
@@ -112,7 +112,7 @@ export function asking(subject: () => { system: string; contact: string }): HTML
     result.replaceChildren(make("p", { class: "long" }, "Judging …"));
     void ask<Verdict>("check", { ...subject(), latex: field.value, context: context.value }).then(
       (verdict) => mine === number && result.replaceChildren(...answered(verdict)),
-      (error) => mine === number && result.replaceChildren(make("p", {}, said(error))),
+      (error) => mine === number && result.replaceChildren(make("p", {}, explanation(error))),
     );
   });
   field.addEventListener("keydown", (event) => {
@@ -128,6 +128,6 @@ function answered(verdict: Verdict): HTMLElement[] {
   return [...set, ...told(verdict)];
 }
 
-export function said(error: unknown): string {
+export function explanation(error: unknown): string {
   return error instanceof RefusedError ? error.message : "The lab's server does not answer; is polhode lab still running?";
 }

@@ -1,13 +1,13 @@
-// Keeps the keyboard where it is while what it is on is made anew.
+// Keeps the keyboard focus while the focused element is replaced.
 
-/** What an element is called, wherever another one like it may come to stand. */
+/** The identity of an element, shared by its replacement. */
 function called(element: Element): string {
   const row = element.closest("[data-name]")?.getAttribute("data-name") ?? "";
   const own = element.getAttribute("type") ?? "";
   return [element.tagName, own, row, element.getAttribute("value") ?? element.textContent].join("\n");
 }
 
-/** Run what replaces elements within these; the focus goes to what is called the same there. */
+/** Replace elements within these, and restore the focus to the element with the same identity. */
 export function keepingFocus(within: HTMLElement[], replace: () => void): void {
   const focused = document.activeElement;
   const lost = focused && within.some((holder) => holder.contains(focused)) ? called(focused) : null;

@@ -1,19 +1,19 @@
-// The lab: sliders on one side, the motion they make on the other.
+// The lab: sliders on one side, the resulting motion on the other.
 
 import "uplot/dist/uPlot.min.css";
 import "../page.css";
 import "./lab.css";
 import { formula, make, painted } from "../dom";
 import type { SceneData } from "../scene";
-import { doubted, sections } from "../text";
-import { ask, Asker, askForNumbers } from "./ask";
-import { asking, Claims, said } from "./claims";
+import { warning, sections } from "../text";
+import { ask, LatestRequest, requestNumbers } from "./requests";
+import { ownEquation, Claims, explanation } from "./claims";
 import { keepingFocus } from "./focus";
-import { keeping } from "./keep";
+import { sharing } from "./share";
 import { Player } from "./player";
 import { SheetDrag } from "./sheet";
 import { Field, isAbout, shownNumber, Slider } from "./sliders";
-import { badge, invariants, steadyMotions } from "./standing";
+import { badge, invariants, steadyMotions } from "./steady";
 import { empty, read, written } from "./state";
 import { tabs } from "./tabs";
 import type { Control, Description, Offer, Outcome, Reading, Row, Standing, State } from "./types";
@@ -44,8 +44,8 @@ class Lab {
   private readonly steady = make("div", {});
   private claimsOpen = false;
   private eager = false; // to play what comes next
-  private readonly motion = new Asker<SceneData>((wish, signal) => askForNumbers("run", wish, signal), MOTION_DELAY, (scene, wish, signal) => this.play(scene, wish, signal), (message) => this.refused(message), (busy) => this.busy(busy));
-  private readonly study = new Asker<Standing>((wish, signal) => ask("standing", wish, signal), STUDY_DELAY, (standing) => this.stand(standing), () => this.stand({ families: [], invariants: [] }), (busy) => this.steady.setAttribute("aria-busy", String(busy)));
+  private readonly motion = new LatestRequest<SceneData>((wish, signal) => requestNumbers("run", wish, signal), MOTION_DELAY, (scene, wish, signal) => this.play(scene, wish, signal), (message) => this.refused(message), (busy) => this.busy(busy));
+  private readonly study = new LatestRequest<Standing>((wish, signal) => ask("standing", wish, signal), STUDY_DELAY, (standing) => this.stand(standing), () => this.stand({ families: [], invariants: [] }), (busy) => this.steady.setAttribute("aria-busy", String(busy)));
 
   constructor(offers: Offer[]) {
     this.state = read(location.hash) ?? empty(offers[0].name);
@@ -60,13 +60,13 @@ class Lab {
   }
 
   private lay(): void {
-    const bar = make("div", { class: "bar" }, this.choice, this.contact, keeping(() => this.wish(), (text) => this.tell(text)));
+    const bar = make("div", { class: "bar" }, this.choice, this.contact, sharing(() => this.wish(), (text) => this.tell(text)));
     const about = tabs([
       { title: "Steady motions", panel: this.steady },
       { title: "Equations", panel: this.equations },
       { title: "Constants", panel: this.constants },
-      { title: "Claims", panel: this.claims.panel, opened: () => this.openClaims() },
-      { title: "Try an equation", panel: make("div", {}, asking(() => ({ system: this.state.system, contact: this.state.contact }))) },
+      { title: "Claims", panel: this.claims.panel, decoded: () => this.openClaims() },
+      { title: "Try an equation", panel: make("div", {}, ownEquation(() => ({ system: this.state.system, contact: this.state.contact }))) },
     ]);
     const seen = make("div", { class: "seen" }, this.player.theatre, this.outcome, this.message);
     const work = make("div", { class: "work" }, seen, this.panel, this.player.plots, about);
@@ -76,7 +76,7 @@ class Lab {
     );
   }
 
-  /** Another system, or another contact: what can be chosen is asked anew. */
+  /** Another system, or another contact: request the options again. */
   private async begin(state: State): Promise<void> {
     this.state = state;
     this.forget();
@@ -90,12 +90,12 @@ class Lab {
       this.changed();
       if (this.claimsOpen) void this.claims.open(system);
     } catch (error) {
-      this.refused(said(error));
+      this.refused(explanation(error));
       document.body.dataset.ready = "yes";
     }
   }
 
-  /** Answers to what was asked before are of something else. */
+  /** Responses to earlier requests no longer apply. */
   private forget(): void {
     this.motion.forget();
     this.study.forget();
@@ -199,9 +199,9 @@ class Lab {
     this.changed();
   }
 
-  /** The picture first; what there is to read of it is asked for meanwhile, and follows. */
+  /** Show the picture first; the readable part is requested meanwhile and follows. */
   private async play(scene: SceneData, wish: object, signal: AbortSignal): Promise<void> {
-    const asked = askForNumbers<Reading>("read", wish, signal);
+    const asked = requestNumbers<Reading>("read", wish, signal);
     asked.catch(() => {}); // told where it is waited for
     this.player.show(scene, `${this.state.system} ${this.state.sheet.length}`);
     this.drag.arm(this.drag.armed);
@@ -220,7 +220,7 @@ class Lab {
     this.outcome.replaceChildren(...(this.state.sheet.length ? [returned(outcome)] : []));
     for (const field of this.fields) field.wrong("");
     this.tell("");
-    if (account.doubt) this.warn(doubted(account.doubt));
+    if (account.doubt) this.warn(warning(account.doubt));
     document.body.dataset.ready = "yes";
     counted("answers");
   }
@@ -230,7 +230,7 @@ class Lab {
     this.constants.replaceChildren(...invariants(standing));
   }
 
-  /** Start with these values, in SI units; what is not a start value or parameter is left. */
+  /** Start with these values, in SI units; ignore what is neither an initial value nor a parameter. */
   private go(values: Record<string, number>): void {
     for (const slider of this.sliders) {
       const value = values[slider.control.name];
@@ -265,7 +265,7 @@ class Lab {
   }
 }
 
-/** For whoever watches the page. */
+/** For observers of the page. */
 function counted(what: string): void {
   const { dataset } = document.body;
   dataset[what] = String(Number(dataset[what] ?? 0) + 1);
@@ -276,7 +276,7 @@ function rounded(rows: Row[]): Row[] {
   return rows.map(([t, x, y]) => [Math.round(t * 100) / 100, Math.round(x * 1e4) / 1e4, Math.round(y * 1e4) / 1e4]);
 }
 
-/** Velocity at the start and at the end, and whether they are the same. */
+/** Initial and final velocity, and whether they are equal. */
 function returned(outcome: Outcome[]): HTMLElement {
   const shown = outcome.filter(({ name }) => name.startsWith("v_"));
   const size = Math.max(...shown.flatMap(({ start, end }) => [Math.abs(start), Math.abs(end)]), 1e-30);

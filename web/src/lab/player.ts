@@ -1,6 +1,6 @@
-// The picture with its clock and plots: another motion takes the place of the one that plays.
+// The picture with its clock and plots, in which one motion replaces another.
 
-import { makeBlind } from "../blind";
+import { makeFallback } from "../fallback";
 import { Clock, rates } from "../clock";
 import { keys, switches, transport } from "../controls";
 import { make } from "../dom";
@@ -27,7 +27,7 @@ export class Player {
     });
   }
 
-  /** Play a motion; one of the same system goes on at the same time of the clock. Its picture is drawn at once. */
+  /** Play a motion; for the same system the clock keeps its time. The picture is drawn immediately. */
   show(scene: SceneData, system: string): void {
     const same = system === this.system;
     this.system = system;
@@ -40,7 +40,7 @@ export class Player {
     stage.drawNow();
   }
 
-  /** What is moved and pressed, for the motion that is shown. */
+  /** The controls for the present motion. */
   furnish(): void {
     const { clock, stage } = this;
     if (!clock) return;
@@ -50,7 +50,7 @@ export class Player {
     keys(clock, this.picture, stage, this.listening.signal);
   }
 
-  /** Plots of the motion that is shown. */
+  /** Plots of the present motion. */
   plot(panels: PanelData[]): void {
     if (this.clock) this.drawn.show(panels, this.clock);
   }
@@ -74,12 +74,12 @@ export class Player {
       return new Stage(scene, this.picture, this.stage ?? undefined, same);
     } catch {
       this.blind = true;
-      makeBlind(this.picture, "Plots, sliders and numbers");
+      makeFallback(this.picture, "Plots, sliders and numbers");
       return null;
     }
   }
 
-  /** The rows under the picture, with the keyboard where it was. */
+  /** The rows under the picture, with the keyboard focus kept. */
   private controls(clock: Clock): void {
     const held = (): HTMLElement[] => [...this.theatre.querySelectorAll<HTMLElement>(".controls :is(button, input, select)")];
     const focused = held().indexOf(document.activeElement as HTMLElement);

@@ -5,7 +5,7 @@
 import { make } from "../dom";
 import { Pose } from "../pose";
 import type { PoseData, Triple } from "../scene";
-import { askForNumbers } from "./ask";
+import { requestNumbers } from "./requests";
 import type { Player } from "./player";
 import type { Row } from "./types";
 
@@ -27,14 +27,14 @@ interface Followed {
   poses: PoseData[];
 }
 
-/** What the ball does on the sheet, as far as it is known by now. */
+/** The motion of the ball on the sheet, as far as it is known. */
 interface Course {
   duration: number;
   frames: number;
   poses: Pose[];
 }
 
-/** A button that lets the pointer pull the sheet instead of turning the view. */
+/** A button that makes the pointer drag the sheet instead of rotating the view. */
 export class SheetDrag {
   readonly button = make("button", { type: "button", class: "switch drag", "aria-pressed": "false" }, "Drag the sheet");
   private rows: Row[] = [];
@@ -77,7 +77,7 @@ export class SheetDrag {
   arm(on: boolean): void {
     this.button.setAttribute("aria-pressed", String(on));
     this.player.picture.classList.toggle("dragging", on);
-    if (this.player.stage) this.player.stage.eye.turns = !on;
+    if (this.player.stage) this.player.stage.view.turns = !on;
     if (on && !this.pulling) void this.follow(STILL);
   }
 
@@ -87,7 +87,7 @@ export class SheetDrag {
     this.player.picture.setPointerCapture(event.pointerId);
   }
 
-  /** Arrow keys push, Enter and space let go, Escape leaves the sheet as it was. */
+  /** Arrow keys push the sheet, Enter and space release it, Escape cancels. */
   private press(event: KeyboardEvent): void {
     const { key } = event;
     if (!this.armed || !(key in PUSHES || ["Enter", " ", "Escape"].includes(key))) return;
@@ -103,10 +103,10 @@ export class SheetDrag {
     else this.arm(false);
   }
 
-  /** Begin to pull at a point of the screen, if the ground is there. */
+  /** Start dragging at a point of the screen, if the ground is there. */
   private take(x: number, y: number): boolean {
     const { stage, clock } = this.player;
-    if (!stage?.eye.groundAt(x, y)) return false;
+    if (!stage?.view.groundAt(x, y)) return false;
     clock?.pause();
     clock?.seek(0);
     stage.bare();
@@ -122,11 +122,11 @@ export class SheetDrag {
     if (this.pulling) this.hand = { x: event.clientX, y: event.clientY };
   }
 
-  /** How far the sheet is from where it was gripped; a camera that follows the ball is of no account. */
+  /** Displacement of the sheet since it was gripped, whether or not the camera follows the ball. */
   private moved(): Triple | null {
     const { stage } = this.player;
-    const from = stage?.eye.groundAt(this.gripped.x, this.gripped.y);
-    const to = stage?.eye.groundAt(this.hand.x, this.hand.y);
+    const from = stage?.view.groundAt(this.gripped.x, this.gripped.y);
+    const to = stage?.view.groundAt(this.hand.x, this.hand.y);
     return from && to ? [to[0] - from[0], to[1] - from[1], 0] : null;
   }
 
@@ -159,7 +159,7 @@ export class SheetDrag {
     stage?.shift(by);
   }
 
-  /** Ask what the ball does, again and again while the sheet is pulled; one question at a time. */
+  /** Request the motion of the ball repeatedly while the sheet is dragged, one request at a time. */
   private async follow(rows: Row[]): Promise<void> {
     this.following.abort();
     const { signal } = (this.following = new AbortController());
@@ -167,7 +167,7 @@ export class SheetDrag {
     while (this.armed && !signal.aborted) {
       try {
         const duration = path[path.length - 1][0] + AHEAD;
-        const found = await askForNumbers<Followed>("follow", this.wish(path, duration), signal);
+        const found = await requestNumbers<Followed>("follow", this.wish(path, duration), signal);
         this.course = { ...found, poses: found.poses.map((pose) => new Pose(pose)) };
       } catch {
         if (signal.aborted) return; // what the ball does is then told once the sheet is let go

@@ -1,4 +1,4 @@
-// Sliders with a field each: a number with its unit, or a formula of other parameters.
+// Sliders, each with a field: a number with its unit, or a formula in other parameters.
 
 import { digits, formula, make, raised } from "../dom";
 import type { Control } from "./types";
@@ -37,14 +37,14 @@ export class Slider {
     this.show(this.inUnit(text));
   }
 
-  /** A number without a unit, which is one in SI units, in the unit that is shown. */
+  /** A number in SI units, converted to the displayed unit. */
   private inUnit(text: string): string {
     const [, number, unit] = PLAIN.exec(text) ?? [];
     if (number === undefined || unit) return text;
     return this.printed(valueOf(number) / this.control.size, 8);
   }
 
-  /** Set to a value in SI units. */
+  /** Set a value in SI units. */
   set(si: number): void {
     this.show(this.printed(si / this.control.size, 8));
     this.changed(this.control.name, this.field.value);
@@ -70,7 +70,7 @@ export class Slider {
     this.range.setAttribute("aria-valuetext", text);
   }
 
-  /** A number in the slider's unit, if the text is one. */
+  /** The text as a number in the unit of the slider, if it is one. */
   private read(text: string): number | undefined {
     const [, number, unit] = PLAIN.exec(text) ?? [];
     if (number === undefined) return undefined;
@@ -102,7 +102,7 @@ export class Slider {
     return `${Number(value.toPrecision(digits))} ${this.control.unit}`.trim();
   }
 
-  /** A number without a unit is in the unit that is shown, which is put behind it; what is emptied is as usual again. */
+  /** A number without a unit is in the displayed unit, which is appended; an empty field returns to the default. */
   private typed(): void {
     const { name, text, value } = this.control;
     const [, number, unit] = PLAIN.exec(this.field.value) ?? [];
@@ -150,7 +150,7 @@ function mark(field: HTMLInputElement, message: string): void {
   field.title = message;
 }
 
-/** Whether a refusal is about what is typed for a name. */
+/** Whether an error concerns the value typed for a name. */
 export function isAbout(message: string, name: string): boolean {
   return [`${name}:`, `${name} =`, `'${name}' in`, `a ${name} of`].some((begins) => message.startsWith(begins));
 }

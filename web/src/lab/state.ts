@@ -1,4 +1,4 @@
-// The state of the lab in the part of its address that browsers keep to themselves.
+// The state of the lab in the fragment of its address, which browsers do not send.
 
 import type { Row, State } from "./types";
 
@@ -19,7 +19,7 @@ export function written(state: State): string {
   return `#${pairs}`;
 }
 
-/** The state that an address tells; null where it tells none. */
+/** The state in an address, or null. */
 export function read(hash: string): State | null {
   const pairs = new URLSearchParams(hash.replace(/^#/, ""));
   const system = pairs.get("system");

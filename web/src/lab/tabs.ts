@@ -5,7 +5,7 @@ import { make } from "../dom";
 export interface Tab {
   title: string;
   panel: HTMLElement;
-  opened?: () => void;
+  decoded?: () => void;
 }
 
 export function tabs(entries: Tab[]): HTMLElement {
@@ -22,7 +22,7 @@ export function tabs(entries: Tab[]): HTMLElement {
       button.tabIndex = i === chosen ? 0 : -1;
       entries[i].panel.hidden = i !== chosen;
     });
-    entries[chosen].opened?.();
+    entries[chosen].decoded?.();
   };
   buttons.forEach((button, i) => {
     button.addEventListener("click", () => open(i));

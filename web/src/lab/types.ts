@@ -1,4 +1,4 @@
-// What the lab's server says, and what it is asked; see the lab room of polhode.
+// Requests to and responses from the server of the lab, polhode.lab.
 
 import type { AccountData, NoteData } from "../scene";
 
@@ -43,7 +43,7 @@ export interface Outcome {
   end: number;
 }
 
-/** What is asked for once the picture is there. */
+/** Requested once the picture is shown. */
 export interface Reading {
   account: AccountData;
   outcome: Outcome[];
@@ -101,7 +101,7 @@ export interface Verdict {
 
 export type Row = [number, number, number];
 
-/** What is asked for; only what differs from the usual is kept. */
+/** A request; only what differs from the defaults is kept. */
 export interface State {
   system: string;
   contact: string;

@@ -40,7 +40,7 @@ class Axle:
 
     @property
     def state(self) -> tuple[Symbol, ...]:
-        """θ, θ̇ and φ̇, which determine their own course."""
+        """θ, θ̇ and φ̇, a closed system of equations."""
         return self.theta, self.theta_rate, self.phi_rate
 
     @property
@@ -68,20 +68,27 @@ class Names:
 
 def axles(equations: Equations) -> Iterator[Axle]:
     """Every way of reading the equations as those of an axle."""
-    angles = rates(equations)
+    angles, coordinates = rates(equations), equations.coordinates
     for theta_rate, phi_rate in permutations(angles, 2):
         others = [s for s in equations.speeds if s not in (theta_rate, phi_rate)]
         for spin in (*others, None):
             ratio = _ratio(equations, angles[theta_rate], theta_rate, phi_rate, spin)
             if ratio is not None:
                 theta, phi = angles[theta_rate], angles[phi_rate]
-                psi = _spin_angle(equations, theta, phi_rate, spin)
+                psi = None
+                if spin is not None:
+                    turning = Expr.generator(phi_rate) * cos(Expr.generator(theta))
+                    psi_rate = Expr.generator(spin) - turning
+                    kinematics = equations.kinematics
+                    matching = (q for q in coordinates if kinematics[q.derivative()] == psi_rate)
+                    psi = next(matching, None)
                 yield Axle(theta, phi, theta_rate, phi_rate, spin, psi, ratio)
 
 
 def _ratio(
     equations: Equations, theta: Symbol, theta_rate: Symbol, phi_rate: Symbol, spin: Symbol | None
 ) -> Expr | None:
+    """κ, where φ̈ is that of an axle without torque about the vertical; else None."""
     accelerations = equations.accelerations
     angle, turning = Expr.generator(theta), Expr.generator(phi_rate)
     pull = accelerations[phi_rate.derivative()] * sin(angle) / Expr.generator(theta_rate)
@@ -91,13 +98,3 @@ def _ratio(
     ratio = carried / Expr.generator(spin)
     spins_on = not accelerations[spin.derivative()]
     return ratio if ratio and is_constant(ratio) and spins_on else None
-
-
-def _spin_angle(
-    equations: Equations, theta: Symbol, phi_rate: Symbol, spin: Symbol | None
-) -> Symbol | None:
-    if spin is None:
-        return None
-    rate = Expr.generator(spin) - Expr.generator(phi_rate) * cos(Expr.generator(theta))
-    found = (q for q in equations.coordinates if equations.kinematics[q.derivative()] == rate)
-    return next(found, None)

@@ -8,10 +8,10 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import Expr, Symbol, SymbolKind
+from polhode.analyse._reduced import reduced
 from polhode.analyse.closed import (
     _coin,
-    _free_attitude,
     _free_body,
     _gyrocompass,
     _heavy_top,
@@ -22,16 +22,74 @@ from polhode.analyse.closed import (
 from polhode.analyse.closed._exact_data import Data, exact_data
 from polhode.analyse.closed._reals import Array, Digits, DoubleReals, Reals
 from polhode.analyse.closed._solution import ExactSolution, Solvable
-from polhode.analyse.closed._uniform import SteadySolution, Uniform, is_steady, uniform
 from polhode.base import ConstraintError, NumericError, Shown
 from polhode.derive import Equations, equations_only
 
-#: Digits of a double, with one to round by.
+# Quantities that are constant or grow uniformly: ignorable angles, spins, steady motions.
+
+
+@dataclass(frozen=True)
+class Uniform:
+    """Quantities that change at constant rates.
+
+    Attributes:
+        values: (at t = 0, rate) of each by published name.
+    """
+
+    values: dict[str, tuple[Any, Any]]
+
+    def at(self, reals: Reals, times: Array) -> dict[str, Array]:
+        """Values at times, s."""
+        return {
+            name: reals.number(value) + reals.number(rate) * times
+            for name, (value, rate) in self.values.items()
+        }
+
+
+@dataclass(frozen=True)
+class SteadySolution(ExactSolution):
+    """A motion in which nothing changes but angles, uniformly."""
+
+    kind = "steady motion"
+    period = None
+
+    @property
+    def figures(self) -> dict[str, Any]:
+        """No characteristic numbers."""
+        return {}
+
+    def at(self, reals: Reals, times: Array) -> dict[str, Array]:
+        """Nothing: all of it is in `Uniform`."""
+        return {}
+
+
+def is_steady(equations: Equations, data: Data) -> bool:
+    """Whether every speed and every essential coordinate is constant from this start on."""
+    system = reduced(equations)
+    rates = (*system.rates, *equations.accelerations.values())
+    return not any(data.number(rate) for rate in rates)
+
+
+def uniform(equations: Equations, data: Data, steady: bool) -> Uniform:
+    """What changes uniformly on every motion, or on one that is steady."""
+    still = [s for s in equations.speeds if not equations.accelerations[s.derivative()]]
+    if steady:
+        still = [*reduced(equations).essential, *equations.speeds]
+    zero = data.context.zero
+    values = {s.published: (data.number(Expr.generator(s)), zero) for s in still}
+    for q in equations.coordinates:
+        rate = equations.kinematics[q.derivative()]
+        if all(s.kind is SymbolKind.PARAMETER or s in still for s in rate.symbols()):
+            values[q.published] = (data.number(Expr.generator(q)), data.number(rate))
+    return Uniform(values)
+
+
+#: Digits of a double, with one for rounding.
 _DOUBLE = 17
-#: Digits beyond those wanted of the relative change by which a sensitivity is found: so small
-#: that it is small beside what tells a motion from the separatrix, too.
+#: Sensitivities are difference quotients, whose relative step has so many digits more than wanted:
+#: it must be small also compared with the distance to a separatrix.
 _FINER = 30
-#: Points of a period from which it is found again.
+#: Points of a period at which the sensitivity to the state is determined.
 _STOPS = 8
 
 _FAMILIES: tuple[Callable[[Equations], Solvable | None], ...] = (
@@ -42,7 +100,7 @@ _FAMILIES: tuple[Callable[[Equations], Solvable | None], ...] = (
     _gyrocompass.recognise,
     _marble.recognise,
     _symmetric.recognise,
-    _free_attitude.recognise,
+    _free_body.recognise_in_any_angles,
 )
 
 
@@ -54,7 +112,7 @@ class ClosedForm(Shown):
         family: the equations as recognised.
         data: exact values of parameters and start.
         solution: its constants, to more digits than are wanted.
-        uniform: what besides changes uniformly.
+        uniform: the other quantities, which change uniformly.
         digits: of the values given; None for doubles.
     """
 
@@ -103,7 +161,7 @@ class ClosedForm(Shown):
         return self.solution.at(reals, times) | self.uniform.at(reals, times)
 
     def besides(self, times: Any) -> dict[str, Array]:
-        """What is none of the system's own quantities, at times, s: a free body's attitude."""
+        """Further quantities at times, s, such as the attitude of a free body."""
         reals = self._reals
         return self.solution.besides(reals, reals.array(times))
 
@@ -123,7 +181,7 @@ class ClosedForm(Shown):
 
     @property
     def figures(self) -> dict[str, Any]:
-        """Numbers that sum the motion up, by name, in SI units."""
+        """Characteristic numbers of the motion, by name, in SI units."""
         return {name: self._reals.number(v) for name, v in self.solution.figures.items()}
 
     @cached_property
@@ -139,10 +197,10 @@ class ClosedForm(Shown):
 
     @cached_property
     def stepwise_conditioning(self) -> float | None:
-        """The same for errors of the state made on the way, as a numerical integration makes them.
+        """The same for errors of the state made on the way, as numerical integration makes them.
 
-        Near a separatrix it is far greater: what tells the motion from the separatrix is least
-        where the motion is fastest. Looked at in eight places of a period.
+        The largest of eight points of a period. Near a separatrix it is far greater, since the
+        distance to the separatrix is smallest relative to the state where the motion is fastest.
         """
         period = self.solution.period
         if period is None:
@@ -159,13 +217,12 @@ class ClosedForm(Shown):
         period = self.family.solve(data).period
         if period is None:
             return None
-        given = (s for s in symbols if data.values[s])
-        return max((self._relative_change(data, s, period) for s in given), default=0.0)
-
-    def _relative_change(self, data: Data, symbol: Symbol, period: Any) -> float:
-        change = Fraction(1, 10 ** (data.digits + _FINER))
-        moved = self.family.solve(data.changed({symbol: data.values[symbol] * (1 + change)})).period
-        return float("inf") if moved is None else float(abs(moved / period - 1) / change)
+        change, largest = Fraction(1, 10 ** (data.digits + _FINER)), 0.0
+        for symbol, value in ((s, data.values[s]) for s in symbols if data.values[s]):
+            moved = self.family.solve(data.changed({symbol: value * (1 + change)})).period
+            relative = float("inf") if moved is None else float(abs(moved / period - 1) / change)
+            largest = max(largest, relative)
+        return largest
 
     @cached_property
     def _reals(self) -> Reals:
@@ -177,10 +234,15 @@ def recognise(equations: Equations) -> Solvable:
 
     Raises `NumericError` where none is known.
     """
-    if _is_autonomous(equations) and _has_accelerations(equations):
-        for family in _FAMILIES:
-            found = family(equations)
-            if found is not None and _gives_all(found, equations):
+    try:
+        is_solved = not equations.functions and bool(equations.accelerations)
+    except NumericError:  # too many coupled speeds
+        is_solved = False
+    for family in _FAMILIES if is_solved else ():
+        found = family(equations)
+        if found is not None:
+            others = (s for s in equations.speeds if s not in found.state)
+            if not any(equations.accelerations[s.derivative()] for s in others):
                 return found
     raise NumericError(
         f"{equations.system.name} has no closed form that is known here",
@@ -190,23 +252,6 @@ def recognise(equations: Equations) -> Solvable:
         ),
         advice="simulate it",
     )
-
-
-def _is_autonomous(equations: Equations) -> bool:
-    return not equations.functions
-
-
-def _has_accelerations(equations: Equations) -> bool:
-    """Whether they can be solved for: not so for many coupled speeds."""
-    try:
-        return bool(equations.accelerations)
-    except NumericError:
-        return False
-
-
-def _gives_all(family: Solvable, equations: Equations) -> bool:
-    others = (s for s in equations.speeds if s not in family.state)
-    return not any(equations.accelerations[s.derivative()] for s in others)
 
 
 def closed_form(
@@ -233,18 +278,14 @@ def closed_form(
     family = recognise(equations)
     data = exact_data(equations, parameters, start, digits or _DOUBLE)
     for sign in equations.assumed_positive:
-        _check_side(data, sign)
+        value = data.number(sign)
+        if value <= 0:
+            raise ConstraintError(
+                f"{sign} = {float(value):g} at the start",
+                expected="a positive value: the equations were derived for that side",
+                advice="start on the other side, by symmetry",
+            )
     family.check(data)
     steady = is_steady(equations, data)
     solution = SteadySolution() if steady else family.solve(data)
     return ClosedForm(family, data, solution, uniform(equations, data, steady), digits)
-
-
-def _check_side(data: Data, sign: Expr) -> None:
-    value = data.number(sign)
-    if value <= 0:
-        raise ConstraintError(
-            f"{sign} = {float(value):g} at the start",
-            expected="a positive value: the equations were derived for that side",
-            advice="start on the other side, by symmetry",
-        )

@@ -1,11 +1,10 @@
-"""Exact values of parameters and start, and numbers worked out from them to any precision."""
+"""Exact values of parameters and start, and numbers computed from them to any precision."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from fractions import Fraction
 from functools import lru_cache, partial
 from typing import Any
@@ -20,29 +19,22 @@ from polhode.algebra import (
     as_symbol,
     compile_program,
     pi,
+    read_value,
     sin,
     variables,
 )
-from polhode.analyse._given import measured
-from polhode.base import (
-    PURE,
-    TIME,
-    DeclarationError,
-    Dimension,
-    NumericError,
-    to_si,
-)
+from polhode.base import TIME, DeclarationError, Dimension, NumericError, look_up
 from polhode.derive import Equations
 
 Name = str | Symbol | Expr
 
-#: Digits carried beyond those asked for, so that short formulas come out correct to rounding.
+#: Digits carried beyond those requested, so that short formulas are correct to rounding.
 SPARE = 50
-#: How many times the digits are tried, before a number lost in rounding is given up.
+#: Multiples of the digits tried before a number that is lost in rounding is given up.
 _REFINEMENTS = (1, 2, 4, 8, 16, 32)
 
 
-#: Stands for π where its multiples have no sine that can be written down.
+#: Replaces π where the sine of its multiple cannot be written in square roots.
 _ANY = Symbol("any_angle", positive=True)
 
 
@@ -54,7 +46,7 @@ class Tools:
         self._contexts: dict[int, Any] = {}
 
     def context(self, digits: int) -> Any:
-        """The mpmath context of so many digits."""
+        """The mpmath context of a number of decimal digits."""
         if digits not in self._contexts:
             import mpmath
 
@@ -63,7 +55,7 @@ class Tools:
         return self._contexts[digits]
 
     def value(self, expression: Expr, numbers: Mapping[Symbol, Any], digits: int) -> Any:
-        """An expression of numbers, worked out with so many digits."""
+        """An expression of numbers, evaluated to a number of digits."""
         key = (expression, tuple(numbers), digits)
         if key not in self._functions:
             context = self.context(digits)
@@ -78,8 +70,8 @@ class Data:
 
     Attributes:
         values: a constant expression for every symbol.
-        digits: decimal digits that numbers are wanted to.
-        tools: shared by like data.
+        digits: decimal digits of the numbers wanted.
+        tools: shared by similar data.
     """
 
     values: Mapping[Symbol, Expr]
@@ -89,13 +81,13 @@ class Data:
 
     @property
     def context(self) -> Any:
-        """The mpmath context of all numbers, with digits to spare."""
+        """The mpmath context of all numbers, with spare digits."""
         return self.tools.context(self.digits + SPARE)
 
     def number(self, expression: Expr) -> Any:
         """An expression's value, correct to all digits of the context; zero only if it is zero.
 
-        Raises `NumericError` where it is singular, or too small to be told from zero.
+        Raises `NumericError` where it is singular, or too small to be distinguished from zero.
         """
         if expression not in self._seen:
             self._seen[expression] = self._number(expression)
@@ -115,15 +107,15 @@ class Data:
                 return self.context.zero
             coarse = fine
         raise NumericError(
-            f"{expression} is smaller than any number of {_REFINEMENTS[-1] * self.digits} digits",
-            expected="values for which it is zero or not",
+            f"{expression} is neither zero nor resolved in {_REFINEMENTS[-1] * self.digits} digits",
+            expected="values for which it is exactly zero or clearly not",
         )
 
     def _vanishes(self, expression: Expr) -> bool:
-        """Whether it is zero exactly; an angle whose sine is no square root may be any angle."""
+        """Whether it is exactly zero; an angle whose sine is not a root counts as a free symbol."""
         if "generic" not in self._seen:
             self._seen["generic"] = {s: _generic(value) for s, value in self.values.items()}
-        with suppress(NumericError):  # a sine that cannot be written down
+        with suppress(NumericError):  # a sine that cannot be written in square roots
             return expression.subs(self._seen["generic"]).is_zero
         return False
 
@@ -140,18 +132,19 @@ class Data:
                 ) from error
 
     def _numbers(self, expression: Expr, digits: int) -> dict[Symbol, Any]:
+        """Values of the symbols of an expression, to a number of digits."""
         found = {}
-        for symbol in sorted(expression.symbols() & self.values.keys(), key=_name):
+        used = expression.symbols() & self.values.keys()
+        for symbol in sorted(used, key=lambda symbol: symbol.published):
             if (symbol, digits) not in self._seen:
-                self._seen[symbol, digits] = self._constant(self.values[symbol], digits)
+                value, context = self.values[symbol], self.tools.context(digits)
+                self._seen[symbol, digits] = (
+                    self.tools.value(value, {}, digits)
+                    if value.rational is None
+                    else _fraction(context, value.rational)
+                )
             found[symbol] = self._seen[symbol, digits]
         return found
-
-    def _constant(self, value: Expr, digits: int) -> Any:
-        number = value.rational
-        if number is None:
-            return self.tools.value(value, {}, digits)
-        return _fraction(self.tools.context(digits), number)
 
 
 @lru_cache(maxsize=1024)
@@ -162,7 +155,7 @@ def _program(expression: Expr, arguments: tuple[Symbol, ...]) -> Program:
 def exact_data(
     equations: Equations, parameters: Mapping[Any, Any], start: Mapping[Any, Any], digits: int
 ) -> Data:
-    """What is given, exactly; coordinates and speeds not given are zero.
+    """The given values exactly; coordinates and speeds not given are zero.
 
     Text is the decimal it spells ("0.1" is a tenth, "80 deg" is 4π/9); a float is its binary value,
     so that a simulation from the same floats is compared with the motion it stands for.
@@ -171,87 +164,54 @@ def exact_data(
         DeclarationError: for a name that is not known, or a sign that contradicts a declaration.
         UnitError: for a value that cannot be read or has the wrong dimension.
     """
-    constants = {*equations.parameters, *_of_bodies(equations)}
+    bodies = equations.system.bodies
+    parts = [e for body in bodies for e in (body.mass, *sum(body.inertia.rows, ()))]
+    constants = {*equations.parameters, *variables(parts)}
     state = (*equations.coordinates, *equations.speeds)
-    read = _ExactReader(equations.dimensions)
-    given = read.all(parameters, constants, "parameter")
-    begun = read.all(start, state, "coordinate or independent speed")
+    dimensions = equations.dimensions
+    given = _read(parameters, constants, "parameter", dimensions)
+    begun = _read(start, state, "coordinate or independent speed", dimensions)
     at_rest = dict.fromkeys(state, ZERO)
     data = Data({**at_rest, **{s: v.subs(given) for s, v in begun.items()}, **given}, digits)
     for symbol, value in data.values.items():
-        _check_constant(symbol, value)
+        loose = sorted(s.published for s in value.symbols() - pi.symbols())
+        if loose:
+            raise DeclarationError(
+                f"{symbol.published} = {value}, without a value for {', '.join(loose)}",
+                expected="numbers for all the quantities in it",
+                advice=f"give {loose[0]} among the parameters",
+            )
     for symbol in (s for s in data.values if s.positive):
-        _check_positive(data, Expr.generator(symbol))
+        quantity = Expr.generator(symbol)
+        number = data.number(quantity)
+        if number <= 0:
+            raise DeclarationError(
+                f"{quantity} = {float(number):g}",
+                expected="a positive value, as it was declared",
+                advice=f"check the sign of {quantity}",
+            )
     return data
 
 
-def _of_bodies(equations: Equations) -> frozenset[Symbol]:
-    bodies = equations.system.bodies
-    return variables(e for body in bodies for e in (body.mass, *sum(body.inertia.rows, ())))
-
-
-def _check_constant(symbol: Symbol, value: Expr) -> None:
-    loose = sorted(s.published for s in value.symbols() - pi.symbols())
-    if loose:
-        raise DeclarationError(
-            f"{symbol.published} = {value}, without a value for {', '.join(loose)}",
-            expected="numbers for all that it is made of",
-            advice=f"give {loose[0]} among the parameters",
-        )
-
-
-def _check_positive(data: Data, quantity: Expr) -> None:
-    value = data.number(quantity)
-    if value <= 0:
-        raise DeclarationError(
-            f"{quantity} = {float(value):g}",
-            expected="a positive value, as it was declared",
-            advice=f"check the sign of {quantity}",
-        )
-
-
-@dataclass(frozen=True)
-class _ExactReader:
-    dimensions: Mapping[Symbol, Dimension]
-
-    def all(
-        self, given: Mapping[Any, Any], known: Iterable[Symbol], what: str
-    ) -> dict[Symbol, Expr]:
-        by_name = {symbol.published: symbol for symbol in known}
-        found = dict[Symbol, Expr]()
-        for key, value in given.items():
-            name = key if isinstance(key, str) else as_symbol(key).published
-            if name not in by_name:
-                raise _unknown(name, by_name, what)
-            found[by_name[name]] = self._value(value, by_name[name])
-        return found
-
-    def _value(self, value: Any, symbol: Symbol) -> Expr:
-        if isinstance(value, Expr):
-            return value
-        exact = measured(value, symbol, self.dimensions)
-        if exact:
-            return Expr.constant(exact.coefficient) * pi**exact.pi_power
-        if isinstance(value, int | Fraction):
-            return Expr.constant(value)
-        return Expr.constant(Fraction(to_si(value, self._dimension(symbol), symbol.published)))
-
-    def _dimension(self, symbol: Symbol) -> Dimension:
-        base = self.dimensions.get(symbol.base())
-        return PURE if base is None else base / TIME**symbol.order
-
-
-def _unknown(name: str, known: Mapping[str, Symbol], what: str) -> DeclarationError:
-    near = get_close_matches(name, known, n=3, cutoff=0.5)
-    return DeclarationError(
-        f"{name!r} is no {what} of this system",
-        expected=f"one of {', '.join(sorted(known))}",
-        advice=f"did you mean {' or '.join(near)}?" if near else "",
-    )
+def _read(
+    given: Mapping[Any, Any],
+    known: Iterable[Symbol],
+    what: str,
+    dimensions: Mapping[Symbol, Dimension],
+) -> dict[Symbol, Expr]:
+    by_name = {symbol.published: symbol for symbol in known}
+    found = dict[Symbol, Expr]()
+    for key, value in given.items():
+        name = key if isinstance(key, str) else as_symbol(key).published
+        symbol = look_up(name, by_name, what)
+        base = dimensions.get(symbol.base())
+        dimension = None if base is None else base / TIME**symbol.order
+        found[symbol] = read_value(name, value).in_dimension(dimension).exact()
+    return found
 
 
 def _generic(value: Expr) -> Expr:
-    """A value in which multiples of π are those of any number, if their sines are no roots."""
+    """A value with π replaced by a free symbol where its sine is not a root of rationals."""
     try:
         sin(value)
     except NumericError:
@@ -261,7 +221,3 @@ def _generic(value: Expr) -> Expr:
 
 def _fraction(context: Any, number: Fraction) -> Any:
     return context.mpf(number.numerator) / number.denominator
-
-
-def _name(symbol: Symbol) -> str:
-    return symbol.published

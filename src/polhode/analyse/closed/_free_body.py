@@ -9,17 +9,30 @@ axis of C, or, with A and C exchanged, round that of A. Then (Landau and Lifshit
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import combinations
 from typing import Any
 
-from polhode.algebra import ZERO, Expr, Symbol
+from polhode.algebra import ZERO, Expr, Matrix, Row, Symbol, Vector
+from polhode.analyse.closed._attitude import (
+    Attitude,
+    AttitudeFamily,
+    AttitudeSolution,
+    Chart,
+    NumericChart,
+    product,
+    scalar,
+)
+from polhode.analyse.closed._elliptic import EllipticPhase
 from polhode.analyse.closed._exact_data import Data
-from polhode.analyse.closed._phase import EllipticPhase
-from polhode.analyse.closed._reals import Array, Reals
+from polhode.analyse.closed._reals import Array, Digits, Reals
 from polhode.analyse.closed._solution import ExactSolution, Solvable, is_constant
 from polhode.derive import Equations
 
 Three = tuple[Any, ...]
+
+#: Names of the angular velocities within a solution that is then expressed in angles.
+_NAMES = ("omega_1", "omega_2", "omega_3")
 
 
 @dataclass(frozen=True)
@@ -99,7 +112,7 @@ class FreeRotation(ExactSolution):
         order = tuple(sorted(range(3), key=lambda i: moments[i]))
         if data.number(_excess(inertia, rates, order[1])) < 0:
             order = order[::-1]
-        first, second, _ = order
+        first, second, third = order
         A, B, C = (moments[i] for i in order)
         of_a, of_b, of_c = (data.number(_excess(inertia, rates, i)) for i in order)
         sqrt = data.context.sqrt
@@ -107,7 +120,13 @@ class FreeRotation(ExactSolution):
         m1 = (C - A) * of_b / ((C - B) * of_a)
         sizes = (sqrt(of_c / (A * (A - C))), sqrt(of_c / (B * (B - C))), sqrt(of_a / (C * (C - A))))
         omega = tuple(map(data.number, rates))
-        signs = _signs(order, C > A, omega, m1)
+        # Signs of ω along A, B, C where cn, sn and dn are positive. That of A may be chosen, except
+        # on a separatrix, where cn never changes sign; that of B follows from the handedness of the
+        # axes A, B, C.
+        a_sign = -1 if m1 == 0 and omega[first] < 0 else 1
+        c_sign = 1 if omega[third] > 0 else -1
+        is_cyclic = order in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
+        signs = (a_sign, a_sign * c_sign * (1 if is_cyclic == (C > A) else -1), c_sign)
         amplitudes = tuple(sign * size for sign, size in zip(signs, sizes, strict=True))
         sn, cn = omega[second] / amplitudes[1], omega[first] / amplitudes[0]
         return cls(
@@ -154,7 +173,13 @@ class FreeRotation(ExactSolution):
         """
         import numpy
 
-        omega, turned = self._omega(reals, times), self._turned(reals, times)
+        omega = self._omega(reals, times)
+        if self.phase.m1 == 0:
+            turned = reals.number(self.momentum / self.moments[self.order[1]]) * times
+        else:
+            steady, varying, n1 = self._precession
+            periodic = reals.number(varying) * self.phase.third_kind(reals, times, n1)
+            turned = reals.number(steady) * times + periodic
         axes = self._axes(reals, omega, turned)
         first, second, _ = (sum(e * w for e, w in zip(axis, omega, strict=True)) for axis in axes)
         return {
@@ -184,13 +209,6 @@ class FreeRotation(ExactSolution):
             B * (C - A) / (A * (C - B)),
         )
 
-    def _turned(self, reals: Reals, times: Array) -> Array:
-        if self.phase.m1 == 0:
-            return reals.number(self.momentum / self.moments[self.order[1]]) * times
-        steady, varying, n1 = self._precession
-        wobble = reals.number(varying) * self.phase.third_kind(reals, times, n1)
-        return reals.number(steady) * times + wobble
-
     def _axes(
         self, reals: Reals, omega: list[Array], turned: Array
     ) -> tuple[list[Array], list[Array], list[Array]]:
@@ -204,54 +222,93 @@ class FreeRotation(ExactSolution):
         lean = reals.sqrt(sum(along[i] ** 2 for i in others))
         out = [-along[lead] * along[i] / lean for i in range(3)]
         out[lead] = lean
-        side = _cross(along, out)
+        side = [along[i - 2] * out[i - 1] - along[i - 1] * out[i - 2] for i in range(3)]
         cos, sin = reals.cos(turned), reals.sin(turned)
         first = [cos * o - sin * s for o, s in zip(out, side, strict=True)]
         second = [sin * o + cos * s for o, s in zip(out, side, strict=True)]
         return first, second, along
 
 
-def recognise(equations: Equations) -> FreeBody | None:
-    """Three of the speeds obeying Euler's equations, with the moments of their mass matrix."""
-    for positions in combinations(range(len(equations.speeds)), 3):
-        found = _read(equations, positions)
-        if found is not None:
-            return found
-    return None
+@dataclass(frozen=True)
+class FreeBodyInAnyAngles(AttitudeFamily):
+    """A free body by the angles of its principal axes: its angular momentum is at rest in space.
 
-
-def _read(equations: Equations, positions: tuple[int, ...]) -> FreeBody | None:
-    i, j, k = positions
-    speeds = (equations.speeds[i], equations.speeds[j], equations.speeds[k])
-    rows = equations.mass.rows
-    moments = (rows[i][i], rows[j][j], rows[k][k])
-    torques = euler_torques(moments, speeds)
-    accelerations = (equations.accelerations[s.derivative()] for s in speeds)
-    agree = all(
-        moment * rate == torque
-        for moment, rate, torque in zip(moments, accelerations, torques, strict=True)
-    )
-    if agree and any(torques) and all(map(is_constant, moments)):
-        return FreeBody(speeds, moments)
-    return None
-
-
-def euler_torques(moments: Three, speeds: Three) -> Three:
-    """I ω̇ of each axis: (I₂ - I₃) ω₂ ω₃ and its like."""
-    (I_1, I_2, I_3), (w1, w2, w3) = moments, map(Expr.generator, speeds)
-    return ((I_2 - I_3) * w2 * w3, (I_3 - I_1) * w3 * w1, (I_1 - I_2) * w1 * w2)
-
-
-def _signs(order: tuple[int, ...], ascending: bool, omega: Three, m1: Any) -> Three:
-    """Of ω along the axes A, B, C where cn, sn and dn are positive.
-
-    That of A may be chosen, but for a separatrix, on which cn never changes sign.
+    Attributes:
+        moments: of inertia about the axes.
+        omega: angular velocity along them.
     """
-    first = -1 if m1 == 0 and omega[order[0]] < 0 else 1
-    third = 1 if omega[order[2]] > 0 else -1
-    right_handed = order in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
-    return first, first * third * (1 if right_handed == ascending else -1), third
+
+    moments: Row
+    omega: Row
+
+    name = FreeBody.name
+    formula = FreeBody.formula
+
+    @property
+    def parts(self) -> dict[str, Expr]:
+        return {f"I_{i}": moment for i, moment in enumerate(self.moments, 1)}
+
+    def solve(self, data: Data) -> ExactSolution:
+        rotation = FreeRotation.start(data, self.moments, self.omega, _NAMES)
+        return FreeAttitude(NumericChart(self.chart, data), rotation)
 
 
-def _cross(a: list[Array], b: list[Array]) -> list[Array]:
-    return [a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3)]
+@dataclass(frozen=True)
+class FreeAttitude(AttitudeSolution):
+    """The attitude of a free body, whose `solution` gives it relative to its angular momentum."""
+
+    solution: FreeRotation
+
+    @property
+    def step(self) -> float:
+        return 0.25 * float(min(self.solution.moments) / self.solution.momentum)
+
+    @cached_property
+    def _initial_axes(self) -> list[list[Any]]:
+        """The directions at rest that the solution refers to, along the root's axes."""
+        exact = Digits(self.placed.data.context)
+        rows = self.solution.besides(exact, exact.array(0))["attitude"]
+        return [[scalar(line, row) for row in rows] for line in self.placed.initial_attitude]
+
+    def attitude(self, reals: Reals, times: Array) -> Attitude:
+        found = self.solution.besides(reals, times)["attitude"]
+        omega = self.solution.at(reals, times)
+        relative = [[found[..., i, j] for j in range(3)] for i in range(3)]
+        space = [[reals.number(c) for c in row] for row in self._initial_axes]
+        rows = product(space, relative)
+        turning = [scalar(row, [omega[name] for name in _NAMES]) for row in rows]
+        return Attitude(rows, [row[2] for row in rows], turning)
+
+
+def recognise(equations: Equations) -> FreeBody | None:
+    """Three of the speeds obeying Euler's equations, with the moments of their mass matrix.
+
+    I₁ ω̇₁ = (I₂ - I₃) ω₂ ω₃ and cyclic (Goldstein, Classical Mechanics, § 5.5).
+    """
+    rows = equations.mass.rows
+    for i, j, k in combinations(range(len(equations.speeds)), 3):
+        speeds = (equations.speeds[i], equations.speeds[j], equations.speeds[k])
+        moments = (rows[i][i], rows[j][j], rows[k][k])
+        (I_1, I_2, I_3), (w1, w2, w3) = moments, map(Expr.generator, speeds)
+        torques = ((I_2 - I_3) * w2 * w3, (I_3 - I_1) * w3 * w1, (I_1 - I_2) * w1 * w2)
+        rates = (equations.accelerations[s.derivative()] for s in speeds)
+        agree = all(I * rate == M for I, rate, M in zip(moments, rates, torques, strict=True))
+        if agree and any(torques) and all(map(is_constant, moments)):
+            return FreeBody(speeds, moments)
+    return None
+
+
+def recognise_in_any_angles(equations: Equations) -> FreeBodyInAnyAngles | None:
+    """A body with three angles and three different moments on which no torque acts."""
+    for body in equations.system.bodies:
+        moments = tuple(body.inertia[i, i] for i in range(3))
+        if body.inertia != Matrix.diagonal(moments) or not all(map(is_constant, moments)):
+            continue
+        chart = Chart.of(equations, body, body.axes[body.axes.labels[2]].components)
+        if chart is None or len(chart.angles) != 3 or len(set(moments)) < 3:
+            continue
+        omega = equations.kinetics.velocities[body][1].express(body.axes).components
+        spin = Vector(tuple(i * w for i, w in zip(moments, omega, strict=True)), body.axes)
+        if not any(map(equations.rate, spin.express(body.axes.root).components)):
+            return FreeBodyInAnyAngles(chart, moments, omega)
+    return None

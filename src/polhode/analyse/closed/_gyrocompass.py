@@ -1,4 +1,4 @@
-"""A gyrocompass, free or driven by a motor: exact in Ω, and beside it the first order."""
+"""A gyrocompass, free or driven by a motor: exact in Ω, with the first-order motion beside it."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ from polhode.algebra import ZERO, Expr, Symbol, cos, sin
 from polhode.analyse.closed._exact_data import Data
 from polhode.analyse.closed._reals import Array, Reals
 from polhode.analyse.closed._solution import ExactSolution, Solvable, is_constant, rates
-from polhode.analyse.closed._swing_solution import SwingSolution
-from polhode.analyse.closed._swing_start import SHIFTS, Swinging, swinging
+from polhode.analyse.closed._swing import SHIFTS, Swinging, SwingSolution, swinging
 from polhode.derive import Equations
 
 
@@ -25,7 +24,7 @@ class Gyrocompass(Solvable):
     Attributes:
         angle: θ, of the axle from the north.
         rate: θ̇, a speed of the equations.
-        spin: ω, relative to the Earth; None where a motor keeps it.
+        spin: ω, relative to the Earth; None where a motor keeps it constant.
         push: p, 1/s².
         second: q, 1/s², of the second order in Ω.
         drag: r, 1/s.
@@ -50,7 +49,10 @@ class Gyrocompass(Solvable):
 
     @property
     def parts(self) -> dict[str, Expr]:
-        return {"A": self._restoring, "B": self.second - self.drag * self.gain}
+        return {
+            "A": -(self.push + self.drag * self._whole_spin),
+            "B": self.second - self.drag * self.gain,
+        }
 
     @property
     def state(self) -> tuple[Symbol, ...]:
@@ -68,10 +70,6 @@ class Gyrocompass(Solvable):
         return Expr.generator(self.angle) + self.shift
 
     @property
-    def _restoring(self) -> Expr:
-        return -(self.push + self.drag * self._whole_spin)
-
-    @property
     def first_order(self) -> Expr:
         """A to the first order in Ω, in which the spin ω is constant."""
         return -(self.push + (self.drag * Expr.generator(self.spin) if self.spin else ZERO))
@@ -83,7 +81,7 @@ class Gyrocompass(Solvable):
         approximate = None
         if data.number(self.first_order):
             approximate = swinging(data, self.first_order, ZERO, theta, rate).shifted(shift)
-        return Seeking(
+        return GyrocompassSwing(
             self.angle,
             self.rate,
             swinging(data, A, B, theta, rate).shifted(shift),
@@ -97,7 +95,7 @@ class Gyrocompass(Solvable):
 
 
 @dataclass(frozen=True)
-class Seeking(SwingSolution):
+class GyrocompassSwing(SwingSolution):
     """The axle swinging about the north.
 
     Attributes:
@@ -144,32 +142,23 @@ class Seeking(SwingSolution):
 
 def recognise(equations: Equations) -> Gyrocompass | None:
     """The equations as those of a swing that exchanges spin with a rotor, or has none."""
-    angles = rates(equations)
-    moving = [s for s in equations.speeds if equations.accelerations[s.derivative()]]
+    angles, accelerations = rates(equations), equations.accelerations
+    moving = [s for s in equations.speeds if accelerations[s.derivative()]]
     if len(moving) not in (1, 2):
         return None
     for rate, *others in permutations(moving):
-        if rate in angles:
-            spin = others[0] if others else None
-            readings = (_read(equations, angles[rate], rate, spin, shift) for shift in SHIFTS)
-            found = next((compass for compass in readings if compass), None)
-            if found is not None:
-                return found
-    return None
-
-
-def _read(
-    equations: Equations, angle: Symbol, rate: Symbol, spin: Symbol | None, shift: Expr
-) -> Gyrocompass | None:
-    theta, velocity = Expr.generator(angle) + shift, Expr.generator(rate)
-    pull = equations.accelerations[rate.derivative()] / sin(theta)
-    drag = gain = ZERO
-    if spin is not None:
-        drag = pull.diff(spin)
-        gain = equations.accelerations[spin.derivative()] / (velocity * sin(theta))
-        pull = pull - drag * Expr.generator(spin)
-    second = -pull.diff(angle) / sin(theta)
-    push = pull - second * cos(theta)
-    if all(map(is_constant, (push, second, drag, gain))):
-        return Gyrocompass(angle, rate, spin, push, second, drag, gain, shift)
+        if rate not in angles:
+            continue
+        angle, spin = angles[rate], others[0] if others else None
+        for shift in SHIFTS:
+            theta, drag, gain = Expr.generator(angle) + shift, ZERO, ZERO
+            pull = accelerations[rate.derivative()] / sin(theta)
+            if spin is not None:
+                drag = pull.diff(spin)
+                gain = accelerations[spin.derivative()] / (Expr.generator(rate) * sin(theta))
+                pull = pull - drag * Expr.generator(spin)
+            second = -pull.diff(angle) / sin(theta)
+            push = pull - second * cos(theta)
+            if all(map(is_constant, (push, second, drag, gain))):
+                return Gyrocompass(angle, rate, spin, push, second, drag, gain, shift)
     return None

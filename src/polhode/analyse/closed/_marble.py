@@ -71,7 +71,7 @@ class CircularMotion(ExactSolution):
 
     Attributes:
         names: of both coordinates and both velocities.
-        rate: at which the circle is run round, 1/s.
+        rate: angular velocity on the circle, 1/s.
         centre: of the circle at t = 0, m.
         arm: from it to the marble at t = 0, m.
         drift: velocity of the centre, m/s.

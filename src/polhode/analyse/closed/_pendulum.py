@@ -8,8 +8,7 @@ from typing import Any
 from polhode.algebra import ZERO, Expr, Symbol, sin
 from polhode.analyse.closed._exact_data import Data
 from polhode.analyse.closed._solution import ExactSolution, Solvable, is_constant, rates
-from polhode.analyse.closed._swing_solution import SwingSolution
-from polhode.analyse.closed._swing_start import SHIFTS, swinging
+from polhode.analyse.closed._swing import SHIFTS, SwingSolution, swinging
 from polhode.derive import Equations
 
 
@@ -50,12 +49,12 @@ class Pendulum(Solvable):
         lowest = data.context.pi if data.number(self.strength) > 0 else data.context.zero
         shift = data.number(self.shift)
         motion = swinging(data, -self.strength, ZERO, theta, rate).shifted(shift)
-        return Fall(self.angle, self.rate, motion, lowest - shift)
+        return PendulumSwing(self.angle, self.rate, motion, lowest - shift)
 
 
 @dataclass(frozen=True)
-class Fall(SwingSolution):
-    """A fall from the start, and the swing or the turning over that it is part of.
+class PendulumSwing(SwingSolution):
+    """The swing or the turning over of a pendulum, with the times of its first passages.
 
     Attributes:
         lowest: θ at the lowest point, rad.

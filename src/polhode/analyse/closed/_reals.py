@@ -1,8 +1,8 @@
 """The functions that closed forms are written in: for doubles, or for any number of digits.
 
 Both work elementwise on arrays. Constants reach them as mpmath numbers of a higher precision, and
-whole periods are taken off the time without rounding, so that an angle after 1e6 turns is as exact
-as one after the first.
+whole periods are subtracted from the time without rounding, so that an angle after 1e6 turns is as
+accurate as one after the first.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ Array: TypeAlias = Any
 
 
 class WholeTurns(NamedTuple):
-    """A number of turns: a fraction between -1/2 and 1/2, and whole ones."""
+    """A number of turns: a fraction between -1/2 and 1/2, and a whole number."""
 
     fraction: Array
     whole: Array
@@ -27,7 +27,7 @@ class Reals(ABC):
     """Elementwise functions of one sort of real number.
 
     Attributes:
-        eps: how far 1 is from the next number.
+        eps: distance from 1 to the next larger number.
         dtype: NumPy's type of the arrays.
     """
 
@@ -51,7 +51,7 @@ class Reals(ABC):
 
     @abstractmethod
     def turns(self, times: Array, frequency: Any, offset: Any) -> WholeTurns:
-        """frequency · times + offset, the fraction to rounding however many whole turns."""
+        """frequency · times + offset; the fraction is correct to rounding however large it is."""
 
     @abstractmethod
     def exact(self, number: Any) -> Fraction:
@@ -135,7 +135,7 @@ class Digits(Reals):
         return -mantissa if number < 0 else mantissa
 
     def harmonics(self, angle: Array) -> Iterator[tuple[Array, Array]]:
-        """By rotation: the digits to spare bear what the multiplications lose."""
+        """By rotation: the spare digits absorb the rounding of the multiplications."""
         first_sin, first_cos = self.sin(angle), self.cos(angle)
         sin, cos = first_sin, first_cos
         while True:

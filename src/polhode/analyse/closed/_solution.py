@@ -27,14 +27,14 @@ class ExactSolution(ABC):
     @property
     @abstractmethod
     def figures(self) -> dict[str, Any]:
-        """Numbers that sum the motion up."""
+        """Characteristic numbers of the motion."""
 
     @abstractmethod
     def at(self, reals: Reals, times: Array) -> dict[str, Array]:
         """Coordinates and speeds by published name at times, s."""
 
     def besides(self, reals: Reals, times: Array) -> dict[str, Array]:
-        """What else can be said of the motion at times, s."""
+        """Further quantities of the motion at times, s."""
         return {}
 
 
@@ -57,7 +57,7 @@ class Solvable(ABC):
     @property
     @abstractmethod
     def state(self) -> tuple[Symbol, ...]:
-        """What determines its own course; all other speeds must be constant."""
+        """Variables whose equations are closed; all other speeds must be constant."""
 
     def check(self, data: Data) -> None:
         """Raise `NumericError` where the start has no closed form and is not steady either."""

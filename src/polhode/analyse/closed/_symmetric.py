@@ -1,37 +1,45 @@
-"""A symmetric body recognised by its physics: its axis, the vertical, and what is constant.
+"""A symmetric body recognised by its physics: its axis, the vertical, and its constants of motion.
 
 Of a body symmetric about e the momenta about e and about the vertical u are constant,
 
     ω·e = n,    α = (e × ė)·u + κ n e·u,
 
-and the energy. For a top ė² + 2μ e·u is; for a coin on a smooth table, s being the sine of the
-angle between e and u, ė² + ε ṡ² + 2γ s. With these three e goes as Euler's angles from u say,
+and so is the energy: ė² + 2μ e·u for a top; ė² + ε ṡ² + 2γ s for a coin on a smooth table, with the
+sine s of the angle between e and u. With these three constants e follows Euler's angles from u,
 whatever angles the equations are written in.
 """
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from polhode.algebra import ONE, ZERO, Expr, Row, Symbol, dot, principal_root, solve
+from polhode.algebra import ONE, ZERO, Expr, Row, dot, principal_root, solve
 from polhode.analyse._symmetry import symmetry_axes
+from polhode.analyse.closed._attitude import (
+    Attitude,
+    AttitudeFamily,
+    AttitudeSolution,
+    Chart,
+    NumericChart,
+    cross,
+    product,
+    scalar,
+)
 from polhode.analyse.closed._axle import Names
-from polhode.analyse.closed._chart import Chart, Placed, cross, scalar
-from polhode.analyse.closed._coin import Balance, SpinningCoin, Wobble
+from polhode.analyse.closed._coin import CoinIntegrals, CoinNutation, SpinningCoin
 from polhode.analyse.closed._exact_data import Data
-from polhode.analyse.closed._heavy_top import HeavyTop
-from polhode.analyse.closed._nutation import Integrals, Release, nutation
+from polhode.analyse.closed._heavy_top import HeavyTop, InitialAngles, Integrals, nutation
 from polhode.analyse.closed._reals import Array, DoubleReals, Reals
 from polhode.analyse.closed._solution import ExactSolution, Solvable, is_constant
-from polhode.analyse.closed._turned import Attitude, Attitudes, Turned
 from polhode.base import NumericError
 from polhode.derive import Equations
 from polhode.model import Gravity
 
-#: What the canonical angles are called in a solution that is read in other ones.
+#: Names of Euler's angles within a solution that is then expressed in other ones.
 _NAMES = Names("theta", "phi", "theta_dot", "phi_dot", "psi")
 
 
@@ -76,16 +84,11 @@ class Axis:
         return dot(_cross(self.e, self.e_rate), self.u) + self.beta * self.cosine
 
     @property
-    def swiftness(self) -> Expr:
+    def squared_rate(self) -> Expr:
         """ė²."""
         return dot(self.e_rate, self.e_rate)
 
-    @property
-    def state(self) -> tuple[Symbol, ...]:
-        """What of the equations the axis determines."""
-        return (*self.chart.angles, *self.chart.speeds)
-
-    def release(self, data: Data) -> Release:
+    def initial_angles(self, data: Data) -> InitialAngles:
         """Euler's angles at the start, φ and ψ counted from there.
 
         Raises `NumericError` for an axis along the vertical, where φ is not defined.
@@ -98,7 +101,7 @@ class Axis:
                 advice="lean it a little at the start, or simulate it",
             )
         sine = data.context.sqrt(sine2)
-        return Release(
+        return InitialAngles(
             theta=data.context.atan2(sine, data.number(self.cosine)),
             theta_dot=-data.number(self.cosine_rate) / sine,
             phi=data.context.zero,
@@ -110,6 +113,10 @@ class Axis:
 
 def axes(equations: Equations) -> Iterator[Axis]:
     """Every way of reading the equations as those of a symmetric body's axis."""
+    root, loads = equations.system.root, equations.system.loads
+    verticals = [g.up for g in loads if isinstance(g, Gravity) and g.up is not None]
+    verticals += [root[label] for label in reversed(root.labels)]
+    distinct = dict.fromkeys(v.express(root).components for v in verticals)
     for body in equations.system.bodies:
         for axis in symmetry_axes(body):
             chart = Chart.of(equations, body, axis.components)
@@ -121,14 +128,16 @@ def axes(equations: Equations) -> Iterator[Axis]:
             spins = len(chart.angles) == 3
             if spins and equations.rate(n):
                 continue
-            for u in _verticals(equations):
-                found = _read(equations, Axis(chart, e, u, n if spins else ZERO, ZERO, e_rate))
+            for u in distinct:
+                found = _with_ratio(
+                    equations, Axis(chart, e, u, n if spins else ZERO, ZERO, e_rate)
+                )
                 if found is not None:
                     yield found
 
 
-def _read(equations: Equations, axis: Axis) -> Axis | None:
-    """With the ratio that makes the momentum about the vertical constant."""
+def _with_ratio(equations: Equations, axis: Axis) -> Axis | None:
+    """The axis with the κ that makes the momentum about the vertical constant."""
     slope = axis.n * axis.cosine_rate
     rate = equations.rate(dot(_cross(axis.e, axis.e_rate), axis.u))
     if not rate:
@@ -137,27 +146,36 @@ def _read(equations: Equations, axis: Axis) -> Axis | None:
     return replace(axis, ratio=ratio) if is_constant(ratio) else None
 
 
-def _verticals(equations: Equations) -> Iterator[Row]:
-    root = equations.system.root
-    ups = [g.up for g in equations.system.loads if isinstance(g, Gravity) and g.up is not None]
-    labelled = [root[label] for label in reversed(root.labels)]
-    yield from dict.fromkeys(v.express(root).components for v in (*ups, *labelled))
-
-
 def _cross(a: Row, b: Row) -> Row:
     return tuple(cross(a, b))
 
 
 @dataclass(frozen=True)
-class TurnedTop(Solvable):
-    """A symmetric top, in any angles.
+class SymmetricFamily(AttitudeFamily):
+    """A symmetric body whose axis follows Euler's angles from the vertical, in any angles.
 
     Attributes:
         axis: of the body, and the vertical.
-        weight: μ = M g a/I, 1/s², positive where gravity pulls the axis down.
     """
 
     axis: Axis
+
+    def solve(self, data: Data) -> ExactSolution:
+        return SymmetricAttitude(NumericChart(self.chart, data), self.euler_angles(data), self.axis)
+
+    @abstractmethod
+    def euler_angles(self, data: Data) -> ExactSolution:
+        """θ, φ and ψ from the vertical, and the rates of the first two."""
+
+
+@dataclass(frozen=True)
+class TopInAnyAngles(SymmetricFamily):
+    """A symmetric top.
+
+    Attributes:
+        weight: μ = M g a/I, 1/s², positive where gravity pulls the axis down.
+    """
+
     weight: Expr
 
     name = HeavyTop.name
@@ -167,29 +185,22 @@ class TurnedTop(Solvable):
     def parts(self) -> dict[str, Expr]:
         return {r"\kappa": self.axis.ratio, r"\mu": self.weight}
 
-    @property
-    def state(self) -> tuple[Symbol, ...]:
-        return self.axis.state
-
-    def solve(self, data: Data) -> ExactSolution:
+    def euler_angles(self, data: Data) -> ExactSolution:
         axis = self.axis
-        energy = axis.swiftness + 2 * self.weight * axis.cosine
+        energy = axis.squared_rate + 2 * self.weight * axis.cosine
         integrals = Integrals(axis.alpha, axis.beta, energy, 2 * self.weight)
-        found = nutation(data, integrals, axis.release(data))
-        return Turned(Leaning(axis, data, found), Placed(axis.chart, data))
+        return nutation(data, integrals, axis.initial_angles(data))
 
 
 @dataclass(frozen=True)
-class TurnedCoin(Solvable):
-    """A coin on a smooth table, in any angles.
+class CoinInAnyAngles(SymmetricFamily):
+    """A coin on a smooth table.
 
     Attributes:
-        axis: of the body, and the vertical.
         lift: ε, m a² over the moment of inertia about a diameter.
         weight: γ, m g a over the latter, 1/s².
     """
 
-    axis: Axis
     lift: Expr
     weight: Expr
 
@@ -200,77 +211,62 @@ class TurnedCoin(Solvable):
     def parts(self) -> dict[str, Expr]:
         return {r"\epsilon": self.lift, r"\kappa": self.axis.ratio, r"\gamma": self.weight}
 
-    @property
-    def state(self) -> tuple[Symbol, ...]:
-        return self.axis.state
-
-    def solve(self, data: Data) -> ExactSolution:
-        axis, release = self.axis, self.axis.release(data)
-        lean, slant = (data.number(axis.alpha + sign * axis.beta) for sign in (-1, 1))
+    def euler_angles(self, data: Data) -> ExactSolution:
+        axis, start = self.axis, self.axis.initial_angles(data)
+        minus, plus = (data.number(axis.alpha + sign * axis.beta) for sign in (-1, 1))
         weight, lift, spin = map(data.number, (self.weight, self.lift, axis.n))
-        s, c = data.context.sin(release.theta), data.number(axis.cosine)
-        rate = release.theta_dot
+        s, c = data.context.sin(start.theta), data.number(axis.cosine)
+        rate = start.theta_dot
         turning = (data.number(axis.alpha) - data.number(axis.beta) * c) / s**2
         energy = (1 + lift * c**2) * rate**2 + (turning * s) ** 2 + 2 * weight * s
         fall = s * c * turning**2 - data.number(axis.beta) * turning * s - weight * c
-        balance = Balance(data.context, energy, lean, slant, weight, lift, spin)
-        libration = balance.libration(release.theta, rate, fall, data.digits)
+        integrals = CoinIntegrals(data.context, energy, minus, plus, weight, lift, spin)
+        libration = integrals.libration(start.theta, rate, fall, data.digits)
         zero = data.context.zero
-        found = Wobble(libration, balance, zero, (zero, zero), _NAMES)
-        return Turned(Leaning(axis, data, found), Placed(axis.chart, data))
+        return CoinNutation(libration, integrals, zero, (zero, zero), _NAMES)
 
 
 @dataclass(frozen=True)
-class Leaning(Attitudes):
+class SymmetricAttitude(AttitudeSolution):
     """The attitude of a symmetric body from Euler's angles of its axis.
 
     Attributes:
         axis: of the body, and the vertical.
-        data: exact values of parameters and start.
-        euler: θ, φ and ψ and the rates of the first two at all times.
     """
 
     axis: Axis
-    data: Data
-    euler: ExactSolution
-
-    @property
-    def solution(self) -> ExactSolution:
-        return self.euler
 
     @cached_property
     def step(self) -> float:
         import numpy as np
 
-        period = float(self.euler.period or 1.0)
+        period = float(self.solution.period or 1.0)
         moments = np.linspace(0.0, period, 33)
-        found = self.euler.at(DoubleReals(), moments)
+        found = self.solution.at(DoubleReals(), moments)
         rates = np.abs(found["theta_dot"]) + np.abs(found["phi_dot"])
-        fastest = float(np.max(rates)) + abs(float(self.data.number(self.axis.n)))
-        return min(period / 64, 0.25 / max(fastest, 1e-300))
+        fastest = float(np.max(rates)) + abs(float(self.placed.data.number(self.axis.n)))
+        return min(period / 64, 0.25 / max(fastest, 1e-300))  # a quarter of a radian at most
 
     @cached_property
-    def _across(self) -> tuple[list[Any], list[Any], list[Any]]:
-        """Where the axis leans to at the start, across that in the level, and the vertical."""
-        number, context = self.data.number, self.data.context
-        e, u = [number(c) for c in self.axis.e], [number(c) for c in self.axis.u]
+    def _initial_triad(self) -> tuple[list[Any], list[Any], list[Any]]:
+        """The horizontal the axis leans towards at the start, the one across it, the vertical."""
+        data = self.placed.data
+        e, u = [data.number(c) for c in self.axis.e], [data.number(c) for c in self.axis.u]
         lean = [a - scalar(e, u) * b for a, b in zip(e, u, strict=True)]
-        size = context.sqrt(scalar(lean, lean))
+        size = data.context.sqrt(scalar(lean, lean))
         ahead = [c / size for c in lean]
         return ahead, cross(u, ahead), u
 
     @cached_property
-    def _held(self) -> list[list[Any]]:
-        """The body's axes along those that the angles give, at the start and ever after."""
-        e = [self.data.number(c) for c in self.axis.e]
-        node = self._across[1]  # ψ is counted from the level
-        triad = [node, cross(e, node), e]
-        start = Placed(self.axis.chart, self.data).start
-        return [[sum(t[i] * start[i][j] for i in range(3)) for j in range(3)] for t in triad]
+    def _fixed_axes(self) -> list[list[Any]]:
+        """The body's axes along those that Euler's angles give; they keep their components."""
+        e = [self.placed.data.number(c) for c in self.axis.e]
+        node = self._initial_triad[1]  # ψ is counted from the horizontal
+        return product([node, cross(e, node), e], self.placed.initial_attitude)
 
-    def at(self, reals: Reals, times: Array) -> Attitude:
-        found = self.euler.at(reals, times)
-        ahead, side, up = (list(map(reals.number, v)) for v in self._across)
+    def attitude(self, reals: Reals, times: Array) -> Attitude:
+        found = self.solution.at(reals, times)
+        ahead, side, up = (list(map(reals.number, v)) for v in self._initial_triad)
         s, c = reals.sin(found["theta"]), reals.cos(found["theta"])
         cos, sin = reals.cos(found["phi"]), reals.sin(found["phi"])
         level = [cos * a + sin * b for a, b in zip(ahead, side, strict=True)]
@@ -279,39 +275,32 @@ class Leaning(Attitudes):
         falling = [c * v - s * w for v, w in zip(level, up, strict=True)]
         rates = found["theta_dot"], found["phi_dot"] * s
         e_rate = [rates[0] * f + rates[1] * m for f, m in zip(falling, node, strict=True)]
-        spin = reals.number(self.data.number(self.axis.n))
+        spin = reals.number(self.placed.data.number(self.axis.n))
         turning = [w + spin * a for w, a in zip(cross(e, e_rate), e, strict=True)]
-        return Attitude(self._rows(reals, found["psi"], node, e), e, turning)
-
-    def _rows(self, reals: Reals, psi: Array, node: Any, e: Any) -> list[list[Array]]:
-        cos, sin = reals.cos(psi), reals.sin(psi)
-        beside = cross(e, node)
-        first = [cos * a + sin * b for a, b in zip(node, beside, strict=True)]
-        triad = [first, cross(e, first), e]
-        held = [[reals.number(entry) for entry in row] for row in self._held]
-        return [
-            [sum(triad[k][i] * held[k][j] for k in range(3)) for j in range(3)] for i in range(3)
-        ]
+        cos, sin = reals.cos(found["psi"]), reals.sin(found["psi"])
+        first = [cos * a + sin * b for a, b in zip(node, cross(e, node), strict=True)]
+        columns = zip(first, cross(e, first), e, strict=True)
+        fixed = [[reals.number(entry) for entry in row] for row in self._fixed_axes]
+        return Attitude(product(list(columns), fixed), e, turning)
 
 
 def recognise(equations: Equations) -> Solvable | None:
     """The equations as those of a symmetric top or of a coin on a smooth table."""
-    return next((found for axis in axes(equations) if (found := _family(equations, axis))), None)
+    for axis in axes(equations):
+        if not axis.cosine_rate:
+            continue
+        gain = equations.rate(axis.squared_rate)
+        weight = -gain / (2 * axis.cosine_rate)
+        if is_constant(weight):
+            return TopInAnyAngles(axis.chart, axis, weight)
+        rise = equations.rate(principal_root(1 - axis.cosine**2))
+        coin = _coin(axis, gain, equations.rate(rise**2), 2 * rise)
+        if coin is not None:
+            return coin
+    return None
 
 
-def _family(equations: Equations, axis: Axis) -> Solvable | None:
-    gain = equations.rate(axis.swiftness)
-    if not axis.cosine_rate:
-        return None
-    weight = -gain / (2 * axis.cosine_rate)
-    if is_constant(weight):
-        return TurnedTop(axis, weight)
-    sine = principal_root(1 - axis.cosine**2)
-    rise = equations.rate(sine)
-    return _coin(axis, gain, equations.rate(rise**2), 2 * rise)
-
-
-def _coin(axis: Axis, gain: Expr, lifting: Expr, raising: Expr) -> TurnedCoin | None:
+def _coin(axis: Axis, gain: Expr, lifting: Expr, raising: Expr) -> CoinInAnyAngles | None:
     """Constants ε and γ with gain + ε lifting + γ raising = 0, from two choices of the speeds."""
     speeds = axis.chart.speeds
     choices = [{s: Expr.of(k + (i * 3 + 1) % 5) for i, s in enumerate(speeds)} for k in (1, 3)]
@@ -323,4 +312,4 @@ def _coin(axis: Axis, gain: Expr, lifting: Expr, raising: Expr) -> TurnedCoin | 
     if not (is_constant(lift) and is_constant(weight)):
         return None
     whole = gain + lift * lifting + weight * raising
-    return None if whole else TurnedCoin(axis, lift, weight)
+    return None if whole else CoinInAnyAngles(axis.chart, axis, lift, weight)

@@ -1,1 +1,4 @@
-"""The balance of every body by numbers: what a second opinion is made of."""
+"""Balance of every body by numbers: a second opinion that shares nothing with `derive`.
+
+It knows the declaration (`model`, `algebra`) and the LaTeX tree; nothing else of claims.
+"""

@@ -1,8 +1,8 @@
-"""What a declaration says of places, turning, supports and loads, ready for numbers."""
+"""What a declaration says of positions, rotations, supports and loads, ready for numbers."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -43,10 +43,12 @@ class Placement:
         return self._of_kind(SymbolKind.PARAMETER)
 
     def _of_kind(self, kind: SymbolKind) -> tuple[Symbol, ...]:
-        found = {s.base() for s in variables(self._said()) if s.kind is kind and s.name != "pi"}
+        found = {
+            s.base() for s in variables(self._expressions()) if s.kind is kind and s.name != "pi"
+        }
         return tuple(sorted(found, key=_name))
 
-    def _said(self) -> Iterator[Expr]:
+    def _expressions(self) -> Iterator[Expr]:
         """Every expression of the declaration."""
         root = self.system.root
         for body in self.system.bodies:
@@ -69,7 +71,7 @@ class Placement:
 
     @cached_property
     def actions(self) -> tuple[Action, ...]:
-        """What the loads do, velocities taken as they are declared."""
+        """What the loads do, from velocities as they are declared."""
         bodies = self.system.bodies
         velocities = {b: (self.places[b].dt(), b.angular_velocity) for b in bodies}
         return tuple(
@@ -85,8 +87,12 @@ def declared(system: System) -> Placement:
     places, elements = _placed(system)
     rates = {_only(q): rate for b in system.bodies for q, rate in b.rates.items()}
     rates |= {_only(q): rate for e in elements for q, rate in e.rates().items()}
-    mentioned = variables(_mentioned(system, places))
-    coordinates = {s.base() for s in mentioned if s.kind is SymbolKind.COORDINATE} | rates.keys()
+    geometry: list[Expr] = []
+    for body in system.bodies:
+        geometry += [*places[body].components, *body.angular_velocity.components]
+        geometry += [frame.angle for frame in body.axes.lineage]
+    found = {s.base() for s in variables(geometry) if s.kind is SymbolKind.COORDINATE}
+    coordinates = found | rates.keys()
     bare = {q.derivative() for q in coordinates if q not in rates}
     free = {
         s.base() for rate in rates.values() for s in rate.symbols() if s.kind is SymbolKind.SPEED
@@ -118,13 +124,6 @@ def _placed(system: System) -> tuple[dict[Body, Vector], tuple[Element, ...]]:
     return places, elements
 
 
-def _mentioned(system: System, places: Mapping[Body, Vector]) -> Iterator[Expr]:
-    for body in system.bodies:
-        yield from places[body].components
-        yield from body.angular_velocity.components
-        yield from (frame.angle for frame in body.axes.lineage)
-
-
 def _only(expression: Expr) -> Symbol:
     (symbol,) = expression.symbols()
     return symbol
@@ -135,5 +134,5 @@ def _name(symbol: Symbol) -> str:
 
 
 def reaction_symbol(name: str) -> Symbol:
-    """What stands for a reaction component in claims; unlike a parameter it varies."""
+    """The symbol of a reaction component in claims; unlike a parameter it varies."""
     return Symbol(name, SymbolKind.FUNCTION)

@@ -1,4 +1,4 @@
-"""Numbers that carry their first two time derivatives along."""
+"""Numbers with their first two time derivatives: automatic differentiation."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Array: TypeAlias = NDArray[np.float64]
 class Jet:
     """A quantity and its first and second rate; each an array over several trial motions.
 
-    Quantities known only with their first rate carry a second one that nothing may use.
+    Where only the first rate is known, the second one must not be used.
     """
 
     value: Array
@@ -33,7 +33,7 @@ class Jet:
 
     @property
     def is_constant(self) -> bool:
-        """Whether it was made as one."""
+        """Whether it was made as a constant, whatever its rates are."""
         return self.rate is _ZERO and self.second is _ZERO
 
     @property
@@ -108,17 +108,13 @@ def _minus_sine(x: Array) -> Any:
     return -np.sin(x)
 
 
-def _minus_cosine(x: Array) -> Any:
-    return -np.cos(x)
-
-
 #: How programs are run on jets.
 JETS = Arithmetic(
     lambda number: float(Fraction(number)),
     np.pi,
     {
         Op.SIN: _function(np.sin, np.cos, _minus_sine),
-        Op.COS: _function(np.cos, _minus_sine, _minus_cosine),
+        Op.COS: _function(np.cos, _minus_sine, lambda x: -np.cos(x)),
         Op.EXP: _function(np.exp, np.exp, np.exp),
         Op.SINH: _function(np.sinh, np.cosh, np.sinh),
         Op.COSH: _function(np.cosh, np.sinh, np.cosh),

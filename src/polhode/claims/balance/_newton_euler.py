@@ -2,12 +2,13 @@
 
 Works from the declaration alone and shares nothing with `derive`: every body keeps all its
 degrees of freedom, constraints are differentiated by jets, and one linear system gives all rates
-of speeds and all reactions. Redundant supports are met by the least reactions, or as it is said.
+of speeds and all reactions. Redundant supports get the least-squares reactions, or those given.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -18,8 +19,10 @@ from polhode.claims.balance._jets import Array
 from polhode.claims.balance._trial import Trial
 from polhode.model import Body, Restraint, System
 
-_TOLERANCE = 1e-8
-_TINY = 1e-12
+_TOLERANCE = 1e-8  # relative; to which constraints and supports must agree
+_TINY = 1e-12  # rows below this are zero and are not scaled
+_FINE = 1e-13  # tolerance of motions that are differentiated
+_STEP = 0.02  # s
 
 Numbers = dict[Symbol, float]
 
@@ -37,7 +40,12 @@ def true_motion(system: System, state: Mapping[Symbol, float]) -> Numbers:
     known = declared(system)
     speeds = _speeds(known, state)
     trial = _trials(known, state, speeds)
-    rows, right = _joined(_kinematic(trial), _balances(known, trial))
+    constraints, constrained = _constraints(trial)
+    balances, loads = _balances(known, trial)
+    # unknowns: rates of speeds, then reactions, on which the constraints do not depend
+    count = balances.shape[1] - constraints.shape[1]
+    rows = np.vstack([np.hstack([constraints, np.zeros((len(constraints), count))]), balances])
+    right = np.concatenate([constrained, loads])
     symbols = [*speeds, *(reaction_symbol(r.name) for r in known.restraints)]
     given = {s: state[s] for s in symbols[len(speeds) :] if s in state}
     rows, right = _holding((rows, right), given, symbols)
@@ -47,6 +55,19 @@ def true_motion(system: System, state: Mapping[Symbol, float]) -> Numbers:
         for r, force in zip(known.restraints, found[len(speeds) :], strict=True)
     }
     return _numbers(trial, state, speeds, found) | reactions
+
+
+def constrained_motion(
+    system: System, state: Mapping[Symbol, float], accelerations: Mapping[Symbol, float]
+) -> Numbers:
+    """The same for some motion that the constraints allow: these accelerations, and no forces."""
+    known = declared(system)
+    speeds = _speeds(known, state)
+    trial = _trials(known, state, speeds)
+    fixed = {s: a for s in speeds if (a := accelerations.get(s.derivative())) is not None}
+    rows, right = _holding(_constraints(trial), fixed, list(speeds))
+    found = _solve(rows, right, "accelerations that the constraints rule out")
+    return _numbers(trial, state, speeds, found)
 
 
 def trial_of(system: System, numbers: Mapping[Symbol, float]) -> Trial:
@@ -66,18 +87,76 @@ def trial_of(system: System, numbers: Mapping[Symbol, float]) -> Trial:
     return Trial(known, state, speeds, rates)
 
 
-def constrained_motion(
-    system: System, state: Mapping[Symbol, float], accelerations: Mapping[Symbol, float]
+# -- along a motion -------------------------------------------------------------------------------
+
+
+def moved(
+    system: System,
+    start: Mapping[Symbol, float],
+    duration: float,
+    tolerance: float,
+    dependent: Collection[Symbol] = (),
 ) -> Numbers:
-    """The same for some motion that the constraints allow: these accelerations, and no forces."""
-    known = declared(system)
-    speeds = _speeds(known, state)
-    trial = _trials(known, state, speeds)
-    rows, right = _kinematic(trial)
-    fixed = {s: a for s in speeds if (a := accelerations.get(s.derivative())) is not None}
-    rows, right = _holding((rows, right), fixed, list(speeds))
-    found = _solve(rows, right, "accelerations that the constraints rule out")
-    return _numbers(trial, state, speeds, found)
+    """Every number of the state some time after a start, integrated by SciPy.
+
+    Args:
+        system: the declaration.
+        start: parameters, coordinates and speeds; parameters that are missing play no part.
+        duration: s.
+        tolerance: of the integration, relative and absolute.
+        dependent: speeds that follow from the others and are not integrated.
+    """
+    from scipy.integrate import solve_ivp  # slow to import, and few claims are refuted by motions
+
+    start = dict.fromkeys(declared(system).parameters, 1.0) | dict(start)
+    first = true_motion(system, start)
+    rated = {s for s in first if s.derivative() in first and s not in dependent}
+    moving = sorted(rated, key=lambda s: s.published)
+    fixed = {s: v for s, v in start.items() if not s.kind.varies}
+
+    def all_numbers(values: Any) -> Numbers:
+        return true_motion(system, {**fixed, **dict(zip(moving, values, strict=True))})
+
+    def rates(_: float, values: Array) -> list[float]:
+        found = all_numbers(values)
+        return [found[s.derivative()] for s in moving]
+
+    if not duration:
+        return first
+    run = solve_ivp(
+        rates,
+        (0.0, duration),
+        [first[s] for s in moving],
+        method="DOP853",
+        rtol=tolerance,
+        atol=tolerance,
+    )
+    return all_numbers(run.y[:, -1])
+
+
+def rate_along_motion(
+    system: System, state: Mapping[Symbol, float], speeds: Collection[Symbol], symbol: Symbol
+) -> float:
+    """Rate of a number of the motion through a state, such as a reaction, by differences.
+
+    Args:
+        system: the declaration.
+        state: parameters, coordinates and speeds.
+        speeds: enough of them to fix all others.
+        symbol: of the number.
+    """
+    from scipy.differentiate import derivative  # slow to import, and rates of forces are rare
+
+    dependent = set(declared(system).speeds) - set(speeds)
+
+    def at(times: Array) -> Array:
+        found = [moved(system, state, time, _FINE, dependent)[symbol] for time in np.ravel(times)]
+        return np.reshape(found, np.shape(times))
+
+    return float(derivative(at, 0.0, initial_step=_STEP, order=8, maxiter=4).df)
+
+
+# -- the equations, from trial motions ------------------------------------------------------------
 
 
 def _speeds(known: Placement, state: Mapping[Symbol, float]) -> Numbers:
@@ -93,7 +172,10 @@ def _speeds(known: Placement, state: Mapping[Symbol, float]) -> Numbers:
 
 
 def _trials(known: Placement, state: Mapping[Symbol, float], speeds: Numbers) -> Trial:
-    """The state with all rates of speeds zero, and with each of them one in turn."""
+    """The state with all rates of speeds zero, and with each of them one in turn.
+
+    Everything is affine in these rates, so that differences of the trials are its coefficients.
+    """
     steps = _steps(len(speeds))
     still = {s: np.full(len(speeds) + 1, v) for s, v in speeds.items()}
     return Trial(known, state, still, dict(zip(speeds, steps, strict=True)))
@@ -106,14 +188,14 @@ def _steps(count: int) -> Array:
 def _holding(
     equations: tuple[Array, Array], given: Mapping[Symbol, float], symbols: Sequence[Symbol]
 ) -> tuple[Array, Array]:
-    """Rows over symbols and right-hand sides, and below them what holds those given."""
+    """Rows over symbols and right-hand sides, with rows below that hold those given."""
     rows, right = equations
     held = [[float(s == g) for s in symbols] for g in given]
     below = np.reshape(held, (len(given), len(symbols)))
     return np.vstack([rows, below]), np.concatenate([right, list(given.values())])
 
 
-def _kinematic(trial: Trial) -> tuple[Array, Array]:
+def _constraints(trial: Trial) -> tuple[Array, Array]:
     """Rates of the ruled-out velocities vanish: rows over the rates of speeds, right-hand sides."""
     _, rates = trial.slips()
     return rates[:, 1:] - rates[:, :1], -rates[:, 0]
@@ -121,21 +203,26 @@ def _kinematic(trial: Trial) -> tuple[Array, Array]:
 
 def _balances(known: Placement, trial: Trial) -> tuple[Array, Array]:
     """Newton and Euler for every body: rows over the rates of speeds and then the reactions."""
-    lines = [_line(known, trial, r) for r in known.restraints]
+    wrenches = [_reaction_wrenches(known, trial, r) for r in known.restraints]
     rows, right = [], []
     for body in trial.bodies:
         force = trial.acceleration(body) * trial.scalar(body.mass)
-        need = trial.values([*force, *trial.spin_rate(body)])
-        columns = [line.get(body, np.zeros(6)) for line in lines]
-        reactions = np.reshape(columns, (len(lines), 6)).T
-        rows.append(np.hstack([need[:, 1:] - need[:, :1], -reactions]))
-        right.append(_applied(known, trial, body) - need[:, 0])
+        needed = trial.values([*force, *trial.spin_rate(body)])
+        columns = [wrench.get(body, np.zeros(6)) for wrench in wrenches]
+        reactions = np.reshape(columns, (len(wrenches), 6)).T
+        applied = np.zeros(6)
+        for action in known.actions:
+            if action.body == body:
+                push, arm, couple = map(trial.now, (action.force, action.arm, action.couple))
+                applied = applied + np.concatenate([push, couple + np.cross(arm, push)])
+        rows.append(np.hstack([needed[:, 1:] - needed[:, :1], -reactions]))
+        right.append(applied - needed[:, 0])
     return np.vstack(rows), np.concatenate(right)
 
 
-def _line(known: Placement, trial: Trial, restraint: Restraint) -> dict[Body, Array]:
-    """Force and torque about the centre that one unit of a reaction puts on the bodies."""
-    direction = trial.now(restraint.direction) + _rubbing(known, trial, restraint)
+def _reaction_wrenches(known: Placement, trial: Trial, restraint: Restraint) -> dict[Body, Array]:
+    """Force and torque about the centre of mass that one unit of a reaction puts on the bodies."""
+    direction = trial.now(restraint.direction) + _friction(known, trial, restraint)
     acting = {restraint.body: _wrench(trial, direction, restraint.arm)}
     if restraint.other is not None:
         acting[restraint.other] = _wrench(trial, -direction, restraint.other_arm)
@@ -148,7 +235,7 @@ def _wrench(trial: Trial, direction: Array, arm: Vector | None) -> Array:
     return np.concatenate([direction, np.cross(trial.now(arm), direction)])
 
 
-def _rubbing(known: Placement, trial: Trial, restraint: Restraint) -> Array:
+def _friction(known: Placement, trial: Trial, restraint: Restraint) -> Array:
     """Sliding friction that goes with one unit of a normal force."""
     friction = known.frictions.get(restraint.name)
     if friction is None:
@@ -161,25 +248,10 @@ def _rubbing(known: Placement, trial: Trial, restraint: Restraint) -> Array:
     return np.asarray(-coefficient * slip / np.linalg.norm(slip))
 
 
-def _applied(known: Placement, trial: Trial, body: Body) -> Array:
-    total = np.zeros(6)
-    for action in known.actions:
-        if action.body == body:
-            force, arm, couple = map(trial.now, (action.force, action.arm, action.couple))
-            total = total + np.concatenate([force, couple + np.cross(arm, force)])
-    return total
-
-
-def _joined(kinematic: tuple[Array, Array], balances: tuple[Array, Array]) -> tuple[Array, Array]:
-    (above, first), (below, second) = kinematic, balances
-    wide = np.hstack([above, np.zeros((len(above), below.shape[1] - above.shape[1]))])
-    return np.vstack([wide, below]), np.concatenate([first, second])
-
-
 def _numbers(
     trial: Trial, state: Mapping[Symbol, float], speeds: Numbers, found: Sequence[float] | Array
 ) -> Numbers:
-    """Of the motion with these rates of speeds, on which all accelerations depend evenly."""
+    """Of the motion with these rates of speeds, in which all accelerations are affine."""
     rates = np.asarray(found[: len(speeds)], dtype=float)
     numbers = {**state, **speeds}
     numbers |= {s.derivative(): float(rate) for s, rate in zip(speeds, rates, strict=True)}
@@ -192,16 +264,14 @@ def _numbers(
 
 
 def _solve(rows: Array, right: Array, trouble: str) -> Array:
+    """Least squares of rows scaled alike; raises `NumericError` where they cannot all be met."""
     if not rows.shape[1]:
         return np.zeros(0)
     largest = np.abs(rows).max(axis=1)
     scale = np.where(largest > _TINY, largest, 1.0)
     rows, right = rows / scale[:, None], right / scale
     found = np.asarray(np.linalg.lstsq(rows, right, rcond=1e-12)[0])
-    if not np.allclose(rows @ found, right, rtol=_TOLERANCE, atol=_TOLERANCE * _size(right)):
+    size = 1.0 + float(np.abs(right).max(initial=0.0))
+    if not np.allclose(rows @ found, right, rtol=_TOLERANCE, atol=_TOLERANCE * size):
         raise NumericError(trouble, expected="a state that all supports allow")
     return found
-
-
-def _size(array: Array) -> float:
-    return 1.0 + float(np.abs(array).max(initial=0.0))

@@ -1,9 +1,9 @@
-"""Both sides of a claim by numbers, from its letters on: a second reading that shares no first.
+"""Both sides of a claim by numbers, from its letters on: a reading independent of the first one.
 
-A state alone does not find out that a letter was misread. Here the LaTeX tree is read anew, with a
-table of letters and rules for signs and rates of its own: vectors are three numbers along the root
-frame, unit vectors rows of its matrices, rates are carried along as jets. What this table does not
-have is left unread; nothing is guessed.
+Checking a verdict at a state does not reveal that a letter was misread. So the LaTeX tree is read
+again here, with a table of letters and rules for signs and rates of its own: vectors are three
+numbers along the root frame, unit vectors rows of its matrices, and rates are carried along as
+jets. What is not in this table is left unread; nothing is guessed.
 """
 
 from __future__ import annotations
@@ -12,19 +12,19 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce, singledispatchmethod
+from operator import add
 from typing import Any
 
 import numpy as np
 
 from polhode.algebra import Expr, Op, Symbol, Vector
+from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.balance._jets import JETS, Jet
-from polhode.claims.balance._second_letters import Inertia, Letters, UnreadError
 from polhode.claims.balance._trial import Jets, Trial, cross, dot
 from polhode.claims.latex import _tree as tree
-from polhode.model import System
+from polhode.model import Body, Pivot, System
 
 _EQUAL = ("=", "≡")
-_CONSTANT = ("constant", "const")
 
 _sin, _cos = JETS.functions[Op.SIN], JETS.functions[Op.COS]
 _sinh, _cosh = JETS.functions[Op.SINH], JETS.functions[Op.COSH]
@@ -59,7 +59,7 @@ class Sides:
 
     @property
     def is_known(self) -> bool:
-        """Whether all are numbers; a second rate that nothing determines is none."""
+        """Whether all are numbers; a second rate that nothing determines is not."""
         return bool(np.all(np.isfinite([*self.left, *self.right])))
 
 
@@ -68,7 +68,7 @@ def read_members(
     system: System,
     numbers: Mapping[Symbol, float],
     trial: Trial,
-    told: Mapping[tree.Node, object],
+    defined: Mapping[tree.Node, object],
     points: Mapping[tree.Name, str],
 ) -> Iterator[Sides | None]:
     """The sides of every member of a statement that claims an equality; None where it is not read.
@@ -78,10 +78,11 @@ def read_members(
         system: the declaration.
         numbers: reactions, by symbol.
         trial: the motion of all bodies.
-        told: letters that the text defines, as expressions and vectors.
-        points: of moments that may be about several points, which is meant.
+        defined: letters that the text defines, as expressions and vectors.
+        points: the point that is meant, for moments that may be about several; empty for another
+            letter of which one of several meanings was chosen.
     """
-    reader = _SecondReader(system, numbers, trial, told, points)
+    reader = _SecondReader(system, numbers, trial, defined, points)
     for relation in statement.relations:
         pairs = zip(relation.sides, relation.signs, relation.sides[1:], strict=False)
         for left, sign, right in pairs:
@@ -94,11 +95,11 @@ class _SecondReader:
         system: System,
         numbers: Mapping[Symbol, float],
         trial: Trial,
-        told: Mapping[tree.Node, object],
+        defined: Mapping[tree.Node, object],
         points: Mapping[tree.Name, str],
     ) -> None:
         self._trial = trial
-        self._told = told
+        self._definitions = defined
         self._chosen = {name for name, point in points.items() if not point}
         self._letters = Letters(system, numbers, trial, points)
 
@@ -108,24 +109,16 @@ class _SecondReader:
         """The two sides by numbers."""
         try:
             one = self.value(left)
-            if _says_constant(right):
-                one = self._rate(one)
-                other: Any = Jet.of(0.0)
-            else:
-                other = self.value(right)
-            return Sides(*self._matched(one, other))
+            match right:
+                case tree.Name(letter=text) | tree.Words(text=text) if _says_constant(text):
+                    one, other = self._rate(one), Jet.of(0.0)
+                case _:
+                    other = self.value(right)
+            if isinstance(one, np.ndarray) != isinstance(other, np.ndarray):
+                one, other = _vector_of_zero(one), _vector_of_zero(other)
+            return Sides(_plain(one), _plain(other))
         except (UnreadError, KeyError, ZeroDivisionError):
             return None
-
-    def _matched(self, one: Any, other: Any) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        if isinstance(one, np.ndarray) != isinstance(other, np.ndarray):
-            one, other = (_vector_of_zero(side) for side in (one, other))
-        return self._plain(one), self._plain(other)
-
-    def _plain(self, side: Any) -> tuple[float, ...]:
-        if isinstance(side, Inertia):
-            raise UnreadError
-        return tuple(float(np.ravel(jet.value)[0]) for jet in np.atleast_1d(side))
 
     # -- pieces ---------------------------------------------------------------------------------
 
@@ -246,7 +239,7 @@ class _SecondReader:
     def _(self, node: tree.Name) -> Any:
         if node in self._chosen:  # one of several meanings that this table does not have
             raise UnreadError
-        for found in (self._defined, self._letters.scalar, self._letters.mechanical):
+        for found in (self._by_definition, self._letters.scalar, self._letters.mechanical):
             value = found(node)
             if value is not None:
                 return value
@@ -258,8 +251,8 @@ class _SecondReader:
             return self.value(tree.Name(node.letter, node.subscript, node.primes, "vector"))
         raise UnreadError
 
-    def _defined(self, name: tree.Name) -> Any:
-        meaning = self._told.get(name)
+    def _by_definition(self, name: tree.Name) -> Any:
+        meaning = self._definitions.get(name)
         if isinstance(meaning, Expr):
             return self._trial.scalar(meaning)
         if isinstance(meaning, Vector):
@@ -272,6 +265,12 @@ class _SecondReader:
         return self.value(tree.Name(label, decoration="hat"))
 
 
+def _plain(side: Any) -> tuple[float, ...]:
+    if isinstance(side, Inertia):
+        raise UnreadError
+    return tuple(float(np.ravel(jet.value)[0]) for jet in np.atleast_1d(side))
+
+
 def _vector_of_zero(side: Any) -> Any:
     """The number 0 as a vector; any other scalar beside a vector is not read."""
     if isinstance(side, np.ndarray):
@@ -281,6 +280,152 @@ def _vector_of_zero(side: Any) -> Any:
     raise UnreadError
 
 
-def _says_constant(node: tree.Node) -> bool:
-    said = {tree.Name: "letter", tree.Words: "text"}.get(type(node), "")
-    return bool(said) and str(getattr(node, said)).strip(" .,") in _CONSTANT
+def _says_constant(text: str) -> bool:
+    return text.strip(" .,") in ("constant", "const")
+
+
+# -- the table of letters -------------------------------------------------------------------------
+
+
+class UnreadError(Exception):
+    """A piece of LaTeX that this reader does not know, though the first one may."""
+
+
+@dataclass(frozen=True, eq=False)
+class Inertia:
+    """The inertia tensor of a body about its centre of mass."""
+
+    body: Body
+
+
+class Letters:
+    """What letters stand for: scalars as jets, vectors as three of them along the root frame.
+
+    Args:
+        system: the declaration.
+        numbers: reactions, by symbol.
+        trial: the motion of all bodies.
+        points: of moments that may be about several points, which is meant.
+    """
+
+    def __init__(
+        self,
+        system: System,
+        numbers: Mapping[Symbol, float],
+        trial: Trial,
+        points: Mapping[tree.Name, str],
+    ) -> None:
+        self._system = system
+        self._numbers = numbers
+        self._trial = trial
+        self._points = points
+        self._root = system.root
+        self._names = {s.published: s for s in trial.symbols}
+
+    def scalar(self, name: tree.Name) -> Any:
+        """A symbol of the declaration, or a component of a force."""
+        if name.decoration:
+            return None
+        published = name.letter + "prime" * name.primes
+        published += f"_{name.subscript.replace(',', '_')}" if name.subscript else ""
+        for spelling in (published, f"{published}_"):
+            if spelling in self._names:
+                return self._trial.number(self._names[spelling])
+            if (force := reaction_symbol(spelling)) in self._numbers:
+                return _without_rates(self._numbers[force])
+        if name == tree.Name("pi"):
+            return Jet.of(np.pi)
+        return None
+
+    def mechanical(self, name: tree.Name) -> Any:
+        """A unit vector, a vector of the motion or a kinetic energy; None for other letters."""
+        if name.primes:
+            return None
+        if name.decoration == "hat" and not name.subscript:
+            # of the laboratory where it has the label, or else of the only body's own axes
+            for frame in (self._root, self._only_body.axes):
+                if name.letter in frame.labels:
+                    return self._trial.vector(frame[name.letter])
+            return None
+        if name.decoration == "vector":
+            return self._vector(name)
+        if not name.decoration and name.letter == "T" and name.subscript in ("", "rot", "cm"):
+            return self._kinetic_energy(name.subscript)
+        return None
+
+    def _kinetic_energy(self, part: str) -> Jet:
+        """Of rotation about the centres of mass, of translation, or both."""
+        trial, half = self._trial, Jet.of(0.5)
+        total = Jet.of(0.0)
+        for body, moving in trial.bodies.items():
+            if part != "cm":
+                total = total + half * dot(moving.angular, trial.angular_momentum(body))
+            if part != "rot":
+                speed = dot(moving.velocity, moving.velocity)
+                total = total + half * trial.scalar(body.mass) * speed
+        return total
+
+    @property
+    def _only_body(self) -> Body:
+        bodies = self._system.bodies
+        if len(bodies) != 1:
+            raise UnreadError
+        return bodies[0]
+
+    def _vector(self, name: tree.Name) -> Any:
+        trial = self._trial
+        match name.letter, name.subscript:
+            case "omega", "" | "total":
+                return trial.bodies[self._only_body].angular
+            case "v", "" | "cm":
+                return trial.bodies[self._only_body].velocity
+            case "a", "cm":
+                return trial.inertial_rate(trial.bodies[self._only_body].velocity)
+            case "r", "" | "cm":
+                return trial.place(self._only_body)
+            case "P" | "p", "":
+                momenta = (m.velocity * trial.scalar(b.mass) for b, m in trial.bodies.items())
+                return reduce(add, momenta)
+            case "L", _:
+                return self._angular_momentum(name)
+            case "F", "":
+                return self._force()
+            case "I", "" | "cm":
+                return Inertia(self._only_body)
+        return None
+
+    def _angular_momentum(self, name: tree.Name) -> Jets:
+        """About the centre of mass, or about the point where a pivot holds the body."""
+        trial, body = self._trial, self._only_body
+        point_name = self._points.get(
+            name, "cm" if name.subscript in ("", "cm") else name.subscript
+        )
+        centre = point = trial.place(body)
+        if point_name != "cm":
+            pivots = [e for e in self._system.elements if isinstance(e, Pivot)]
+            meant = [
+                e
+                for e in pivots
+                if e.name == point_name or (point_name == "p" and len(pivots) == 1)
+            ]
+            if len(meant) != 1:
+                raise UnreadError
+            point = centre + trial.vector(meant[0].at)
+        momentum = trial.bodies[body].velocity * trial.scalar(body.mass)
+        return trial.angular_momentum(body) + cross(centre - point, momentum)
+
+    def _force(self) -> Jets:
+        """Of the only contact or joint, by the numbers of its components; without their rates."""
+        forces = [r for r in self._trial.restraints if r.arm is not None]
+        stems = {r.name.partition("_")[0] for r in forces}
+        holding = [e for e in self._system.elements if any(r.body in e.bodies for r in forces)]
+        if len(stems) != 1 or len(holding) != 1:
+            raise UnreadError
+        numbers = (self._numbers[reaction_symbol(r.name)] for r in forces)
+        shares = zip(forces, map(_without_rates, numbers), strict=True)
+        return reduce(add, (self._trial.vector(r.direction) * share for r, share in shares))
+
+
+def _without_rates(number: float) -> Jet:
+    unknown = np.array(np.nan)
+    return Jet(np.array(number), unknown, unknown)

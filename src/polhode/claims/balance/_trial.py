@@ -60,22 +60,19 @@ class Trial:
         self._let_coordinates_move(state)
 
     def _let_coordinates_move(self, state: Mapping[Symbol, float]) -> None:
-        """Give every coordinate its two rates: first the first, then with it the second."""
+        """Give every coordinate its two rates; the second one needs the first ones of all."""
         known = self._known
         for q in known.coordinates:
             self._table[q] = Jet(self._nothing + state[q], self._nothing, self._nothing)
         for _ in range(2):
-            for q, rate in self._rates().items():
+            rates = {
+                q: self._table[q.derivative()] for q in known.coordinates if q not in known.rates
+            }
+            rates |= zip(known.rates, self.scalars(known.rates.values()), strict=True)
+            for q, rate in rates.items():
                 first, second = self._wide(rate.value), self._wide(rate.rate)
                 self._table[q] = Jet(self._nothing + state[q], first, second)
                 self._table[q.derivative()] = Jet(first, second, _UNKNOWN)
-
-    def _rates(self) -> dict[Symbol, Jet]:
-        declared = self._known.rates
-        bare = {
-            q: self._table[q.derivative()] for q in self._known.coordinates if q not in declared
-        }
-        return bare | dict(zip(declared, self.scalars(declared.values()), strict=True))
 
     def _wide(self, array: Array) -> Array:
         return self._nothing + array
@@ -131,11 +128,11 @@ class Trial:
     @cached_property
     def bodies(self) -> dict[Body, BodyMotion]:
         """How every body moves."""
-        return {body: self._moving(body) for body in self._known.system.bodies}
-
-    def _moving(self, body: Body) -> BodyMotion:
-        velocity = self.inertial_rate(self.vector(self._known.places[body]))
-        return BodyMotion(velocity, self.vector(body.angular_velocity))
+        found = {}
+        for body in self._known.system.bodies:
+            velocity = self.inertial_rate(self.place(body))
+            found[body] = BodyMotion(velocity, self.vector(body.angular_velocity))
+        return found
 
     def acceleration(self, body: Body) -> Jets:
         """Of its centre of mass, in inertial space, m/s²."""

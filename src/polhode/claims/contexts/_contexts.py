@@ -2,58 +2,65 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from importlib import import_module
 
 from polhode.base import ParseError
 from polhode.claims._verdict import Answer, Verdict
-from polhode.claims.contexts._judge import judged_identity, judged_motion
+from polhode.claims.contexts._equations import judged_identity, judged_motion
 from polhode.claims.states._bound_claim import EQUALITY, MAGNITUDES, SENSE, BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
 
 Judge = Callable[[BoundClaim], Verdict]
 
 
-def _of(module: str, name: str) -> Judge:
-    """A judge whose file, and all that it needs, is loaded for its context alone."""
+def _deferred(module: str, name: str) -> Judge:
+    """A judge whose file, and all that it needs, is loaded only when its context is used."""
 
-    def judged(asked: BoundClaim) -> Verdict:
+    def judged(claim: BoundClaim) -> Verdict:
         judge: Judge = getattr(import_module(f"polhode.claims.contexts.{module}"), name)
-        return judge(asked)
+        return judge(claim)
 
     return judged
 
 
-_judged_limit = _of("_limit", "judged_limit")
+_judged_limit = _deferred("_limit", "judged_limit")
 _EQUATIONS: dict[str, Judge] = {
     "identity": judged_identity,
     "motion": judged_motion,
-    "steady": _of("_steady", "judged_steady"),
+    "steady": _deferred("_steady", "judged_steady"),
 }
 _WHOLE: dict[str, Judge] = {
-    "threshold": _of("_threshold", "judged_threshold"),
+    "threshold": _deferred("_threshold", "judged_threshold"),
     "limit": _judged_limit,
-    "launch": _of("_initial_value", "judged_launch"),
-    "number": _of("_number", "judged_number"),
+    "launch": _deferred("_initial_value", "judged_launch"),
+    "number": _deferred("_number", "judged_number"),
 }
-#: How a corrected claim is judged where that can be quicker.
-_TRIED: dict[str, Judge] = {"launch": _of("_initial_value", "judged_along")}
+#: How a corrected claim is judged where there is a quicker way.
+_TRIED: dict[str, Judge] = {"launch": _deferred("_initial_value", "judged_along")}
 #: Where a claim may be asked to hold.
 CONTEXTS = (*_EQUATIONS, *_WHOLE)
 
 
-def judge(asked: BoundClaim, context: str) -> Verdict:
+def judge(claim: BoundClaim, context: str) -> Verdict:
     """The verdict on a claim; every member is judged by its sign.
 
-    Raises `ParseError` for an unknown context, and for signs that the context has no use for.
+    Raises `ParseError` for an unknown context, and for signs that have no meaning in the context.
     """
     if context not in CONTEXTS:
         raise ParseError(f"context {context!r}", expected=f"one of {', '.join(CONTEXTS)}")
-    _refuse_magnitudes(asked)
+    magnitude = next((r.sign for r in claim.members if r.sign in MAGNITUDES), None)
+    if magnitude is not None:
+        raise ParseError(
+            f"the sign {magnitude}, which was read; no single state can decide it",
+            expected="= ≈ or an inequality",
+            advice="state what is small, and judge what follows from it in the context limit",
+            option="small",
+        )
     if context in _WHOLE:
-        return _WHOLE[context](asked)
-    found = list(_by_signs(asked, context))
+        return _WHOLE[context](claim)
+    found = list(_by_signs(claim, context))
     if not found:
         raise ParseError(
             "a formula that states nothing",
@@ -69,78 +76,49 @@ def judge(asked: BoundClaim, context: str) -> Verdict:
     return replace(approximate or found[0], context=context, remarks=remarks)
 
 
-def _refuse_magnitudes(asked: BoundClaim) -> None:
-    """≫ and ≪ speak of a limit, and no state is large or small by itself."""
-    for relation in asked.members:
-        if relation.sign in MAGNITUDES:
-            raise ParseError(
-                f"the sign {relation.sign}, which was read; no state decides what is much larger",
-                expected="= ≈ or an inequality",
-                advice="state what is small, and judge what follows from it in the context limit",
-                option="small",
-            )
+def holds(claim: BoundClaim, context: str) -> bool:
+    """Whether a claim holds, without evidence where that is quicker."""
+    return _TRIED[context](claim).holds if context in _TRIED else judge(claim, context).holds
 
 
-def holds(asked: BoundClaim, context: str) -> bool:
-    """Whether a claim holds, and no more."""
-    return _TRIED[context](asked).holds if context in _TRIED else judge(asked, context).holds
-
-
-def _by_signs(asked: BoundClaim, context: str) -> Iterator[Verdict]:
-    signs = {i: relation.sign for i, relation in enumerate(asked.members)}
+def _by_signs(claim: BoundClaim, context: str) -> Iterator[Verdict]:
+    """A verdict on all equations, one on all members with ≈, and one on every other member."""
+    signs = {i: relation.sign for i, relation in enumerate(claim.members)}
     equal = [i for i, sign in signs.items() if sign in EQUALITY]
     close = [i for i, sign in signs.items() if sign == "≈"]
-    bounds = [i for i, sign in signs.items() if sign in SENSE]
-    unequal = [i for i, sign in signs.items() if sign == "≠"]
+    compared = [i for i, sign in signs.items() if sign in SENSE or sign == "≠"]
     if others := [s for s in signs.values() if s not in (*EQUALITY, "≈", "≠", *SENSE)]:
         raise ParseError(
             f"the sign {others[0]} in the context {context}", expected="= ≈ or an inequality"
         )
-    _refuse_scattered_choice(asked, [equal, close], [*bounds, *unequal])
-    if equal:
-        yield _EQUATIONS[context](asked.only(equal))
-    if close:
-        yield _close(asked.only(close), context)
-    if bounds or unequal:
-        yield from _compared(asked, context, bounds, unequal)
-
-
-def _refuse_scattered_choice(
-    asked: BoundClaim, together: Iterable[Collection[int]], compared: Collection[int]
-) -> None:
-    """± is one choice for the whole statement, so that what is judged apart must not share it."""
-    with_choice = {i for i in range(len(asked.members)) if asked.says_choice(i)}
-    groups = [group for group in together if with_choice.intersection(group)]
+    # ± is one choice for the whole statement, so members judged separately must not share it
+    with_choice = {i for i in range(len(claim.members)) if claim.says_choice(i)}
+    groups = [group for group in (equal, close) if with_choice.intersection(group)]
     if len(groups) > 1 or with_choice.intersection(compared):
         raise ParseError(
             "± in members of different signs, which was read",
             expected="one choice of ± in equations, all with = or all with ≈",
             advice="judge the upper and the lower sign one by one",
         )
+    if equal:
+        yield _EQUATIONS[context](claim.only(equal))
+    if close:  # ≈ may be exact; otherwise only what is small says how close it is
+        exact = _EQUATIONS[context](claim.only(close))
+        yield exact if exact.holds or not claim.small else _judged_limit(claim.only(close))
+    if not compared:
+        return
+    from polhode.claims.contexts._inequality import judged_inequality, judged_unequal  # loads NumPy
+
+    for states in _domains(claim, context):
+        for component in claim.components():
+            if component.member in compared:
+                unequal = signs[component.member] == "≠"
+                yield (judged_unequal if unequal else judged_inequality)(claim, component, states)
 
 
-def _compared(
-    asked: BoundClaim, context: str, bounds: Collection[int], unequal: Collection[int]
-) -> Iterator[Verdict]:
-    from polhode.claims.contexts._inequality import judged_inequality, judged_unequal
-
-    for states in _states(asked, context):
-        for component in asked.components():
-            if component.member in bounds:
-                yield judged_inequality(asked, component, states)
-            if component.member in unequal:
-                yield judged_unequal(asked, component, states)
-
-
-def _close(asked: BoundClaim, context: str) -> Verdict:
-    """≈ may be exact; otherwise it takes a small quantity to say how close it is."""
-    exact = _EQUATIONS[context](asked)
-    return exact if exact.holds or not asked.small else _judged_limit(asked)
-
-
-def _states(asked: BoundClaim, context: str) -> tuple[ClaimDomain, ...]:
+def _domains(claim: BoundClaim, context: str) -> tuple[ClaimDomain, ...]:
     if context == "steady":
-        from polhode.claims.states._steady_states import steady_states
+        from polhode.claims.states._steady_states import steady_states  # it needs the analysis
 
-        return steady_states(asked)
-    return (asked.states(AnyState if context == "identity" else TrueMotion),)
+        return steady_states(claim)
+    return (claim.states(AnyState if context == "identity" else TrueMotion),)

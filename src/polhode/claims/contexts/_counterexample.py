@@ -7,18 +7,21 @@ from math import isclose
 from operator import ne
 
 from polhode.algebra import ONE, Expr, Symbol, under_name
-from polhode.base import PolhodeError
 from polhode.claims._verdict import Confirmation, Counterexample, Evidence, Residual
 from polhode.claims.balance._declared import declared, reaction_symbol
-from polhode.claims.balance._newton_euler import constrained_motion, true_motion
-from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.balance._newton_euler import (
+    constrained_motion,
+    rate_along_motion,
+    true_motion,
+)
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain
-from polhode.claims.states._numeric import number
-from polhode.claims.states._physical import is_physical
-from polhode.claims.states._points import ExactPoint, points
+from polhode.claims.states._numeric import NO_VALUE, number
+from polhode.claims.states._sample_points import ExactPoint, exact_point, is_physical
 
-_TRIES = 300
-_ROUNDING = 1e-7
+_TRIES = 300  # states drawn, of which few may be physical
+_ROUNDING = 1e-7  # relative; of the linear solve at a state, where wrong sides differ by far more
+_RATES = 4  # of a prescribed function that get numbers, the function itself among them
 
 
 def refutation(
@@ -53,7 +56,7 @@ def example_where(
     states: ClaimDomain,
     used: Expr = ONE,
 ) -> Evidence:
-    """The first of some states of bodies that can be that refutes a component.
+    """The first physical state among some that refutes a component.
 
     Args:
         refutes: whether a state does so.
@@ -65,13 +68,42 @@ def example_where(
     sides = (states.on(component.left), states.on(component.right))
     for point in _drawn((*sides, used), states):
         try:
-            if _is_allowed(point, states) and refutes(point):
+            if is_physical(states, point.floats()) and refutes(point):
                 left, right = (_at(point, side) for side in sides)
                 found = Counterexample(_described(point, states), left, right, residual)
                 return found, _confirmed(point, component, states, found)
-        except (PolhodeError, ArithmeticError, ValueError, KeyError):
+        except NO_VALUE:
             continue
     return None, None
+
+
+def drawn_numbers(sides: Sequence[Expr], states: ClaimDomain) -> Iterator[dict[Symbol, float]]:
+    """Numbers of every quantity at physical states of a domain, forces included."""
+    for point in _drawn(tuple(map(states.on, sides)), states):
+        try:
+            if is_physical(states, point.floats()):
+                yield _numbers(point, states)
+        except NO_VALUE:
+            continue
+
+
+def _drawn(sides: tuple[Expr, ...], states: ClaimDomain) -> Iterator[ExactPoint]:
+    used = [*sides, *states.settled_relations, *map(states.on, states.signs)]
+    used += states.equations.accelerations.values()
+    symbols = {s for e in used for s in e.symbols()} | _state(states)
+    return (exact_point(used, symbols, seed) for seed in range(_TRIES))
+
+
+def _state(states: ClaimDomain) -> set[Symbol]:
+    """All that has to have a value for a state to be complete."""
+    equations = states.equations
+    known = declared(equations.system).parameters
+    found = {*equations.coordinates, *equations.speeds, *equations.parameters, *known}
+    for function in equations.functions:
+        for _ in range(_RATES):
+            found.add(function)
+            function = function.derivative()
+    return found
 
 
 def _at(point: ExactPoint, expression: Expr) -> Expr:
@@ -81,43 +113,8 @@ def _at(point: ExactPoint, expression: Expr) -> Expr:
     return Expr.of(float(number(expression, point.floats())))
 
 
-def drawn_numbers(sides: Sequence[Expr], states: ClaimDomain) -> Iterator[dict[Symbol, float]]:
-    """Numbers of every quantity at states that the circumstances allow, forces included."""
-    for point in _drawn(tuple(map(states.on, sides)), states):
-        try:
-            if _is_allowed(point, states):
-                yield _numbers(point, states)
-        except (PolhodeError, ArithmeticError, ValueError, KeyError):
-            continue
-
-
-def _drawn(sides: tuple[Expr, ...], states: ClaimDomain) -> Iterator[ExactPoint]:
-    used = [*sides, *states.settled_relations, *map(states.on, states.signs)]
-    used += states.equations.accelerations.values()
-    symbols = {s for e in used for s in e.symbols()} | _state(states)
-    return (points(used, symbols, seed) for seed in range(_TRIES))
-
-
-def _state(states: ClaimDomain) -> set[Symbol]:
-    equations = states.equations
-    orders = [s for f in equations.functions for s in _with_rates(f)]
-    known = declared(equations.system).parameters
-    return {*equations.coordinates, *equations.speeds, *equations.parameters, *known, *orders}
-
-
-def _with_rates(function: Symbol) -> Iterator[Symbol]:
-    for _ in range(4):
-        yield function
-        function = function.derivative()
-
-
-def _is_allowed(point: ExactPoint, states: ClaimDomain) -> bool:
-    """Whether it is a state of bodies that can be."""
-    return bool(is_physical(states, point.floats()))
-
-
 def _described(point: ExactPoint, states: ClaimDomain) -> dict[str, str]:
-    """The state in full, with what the circumstances determine."""
+    """The state in full, with what the domain determines."""
     values = point.described()
     for symbol in _state(states):
         image = states.of(symbol)
@@ -126,14 +123,25 @@ def _described(point: ExactPoint, states: ClaimDomain) -> dict[str, str]:
     return dict(sorted(values.items()))
 
 
+# -- the second opinion ---------------------------------------------------------------------------
+
+
 def _confirmed(
     point: ExactPoint, component: ScalarRelation, states: ClaimDomain, found: Counterexample
 ) -> Confirmation | None:
     """Both sides with accelerations and reactions from the numeric balance of every body."""
+    used = component.left.symbols() | component.right.symbols()
+    equations = states.equations
     try:
-        numbers = _with_rates_of_forces(_numbers(point, states), component, states)
+        numbers = _numbers(point, states)
+        forces = {reaction_symbol(name) for name in equations.components}
+        rates = {s for s in used - numbers.keys() if s.order == 1 and s.base() in forces}
+        numbers |= {
+            s: rate_along_motion(equations.system, numbers, equations.speeds, s.base())
+            for s in rates
+        }
         left, right = (float(number(s, numbers)) for s in (component.left, component.right))
-    except (PolhodeError, ArithmeticError, ValueError, KeyError):
+    except NO_VALUE:
         return None
     scale = max(abs(left), abs(right), 1e-12)
     expected = (number(found.left, {}), number(found.right, {}))
@@ -141,38 +149,20 @@ def _confirmed(
         isclose(one, other, rel_tol=_ROUNDING, abs_tol=_ROUNDING * scale)
         for one, other in zip((left, right), expected, strict=True)
     )
-    used = {*component.left.symbols(), *component.right.symbols()}
     named = {
         s.published: numbers[s] for s in sorted(used, key=lambda s: s.published) if s in numbers
     }
     return Confirmation(named, left, right, agrees)
 
 
-def _with_rates_of_forces(
-    numbers: dict[Symbol, float], component: ScalarRelation, states: ClaimDomain
-) -> dict[Symbol, float]:
-    """With the first rates of reactions that the sides speak of."""
-    used = component.left.symbols() | component.right.symbols()
-    forces = {reaction_symbol(name) for name in states.equations.components}
-    rates = {s for s in used - numbers.keys() if s.order == 1 and s.base() in forces}
-    if not rates:
-        return numbers
-    from polhode.claims.contexts._own_motion import rate_along_motion  # SciPy takes its time
-
-    system, speeds = states.equations.system, states.equations.speeds
-    return numbers | {s: rate_along_motion(system, numbers, speeds, s.base()) for s in rates}
-
-
 def _numbers(point: ExactPoint, states: ClaimDomain) -> dict[Symbol, float]:
+    """Every quantity at a point; accelerations and reactions from the balance alone."""
     drawn = point.floats()
     state = dict(drawn)
     for symbol in _state(states):
-        image = states.of(symbol)
-        state[symbol] = number(image, drawn)
+        state[symbol] = number(states.of(symbol), drawn)
     system = states.equations.system
     if isinstance(states, AnyState):
-        wanted = states.equations.acceleration_symbols
-        return drawn | constrained_motion(
-            system, state, {s: drawn[s] for s in wanted if s in drawn}
-        )
+        accelerations = {s: drawn[s] for s in states.equations.acceleration_symbols if s in drawn}
+        return drawn | constrained_motion(system, state, accelerations)
     return drawn | true_motion(system, state)

@@ -1,33 +1,32 @@
-"""Inequalities that are to hold on all states of a context."""
+"""Inequalities that are to hold on all states of a context, and signs of expressions."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 from operator import eq
 
-from polhode.algebra import ONE, Expr
+from polhode.algebra import ONE, Expr, factors, is_positive
 from polhode.base import PolhodeError
 from polhode.claims._verdict import Answer, Evidence, Residual, Verdict
 from polhode.claims.contexts._counterexample import refutation
-from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import SENSE, STRICT, BoundClaim
-from polhode.claims.states._claim_domain import ClaimDomain
-from polhode.claims.states._elimination import solved
+from polhode.claims.states._claim_domain import ClaimDomain, solved
 from polhode.claims.states._numeric import number
-from polhode.claims.states._signs import definite_sign, may_vanish, strict_sign
 
 
-def judged_inequality(asked: BoundClaim, component: ScalarRelation, states: ClaimDomain) -> Verdict:
+def judged_inequality(claim: BoundClaim, component: ScalarRelation, states: ClaimDomain) -> Verdict:
     """Proved from the signs of factors, or refuted at a state; otherwise undecided.
 
     A strict inequality is refuted by a state in which both sides are equal.
     """
-    sign = asked.members[component.member].sign
+    sign = claim.members[component.member].sign
     difference = states.on(component.difference)
     residual = Residual(component.member, component.label, difference)
-    if _is_proved(difference, sign, states):
-        return Verdict(Answer.HOLDS, "", reason="seen from the signs of its factors")
+    seen = strict_sign if sign in STRICT else definite_sign
+    if seen(difference, states.signs) == SENSE[sign] if difference else sign not in STRICT:
+        return Verdict(Answer.HOLDS, "", reason="follows from the signs of the factors")
     example, second = _refuted(component, residual, states, sign)
     if example is None:
         return Verdict(
@@ -47,13 +46,6 @@ def judged_inequality(asked: BoundClaim, component: ScalarRelation, states: Clai
         counterexample=example,
         confirmation=second,
     )
-
-
-def _is_proved(difference: Expr, sign: str, states: ClaimDomain) -> bool:
-    if not difference:
-        return sign not in STRICT
-    found = strict_sign if sign in STRICT else definite_sign
-    return found(difference, states.signs) == SENSE[sign]
 
 
 def _refuted(
@@ -89,12 +81,48 @@ def _where_equal(difference: Expr, states: ClaimDomain) -> Iterator[ClaimDomain]
         yield replace(states, given={**states.given, symbol: value})
 
 
-def judged_unequal(asked: BoundClaim, component: ScalarRelation, states: ClaimDomain) -> Verdict:
-    """≠ holds where the difference has a sign; sometimes, where it does not vanish throughout."""
+def judged_unequal(claim: BoundClaim, component: ScalarRelation, states: ClaimDomain) -> Verdict:
+    """≠ holds where the difference has a sign; "sometimes", where it is not zero throughout."""
     difference = states.on(component.difference)
     residual = Residual(component.member, component.label, difference)
     if not difference:
         return Verdict(Answer.FAILS, "", reason="both sides are the same", residuals=(residual,))
-    if asked.when == "sometimes" or strict_sign(difference, states.signs):
+    if claim.when == "sometimes" or strict_sign(difference, states.signs):
         return Verdict(Answer.HOLDS, "", reason=f"they differ by {difference}")
     return Verdict(Answer.UNREAD, "", reason="it was read, but not decided", residuals=(residual,))
+
+
+# -- signs of expressions, as far as they can be seen ---------------------------------------------
+
+
+def definite_sign(expression: Expr, assumed: Collection[Expr] = ()) -> int:
+    """1 or -1 where an expression is seen to have that sign or to vanish; 0 where it may change."""
+    coefficient, powers = factors(expression)
+    sign = 1 if coefficient > 0 else -1
+    for factor in (f for f, exponent in powers.items() if exponent % 2):
+        if is_positive(-factor):
+            sign = -sign
+        elif not is_positive(factor) and factor not in assumed and not _is_square_sum(factor):
+            return 0
+    return sign
+
+
+def strict_sign(expression: Expr, assumed: Collection[Expr] = ()) -> int:
+    """1 or -1 where an expression is seen to have that sign and never to vanish; 0 otherwise."""
+    return 0 if any(may_vanish(expression, assumed)) else definite_sign(expression, assumed)
+
+
+def may_vanish(expression: Expr, assumed: Collection[Expr] = ()) -> Iterator[Expr]:
+    """The factors of an expression that are not seen to differ from zero."""
+    for factor, exponent in factors(expression)[1].items():
+        known = is_positive(factor) or is_positive(-factor) or factor in assumed
+        if exponent > 0 and not known and -factor not in assumed:
+            yield factor
+
+
+def _is_square_sum(factor: Expr) -> bool:
+    """Whether every term is a positive number times even powers or positive quantities."""
+    return all(
+        coefficient > 0 and all(g.positive or power % 2 == 0 for g, power in powers.items())
+        for powers, coefficient in factor.terms()
+    )

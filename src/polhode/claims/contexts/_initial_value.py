@@ -1,4 +1,4 @@
-"""Claims along the motion from a given start."""
+"""Claims along the motion from a given start: the context `launch`."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
 from itertools import islice
+from math import isclose
 
 from polhode.algebra import Expr, Symbol
 from polhode.analyse import invariants
@@ -18,154 +19,208 @@ from polhode.claims._verdict import (
     Residual,
     Verdict,
 )
-from polhode.claims.contexts._initially import judged_initially
-from polhode.claims.contexts._judge import failures
-from polhode.claims.contexts._sampled_motion import TIME, Followed, SampledMotion, courses
-from polhode.claims.meaning._the import The
+from polhode.claims.balance._newton_euler import moved
+from polhode.claims.contexts._equations import failures, judged
+from polhode.claims.contexts._inequality import judged_inequality
+from polhode.claims.contexts._sampled_motion import (
+    TIME,
+    SampledMotion,
+    SampledRelation,
+    sampled_motions,
+)
+from polhode.claims.meaning._mechanics import EquationsKey
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
+from polhode.claims.states._numeric import number
 from polhode.claims.states._sample_points import SamplePoints, SymbolValues
 
-_MOTIONS = 3
-_SHORT, _LONG = 6.0, 24.0
+_MOTIONS = 3  # with different parameters, lest one agrees by chance
+_SHORT, _LONG = 6.0, 24.0  # s; the longer where something has yet to happen
 _PARTS = (0.2, 0.7)  # of a motion at which a correction is tried
+_HIGHEST_RATE = 4  # of both sides, by which they are compared just after the start
+_TOLERANCES = (1e-6, 1e-9)  # of the second integration
+_ROUNDING = 1e-5  # relative; between the two integrations
 #: The letter of texts for the time at which a motion starts.
 _CLOCK = Symbol("t_0")
 
 
-def judged_launch(asked: BoundClaim) -> Verdict:
+def judged_launch(claim: BoundClaim) -> Verdict:
     """Along the motion from the start that is given.
 
     Equations are first tried exactly, with the conserved quantities at their starting values;
     what is left open then, and every statement on the course of the motion, is decided by
     integrating it for several choices of the parameters.
     """
-    asked = _started(asked)
-    if _is_plain(asked) and _holds_exactly(asked, _whole(asked)):
+    claim = _started(claim)
+    timeless = not any(TIME in c.difference.symbols() for c in claim.components())
+    if timeless and _is_equation(claim) and _follows_from_invariants(claim):
         return Verdict(Answer.HOLDS, "launch", reason="follows from the conserved quantities")
-    return judged_along(asked)
+    return judged_along(claim)
 
 
-def judged_along(asked: BoundClaim) -> Verdict:
-    """The same by following motions, without a proof: quicker where much is tried."""
-    asked = _started(asked)
-    fixed = {s: e for s, e in asked.given.items() if not s.kind.varies}
-    if asked.when == "initially":
-        return judged_initially(replace(asked, given={**fixed, **asked.start}))
-    event = {s: e for s, e in asked.given.items() if s.kind.varies}
-    return _followed(replace(asked, given=fixed), event)
+def judged_along(claim: BoundClaim) -> Verdict:
+    """The same by integrating motions, without a proof: quicker where many claims are tried."""
+    claim = _started(claim)
+    fixed = {s: e for s, e in claim.given.items() if not s.kind.varies}
+    if claim.when == "initially":
+        return _judged_initially(replace(claim, given={**fixed, **claim.start}))
+    event = {s: e for s, e in claim.given.items() if s.kind.varies}
+    return _judged_by_numbers(replace(claim, given=fixed), event)
 
 
-def _is_equation(asked: BoundClaim) -> bool:
-    """Whether it is an equation, said of the whole motion."""
-    whole = not asked.when and not any(s.kind.varies for s in asked.given)
-    return whole and all(relation.sign in EQUALITY for relation in asked.members)
-
-
-def _is_plain(asked: BoundClaim) -> bool:
-    """Whether it is an equation between states, said of the whole motion."""
-    timeless = not any(TIME in c.difference.symbols() for c in asked.components())
-    return timeless and _is_equation(asked)
-
-
-def _started(asked: BoundClaim) -> BoundClaim:
+def _started(claim: BoundClaim) -> BoundClaim:
     """With the restrictions on the state as the start, where no start is given."""
-    if asked.start:
-        return asked
-    start = {s: e for s, e in asked.given.items() if s.kind.varies}
-    fixed = {s: e for s, e in asked.given.items() if s not in start}
-    return replace(asked, start=start, given=fixed)
+    if claim.start:
+        return claim
+    start = {s: e for s, e in claim.given.items() if s.kind.varies}
+    fixed = {s: e for s, e in claim.given.items() if s not in start}
+    return replace(claim, start=start, given=fixed)
 
 
-def _whole(asked: BoundClaim) -> dict[Symbol, Expr]:
-    """The start, with a letter for every coordinate and speed that it leaves open."""
-    state = (*asked.equations.coordinates, *asked.equations.speeds)
-    return {s: Expr.generator(Symbol(f"{s.published}_start")) for s in state} | dict(asked.start)
+def _is_equation(claim: BoundClaim) -> bool:
+    """Whether all members are equations that are to hold along the whole motion."""
+    whole = not claim.when and not any(s.kind.varies for s in claim.given)
+    return whole and all(relation.sign in EQUALITY for relation in claim.members)
 
 
-def _holds_exactly(asked: BoundClaim, start: Mapping[Symbol, Expr]) -> bool:
+# -- exactly, from the conserved quantities -------------------------------------------------------
+
+
+def _follows_from_invariants(claim: BoundClaim) -> bool:
+    """Whether it holds where all conserved quantities have their values at the start."""
+    state = (*claim.equations.coordinates, *claim.equations.speeds)
+    open_start = {s: Expr.generator(Symbol(f"{s.published}_start")) for s in state}
+    start = open_start | dict(claim.start)
     try:
-        kept = _conserved(The(asked.equations))
-        fixed = [e - e.subs(start) for e in kept]
-        relations = (*asked.relations, *(e for e in fixed if e))
-        states = replace(asked.states(TrueMotion), relations=relations)
-        return next(failures(asked, [states]), None) is None
+        conserved = [e - e.subs(start) for e in _conserved(EquationsKey(claim.equations))]
+        relations = (*claim.relations, *(e for e in conserved if e))
+        states = replace(claim.states(TrueMotion), relations=relations)
+        return next(failures(claim, [states]), None) is None
     except (PolhodeError, ArithmeticError):
         return False
 
 
 @lru_cache(maxsize=16)
-def _conserved(the: The) -> tuple[Expr, ...]:
+def _conserved(the: EquationsKey) -> tuple[Expr, ...]:
     found = (i.expression for i in invariants(the.equations))
     return tuple(map(the.equations.kinetics.on_speeds, found))
 
 
-def _followed(asked: BoundClaim, event: Mapping[Symbol, Expr]) -> Verdict:
-    """By numbers, on several motions: all along them, or when something comes to pass."""
+# -- at the start and just after it ---------------------------------------------------------------
+
+
+def _judged_initially(claim: BoundClaim) -> Verdict:
+    """At the start; an inequality whose sides are equal there, just after it."""
+    states = claim.states(TrueMotion)
+    equal = {i for i, r in enumerate(claim.members) if r.sign in EQUALITY}
+    verdict = judged(claim.only(equal), [states], "launch")
+    for component in (c for c in claim.components() if c.member not in equal):
+        if verdict.holds:
+            verdict = judged_inequality(claim, _lowest_rates(component, states), states)
+    return replace(verdict, context="launch")
+
+
+def _lowest_rates(component: ScalarRelation, states: TrueMotion) -> ScalarRelation:
+    """The lowest rates of both sides that differ at the start; both sides, where none do."""
+    running = replace(states, given={})
+    rates = component
+    for _ in range(_HIGHEST_RATE):
+        if states.on(rates.difference):
+            return rates
+        left, right = (running.on(side).dt() for side in (rates.left, rates.right))
+        rates = replace(rates, left=left, right=right)
+    return component
+
+
+# -- by numbers, along several motions ------------------------------------------------------------
+
+
+def _judged_by_numbers(claim: BoundClaim, event: Mapping[Symbol, Expr]) -> Verdict:
+    """All along several motions, or when something happens."""
+    running = replace(claim, relations=()).states(TrueMotion)
+    duration = _LONG if event or claim.when == "finally" else _SHORT
+    found = (motion.at(event) for motion in _motions(claim, running, duration))
     relation = None
-    for relation in _along_motions(asked, event):
-        sample = relation.exception(asked.when)
-        if sample is not None:
-            return _refuted(relation, sample, asked)
+    for motion in islice(filter(None, found), _MOTIONS):
+        for component in claim.components():
+            relation = SampledRelation.along(motion, component, claim, running)
+            sample = relation.exception(claim.when)
+            if sample is not None:
+                return _refuted(relation, sample, claim)
     if relation is None:
         raise NumericError(
-            "no motion could be followed from the start", expected="a start that fixes the motion"
+            "a start from which no motion could be integrated",
+            expected="a start that fixes the motion",
         )
-    remark = f"by numbers, along {_MOTIONS} motions"
-    return Verdict(Answer.HOLDS, "launch", reason=remark)
+    reason = f"by numerical integration of {_MOTIONS} motions"
+    return Verdict(Answer.HOLDS, "launch", reason=reason)
 
 
-def _along_motions(asked: BoundClaim, event: Mapping[Symbol, Expr]) -> Iterator[Followed]:
-    running = replace(asked, relations=()).states(TrueMotion)
-    duration = _LONG if event or asked.when == "finally" else _SHORT
-    found = (course.at(event) for course in _courses(asked, running, duration))
-    for course in islice(filter(None, found), _MOTIONS):
-        for component in asked.components():
-            yield Followed.along(course, component, asked, running)
+def _motions(claim: BoundClaim, running: TrueMotion, duration: float) -> Iterator[SampledMotion]:
+    starts = replace(claim, given={**claim.given, **claim.start}).states(TrueMotion)
+    used = [running.on(side) for c in claim.components() for side in (c.left, c.right)]
+    clock = _CLOCK if any(_CLOCK in e.symbols() for e in used) else None
+    return sampled_motions(starts, used, clock, duration)
 
 
-def _courses(asked: BoundClaim, running: TrueMotion, duration: float) -> Iterator[SampledMotion]:
-    starts = replace(asked, given={**asked.given, **asked.start}).states(TrueMotion)
-    used = [running.on(side) for c in asked.components() for side in (c.left, c.right)]
-    clock = next((s for e in used for s in e.symbols() if s == _CLOCK), None)
-    return courses(starts, used, clock, duration)
-
-
-def bench_along(asked: BoundClaim) -> tuple[TrueMotion, SamplePoints]:
+def sample_points_along(claim: BoundClaim) -> tuple[TrueMotion, SamplePoints]:
     """States at some moments of several motions from the start, to try an equation at.
 
-    Raises `NumericError` for what is no equation, or not said of the whole motion.
+    Raises `NumericError` unless all members are equations along the whole motion.
     """
-    asked = _started(asked)
-    if not _is_equation(asked):
-        raise NumericError("a statement on moments", expected="an equation along a motion")
-    running = replace(asked, relations=()).states(TrueMotion)
-    found = islice(_courses(asked, running, _SHORT), _MOTIONS)
-    moments = (course.state(part) for course in found for part in _PARTS)
+    claim = _started(claim)
+    if not _is_equation(claim):
+        raise NumericError("a statement on single moments", expected="an equation along a motion")
+    running = replace(claim, relations=()).states(TrueMotion)
+    motions = islice(_motions(claim, running, _SHORT), _MOTIONS)
+    moments = (motion.state(part) for motion in motions for part in _PARTS)
     return running, SamplePoints(
         tuple(SymbolValues(state, running, i) for i, state in enumerate(moments))
     )
 
 
-def _refuted(followed: Followed, sample: int, asked: BoundClaim) -> Verdict:
-    component, course = followed.component, followed.course
-    left, right = (float(side[sample]) for side in followed.sides)
-    since = float(course.times[sample])
+def _refuted(relation: SampledRelation, sample: int, claim: BoundClaim) -> Verdict:
+    component, motion = relation.component, relation.motion
+    left, right = (float(side[sample]) for side in relation.sides)
+    since = float(motion.times[sample])
     residual = Residual(component.member, component.label, component.difference)
-    state = {*asked.equations.coordinates, *asked.equations.speeds, *asked.equations.parameters}
-    said = {f"{s.published}": f"{course.start[s]:.12g}" for s in state}
-    values = {"t": f"{since + course.begin:.12g}", **dict(sorted(said.items()))}
+    equations = claim.equations
+    state = {*equations.coordinates, *equations.speeds, *equations.parameters}
+    start = {f"{s.published}": f"{motion.start[s]:.12g}" for s in state}
+    values = {"t": f"{since + motion.begin:.12g}", **dict(sorted(start.items()))}
     example = Counterexample(values, Expr.of(left), Expr.of(right), residual)
     return Refuted(
         Answer.FAILS,
         "launch",
-        reason=f"not met {since:.4g} s after the start of a motion that was followed by numbers",
+        reason=f"does not hold {since:.4g} s after the start of a motion integrated numerically",
         residuals=(residual,),
-        evidence=lambda: (example, _second_opinion(followed, sample)),
+        evidence=lambda: (example, _integrated_anew(relation, sample)),
     )
 
 
-def _second_opinion(followed: Followed, sample: int) -> Confirmation | None:
-    from polhode.claims.contexts._own_motion import followed_anew  # only failures are followed anew
+def _integrated_anew(relation: SampledRelation, sample: int) -> Confirmation | None:
+    """Both sides at a sample of a motion, with the motion and all accelerations from the balance.
 
-    return followed_anew(followed, sample)
+    Loosely at first, which is quick: agreement to several digits is no coincidence.
+    """
+    motion, component = relation.motion, relation.component
+    since = float(motion.times[sample])
+    expected = [float(side[sample]) for side in relation.sides]
+    scale = max(*map(abs, expected), 1e-12)
+    found = None
+    for tolerance in _TOLERANCES:
+        try:
+            state = moved(motion.run.equations.system, motion.start, since, tolerance)
+        except (PolhodeError, ArithmeticError, KeyError):
+            return None
+        numbers = {**motion.start, **state, TIME: since + motion.begin}
+        left, right = (float(number(side, numbers)) for side in (component.left, component.right))
+        agrees = all(
+            isclose(one, other, rel_tol=_ROUNDING, abs_tol=_ROUNDING * scale)
+            for one, other in zip((left, right), expected, strict=True)
+        )
+        found = Confirmation({"t": since + motion.begin}, left, right, agrees)
+        if agrees:
+            break
+    return found

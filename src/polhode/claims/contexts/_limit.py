@@ -4,87 +4,83 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from functools import partial
 from math import inf, log
 
-from polhode.algebra import ONE, ZERO, Expr, Symbol
+from polhode.algebra import ONE, ZERO, Expr
 from polhode.base import NumericError, ParseError, PolhodeError
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.contexts._counterexample import refutation
-from polhode.claims.contexts._remainder import Remainder
-from polhode.claims.contexts._roots_of_steady import steady_roots
-from polhode.claims.contexts._scaling import SMALLNESS, restored, scaled
-from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.contexts._remainder import SMALLNESS, Remainder, restored, scaled
+from polhode.claims.contexts._steady import steady_roots
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
 from polhode.claims.states._numeric import number
 from polhode.claims.states._sample_points import real_states
 
 _DIGITS = 30  # binary ones that a remainder may lose to rounding
-_STEEPEST = 15
+_STEEPEST = 15  # order assumed for a remainder beyond all that is expanded
 
 
-def judged_limit(asked: BoundClaim) -> Verdict:
+def judged_limit(claim: BoundClaim) -> Verdict:
     """To the stated order in the small quantities, and to that of every term that is printed.
 
     What is left over must be smaller than all that is kept: smaller than the stated order, and
     smaller than each printed term, which would otherwise not have been tested. A single quantity
     that is said to vanish need only be beyond the stated order. Judged on all states where no
-    accelerations or reactions are spoken of, otherwise on true motions, then for the roots of
-    steady motions; of a ± each sign by itself.
+    accelerations or reactions occur, otherwise on true motions, then for the roots of steady
+    motions; of a ± each sign by itself.
     """
-    if not asked.small:
+    if not claim.small:
         raise NumericError(
             "a claim in the context limit without a small quantity",
             expected="what is small and to which order",
             advice="name it with the order that is kept, as in epsilon:1",
             option="small",
         )
-    if others := [r.sign for r in asked.members if r.sign not in (*EQUALITY, "≈")]:
+    if others := [r.sign for r in claim.members if r.sign not in (*EQUALITY, "≈")]:
         raise ParseError(f"the sign {others[0]} in the context limit", expected="= or ≈")
-    verdicts = [_of_branch(replace(asked, branches=(branch,))) for branch in asked.branches]
-    return min(verdicts, key=_standing)
+    verdicts = [_of_branch(replace(claim, branches=(branch,))) for branch in claim.branches]
+    # failures before what is open, then what is true to the lowest order
+    answers = (Answer.FAILS, Answer.UNREAD, Answer.APPROXIMATE, Answer.HOLDS)
+    return min(
+        verdicts, key=lambda v: (answers.index(v.answer), inf if v.order is None else v.order)
+    )
 
 
-def _standing(verdict: Verdict) -> tuple[int, float]:
-    """Failures before what is open, and that before what is true to lower and to higher order."""
-    places = (Answer.FAILS, Answer.UNREAD, Answer.APPROXIMATE, Answer.HOLDS)
-    return places.index(verdict.answer), inf if verdict.order is None else verdict.order
-
-
-def _of_branch(asked: BoundClaim) -> Verdict:
+def _of_branch(claim: BoundClaim) -> Verdict:
     """With one choice of the signs of ±."""
     verdicts = []
-    for candidate in _readings(asked):
-        verdict = _judged(asked, candidate)
+    for remainders in _candidates(claim):
+        verdict = _judged(claim, remainders)
         if verdict.holds:
             return verdict
         verdicts.append(verdict)
     return next((v for v in verdicts if v.answer is Answer.UNREAD), verdicts[-1])
 
 
-def _readings(asked: BoundClaim) -> Iterator[Iterator[Remainder]]:
-    anywhere, moving = asked.states(AnyState), asked.states(TrueMotion)
-    sides = [anywhere.on(side) for c in asked.components() for side in (c.left, c.right)]
-    kinematic = not any(_is_dynamic(side, anywhere) for side in sides)
-    states: ClaimDomain = anywhere if kinematic else moving
-    yield (_remainder(c, states, asked) for c in asked.components())
-    roots = list(steady_roots(asked))
-    spoken = [c for c in asked.components() if c.difference]
-    if len(roots) < len(spoken):
+def _candidates(claim: BoundClaim) -> Iterator[Iterator[Remainder]]:
+    """What may have to be small: remainders on a domain, or of the roots of steady motions."""
+    anywhere = claim.states(AnyState)
+    sides = [anywhere.on(side) for c in claim.components() for side in (c.left, c.right)]
+    dynamic = any(_is_dynamic(side, anywhere) for side in sides)
+    states: ClaimDomain = claim.states(TrueMotion) if dynamic else anywhere
+    yield (_remainder(c, states, claim) for c in claim.components())
+    roots = list(steady_roots(claim))
+    if len(roots) < sum(bool(c.difference) for c in claim.components()):
         return
-    steadily = replace(asked, relations=()).states(TrueMotion)
+    steadily = replace(claim, relations=()).states(TrueMotion)
     for branch in range(max((len(values) for _, values in roots), default=0)):
         yield (
-            _remainder(c, steadily, asked, values[branch])
+            _remainder(c, steadily, claim, values[branch])
             for c, values in roots
             if branch < len(values)
         )
 
 
 def _is_dynamic(side: Expr, states: ClaimDomain) -> bool:
-    """Whether it speaks of accelerations or reactions, which only the motion determines."""
+    """Whether accelerations or reactions occur, which only the motion determines."""
     equations = states.equations
     known = {*equations.coordinates, *equations.speeds}
     forces = {reaction_symbol(name) for name in equations.components}
@@ -96,37 +92,38 @@ def _is_dynamic(side: Expr, states: ClaimDomain) -> bool:
 
 
 def _remainder(
-    component: ScalarRelation, states: ClaimDomain, asked: BoundClaim, root: Expr | None = None
+    component: ScalarRelation, states: ClaimDomain, claim: BoundClaim, root: Expr | None = None
 ) -> Remainder:
     first = component.left if root is None else root
-    left, right = (scaled(states.on(side), asked.small) for side in (first, component.right))
-    return Remainder(component, states, left, right, _positive(asked), asked, root is not None)
+    left, right = (scaled(states.on(side), claim.small) for side in (first, component.right))
+    # positive is what the text says is, and what is large: the denominators of small quantities
+    large = (s for small in claim.small for s in small.quantity.denominator.symbols())
+    positive = (*claim.positive, *map(Expr.generator, large))
+    return Remainder(component, states, left, right, positive, claim, root is not None)
 
 
-def _positive(asked: BoundClaim) -> tuple[Expr, ...]:
-    """What is taken as positive: what the text says is, and what is large."""
-    large = (Expr.generator(s) for small in asked.small for s in _below(small.quantity))
-    return (*asked.positive, *large)
-
-
-def _below(quantity: Expr) -> frozenset[Symbol]:
-    return quantity.denominator.symbols()
-
-
-def _judged(asked: BoundClaim, remainders: Iterable[Remainder]) -> Verdict:
+def _judged(claim: BoundClaim, remainders: Iterable[Remainder]) -> Verdict:
     reached: list[tuple[int, Expr]] = []
     seen: list[Remainder] = []
-    for left in remainders:
-        seen.append(left)
-        if not left.orders:
-            if left.left != left.right:
-                reached.append((left.highest + 1, ZERO))
+    for remainder in remainders:
+        seen.append(remainder)
+        if not remainder.orders:
+            if remainder.left != remainder.right:
+                reached.append((remainder.highest + 1, ZERO))
             continue
-        order, term = next(iter(left.orders.items()))
-        if why := left.objection(order):
-            return _failed(left, order, restored(term, asked.small), why)
-        if order <= left.printed.left_aside:
-            return _untested(left, order)
+        order, term = next(iter(remainder.orders.items()))
+        if why := remainder.objection(order):
+            return _failed(remainder, order, restored(term, claim.small), why)
+        aside = remainder.printed.left_aside
+        if order <= aside:
+            return Verdict(
+                Answer.UNREAD,
+                "limit",
+                reason=f"it was read and is true up to order {order - 1}, but its left side has a "
+                f"term of order {aside} that neither equals one on the right side nor vanishes by "
+                "itself; leave it out, or state the order of what is small",
+                order=order - 1,
+            )
         reached.append((order, term))
     if not reached:
         return Verdict(Answer.HOLDS, "limit")
@@ -134,26 +131,24 @@ def _judged(asked: BoundClaim, remainders: Iterable[Remainder]) -> Verdict:
     return Verdict(
         Answer.APPROXIMATE,
         "limit",
-        reason=f"true up to order {order - 1}; the first term left out is of order {order}",
+        reason=f"true up to order {order - 1}; the first omitted term is of order {order}",
         order=order - 1,
-        dropped=restored(dropped, asked.small),
+        dropped=restored(dropped, claim.small),
         remarks=tuple(_measured(seen)),
     )
 
 
-def _untested(left: Remainder, order: int) -> Verdict:
-    return Verdict(
-        Answer.UNREAD,
-        "limit",
-        reason=f"it was read and is true up to order {order - 1}, but its left side has a term of "
-        f"order {left.printed.left_aside} that is neither met by the right side nor right by "
-        "itself; leave it out, or state the order of what is small",
-        order=order - 1,
-    )
+def _failed(remainder: Remainder, order: int, term: Expr, why: str) -> Verdict:
+    component = remainder.component
+    residual = Residual(component.member, component.label, term)
 
+    def evidence() -> Evidence:
+        """A state at which the coefficients of that order differ."""
+        sides = (remainder.series(side, order) for side in (remainder.left, remainder.right))
+        left, right = (found.get(order, ZERO) for found in sides)
+        wrong = ScalarRelation(component.member, component.label, left, right)
+        return refutation(wrong, residual, remainder.states)
 
-def _failed(left: Remainder, order: int, term: Expr, why: str) -> Verdict:
-    residual = Residual(left.component.member, left.component.label, term)
     return Refuted(
         Answer.FAILS,
         "limit",
@@ -161,40 +156,29 @@ def _failed(left: Remainder, order: int, term: Expr, why: str) -> Verdict:
         residuals=(residual,),
         order=order - 1,
         dropped=term,
-        evidence=partial(_evidence, left, order, residual),
+        evidence=evidence,
     )
 
 
-def _evidence(left: Remainder, order: int, residual: Residual) -> Evidence:
-    """A state at which the coefficients of that order differ."""
-    wrong = ScalarRelation(residual.member, residual.component, *_coefficients(left, order))
-    return refutation(wrong, residual, left.states)
-
-
-def _coefficients(left: Remainder, order: int) -> tuple[Expr, Expr]:
-    sides = (left.series(side, order) for side in (left.left, left.right))
-    first, second = (found.get(order, ZERO) for found in sides)
-    return first, second
-
-
 def _measured(remainders: Sequence[Remainder]) -> Iterator[str]:
-    """How fast the remainder falls as the small quantities are halved, by numbers."""
-    for left in remainders:
-        difference = left.left - left.right
+    """How the first residual scales with the small quantities, by numbers: a check of its order."""
+    for remainder in remainders:
+        difference = remainder.left - remainder.right
         if difference:
             try:
-                order = _slope(difference, left.states, next(iter(left.orders), _STEEPEST))
+                order = _slope(difference, remainder)
             except (PolhodeError, ArithmeticError, ValueError):
                 continue
-            yield f"halving what is small makes the remainder fall as its power {order:.2f}"
+            yield f"the residual scales as ε^{order:.2f}"
             return
 
 
-def _slope(difference: Expr, states: ClaimDomain, expected: int) -> float:
-    point = next(real_states(states, [difference.subs({SMALLNESS: ONE})]), None)
+def _slope(difference: Expr, remainder: Remainder) -> float:
+    """The power of the smallness ε with which a difference falls from ε = 2⁻ᵏ to 2⁻ᵏ⁻¹."""
+    point = next(real_states(remainder.states, [difference.subs({SMALLNESS: ONE})]), None)
     if point is None:
         raise NumericError("no state among those tried", expected="one that is real")
-    first = max(2, min(7, _DIGITS // max(expected, 1)))  # what is left stays above rounding
-    halvings = (first, first + 1)
-    sizes = [abs(number(difference, {**point, SMALLNESS: 2.0**-k})) for k in halvings]
+    expected = next(iter(remainder.orders), _STEEPEST)
+    first = max(2, min(7, _DIGITS // max(expected, 1)))  # the residual stays above rounding
+    sizes = [abs(number(difference, {**point, SMALLNESS: 2.0**-k})) for k in (first, first + 1)]
     return log(sizes[0] / sizes[1], 2)

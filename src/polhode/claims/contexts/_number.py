@@ -5,23 +5,30 @@ from __future__ import annotations
 from polhode.algebra import ZERO, Expr
 from polhode.base import ParseError
 from polhode.claims._verdict import Answer, Residual, Verdict
-from polhode.claims.meaning._components import ScalarRelation
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
 from polhode.claims.states._numeric import number
 
+_ROUNDING = 1e-12
 
-def judged_number(asked: BoundClaim) -> Verdict:
+
+def judged_number(claim: BoundClaim) -> Verdict:
     """Whether both sides agree within half a unit of the last printed digit.
 
     Raises `ParseError` where parameters are left without a value.
     """
-    states = asked.states(TrueMotion)
-    for component in asked.components():
+    states = claim.states(TrueMotion)
+    for component in claim.components():
         left, right = states.on(component.left), states.on(component.right)
-        half = states.on(asked.digits.get(component.member, ZERO))
+        half = states.on(claim.digits.get(component.member, ZERO))
         if not _is_close(left, right, half):
-            return _wrong(component, left, right)
+            found, printed = _short(left), _short(right)
+            return Verdict(
+                Answer.FAILS,
+                "number",
+                reason=f"the left side is {left}, about {found}; the text has {printed}",
+                residuals=(Residual(component.member, component.label, left - right),),
+            )
     return Verdict(Answer.HOLDS, "number")
 
 
@@ -38,23 +45,10 @@ def _is_close(left: Expr, right: Expr, half: Expr) -> bool:
             option="given",
         )
     if not half:
-        return abs(float(number(difference, {}))) <= 1e-12 * abs(float(number(right, {})))
-    return abs(float(number(ratio, {}))) <= 1 + 1e-12
-
-
-def _wrong(component: ScalarRelation, left: Expr, right: Expr) -> Verdict:
-    residual = Residual(component.member, component.label, left - right)
-    return Verdict(
-        Answer.FAILS,
-        "number",
-        reason=f"the left side is {left}, about {_short(left)}; the text has {_short(right)}",
-        residuals=(residual,),
-    )
+        return abs(float(number(difference, {}))) <= _ROUNDING * abs(float(number(right, {})))
+    return abs(float(number(ratio, {}))) <= 1 + _ROUNDING
 
 
 def _short(value: Expr) -> str:
-    return f"{float(number(value, {})):.6g}" if _is_plain(value) else str(value)
-
-
-def _is_plain(value: Expr) -> bool:
-    return all(symbol.name == "pi" for symbol in value.symbols())
+    is_number = all(symbol.name == "pi" for symbol in value.symbols())
+    return f"{float(number(value, {})):.6g}" if is_number else str(value)

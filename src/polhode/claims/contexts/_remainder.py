@@ -2,22 +2,152 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
+from math import lcm
 
-from polhode.algebra import Expr, Vector
+from polhode.algebra import ONE, ZERO, Expr, Symbol, Vector
 from polhode.base import NumericError
-from polhode.claims.contexts._scaling import leading_orders, scaled, stated_order, weights
 from polhode.claims.latex._tree import Node
-from polhode.claims.meaning._components import ScalarRelation, Side, triad_of
-from polhode.claims.meaning._printed_terms import PrintedRelation, Term
-from polhode.claims.states._bound_claim import EQUALITY, BoundClaim
+from polhode.claims.meaning._meaning import Side, with_signs
+from polhode.claims.meaning._relations import PrintedRelation, ScalarRelation, Term, triad_of
+from polhode.claims.states._bound_claim import EQUALITY, BoundClaim, Small
 from polhode.claims.states._claim_domain import ClaimDomain
 
-_HIGHEST = 6
+#: Scales everything small.
+SMALLNESS = Symbol("smallness", positive=True)
+
+_HIGHEST_RATE = 3  # rates of a small quantity are as small, up to this order
+_HIGHEST = 6  # order up to which a remainder is expanded, or further for printed terms
 _LIMIT = 12  # order beyond which nothing is expanded
-_LOWEST = -4
+_LOWEST = -4  # the highest pole that is expanded
+_TARGET = Symbol("departure")
+
+# -- small quantities scaled together, and series in the smallness --------------------------------
+
+
+def scaled(expression: Expr, small: Sequence[Small]) -> Expr:
+    """An expression with every small quantity multiplied by its power of the smallness.
+
+    The symbol that a small quantity is formed of then stands for the departure itself: with
+    ε = θ - π/2 small, θ becomes π/2 + smallness · θ. Rates of it are as small.
+    """
+    return expression.subs(_images(tuple(small)))
+
+
+def weights(small: Sequence[Small]) -> tuple[int, ...]:
+    """The power of the smallness that each small quantity stands for.
+
+    Those kept to a higher order are larger: with θ to the third order and Ω to the first, a
+    product such as θ²Ω is left out. What is kept to order zero is smaller than all that is kept.
+    """
+    whole = stated_order(small)
+    if not whole:
+        return (1,) * len(small)
+    orders = (1 if each.order is None else each.order for each in small)
+    return tuple(whole // order if order else whole + 1 for order in orders)
+
+
+def stated_order(small: Sequence[Small]) -> int | None:
+    """The power of the smallness up to which terms are kept; None where no order is stated."""
+    orders = [each.order for each in small if each.order is not None]
+    return lcm(*filter(None, orders)) if any(orders) else (0 if orders else None)
+
+
+def vanished(small: Sequence[Small]) -> dict[Symbol, Expr]:
+    """The values that symbols have where every small quantity is zero."""
+    images = _images(tuple(small))
+    return {symbol: value.subs({SMALLNESS: ZERO}) for symbol, value in images.items()}
+
+
+def restored(expression: Expr, small: Sequence[Small]) -> Expr:
+    """A coefficient with departures written as the small quantities they are."""
+    return expression.subs({_formed_of(each.quantity)[0]: each.quantity for each in small})
+
+
+@lru_cache(maxsize=64)
+def _images(small: tuple[Small, ...]) -> dict[Symbol, Expr]:
+    """What the symbols of small quantities, and their rates, become when all is scaled."""
+    found: dict[Symbol, Expr] = {}
+    for each, weight in zip(small, weights(small), strict=True):
+        scale = Expr.generator(SMALLNESS) ** weight
+        symbol, value = _formed_of(each.quantity)
+        found[symbol] = value.subs({_TARGET: scale * Expr.generator(symbol)})
+        for _ in range(_HIGHEST_RATE if symbol.kind.varies else 0):
+            symbol = symbol.derivative()
+            found[symbol] = scale * Expr.generator(symbol)
+    return found
+
+
+def _formed_of(quantity: Expr) -> tuple[Symbol, Expr]:
+    """The symbol that a small quantity is formed of, and its value when the quantity has another.
+
+    Raises `NumericError` for a quantity that is neither linear in a symbol nor one over it.
+    """
+    target = Expr.generator(_TARGET)
+    for symbol in sorted(quantity.symbols(), key=lambda s: (not s.kind.varies, s.published)):
+        x = Expr.generator(symbol)
+        reciprocal = ONE / quantity if quantity else ZERO
+        for form, value in ((quantity, target), (reciprocal, ONE / target)):
+            slope = form.diff(symbol)
+            if slope and symbol not in slope.symbols():
+                rest = form - slope * x
+                return symbol, (value - rest) / slope
+    raise NumericError(
+        f"{quantity} as a small quantity",
+        expected="a symbol, a departure such as theta - pi/2, or one over a large symbol",
+    )
+
+
+def leading_orders(
+    expression: Expr, lowest: int, highest: int, positive: Collection[Expr] = ()
+) -> dict[int, Expr]:
+    """The first coefficient of the series in the smallness that is not zero, by its order.
+
+    Negative orders are poles. Empty where all up to the highest order vanish; roots of squares of
+    what is positive are resolved.
+    """
+    below = expression.denominator
+    if SMALLNESS not in below.symbols() or _has_poles_inside(expression):
+        return _leading(expression, lowest, highest, positive)
+    # expressions grow far less when numerator and denominator are expanded separately
+    least = _leading(below, lowest, highest - lowest, positive)
+    order, share = next(iter(least.items()), (0, ZERO))
+    if not share:
+        return _leading(expression, lowest, highest, positive)
+    found = _leading(expression.numerator, lowest + order, highest + order, positive)
+    return {power - order: coefficient / share for power, coefficient in found.items()}
+
+
+def _has_poles_inside(expression: Expr) -> bool:
+    """Whether a root or the like holds one over the smallness."""
+    arguments = (a for g in expression.generators for a in g.arguments)
+    return any(SMALLNESS in a.denominator.symbols() or _has_poles_inside(a) for a in arguments)
+
+
+def _leading(
+    expression: Expr, lowest: int, highest: int, positive: Collection[Expr]
+) -> dict[int, Expr]:
+    scale = Expr.generator(SMALLNESS)
+    for order in range(0, lowest - 1, -1):
+        derivative, factorial = expression * scale**-order, 1
+        try:
+            value = derivative.subs({SMALLNESS: ZERO})
+        except ZeroDivisionError:
+            continue
+        for power in range(highest - order + 1):
+            if power:
+                derivative, factorial = derivative.diff(SMALLNESS), factorial * power
+                value = derivative.subs({SMALLNESS: ZERO})
+            signed = with_signs(value, positive)
+            if signed:
+                return {order + power: signed / factorial}
+        return {}
+    raise NumericError(f"a pole of order above {-lowest} in a small quantity")
+
+
+# -- what is left of one component ----------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -56,7 +186,7 @@ class Remainder:
         left: its left side there, scaled.
         right: its right side.
         positive: what is taken as positive.
-        asked: the claim.
+        claim: the claim.
         is_root: whether the left side is a root of the relation between steady speeds.
     """
 
@@ -65,7 +195,7 @@ class Remainder:
     left: Expr
     right: Expr
     positive: tuple[Expr, ...]
-    asked: BoundClaim
+    claim: BoundClaim
     is_root: bool = False
 
     @cached_property
@@ -75,22 +205,22 @@ class Remainder:
 
     @cached_property
     def highest(self) -> int:
-        """The order up to which it is expanded: no term is printed beyond."""
+        """The order up to which it is expanded; all printed terms are of this order or lower."""
         if self.left == self.right:
             return _HIGHEST
         printed = self.printed
         return max((_HIGHEST, self.stated, printed.left_aside, *printed.kept))
 
     def series(self, expression: Expr, highest: int = _HIGHEST) -> dict[int, Expr]:
-        """The first coefficient that does not vanish, by its order, with all signs told."""
-        lowest = _LOWEST * max(weights(self.asked.small))
+        """The first coefficient that does not vanish, by its order; signs of roots are resolved."""
+        lowest = _LOWEST * max(weights(self.claim.small))
         return leading_orders(expression, lowest, highest, self.positive)
 
     @cached_property
     def stated(self) -> int:
-        """The order that the claim is to be true to by what is said of it, if only by ≈."""
-        said = stated_order(self.asked.small)
-        return self._leading if said is None else said
+        """The order to which the claim is to be true: as stated, or else the leading one."""
+        order = stated_order(self.claim.small)
+        return self._leading if order is None else order
 
     @cached_property
     def _leading(self) -> int:
@@ -101,17 +231,17 @@ class Remainder:
         return min((order for orders in both for order in orders), default=0)
 
     def objection(self, order: int) -> str:
-        """Why it must not differ from zero at an order; empty where it may."""
+        """Why the sides must not differ at an order; empty where they may."""
         if order <= self.stated:
-            return f"the sides differ at order {order} already"
+            return f"the sides already differ at order {order}"
         highest = max(self.printed.kept, default=order - 1)
         if order <= highest:
             return (
-                f"the sides differ at order {order} already, and terms of order {highest} are "
+                f"the sides already differ at order {order}, and terms of order {highest} are "
                 "printed"
             )
-        sign = self.asked.members[self.component.member].sign
-        if sign in EQUALITY and stated_order(self.asked.small) is None:
+        sign = self.claim.members[self.component.member].sign
+        if sign in EQUALITY and stated_order(self.claim.small) is None:
             return f"the sides differ at order {order}, and = is exact where no order is stated"
         return ""
 
@@ -120,7 +250,7 @@ class Remainder:
     @cached_property
     def printed(self) -> PrintedOrders:
         """The orders of the terms that are printed."""
-        printed = self.asked.members[self.component.member].printed
+        printed = self.claim.members[self.component.member].printed
         if printed is None:
             return PrintedOrders()
         right = self._terms(printed.terms(printed.right))
@@ -138,25 +268,25 @@ class Remainder:
 
         A vector counts in the components in which it is largest: only there is it tested.
         """
-        spoken = [(t, parts) for t in terms if (parts := self._parts(t.contribution))[self._place]]
+        present = [(t, parts) for t in terms if (parts := self._parts(t.contribution))[self._place]]
         found = []
-        for term, parts in spoken:
-            shares = [scaled(self.states.on(part), self.asked.small) for part in parts]
+        for term, parts in present:
+            shares = [scaled(self.states.on(part), self.claim.small) for part in parts]
             if shares[self._place] and not self._is_argument(term):
                 order = self._order(shares[self._place])
                 if order <= min(self._order(share) for share in shares if share):
                     found.append(order)
-        return _Terms(len(spoken), tuple(found))
+        return _Terms(len(present), tuple(found))
 
     @cached_property
     def _place(self) -> int:
         """Which of the components of its member it is."""
-        alike = [c for c in self.asked.components() if c.member == self.component.member]
+        alike = [c for c in self.claim.components() if c.member == self.component.member]
         return [c.label for c in alike].index(self.component.label)
 
     def _parts(self, side: Side) -> tuple[Expr, ...]:
         """The components of a side along the directions in which the member is taken apart."""
-        relation = self.asked.members[self.component.member]
+        relation = self.claim.members[self.component.member]
         triad = triad_of(relation.left, relation.right)
         if isinstance(side, Vector):
             return side.components if triad is None else side.express(triad).components
@@ -166,18 +296,20 @@ class Remainder:
         """Whether it is as large as the argument it stands in, and so no correction to it."""
         if not term.among:
             return False
-        own, whole = (scaled(self.states.on(e), self.asked.small) for e in (term.own, term.among))
+        own, whole = (scaled(self.states.on(e), self.claim.small) for e in (term.own, term.among))
         return not own or not whole or self._order(own) <= self._order(whole)
 
     def _to_vanish(self, printed: PrintedRelation, node: Node) -> tuple[int, ...]:
-        """Of the terms of a side that is to vanish; a factor that does not is no part of it.
+        """Orders of the terms of a side that is to vanish; other factors only shift them.
 
         A single term that is said to vanish is a statement about its size alone.
         """
         factors = printed.factors(node)
-        if len(factors) < 2 or not all(isinstance(value, Expr) for _, value in factors):
+        values = [value for _, value in factors if isinstance(value, Expr)]
+        if len(factors) < 2 or len(values) < len(factors):
             return self._terms(printed.terms(node)).several
-        sizes = [self._size(value) for _, value in factors if isinstance(value, Expr)]
+        shares = (scaled(self.states.on(value), self.claim.small) for value in values)
+        sizes = [self._order(share) if share else _HIGHEST for share in shares]
         return tuple(
             order + sum(sizes) - size
             for (factor, _), size in zip(factors, sizes, strict=True)
@@ -185,17 +317,15 @@ class Remainder:
             for order in self._terms(printed.terms(factor)).several
         )
 
-    def _size(self, factor: Expr) -> int:
-        """The order of a factor of a side that is to vanish; high where it vanishes itself."""
-        there = scaled(self.states.on(factor), self.asked.small)
-        return self._order(there) if there else _HIGHEST
-
     def _order(self, share: Expr) -> int:
-        """Raises `NumericError` for what is smaller than anything that is expanded."""
+        """The order of what does not vanish.
+
+        Raises `NumericError` where it is beyond all that is expanded.
+        """
         found = self.series(share, _LIMIT)
         if not found:
             raise NumericError(
-                f"a term of an order above {_LIMIT} in what is small, which was read",
+                f"a term of an order above {_LIMIT} in the small quantities, which was read",
                 expected="terms of lower orders",
             )
         return next(iter(found))

@@ -11,8 +11,8 @@ import numpy as np
 
 from polhode.algebra import ZERO, Expr, Symbol, as_symbol, time
 from polhode.base import PolhodeError
-from polhode.claims.meaning._components import ScalarRelation
-from polhode.claims.meaning._the import The
+from polhode.claims.meaning._mechanics import EquationsKey
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import SENSE, BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
 from polhode.claims.states._numeric import Array, number
@@ -25,11 +25,11 @@ Numbers: TypeAlias = tuple[tuple[Symbol, float], ...]
 TIME = as_symbol(time)
 
 _SAMPLES = 400
-_CLOSE = 1e-6
-_SETTLED = 1e-3
+_CLOSE = 1e-6  # relative; well above the error of the integration
+_SETTLED = 1e-3  # relative; how near a relation must come for "finally"
 _LASTING = _SAMPLES // 20
-_NARROWED = 8
-_PARTS = 64
+_NARROWED = 8  # times that the interval of an event is narrowed
+_PARTS = 64  # samples of such an interval
 _KEPT = 16
 
 
@@ -41,7 +41,7 @@ class SampledMotion:
         run: the motion.
         start: the number of every symbol at its start, SI.
         begin: time at the start, as the text counts it, s.
-        times: since the start at which it is looked at, s.
+        times: since the start at which it is sampled, s.
     """
 
     run: Trajectory
@@ -52,7 +52,7 @@ class SampledMotion:
     def at(self, event: Mapping[Symbol, Expr]) -> SampledMotion | None:
         """The moment at which quantities first have these values; the whole where none are given.
 
-        None where that does not come to pass.
+        None where that does not happen.
         """
         for symbol, value in event.items():
             moment = self._first_at(symbol, float(number(value, self.start)))
@@ -60,7 +60,10 @@ class SampledMotion:
         return self
 
     def _first_at(self, symbol: Symbol, level: float) -> Array | None:
-        """When a quantity first has a value: the interval between samples, made ever shorter."""
+        """When a quantity first has a value, by sampling the bracketing interval ever more finely.
+
+        Each pass narrows it by a factor of 63, so that eight reach the rounding of the times.
+        """
         times = self.times
         for _ in range(_NARROWED):
             away = self.run.evaluate(symbol, times) - level
@@ -86,10 +89,10 @@ class SampledMotion:
         return {**self.start, **found, TIME: self.times + self.begin}
 
 
-def courses(
+def sampled_motions(
     states: TrueMotion, used: list[Expr], clock: Symbol | None, duration: float
 ) -> Iterator[SampledMotion]:
-    """Motions from starts that obey what is said of them, with different parameters.
+    """Motions from starts in a domain, with different parameters.
 
     Args:
         states: the starts.
@@ -101,38 +104,40 @@ def courses(
     state = (*equations.coordinates, *equations.speeds)
     letters = {s for e in used for s in e.symbols()} - {TIME}
     for start in real_states(states, used):
-        start.update({s: start[s] for s in letters})  # also those that vanish from the start alone
+        start.update({s: start[s] for s in letters})  # also those that vanish at the start alone
         first = tuple((s, start[s]) for s in state)
         parameters = tuple((s, start[s]) for s in equations.parameters)
         try:
-            run = _followed(The(equations), parameters, first, duration)
+            run = _simulated(EquationsKey(equations), parameters, first, duration)
         except PolhodeError:
             continue
-        begun = 0.0 if clock is None else start[clock]
-        yield SampledMotion(run, start, begun, np.linspace(0.0, duration, _SAMPLES))
+        begin = 0.0 if clock is None else start[clock]
+        yield SampledMotion(run, start, begin, np.linspace(0.0, duration, _SAMPLES))
 
 
 @lru_cache(maxsize=_KEPT)
-def _followed(the: The, parameters: Numbers, first: Numbers, duration: float) -> Trajectory:
-    """One motion, which corrections of a claim are tried on as well."""
+def _simulated(
+    the: EquationsKey, parameters: Numbers, first: Numbers, duration: float
+) -> Trajectory:
+    """One motion; kept, since corrections of a claim are tried on it as well."""
     given: dict[Name, float] = dict(parameters)
     start: dict[Name, float] = dict(first)
     return simulate(the.equations, given, start, duration)
 
 
 @dataclass(frozen=True, eq=False)
-class Followed:
+class SampledRelation:
     """One scalar relation along a motion.
 
     Attributes:
-        course: the motion.
+        motion: the motion.
         component: the relation.
         sign: its sign.
         sides: values of both sides at the sample times.
         rounding: of the numbers that the text prints, at the sample times; zero where it has none.
     """
 
-    course: SampledMotion
+    motion: SampledMotion
     component: ScalarRelation
     sign: str
     sides: tuple[Array, Array]
@@ -140,47 +145,50 @@ class Followed:
 
     @classmethod
     def along(
-        cls, course: SampledMotion, component: ScalarRelation, asked: BoundClaim, states: TrueMotion
-    ) -> Followed:
+        cls,
+        motion: SampledMotion,
+        component: ScalarRelation,
+        claim: BoundClaim,
+        states: TrueMotion,
+    ) -> SampledRelation:
         """The relation, with accelerations and reactions those of the motion."""
-        half = asked.digits.get(component.member, ZERO)
-        found = map(states.on, (component.left, component.right, half))
-        left, right, rounding = (_sampled(each, course) for each in found)
-        sign = asked.members[component.member].sign
-        return cls(course, component, sign, (left, right), np.abs(rounding))
-
-    @cached_property
-    def _scale(self) -> float:
-        return float(max(np.abs(self.sides).max(), 1e-300))
-
-    def _met(self, margin: float) -> Array:
-        """Where the relation is met, by a margin."""
-        left, right = self.sides
-        if self.sign in SENSE:
-            return np.asarray((left - right) * SENSE[self.sign] > margin * self._scale)
-        near = np.maximum(_CLOSE * self._scale, self.rounding)
-        return np.asarray(np.abs(left - right) <= near)
+        half = claim.digits.get(component.member, ZERO)
+        values = (
+            np.asarray(number(states.on(side), motion.states), float)
+            for side in (component.left, component.right, half)
+        )
+        left, right, rounding = (np.broadcast_to(v, motion.times.shape) for v in values)
+        sign = claim.members[component.member].sign
+        return cls(motion, component, sign, (left, right), np.abs(rounding))
 
     def exception(self, when: str) -> int | None:
-        """The sample that refutes the relation's holding this often; None where none does."""
+        """The sample that refutes that the relation holds this often; None where none does."""
         match when:
             case "never":
                 wrong = self._met(_CLOSE)
             case "sometimes":
                 return None if self._met(_CLOSE).any() else 0
             case "finally":
-                return None if self._settles else len(self.course.times) - 1
+                return None if self._settles else len(self.motion.times) - 1
             case _:
                 wrong = np.logical_not(self._met(-_CLOSE))
         return int(np.argmax(wrong)) if wrong.any() else None
 
+    def _met(self, margin: float) -> Array:
+        """Where the relation is met, an inequality by a margin."""
+        left, right = self.sides
+        if self.sign in SENSE:
+            return np.asarray((left - right) * SENSE[self.sign] > margin * self._scale)
+        near = np.maximum(_CLOSE * self._scale, self.rounding)
+        return np.asarray(np.abs(left - right) <= near)
+
+    @cached_property
+    def _scale(self) -> float:
+        return float(max(np.abs(self.sides).max(), 1e-300))
+
     @property
     def _settles(self) -> bool:
-        """Whether the relation comes to be met, nearly and for some time on end."""
+        """Whether the relation is nearly met throughout some twentieth of the motion."""
         left, right = self.sides
         near = np.logical_or(self._met(-_CLOSE), np.abs(left - right) <= _SETTLED * self._scale)
         return bool(np.convolve(near, np.ones(_LASTING), "valid").max() >= _LASTING)
-
-
-def _sampled(side: Expr, course: SampledMotion) -> Array:
-    return np.broadcast_to(np.asarray(number(side, course.states), float), course.times.shape)

@@ -6,17 +6,18 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
-from polhode.algebra import ZERO, Expr, Symbol
+from polhode.algebra import ZERO, Expr, Symbol, sqrt
 from polhode.analyse import reduced
+from polhode.base import PolhodeError
 from polhode.claims._verdict import Answer, Residual, Verdict
-from polhode.claims.contexts._judge import Failure, failed, failures, judged
-from polhode.claims.meaning._components import ScalarRelation
+from polhode.claims.contexts._equations import Failure, failed, failures, judged
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
 from polhode.claims.states._steady_states import SteadyStates, steady_states
 
 
-def judged_steady(asked: BoundClaim) -> Verdict:
+def judged_steady(claim: BoundClaim) -> Verdict:
     """With non-ignorable speeds and all accelerations zero, on every family.
 
     A member that gives a speed by a root, with or without ±, claims that every branch of it is a
@@ -24,17 +25,17 @@ def judged_steady(asked: BoundClaim) -> Verdict:
     angles says need not hold where an angle has a value of its own, such as the bottom of a hoop:
     that it does not speak of such motions is remarked.
     """
-    families = steady_states(asked)
-    solved = [solved_members(asked, branch) for branch in range(len(asked.branches))]
+    families = steady_states(claim)
+    solved = [solved_members(claim, branch) for branch in range(len(claim.branches))]
     if not any(solved):
-        return _on_families(asked, families)
-    found = [f for branch in solved for f in _at_odds(branch, families[0])]
+        return _on_families(claim, families)
+    found = [f for branch in solved for f in _contradictions(branch, families[0])]
     members = (member for branch in solved for member in branch)
-    found = found or [f for member in members for f in _not_steady(asked, member)]
+    found = found or [f for member in members for f in _not_steady(claim, member)]
     if found:
         return failed(found, "steady")
     named = {member.member for member in solved[0]}
-    rest = asked.only([i for i in range(len(asked.members)) if i not in named])
+    rest = claim.only([i for i in range(len(claim.members)) if i not in named])
     others = _on_families(rest, families)
     if not others.holds:
         return others
@@ -42,36 +43,26 @@ def judged_steady(asked: BoundClaim) -> Verdict:
     return Verdict(Answer.HOLDS, "steady", remarks=(*others.remarks, *remarks))
 
 
-def _on_families(asked: BoundClaim, families: Sequence[SteadyStates]) -> Verdict:
-    """On every family, but those in which an angle stands still by itself where others are."""
-    wrong = [f for f in families if next(failures(asked, [f]), None) is not None]
+def _on_families(claim: BoundClaim, families: Sequence[SteadyStates]) -> Verdict:
+    """On every family but those at rest in an angle, where the claim holds on all others."""
+    wrong = [f for f in families if next(failures(claim, [f]), None) is not None]
     right = [f for f in families if f not in wrong]
-    verdict = judged(asked, wrong, "steady")
+    verdict = judged(claim, wrong, "steady")
     if not wrong or not right:
         return verdict
-    spoken = f"it holds on the steady motions {_named(right)}"
+    named, unnamed = ("; ".join(str(f.family) for f in group) for group in (right, wrong))
+    remark = f"it holds on the steady motions {named}"
     if all(f.is_at_rest for f in wrong) and not all(f.is_at_rest for f in right):
-        remark = f"{spoken}, and does not speak of {_named(wrong)}"
+        remark += f", and does not speak of {unnamed}"
         return Verdict(Answer.HOLDS, "steady", remarks=(remark,))
-    return replace(verdict, remarks=(*verdict.remarks, f"{spoken}, but not on {_named(wrong)}"))
+    return replace(verdict, remarks=(*verdict.remarks, f"{remark}, but not on {unnamed}"))
 
 
-def _named(families: Sequence[SteadyStates]) -> str:
-    return "; ".join(str(f.family) for f in families)
-
-
-def _at_odds(solved: Sequence[Solved], states: TrueMotion) -> Iterator[Failure]:
-    """Members that give one quantity different values, where the text does not say "or"."""
-    for one, other in combinations(solved, 2):
-        if one.quantity == other.quantity and not other.is_alternative:
-            component = ScalarRelation(other.member, "", one.value, other.value)
-            left = states.on(component.difference)
-            if left:
-                yield Failure(component, states, Residual(other.member, "", left))
+# -- members that give a quantity by its roots ----------------------------------------------------
 
 
 @dataclass(frozen=True)
-class Solved:
+class SolvedMember:
     """A member that gives one state variable by roots.
 
     Attributes:
@@ -87,26 +78,37 @@ class Solved:
     is_alternative: bool = False
 
 
-def solved_members(asked: BoundClaim, branch: int) -> list[Solved]:
-    state = {*asked.equations.coordinates, *asked.equations.speeds}
+def solved_members(claim: BoundClaim, branch: int) -> list[SolvedMember]:
+    """The members of a branch of ± that give a coordinate or speed by roots or by ±."""
+    state = {*claim.equations.coordinates, *claim.equations.speeds}
     found = []
-    for component in asked.components(branch):
+    for component in claim.components(branch):
         quantity = component.left.symbol
         rooted = any(g.depth and g.partner() is None for g in component.right.generators)
         given_by_itself = quantity in component.right.symbols()
-        if quantity in state and not given_by_itself and (rooted or len(asked.branches) > 1):
-            alternative = asked.branches[branch][component.member].is_alternative
-            found.append(Solved(component.member, quantity, component.right, alternative))
+        if quantity in state and not given_by_itself and (rooted or len(claim.branches) > 1):
+            alternative = claim.branches[branch][component.member].is_alternative
+            found.append(SolvedMember(component.member, quantity, component.right, alternative))
     return found
 
 
-def _not_steady(asked: BoundClaim, solved: Solved) -> Iterator[Failure]:
+def _contradictions(solved: Sequence[SolvedMember], states: TrueMotion) -> Iterator[Failure]:
+    """Members that give one quantity different values, where the text does not say "or"."""
+    for one, other in combinations(solved, 2):
+        if one.quantity == other.quantity and not other.is_alternative:
+            component = ScalarRelation(other.member, "", one.value, other.value)
+            left = states.on(component.difference)
+            if left:
+                yield Failure(component, states, Residual(other.member, "", left))
+
+
+def _not_steady(claim: BoundClaim, solved: SolvedMember) -> Iterator[Failure]:
     """Accelerations that do not vanish where the quantity has the claimed value."""
-    equations = asked.equations
+    equations = claim.equations
     still = {q.derivative(): ZERO for q in reduced(equations).essential}
-    given = {**still, **asked.given}
+    given = {**still, **claim.given}
     given[solved.quantity] = solved.value.subs(given)
-    states = TrueMotion(equations, given, asked.relations, asked.positive)
+    states = TrueMotion(equations, given, claim.relations, claim.positive)
     for symbol in equations.acceleration_symbols:
         left = states.on(Expr.generator(symbol))
         if left:
@@ -115,15 +117,47 @@ def _not_steady(asked: BoundClaim, solved: Solved) -> Iterator[Failure]:
             return
 
 
-def _covered(solved: list[list[Solved]], families: tuple[SteadyStates, ...]) -> Iterator[str]:
+def _covered(solved: list[list[SolvedMember]], families: tuple[SteadyStates, ...]) -> Iterator[str]:
     """How many of the roots of a family's relation the branches are."""
     for members in zip(*solved, strict=True):
         values = dict.fromkeys(member.value for member in members)
+        quantity = members[0].quantity
         for relation in (r for family in families for r in family.settled_relations):
-            degree = _degree(relation, members[0].quantity)
+            orders = (powers.get(quantity, 0) for powers, _ in relation.numerator.terms())
+            degree = max(orders, default=0)
             if degree:
                 yield f"{min(len(values), degree)} of {degree} roots of {relation} = 0 are covered"
 
 
-def _degree(relation: Expr, symbol: Symbol) -> int:
-    return max((powers.get(symbol, 0) for powers, _ in relation.numerator.terms()), default=0)
+# -- exact roots that an approximate claim about a steady rate is compared with -------------------
+
+
+def steady_roots(claim: BoundClaim) -> Iterator[tuple[ScalarRelation, tuple[Expr, ...]]]:
+    """Members whose left side is a state variable, with the values it has in steady motion."""
+    try:
+        families = steady_states(claim)
+    except PolhodeError:
+        return
+    for component in claim.components():
+        quantity = component.left.symbol
+        for relation in (r for family in families for r in family.settled_relations):
+            if quantity is not None and quantity in relation.symbols():
+                roots = tuple(_roots(relation.numerator, quantity))
+                if roots:
+                    yield component, roots
+                    break
+
+
+def _roots(relation: Expr, quantity: Symbol) -> Iterator[Expr]:
+    """The roots of a relation that is at most quadratic; none for one of higher degree."""
+    at_zero = {quantity: ZERO}
+    slope = relation.diff(quantity)
+    a, b, c = slope.diff(quantity) / 2, slope.subs(at_zero), relation.subs(at_zero)
+    if quantity in a.symbols():
+        return
+    if not a:
+        yield -c / b
+        return
+    root = sqrt(b * b - 4 * a * c)
+    for sign in (1, -1):
+        yield (-b + root * sign) / (2 * a)

@@ -1,167 +1,91 @@
-"""Inequalities that are to be equivalent to the exact condition of a system."""
+"""Inequalities that are to be equivalent to the exact condition of a system: `threshold`."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import cached_property, lru_cache, partial, reduce
+from itertools import product
+from math import pi, prod
 
-from polhode.algebra import Expr, Symbol, SymbolKind
+import numpy as np
+
+from polhode.algebra import Expr, Symbol, SymbolKind, variables
 from polhode.analyse import Truth, stability
 from polhode.base import ParseError, PolhodeError
 from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
 from polhode.claims.contexts._counterexample import example_where
-from polhode.claims.contexts._equivalence import Comparison, PrintedBound
-from polhode.claims.contexts._judge import failed, failures
-from polhode.claims.meaning._components import ScalarRelation
-from polhode.claims.meaning._the import The
+from polhode.claims.contexts._equations import failed, failures
+from polhode.claims.contexts._inequality import definite_sign, strict_sign
+from polhode.claims.meaning._mechanics import EquationsKey
+from polhode.claims.meaning._relations import ScalarRelation
 from polhode.claims.states._bound_claim import EQUALITY, SENSE, STRICT, BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain
-from polhode.claims.states._points import ExactPoint
+from polhode.claims.states._numeric import Array, number
+from polhode.claims.states._sample_points import ExactPoint, is_physical, physical_symbols
 from polhode.claims.states._steady_states import SteadyStates, steady_states
 
 _STABILITY, _EXISTENCE = "stability", "existence"
+_SAMPLES = 40  # physical states from which a distinguishing one is looked for
+_DRAWN = 4000  # states drawn, physical or not
+_DECADES = 3.0  # to either side of a state, over which one number varies
+_STEPS = 240
+_BESIDE = 1e-5  # relative; neighbours that must distinguish too, lest rounding does
+_PI = Symbol("pi")
 
 
-@dataclass(frozen=True)
-class Exact:
-    """What the model demands: expressions that have to be positive, all of them.
-
-    Attributes:
-        expressions: what has to be positive.
-        decides: what that decides.
-        states: where it is said.
-    """
-
-    expressions: tuple[Expr, ...]
-    decides: str
-    states: ClaimDomain
-
-    def __str__(self) -> str:
-        said = " and ".join(f"{e} > 0" for e in self.expressions)
-        return f"the condition{'s' * (len(self.expressions) > 1)} of {self.decides}, {said}"
-
-
-def judged_threshold(asked: BoundClaim) -> Verdict:
+def judged_threshold(claim: BoundClaim) -> Verdict:
     """Whether inequalities are together equivalent to the exact condition.
 
     The condition is that of linear stability of a family of steady motions, all parts of it
-    together, or that of its being possible. Where it is even in a speed, the magnitude of that
-    speed is meant. Equivalence is proved from signs, or refuted by a state of bodies that can be;
-    where neither is found, it stays open.
+    together, or that of its existence. Where it is even in a speed, the magnitude of that speed is
+    meant. Equivalence is proved from signs, or refuted by a physical state; where neither is
+    found, it stays open.
     """
-    if any(map(asked.says_choice, range(len(asked.members)))):
+    if any(map(claim.says_choice, range(len(claim.members)))):
         raise ParseError("± in a threshold", expected="one sign, or a magnitude")
-    equalities = [c for c in asked.components() if asked.members[c.member].sign in EQUALITY]
-    wrong = list(failures(asked.only({c.member for c in equalities}), [_any(asked)]))
+    signs = [relation.sign for relation in claim.members]
+    equalities = [c for c in claim.components() if signs[c.member] in EQUALITY]
+    anywhere = claim.states(AnyState)
+    wrong = list(failures(claim.only({c.member for c in equalities}), [anywhere]))
     if wrong:
         return failed(wrong, "threshold")
-    claimed = [_inequality(c, asked) for c in asked.components() if c not in equalities]
+    claimed = [c for c in claim.components() if c not in equalities]
+    if others := [signs[c.member] for c in claimed if signs[c.member] not in SENSE]:
+        raise ParseError(
+            f"the sign {others[0]} in a threshold", expected="one of " + " ".join(SENSE)
+        )
     if not claimed:
         raise ParseError("no inequality", expected="one with < or > in the context threshold")
-    known = exact_conditions(asked)
+    given = tuple(claim.given.items())
+    known = _conditions(EquationsKey(claim.equations), given, claim.relations, claim.positive)
     if not known:
         raise ParseError(
             "a threshold where nothing depends on the parameters",
-            expected="a steady motion that is stable or possible under a condition",
+            expected="a steady motion that is stable or exists under a condition",
             advice="restrict the claim to the motion that is meant",
             option="given",
         )
-    compared = [(exact, _compared(claimed, exact, asked)) for exact in known]
+    compared = [(exact, _comparison(claimed, exact, claim)) for exact in known]
     proved = next((exact for exact, comparison in compared if comparison.is_proved), None)
     if proved is not None:
-        return _met(claimed, proved, asked)
-    if all(comparison.parting is not None for _, comparison in compared):
+        return _equivalent(claimed, proved, claim)
+    undecided = next((exact for exact, c in compared if c.distinguishing_state is None), None)
+    if undecided is None:
         return _refuted(claimed[0], *compared[0])
-    return _undecided(next(exact for exact, c in compared if c.parting is None))
-
-
-def _any(asked: BoundClaim) -> AnyState:
-    return asked.states(AnyState)
-
-
-def _inequality(component: ScalarRelation, asked: BoundClaim) -> ScalarRelation:
-    sign = asked.members[component.member].sign
-    if sign not in SENSE:
-        raise ParseError(f"the sign {sign} in a threshold", expected="one of " + " ".join(SENSE))
-    return component
-
-
-def _compared(claimed: Sequence[ScalarRelation], exact: Exact, asked: BoundClaim) -> Comparison:
-    bounds = []
-    for component in claimed:
-        sides = [exact.states.on(side) for side in (component.left, component.right)]
-        upward = SENSE[asked.members[component.member].sign] > 0
-        bounds.append(PrintedBound(*sides) if upward else PrintedBound(*reversed(sides)))
-    return Comparison(tuple(bounds), exact.expressions, exact.states, _sizes(bounds, exact))
-
-
-def _sizes(bounds: Sequence[PrintedBound], exact: Exact) -> frozenset[Symbol]:
-    """Speeds in which the condition is even, though the text bounds them with their sign."""
-    differences = [bound.greater - bound.less for bound in bounds]
-    speeds = {
-        s
-        for e in differences
-        for s in e.symbols()
-        if s.kind.varies and not s.positive and (s.order or s.kind is SymbolKind.SPEED)
-    }
-    return frozenset(
-        s
-        for s in speeds
-        if all(map(partial(_is_even, s), exact.expressions))
-        and not all(map(partial(_is_even, s), differences))
+    return Verdict(
+        Answer.UNREAD,
+        "threshold",
+        reason=f"it was read, but whether it is equivalent to {undecided} was neither proved nor "
+        "refuted",
     )
 
 
-def _is_even(symbol: Symbol, expression: Expr) -> bool:
-    return expression.subs({symbol: -Expr.generator(symbol)}) == expression
-
-
-def exact_conditions(asked: BoundClaim) -> tuple[Exact, ...]:
-    """Conditions of stability and of existence, for every family that obeys the restrictions."""
-    given = tuple(asked.given.items())
-    return _conditions(The(asked.equations), given, asked.relations, asked.positive)
-
-
-@lru_cache(maxsize=16)
-def _conditions(
-    the: The,
-    given: tuple[tuple[Symbol, Expr], ...],
-    relations: tuple[Expr, ...],
-    positive: tuple[Expr, ...],
-) -> tuple[Exact, ...]:
-    asked = BoundClaim(((),), the.equations, dict(given), relations, positive=positive)
-    anywhere = _any(asked)
-    return tuple(
-        e
-        for family in steady_states(asked)
-        for e in (*_stability(family), *_existence(family, anywhere))
-    )
-
-
-def _stability(family: SteadyStates) -> Iterator[Exact]:
-    if family.family is None:
-        return
-    try:
-        conditions = stability(family.family).conditions
-    except PolhodeError:
-        return
-    found = tuple(family.on(c.expression) for c in conditions if c.truth is Truth.OPEN)
-    if found:
-        yield Exact(found, _STABILITY, family)
-
-
-def _existence(family: SteadyStates, anywhere: AnyState) -> Iterator[Exact]:
-    branches = family.family.branches if family.family is not None else ()
-    every = (c.expression.subs(dict(family.given)) for b in branches for c in b.exists)
-    found = tuple(dict.fromkeys(e for e in every if e.rational is None))
-    if found:
-        yield Exact(found, _EXISTENCE, anywhere)
-
-
-def _met(claimed: Sequence[ScalarRelation], exact: Exact, asked: BoundClaim) -> Verdict:
-    """Equivalent, but perhaps for equality: linear stability leaves open what happens there."""
-    loose = [c for c in claimed if asked.members[c.member].sign not in STRICT]
+def _equivalent(
+    claimed: Sequence[ScalarRelation], exact: ExactCondition, claim: BoundClaim
+) -> Verdict:
+    """Holds, but perhaps for equality: linear stability leaves open what happens there."""
+    loose = [c for c in claimed if claim.members[c.member].sign not in STRICT]
     if loose and exact.decides == _STABILITY:
         return Verdict(
             Answer.UNREAD,
@@ -172,35 +96,277 @@ def _met(claimed: Sequence[ScalarRelation], exact: Exact, asked: BoundClaim) -> 
     return Verdict(Answer.HOLDS, "threshold", reason=f"equivalent to {exact}")
 
 
-def _undecided(exact: Exact) -> Verdict:
-    return Verdict(
-        Answer.UNREAD,
-        "threshold",
-        reason=f"it was read, but whether it is equivalent to {exact} was neither proved nor "
-        "refuted",
-    )
-
-
-def _refuted(component: ScalarRelation, exact: Exact, comparison: Comparison) -> Verdict:
+def _refuted(component: ScalarRelation, exact: ExactCondition, comparison: Comparison) -> Verdict:
     residual = Residual(component.member, component.label, component.difference)
+
+    def evidence() -> Evidence:
+        """A motion that the inequality allows and the condition does not, or the reverse."""
+
+        def differs(point: ExactPoint) -> bool:
+            return bool(comparison.agree(point.floats()) == 0)
+
+        try:
+            return example_where(differs, component, residual, exact.states)
+        except PolhodeError:
+            return None, None
+
     return Refuted(
         Answer.FAILS,
         "threshold",
-        reason=f"not equivalent to {exact}; there are motions that one allows and the other not",
+        reason=f"not equivalent to {exact}; some motions satisfy one and not the other",
         residuals=(residual,),
-        evidence=partial(_parted, component, residual, exact, comparison),
+        evidence=evidence,
     )
 
 
-def _parted(
-    component: ScalarRelation, residual: Residual, exact: Exact, comparison: Comparison
-) -> Evidence:
-    """A motion that the inequality allows and the condition does not, or the reverse."""
+# -- what the model demands -----------------------------------------------------------------------
 
-    def parts(point: ExactPoint) -> bool:
-        return bool(comparison.agree(point.floats()) == 0)
 
+@dataclass(frozen=True)
+class ExactCondition:
+    """What the model demands: expressions that have to be positive, all of them.
+
+    Attributes:
+        expressions: what has to be positive.
+        decides: what depends on it.
+        states: where.
+    """
+
+    expressions: tuple[Expr, ...]
+    decides: str
+    states: ClaimDomain
+
+    def __str__(self) -> str:
+        parts = " and ".join(f"{e} > 0" for e in self.expressions)
+        return f"the condition{'s' * (len(self.expressions) > 1)} of {self.decides}, {parts}"
+
+
+@lru_cache(maxsize=16)
+def _conditions(
+    the: EquationsKey,
+    given: tuple[tuple[Symbol, Expr], ...],
+    relations: tuple[Expr, ...],
+    positive: tuple[Expr, ...],
+) -> tuple[ExactCondition, ...]:
+    """Conditions of stability and of existence, for every family that obeys the restrictions."""
+    claim = BoundClaim(((),), the.equations, dict(given), relations, positive=positive)
+    anywhere = claim.states(AnyState)
+    return tuple(
+        condition
+        for family in steady_states(claim)
+        for condition in (*_stability(family), *_existence(family, anywhere))
+    )
+
+
+def _stability(family: SteadyStates) -> Iterator[ExactCondition]:
+    if family.family is None:
+        return
     try:
-        return example_where(parts, component, residual, exact.states)
+        conditions = stability(family.family).conditions
     except PolhodeError:
-        return None, None
+        return
+    found = tuple(family.on(c.expression) for c in conditions if c.truth is Truth.OPEN)
+    if found:
+        yield ExactCondition(found, _STABILITY, family)
+
+
+def _existence(family: SteadyStates, anywhere: AnyState) -> Iterator[ExactCondition]:
+    branches = family.family.branches if family.family is not None else ()
+    every = (c.expression.subs(dict(family.given)) for b in branches for c in b.exists)
+    found = tuple(dict.fromkeys(e for e in every if e.rational is None))
+    if found:
+        yield ExactCondition(found, _EXISTENCE, anywhere)
+
+
+# -- the two compared -----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class PrintedBound:
+    """One side greater than the other."""
+
+    greater: Expr
+    less: Expr
+
+
+def _comparison(
+    claimed: Sequence[ScalarRelation], exact: ExactCondition, claim: BoundClaim
+) -> Comparison:
+    bounds = []
+    for component in claimed:
+        sides = [exact.states.on(side) for side in (component.left, component.right)]
+        upward = SENSE[claim.members[component.member].sign] > 0
+        bounds.append(PrintedBound(*sides) if upward else PrintedBound(*reversed(sides)))
+    differences = [bound.greater - bound.less for bound in bounds]
+    speeds = {
+        s
+        for e in differences
+        for s in e.symbols()
+        if s.kind.varies and not s.positive and (s.order or s.kind is SymbolKind.SPEED)
+    }
+    # those in which the condition is even, though the text bounds them with their sign
+    magnitudes = frozenset(
+        s
+        for s in speeds
+        if all(map(partial(_is_even, s), exact.expressions))
+        and not all(map(partial(_is_even, s), differences))
+    )
+    return Comparison(tuple(bounds), exact.expressions, exact.states, magnitudes)
+
+
+def _is_even(symbol: Symbol, expression: Expr) -> bool:
+    return expression.subs({symbol: -Expr.generator(symbol)}) == expression
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Inequalities of a text compared with conditions of the model, all of them together.
+
+    Attributes:
+        claimed: the inequalities, on the states.
+        conditions: what has to be positive there.
+        states: where they are compared, of physical bodies.
+        magnitudes: speeds in which the conditions are even: their magnitudes are meant.
+    """
+
+    claimed: tuple[PrintedBound, ...]
+    conditions: tuple[Expr, ...]
+    states: ClaimDomain
+    magnitudes: frozenset[Symbol]
+
+    # -- proof ----------------------------------------------------------------------------------
+
+    @cached_property
+    def is_proved(self) -> bool:
+        """Whether the conditions follow from the inequalities and the reverse, by signs."""
+        sized = self._positive
+        claimed = (PrintedBound(b.greater.subs(sized), b.less.subs(sized)) for b in self.claimed)
+        conditions = tuple(c.subs(sized) for c in self.conditions)
+        given = [tuple(_forms(bound, self._signs)) for bound in claimed]
+        return any(
+            all(self._follows(condition, forms) for condition in conditions)
+            and all(self._follows(form, conditions) for form in forms)
+            for forms in product(*given)
+        )
+
+    def _follows(self, wanted: Expr, known: Sequence[Expr]) -> bool:
+        """Whether something is positive where others are."""
+        return strict_sign(wanted, self._signs) == 1 or any(
+            self._is_more(wanted, each) for each in known
+        )
+
+    def _is_more(self, wanted: Expr, known: Expr) -> bool:
+        """Whether it is a positive multiple of what is positive, and something not negative."""
+        if strict_sign(wanted / known, self._signs) == 1:
+            return True
+        bars = (wanted.denominator, known.denominator)
+        if any(strict_sign(bar, self._signs) != 1 for bar in bars):
+            return False
+        above, below = wanted.numerator, known.numerator
+        ratios = (one / other for one, other in product(_monomials(above), _monomials(below)))
+        return any(
+            strict_sign(ratio, self._signs) == 1 and definite_sign(rest, self._signs) == 1
+            for ratio in dict.fromkeys(ratios)
+            if (rest := above - ratio * below)
+        )
+
+    @cached_property
+    def _positive(self) -> dict[Symbol, Expr]:
+        """Speeds of which the magnitude is meant, as positive symbols."""
+        named = ((s, Symbol(f"{s.published}_size", positive=True)) for s in self.magnitudes)
+        return {s: Expr.generator(size) for s, size in named}
+
+    @cached_property
+    def _signs(self) -> tuple[Expr, ...]:
+        return tuple(e.subs(self._positive) for e in self.states.signs)
+
+    # -- refutation -----------------------------------------------------------------------------
+
+    def agree(self, values: Mapping[Symbol, Array | float]) -> Array:
+        """1 where both are met or neither is, 0 where only one is, nan for no physical state."""
+        with np.errstate(all="ignore"):
+            sides = [(number(b.greater, values), number(b.less, values)) for b in self.claimed]
+            conditions = [number(c, values) for c in self.conditions]
+            allowed = np.asarray(is_physical(self.states, values))
+            for speed in self.magnitudes:
+                allowed = allowed & (np.asarray(values[speed]) > 0)
+            for value in (*(v for pair in sides for v in pair), *conditions):
+                allowed = allowed & np.isfinite(value)
+            claimed = reduce(np.logical_and, (a > b for a, b in sides))
+            exactly = reduce(np.logical_and, (c > 0 for c in conditions))
+        alike = np.asarray(claimed == exactly, dtype=float)
+        return np.asarray(np.where(allowed, alike, np.nan))
+
+    @cached_property
+    def _variables(self) -> frozenset[Symbol]:
+        sides = (side for bound in self.claimed for side in (bound.greater, bound.less))
+        return frozenset(variables([*sides, *self.conditions])) - {_PI}
+
+    @cached_property
+    def distinguishing_state(self) -> dict[Symbol, float] | None:
+        """Numbers of a state that satisfies one and not the other; None where none is found."""
+        for start in self._starts:
+            for symbol in sorted(self._variables, key=lambda s: s.name):
+                found = self._beside(start, symbol)
+                if found is not None:
+                    return found
+        return None
+
+    @cached_property
+    def _starts(self) -> tuple[dict[Symbol, float], ...]:
+        """Physical states of all sizes."""
+        random = np.random.default_rng(1)
+        needed = (self._variables | physical_symbols(self.states)) - {_PI}
+        drawn = {s: self._drawn(s, random) for s in sorted(needed, key=lambda s: s.published)}
+        known = np.flatnonzero(np.isfinite(self.agree(drawn)))[:_SAMPLES]
+        return tuple({s: float(values[i]) for s, values in drawn.items()} for i in known)
+
+    def _drawn(self, symbol: Symbol, random: np.random.Generator) -> Array:
+        size = np.asarray(10 ** random.uniform(-1, 1, _DRAWN))
+        if symbol.positive or symbol in self.magnitudes:
+            return size
+        if symbol.kind is SymbolKind.COORDINATE and not symbol.order:
+            return np.asarray(random.uniform(-pi, pi, _DRAWN))
+        return np.asarray(size * random.choice([-1, 1], _DRAWN))
+
+    def _beside(self, start: Mapping[Symbol, float], symbol: Symbol) -> dict[Symbol, float] | None:
+        """A state that satisfies only one, on a line through a start along which one number varies.
+
+        Its neighbours on the line must do so too, lest rounding at a boundary decide.
+        """
+        line = start[symbol] * 10 ** np.linspace(-_DECADES, _DECADES, _STEPS)
+        if not symbol.positive and symbol not in self.magnitudes:
+            line = np.concatenate((-line[::-1], line))
+        others = {s: np.full(line.shape, value) for s, value in start.items()}
+        agreed = [
+            self.agree({**others, symbol: line * factor})
+            for factor in (1 - _BESIDE, 1.0, 1 + _BESIDE)
+        ]
+        differing = np.flatnonzero(np.all(np.array(agreed) == 0, axis=0))
+        if not len(differing):
+            return None
+        return {**start, symbol: float(line[differing[len(differing) // 2]])}
+
+
+def _forms(bound: PrintedBound, signs: Sequence[Expr]) -> Iterator[Expr]:
+    """What is positive where an inequality holds and only there.
+
+    The difference of the sides, or of their squares where neither is negative, or neither
+    positive.
+    """
+    above, below = bound.greater, bound.less
+    if above != below:
+        yield above - below
+    try:
+        senses = {definite_sign(side, signs) for side in (above, below) if side}
+    except PolhodeError:
+        return
+    squares = above * above - below * below
+    if squares and len(senses) == 1 and senses != {0}:
+        yield squares * senses.pop()
+
+
+def _monomials(polynomial: Expr) -> Iterator[Expr]:
+    for powers, coefficient in polynomial.terms():
+        factors = (Expr.generator(g) ** power for g, power in powers.items())
+        yield prod(factors, start=Expr.of(coefficient))

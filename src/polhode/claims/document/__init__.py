@@ -1,1 +1,1 @@
-"""Documents of claims, and what came of their audit."""
+"""Documents of claims, and reports of their audits."""

@@ -1,4 +1,4 @@
-"""Documents of claims: what a text states, byte for byte, and how its symbols are meant."""
+"""Documents of claims: what a text states, byte for byte, and what its symbols mean."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ class Part:
     """A stretch of text with one set of conventions.
 
     Attributes:
-        id: what claims call it.
+        id: by which claims refer to it.
         title: heading.
         system: name of the system it treats, for a resolver to find.
-        convention: what is to be known of angles, axes and signs, in words.
+        convention: of angles, axes and signs, in words.
         bindings: what symbols stand for, as LaTeX → quantity of the model.
         definitions: those the text states, in order; later ones may use earlier ones.
         constants: symbols, as LaTeX, that stand for constants without a value.
@@ -58,7 +58,7 @@ class Note:
     """A line on how a claim was read, shown wherever its verdict is.
 
     Attributes:
-        label: what it says: "read as", "because" or "given".
+        label: "read as", "because" or "given".
         text: LaTeX, or words.
         is_formula: whether it is LaTeX.
     """
@@ -81,9 +81,9 @@ class Claim:
         means: what those words say, as LaTeX.
         when: for a statement on a motion, "always", "never", "sometimes", "initially", "finally".
         read_as: the equation before the transcript was damaged.
-        reason: how the damage shows.
-        where: the place in the text, where the number does not tell it.
-        follows_from: ids of the claims it is drawn from.
+        reason: the evidence of the damage.
+        where: the place in the text, unless the number tells it.
+        follows_from: ids of the claims it is derived from.
         bindings: as in `Part`, for this claim alone.
         definitions: as in `Part`, for this claim alone.
         given: restrictions, as LaTeX relations.
@@ -117,7 +117,7 @@ class Claim:
 
     @property
     def notes(self) -> tuple[Note, ...]:
-        """How it was read beyond what the text prints: the formula judged, why, what was given."""
+        """How it was read beyond what is printed: the formula judged, why, what was given."""
         read = self.read_as or self.means
         return (
             *([Note("read as", read, is_formula=True)] if read else []),
@@ -172,7 +172,7 @@ class Document:
         return tuple(claim for claim in self.claims if self.part_of(claim).system == system)
 
     def consequences(self, id: str) -> tuple[str, ...]:
-        """Ids of all claims drawn from this one, directly or through others, in order."""
+        """Ids of all claims derived from this one, directly or through others, in order."""
         reached = {id}
         for _ in self.claims:
             more = {c.id for c in self.claims if reached & set(c.follows_from)}

@@ -1,15 +1,27 @@
-"""Reading a document of claims from TOML; the format is described in docs/claims-format.md."""
+"""Documents of claims read from TOML, with errors that point at the line.
+
+The format is described in docs/claims-format.md.
+"""
 
 from __future__ import annotations
 
+import re
 import tomllib
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
 from polhode.base import ParseError, read_whole
-from polhode.claims.document._document import CONTEXTS, QUANTIFIERS, Claim, Document, Part
-from polhode.claims.document._document_table import Table, tables
+from polhode.claims.document._document import (
+    CONTEXTS,
+    QUANTIFIERS,
+    Claim,
+    Definition,
+    Document,
+    Part,
+)
 
 LONGEST = 4_000_000  # characters
 
@@ -33,7 +45,7 @@ def read_document(source: str | Path) -> Document:
         source: TOML as text, or the path of a file that holds it.
 
     Raises:
-        ParseError: for what is no such document, with the line, the field and what to do.
+        ParseError: for anything else, with the line, the field and what to do.
         StoreError: for a file that cannot be read.
     """
     text = _text_of(source) if isinstance(source, Path) else source
@@ -41,8 +53,9 @@ def read_document(source: str | Path) -> Document:
         raise ParseError(f"a document of {len(text)} characters", expected=f"at most {LONGEST}")
     content = _toml(text)
     lines = text.splitlines()
-    _refuse_strangers(content)
-    head = Table("document", content.get("document", {}), _line(lines, "[document]"), lines)
+    _refuse_unknown_fields(content)
+    header = next((n for n, line in enumerate(lines, 1) if line.strip() == "[document]"), 1)
+    head = Table("document", content.get("document", {}), header, lines)
     head.refuse_others(_DOCUMENT)
     parts = _parts(tables("part", content.get("part", []), lines))
     claims = _claims(tables("claim", content.get("claim", []), lines), parts)
@@ -68,15 +81,15 @@ def _toml(text: str) -> dict[str, Any]:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise ParseError(
-            f"a document that is no TOML: {error}",
+            f"a document that is not TOML: {error}",
             expected="tables [document], [[part]], [[claim]]",
-            advice="put LaTeX in single quotes, or in three of them where it has some or has lines",
+            advice="put LaTeX in single quotes, or triple ones if it has quotes or several lines",
         ) from None
     except RecursionError:
         raise ParseError("a document nested too deeply", expected="plain tables") from None
 
 
-def _refuse_strangers(content: dict[str, Any]) -> None:
+def _refuse_unknown_fields(content: dict[str, Any]) -> None:
     schema = content.get("schema", _SCHEMAS[-1])
     if schema not in _SCHEMAS:
         raise ParseError(
@@ -90,11 +103,7 @@ def _refuse_strangers(content: dict[str, Any]) -> None:
             expected="schema, [document], [[part]] and [[claim]]",
         )
     if not isinstance(content.get("document", {}), dict):
-        raise ParseError("'document' that is no table", expected="[document] with a title")
-
-
-def _line(lines: list[str], header: str) -> int:
-    return next((n for n, text in enumerate(lines, 1) if text.strip() == header), 1)
+        raise ParseError("'document' that is not a table", expected="[document] with a title")
 
 
 def _parts(found: tuple[Table, ...]) -> dict[str, Part]:
@@ -111,7 +120,7 @@ def _part(table: Table, earlier: dict[str, Part]) -> Part:
     table.refuse_others(_PART)
     like = table.text("like")
     if like and like not in earlier:
-        raise table.wrong("like", f"an earlier part: {', '.join(earlier) or 'there is none'}")
+        raise table.wrong("like", f"an earlier part: {', '.join(earlier) or 'no part is earlier'}")
     own = Part(
         id=table.text("id", required=True),
         title=table.text("title"),
@@ -127,22 +136,20 @@ def _part(table: Table, earlier: dict[str, Part]) -> Part:
 
 
 def _extended(base: Part, own: Part) -> Part:
-    """A part that has besides its own all conventions of an earlier one."""
+    """A part with all conventions of an earlier one beside its own."""
+    convention = own.convention or base.convention
+    if base.convention and own.convention:
+        convention = f"{base.convention.rstrip('.')}. {own.convention}"
     return replace(
         own,
         system=own.system or base.system,
-        convention=_together(base.convention, own.convention),
+        convention=convention,
         bindings={**base.bindings, **own.bindings},
         definitions=(*base.definitions, *own.definitions),
         constants=(*base.constants, *own.constants),
         positive=(*base.positive, *own.positive),
         given=(*base.given, *own.given),
     )
-
-
-def _together(first: str, second: str) -> str:
-    """Two conventions in words, one after the other."""
-    return f"{first.rstrip('.')}. {second}" if first and second else first or second
 
 
 def _claims(found: tuple[Table, ...], parts: dict[str, Part]) -> tuple[Claim, ...]:
@@ -152,10 +159,14 @@ def _claims(found: tuple[Table, ...], parts: dict[str, Part]) -> tuple[Claim, ..
         if claim.id in claims:
             raise table.wrong("id", "an id of its own", f"line {claims[claim.id].line} has it")
         if claim.part not in parts:
-            raise table.wrong("part", f"one of {', '.join(parts) or 'the parts: there is none'}")
+            raise table.wrong(
+                "part", f"one of {', '.join(parts) or 'the parts, which are missing'}"
+            )
         claims[claim.id] = claim
     for table in found:
-        _refuse_unknown_origin(table, claims)
+        for origin in table.texts("follows_from"):
+            if origin not in claims or origin == table.values["id"]:
+                raise table.wrong("follows_from", "ids of other claims of this document")
     return tuple(claims.values())
 
 
@@ -189,7 +200,137 @@ def _claim(table: Table) -> Claim:
     return claim
 
 
-def _refuse_unknown_origin(table: Table, claims: dict[str, Claim]) -> None:
-    for origin in table.texts("follows_from"):
-        if origin not in claims or origin == table.values["id"]:
-            raise table.wrong("follows_from", "ids of other claims of this document")
+# -- one table, field by field -------------------------------------------------------------------
+
+_LONGEST_SHOWN = 40  # characters of a value in an error
+_HEADER = re.compile(r"\s*\[{1,2}\s*([\w.\-\"' ]+?)\s*\]{1,2}\s*(?:#.*)?")
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table such as `[[claim]]`.
+
+    Attributes:
+        name: what its header says.
+        values: what it holds.
+        line: of its header.
+        lines: of the whole document.
+    """
+
+    name: str
+    values: Mapping[str, Any]
+    line: int
+    lines: Sequence[str]
+
+    def text(self, key: str, *, required: bool = False) -> str:
+        """A string; empty where it is left out and may be."""
+        value = self.values.get(key, "")
+        if not isinstance(value, str):
+            raise self.wrong(key, "a string in quotes", "put it in single quotes: '...'")
+        if required and not value.strip():
+            raise self.wrong(key, "a string that is not empty", f"write {key} = '...' below it")
+        return value
+
+    def texts(self, key: str) -> tuple[str, ...]:
+        """A list of strings."""
+        value = self.values.get(key, [])
+        if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
+            raise self.wrong(key, "a list of strings", f"write {key} = ['...', '...']")
+        return tuple(value)
+
+    def table(self, key: str) -> dict[str, str]:
+        """A table of strings."""
+        value = self.values.get(key, {})
+        if not isinstance(value, dict) or not all(isinstance(v, str) for v in value.values()):
+            raise self.wrong(key, "a table of strings", f"write {key} = {{ 'symbol' = '...' }}")
+        return dict(value)
+
+    def definitions(self, key: str) -> tuple[Definition, ...]:
+        """A list of definitions with their places."""
+        value = self.values.get(key, [])
+        entries = value if isinstance(value, list) else [value]
+        return tuple(self._definition(key, entry) for entry in entries)
+
+    def _definition(self, key: str, entry: object) -> Definition:
+        form = f"{key} = [{{ says = 'r = R + x', where = 'after (3)' }}]"
+        if not isinstance(entry, dict) or not all(isinstance(v, str) for v in entry.values()):
+            raise self.wrong(key, "a list of tables of strings", f"write {form}")
+        if not entry.keys() <= {"says", "where"} or not entry.get("says"):
+            raise self.wrong(key, "'says', and 'where' in the text", f"write {form}")
+        return Definition(entry["says"], entry.get("where", ""))
+
+    def orders(self, key: str) -> dict[str, int | None]:
+        """Small quantities with the order to which they are kept: `['\\epsilon:1', 'x']`."""
+        found: dict[str, int | None] = {}
+        for entry in self.texts(key):
+            quantity, colon, order = entry.rpartition(":")
+            if colon and not order.strip().isdigit():
+                raise self.wrong(key, "SYMBOL or SYMBOL:ORDER", "give the order as a number")
+            found[(quantity if colon else entry).strip()] = int(order) if colon else None
+        return found
+
+    def one_of(self, key: str, choices: Sequence[str], default: str) -> str:
+        """One of a few words."""
+        value = self.text(key) or default
+        if value not in (*choices, default):
+            near = get_close_matches(value, choices, n=1)
+            advice = f"did you mean {near[0]!r}?" if near else ""
+            raise self.wrong(key, f"one of {', '.join(choices)}", advice)
+        return value
+
+    def refuse_others(self, known: Sequence[str]) -> None:
+        """Refuse fields that this table does not have."""
+        for key in self.values:
+            if key not in known:
+                near = get_close_matches(key, known, n=1)
+                advice = (
+                    f"did you mean {near[0]!r}?" if near else "take it out, or make it a comment"
+                )
+                place = f"line {self.line_of(key)}: unknown field {key!r} in [{self.name}]"
+                raise ParseError(place, expected=f"one of {', '.join(known)}", advice=advice)
+
+    def wrong(self, key: str, expected: str, advice: str = "") -> ParseError:
+        """The error about one field."""
+        shown = repr(self.values.get(key))
+        shown = shown if len(shown) <= _LONGEST_SHOWN else shown[: _LONGEST_SHOWN - 3] + "..."
+        given = f"{key} = {shown}" if key in self.values else f"no {key}"
+        place = f"line {self.line_of(key)}: {given} in [{self.name}]"
+        return ParseError(place, expected=expected, advice=advice)
+
+    def line_of(self, key: str) -> int:
+        """Line where a field begins; that of the header if it is missing."""
+        start = re.compile(rf"\s*[\"']?{re.escape(key)}[\"']?\s*=")
+        below = re.compile(rf"\s*\[{{1,2}}\s*[\w\-]+\.{re.escape(key)}\s*\]")
+        for number in range(self.line, len(self.lines) + 1):
+            text = self.lines[number - 1]
+            if start.match(text) or below.match(text):
+                return number
+            if number > self.line and _header(text) in _TOP:
+                break
+        return self.line
+
+
+_TOP = ("document", "part", "claim")
+
+
+def tables(name: str, entries: object, lines: Sequence[str]) -> tuple[Table, ...]:
+    """All tables of one name, such as every `[[claim]]`.
+
+    Raises `ParseError` where they are not a list of tables.
+    """
+    headers = [number for number, text in enumerate(lines, 1) if _header(text) == name]
+    if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
+        place = f"line {headers[0]}: " if headers else ""
+        raise ParseError(
+            f"{place}{name!r} that is not a list of tables",
+            expected=f"one [[{name}]] for each",
+            advice="use double brackets",
+        )
+    headers += [1] * (len(entries) - len(headers))
+    pairs = zip(entries, headers, strict=False)
+    return tuple(Table(name, values, line, lines) for values, line in pairs)
+
+
+def _header(text: str) -> str:
+    match = _HEADER.fullmatch(text)
+    return match.group(1) if match else ""

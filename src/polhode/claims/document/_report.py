@@ -1,4 +1,4 @@
-"""What came of an audit: verdicts, what a failure feeds, a table and a document of them."""
+"""The report of an audit: verdicts, consequences of failures, as a table and as plain data."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from polhode.base import SCHEMA, Shown
 from polhode.claims._verdict import Answer, Verdict
 from polhode.claims.document._document import Claim, Document, Part
 
-_WIDEST = 110  # letters of what is said of a claim
-_WIDE = 100  # letters of a line of words
-_STEP = "  "
+_WIDEST = 110  # characters of the remark on a claim
+_WIDE = 100  # characters of a line of words
+_INDENT = "  "
 _BELOW = " " * 10  # where the line of a claim names its system
 
 
@@ -38,20 +38,20 @@ class Judged:
 
     @property
     def answer(self) -> Answer:
-        """Holds, fails, or what else the verdict is."""
+        """The answer of its verdict."""
         return self.verdict.answer
 
 
 @dataclass(frozen=True)
 class Consequence:
-    """What is drawn from a claim that fails.
+    """The claims derived from one that fails.
 
     Attributes:
         failed: id of that claim.
-        feeds: ids of the judged claims drawn from it, directly or through others.
-        results: those of them from which nothing more is drawn.
-        surviving: those of the results that hold all the same.
-        unjudged: those of the results that are definitions, which nothing judges.
+        feeds: ids of the judged claims derived from it, directly or through others.
+        results: those of them from which nothing more is derived.
+        surviving: those of the results that hold nevertheless.
+        unjudged: those of the results that are definitions, which are not judged.
     """
 
     failed: str
@@ -61,20 +61,20 @@ class Consequence:
     unjudged: tuple[str, ...] = ()
 
     def __str__(self) -> str:
-        return f"({self.failed}) {self.told}"
+        return f"({self.failed}) {self.summary}"
 
     @property
-    def told(self) -> str:
+    def summary(self) -> str:
         """What it feeds, and which results survive, in words."""
         if not self.feeds:
             return "feeds no other claim"
         lost = [id for id in self.results if id not in (*self.surviving, *self.unjudged)]
-        said = f"feeds {_listed(self.feeds)}"
+        text = f"feeds {_listed(self.feeds)}"
         if self.surviving:
-            said += f"; what survives: {_listed(self.surviving)}"
+            text += f"; what survives: {_listed(self.surviving)}"
         if lost:
-            said += f"; what does not: {_listed(lost)}"
-        return said + (f"; not judged: {_listed(self.unjudged)}" if self.unjudged else "")
+            text += f"; what does not: {_listed(lost)}"
+        return text + (f"; not judged: {_listed(self.unjudged)}" if self.unjudged else "")
 
 
 @dataclass(frozen=True)
@@ -84,8 +84,8 @@ class Report(Shown):
     Attributes:
         document: what the text states.
         judged: the claims judged.
-        left: ids of those that were asked for, but not reached before an interruption.
-        seconds: that judging took.
+        left: ids of those requested but not reached before an interruption.
+        seconds: duration of the audit.
     """
 
     document: Document
@@ -105,7 +105,7 @@ class Report(Shown):
 
     @property
     def consequences(self) -> tuple[Consequence, ...]:
-        """What is drawn from every claim that fails."""
+        """The consequences of every claim that fails."""
         return tuple(self._consequence(j.claim.id) for j in self.failures)
 
     def _consequence(self, failed: str) -> Consequence:
@@ -117,7 +117,7 @@ class Report(Shown):
         return Consequence(failed, feeds, results, surviving, defined)
 
     def by_part(self) -> tuple[tuple[Part, tuple[Judged, ...]], ...]:
-        """The judged claims of each part of the text that has some."""
+        """The judged claims by part of the text, without empty parts."""
         grouped = (
             (part, tuple(j for j in self.judged if j.claim.part == part.id))
             for part in self.document.parts
@@ -129,7 +129,12 @@ class Report(Shown):
 
         A line for each claim; below it what the text prints and how it was read, where they differ.
         """
-        rows = [line for part, found in self.by_part() for line in _section(part, found)]
+        rows: list[str] = []
+        for part, found in self.by_part():
+            rows.append(part.title or part.id)
+            rows += wrap(part.convention, _WIDE, initial_indent=_INDENT, subsequent_indent=_INDENT)
+            rows += [line for judged in found for line in _lines(judged)]
+            rows.append("")
         drawn = [f"  {consequence}" for consequence in self.consequences if consequence.feeds]
         if drawn:
             rows += ["", "What the failures feed:", *drawn]
@@ -139,14 +144,14 @@ class Report(Shown):
         """Totals for each part of the text, then the claims that fail, with corrections."""
         grouped = {part.title or part.id: found for part, found in self.by_part()}
         width = max(map(len, grouped), default=0)
-        rows = [f"{title:<{width}}  {told(group)}" for title, group in grouped.items()]
+        rows = [f"{title:<{width}}  {tally(group)}" for title, group in grouped.items()]
         fails = [line for judged in self.failures for line in _lines(judged)]
         return "\n".join([*rows, *(["", "What fails:", *fails] if fails else []), "", self.total()])
 
     def total(self) -> str:
         """How many claims got each answer, in a line."""
-        said = f"{len(self.judged)} claims: {told(self.judged)}"
-        return said + (f"; {len(self.left)} not reached" if self.left else "")
+        text = f"{len(self.judged)} claims: {tally(self.judged)}"
+        return text + (f"; {len(self.left)} not reached" if self.left else "")
 
     def __str__(self) -> str:
         return self.table()
@@ -157,7 +162,7 @@ class Report(Shown):
             "schema": SCHEMA,
             "title": self.document.title,
             "source": self.document.source,
-            "claims": [_plain(judged) for judged in self.judged],
+            "claims": [_claim_json(judged) for judged in self.judged],
             "counts": self.counts,
             "consequences": [
                 {
@@ -179,46 +184,33 @@ def counted(judged: Sequence[Judged]) -> dict[str, int]:
     return {answer.value: found[answer] for answer in Answer}
 
 
-def told(judged: Sequence[Judged]) -> str:
+def tally(judged: Sequence[Judged]) -> str:
     """How many claims got each answer, in a line."""
     return ", ".join(f"{count} {name}" for name, count in counted(judged).items() if count)
 
 
-def _section(part: Part, found: Sequence[Judged]) -> Iterator[str]:
-    """The claims of a part under its title and its convention."""
-    yield part.title or part.id
-    yield from wrap(part.convention, _WIDE, initial_indent=_STEP, subsequent_indent=_STEP)
-    for judged in found:
-        yield from _lines(judged)
-    yield ""
-
-
 def _lines(judged: Judged) -> Iterator[str]:
-    """A claim in a line, and below it how it was read where that takes more than its formula."""
+    """A claim in a line, and below it how it was read, where it was not read as printed."""
     claim = judged.claim
     yield _row(judged)
     stated = (("in words" if claim.words else "printed"), claim.printed)
-    told = [(note.label, note.text) for note in claim.notes]
-    for label, text in [stated, *told] if told else []:
-        yield f"{_BELOW}{label}: {_in_a_line(text)}"
-
-
-def _in_a_line(text: str) -> str:
-    return " ".join(text.split())
+    notes = [(note.label, note.text) for note in claim.notes]
+    for label, text in [stated, *notes] if notes else []:
+        yield f"{_BELOW}{label}: {' '.join(text.split())}"
 
 
 def _row(judged: Judged) -> str:
     claim, verdict = judged.claim, judged.verdict
     start = f"{claim.id:>8}  {judged.system:<25} {verdict.answer.value:<11} "
-    said = verdict.reason
+    remark = verdict.reason
     if verdict.correction is not None:
-        said = f"{verdict.correction.what}: {verdict.correction.latex}"
+        remark = f"{verdict.correction.what}: {verdict.correction.latex}"
     if verdict.answer in (Answer.FAILS, Answer.UNREAD) and judged.fed_by:
-        said += f" [drawn from {_listed(judged.fed_by)}]"
-    return start + shorten(said, _WIDEST, placeholder=" …") if said else start.rstrip()
+        remark += f" [derived from {_listed(judged.fed_by)}]"
+    return start + shorten(remark, _WIDEST, placeholder=" …") if remark else start.rstrip()
 
 
-def _plain(judged: Judged) -> dict[str, Any]:
+def _claim_json(judged: Judged) -> dict[str, Any]:
     claim, verdict = judged.claim, judged.verdict
     correction = verdict.correction
     return {

@@ -1,6 +1,6 @@
 """LaTeX read into trees that keep to what is printed, and trees written as LaTeX."""
 
-from polhode.claims.latex._bare import bare_names as bare_names
-from polhode.claims.latex._statements import read_latex as read_latex
+from polhode.claims.latex._parser import read_latex as read_latex
+from polhode.claims.latex._tokens import bare_names as bare_names
 from polhode.claims.latex._tree import Statement as Statement
 from polhode.claims.latex._writer import write_latex as write_latex

@@ -1,7 +1,8 @@
-"""Brackets paired, and what only lays a formula out taken away.
+"""Brackets paired, and what only sets the layout of a formula removed.
 
-After this a line break, a column mark or a wide space stands only where it parts one thing that is
-said from the next: between the rows of a display, of a column or of cases, never inside a bracket.
+After this a line break, a column mark or a wide space stands only where it separates one statement
+or entry from the next: between the rows of a display, of a column or of cases, never inside a
+bracket.
 """
 
 from __future__ import annotations
@@ -35,9 +36,23 @@ class Paired:
     tokens: tuple[Token, ...]
     partner: dict[int, int]
 
+    @property
+    def around_relations(self) -> frozenset[int]:
+        """Where the round brackets open that hold a relation."""
+        found: set[int] = set()
+        around: list[int] = []
+        for place, token in enumerate(self.tokens):
+            if place in self.partner:
+                around.append(place)
+            elif closes(token):
+                around.pop()
+            elif token.kind == "sign" and around and self.tokens[around[-1]].is_mark("("):
+                found.add(around[-1])
+        return frozenset(found)
+
 
 def paired(source: str, tokens: Sequence[Token]) -> Paired:
-    """The tokens that say something, with their brackets paired.
+    """The tokens that carry meaning, with their brackets paired.
 
     Raises:
         ParseError: for a bracket without its partner, and for brackets nested too deeply.
@@ -45,8 +60,8 @@ def paired(source: str, tokens: Sequence[Token]) -> Paired:
     joined = _joined_rows(tokens)
     flowing = _without_layouts(joined, _partners(source, joined))
     printed = _without_bare_braces(flowing, _partners(source, flowing))
-    said = _without_breaks_in_brackets(printed)
-    return Paired(tuple(said), _partners(source, said))
+    kept = _without_breaks_in_brackets(printed)
+    return Paired(tuple(kept), _partners(source, kept))
 
 
 def opens(token: Token) -> bool:
@@ -67,13 +82,15 @@ def _partners(source: str, tokens: Sequence[Token]) -> dict[int, int]:
             waiting.append(place)
             if len(waiting) > DEEPEST:
                 problem = f"brackets nested more than {DEEPEST} deep"
-                raise refusal(source, token.span, problem, "a formula that a reader can follow")
+                raise refusal(source, token.span, problem, "a formula with less nesting")
         elif closes(token):
             if not waiting or not _match(tokens[waiting[-1]], token):
                 raise _unmatched(source, [tokens[place] for place in waiting], token)
             partner[waiting.pop()] = place
     if waiting:
-        raise _unclosed(source, tokens[waiting[-1]])
+        opener = tokens[waiting[-1]]
+        problem = f"{shown(opener)} is never closed"
+        raise refusal(source, opener.span, problem, "brackets in pairs")
     return partner
 
 
@@ -87,14 +104,10 @@ def _match(opener: Token, closer: Token) -> bool:
 
 def _unmatched(source: str, waiting: Sequence[Token], closer: Token) -> ParseError:
     if not waiting:
-        return refusal(source, closer.span, f"{shown(closer)} closes nothing", "what it closes")
+        return refusal(source, closer.span, f"{shown(closer)} closes nothing", "an opening bracket")
     opener = waiting[-1]
     problem = f"{shown(opener)} at character {opener.span[0] + 1} closed by {shown(closer)}"
     return refusal(source, closer.span, problem, "brackets in pairs")
-
-
-def _unclosed(source: str, opener: Token) -> ParseError:
-    return refusal(source, opener.span, f"{shown(opener)} is never closed", "brackets in pairs")
 
 
 def shown(token: Token) -> str:
@@ -142,25 +155,22 @@ def _without_bare_braces(tokens: Sequence[Token], partner: dict[int, int]) -> li
     r"""Without the braces that print nothing: those that hold no argument and no ``\over``."""
     dropped: set[int] = set()
     overs = _braces_around_over(tokens, partner)
-    wanted = [0]  # arguments still to come, bracket by bracket
+    awaited = [0]  # arguments still to come, bracket by bracket
     for place, token in enumerate(tokens):
         if place in dropped:
             continue
         if closes(token):
-            wanted.pop()
+            awaited.pop()
             continue
-        is_argument = wanted[-1] > 0 or (place > 0 and tokens[place - 1].kind == "function")
+        is_argument = awaited[-1] > 0 or (place > 0 and tokens[place - 1].kind == "function")
         if token.is_mark("{") and not is_argument and place not in overs:
             dropped |= {place, partner[place]}
             continue
-        wanted[-1] = max(0, wanted[-1] - 1) + _arity(token)
+        arguments = 1 if token.is_mark("^", "_") else _WANTED.get(token.kind, 0)
+        awaited[-1] = max(0, awaited[-1] - 1) + arguments
         if opens(token):
-            wanted.append(0)
+            awaited.append(0)
     return [token for place, token in enumerate(tokens) if place not in dropped]
-
-
-def _arity(token: Token) -> int:
-    return int(token.is_mark("^", "_")) or _WANTED.get(token.kind, 0)
 
 
 def _braces_around_over(tokens: Sequence[Token], partner: dict[int, int]) -> set[int]:
@@ -177,7 +187,7 @@ def _braces_around_over(tokens: Sequence[Token], partner: dict[int, int]) -> set
 
 
 def _without_breaks_in_brackets(tokens: Sequence[Token]) -> list[Token]:
-    """Without the breaks that no reader takes for an end; an environment keeps its rows."""
+    """Without the breaks that end nothing; an environment keeps its rows."""
     kept: list[Token] = []
     around: list[Token] = []
     for token in tokens:

@@ -39,6 +39,8 @@ FUNCTIONS = _same(
     arccosh arcosh arctanh artanh asinh arsinh acosh arcosh atanh artanh
     """
 )
+COUNTS = _words("n k pi")  # letters that stand before an angle: sin nθ
+RATES = _words("omega Omega nu kappa")  # and, with the Latin ones, before a time: cos Ωt
 INVERSES = _pairs("sin arcsin cos arccos tan arctan sinh arsinh cosh arcosh tanh artanh")
 
 SIGNS = _pairs(
@@ -61,6 +63,7 @@ MARKS = _pairs(
     """
 )
 
+DIFFERENTIALS = _pairs("d d partial ∂ Delta Δ delta δ")  # letters that may be differentials
 DOTS = {"dot": 1, "ddot": 2, "dddot": 3}
 DECORATIONS = _pairs(
     """
@@ -70,10 +73,24 @@ DECORATIONS = _pairs(
     vb vector vectorbold vector va arrow vectorarrow arrow vu hat vectorunit hat
     """
 )
+DECORATED = {  # what a decoration makes of a letter that has one already
+    ("hat", ""): "hat",
+    ("hat", "vector"): "hat",
+    ("vector", "hat"): "hat",
+    ("vector", ""): "vector",
+    ("vector", "vector"): "vector",
+    ("bar", ""): "bar",
+    ("tilde", ""): "tilde",
+    ("bar", "vector"): "bar vector",
+    ("vector", "bar"): "bar vector",
+    ("tilde", "vector"): "tilde vector",
+    ("vector", "tilde"): "tilde vector",
+}
 ALPHABETS = _pairs("mathcal cal cal cal mathscr cal mathbb bb mathfrak frak")
 FRACTIONS = _words("frac dfrac tfrac cfrac")
 DERIVATIVES = _pairs("dv d derivative d pdv partial partialderivative partial")
 
+CONSTANTS = {"constant", "const", "a constant", "constant vector", "a constant vector"}
 WORDS = _words("text textrm textnormal textit textbf textsf mbox hbox")
 UPRIGHT = _words("mathrm operatorname mathop mathsf mathit")
 UPRIGHT_FROM_HERE = _words("rm it sf")

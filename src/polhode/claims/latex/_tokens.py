@@ -1,7 +1,8 @@
 """LaTeX cut into tokens, in one pass from left to right.
 
-Spellings are settled here: ``\\leq``, ``\\le`` and ``≤`` are one token, spacing and type size are
-none. What no mechanics text would write is refused at its place.
+Synonyms such as ``\\leq``, ``\\le`` and ``≤`` become the same token; spacing and type sizes are
+dropped. Dollar signs separate formulas from the words around them. A macro or character that no
+mechanics text would use is refused at its place.
 """
 
 from __future__ import annotations
@@ -14,13 +15,11 @@ from difflib import get_close_matches
 
 from polhode.base import ParseError
 from polhode.claims.latex import _lexicon as lexicon
-from polhode.claims.latex._prose import prose_of, split_number
 from polhode.claims.latex._tree import Span
 
 LONGEST = 20_000  # characters
 SHOWN = 40  # of them on either side of a place
 
-_SPACES = " \t\r\n\N{NO-BREAK SPACE}\N{THIN SPACE}\N{NARROW NO-BREAK SPACE}"
 _LONGEST = 1000  # characters of a number
 _NUMBER = r"[0-9]+(?:\.[0-9]+)?|\.[0-9]+"
 _PATTERN = re.compile(
@@ -42,6 +41,18 @@ _RUN = re.compile(r"\s*(?:\{([\s~]*[A-Za-z][A-Za-z.~\s]*)\}|([A-Za-z]+))")
 _ENVIRONMENT = re.compile(r"\s*\{([A-Za-z]{1,20})\*?\}(?:\s*\[[tbc]\])?")
 _COLUMNS = re.compile(r"\s*\{[lcrp@|\s]{0,40}\}|\s*\{[0-9]{1,2}\}")
 _INDEX = re.compile(r"\s*\[\s*([0-9]{1,2}|[a-z])\s*\]")
+
+# prose around formulas
+_DOLLARS = re.compile(r"\$\$?")
+_LINE_END = re.compile(r"\\n(?![a-z])")  # as a transcript spells it
+_MATHEMATICS = re.compile(r"[\\^_=<>]")
+_TWO_LETTERS = re.compile(r"[A-Za-z]{2}")
+_EQUATION_NUMBER = re.compile(r"\(([0-9]{1,4})\)[\s.,]*\Z")
+
+# names without their backslash
+_MACRO = re.compile(r"\\(?:text|mathrm|operatorname|label|tag)\s*\{[^{}]*\}|\\[A-Za-z]+")
+_NAMES = sorted(lexicon.GREEK | lexicon.FUNCTIONS.keys() - {"tg"}, key=len, reverse=True)
+_BARE = re.compile(rf"(?<![A-Za-z])({'|'.join(_NAMES)})(?![A-Za-z])")
 
 
 @dataclass(frozen=True)
@@ -83,15 +94,10 @@ def refusal(source: str, span: Span, problem: str, expected: str = "") -> ParseE
     """The error for a place in a text, with the place shown."""
     place = min(span[0], len(source))
     start = max(0, place - SHOWN)
-    excerpt = "".join(_printable(c) for c in source[start : place + SHOWN])
+    excerpt = source[start : place + SHOWN].replace("\n", " ").replace("\t", " ")
+    excerpt = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in excerpt)
     shown = f"at character {place + 1}:\n    {excerpt}\n    {' ' * (place - start)}^"
     return ParseError(problem, expected=expected, advice=shown)
-
-
-def _printable(character: str) -> str:
-    if character in "\n\t":
-        return " "
-    return character if character.isprintable() else "\N{REPLACEMENT CHARACTER}"
 
 
 class _Scanner:
@@ -101,7 +107,7 @@ class _Scanner:
         self._source = source
         self._place = 0
         self._found: list[Token] = []
-        self._prose = prose_of(source)
+        self._prose = _prose_of(source)
 
     def all(self) -> list[Token]:
         while self._place < len(self._source):
@@ -119,11 +125,13 @@ class _Scanner:
     def _words_outside(self) -> Iterator[Token]:
         """What stands between formulas in dollar signs, and the equation number that ends it."""
         start, self._place = self._place, self._prose[self._place]
-        words, number = split_number(self._source[start : self._place])
+        prose = " ".join(_LINE_END.sub(" ", self._source[start : self._place]).split())
+        number = _EQUATION_NUMBER.search(prose)
+        words = (prose[: number.start()] if number else prose).strip(" .,;:")
         if words:
             yield self._token("words", words, start)
         if number:
-            yield self._token("tag", number, start)
+            yield self._token("tag", number[1], start)
 
     def _space(self, text: str, start: int) -> Iterator[Token]:
         strange = next(
@@ -137,7 +145,7 @@ class _Scanner:
         yield self._token("row", text, start)
 
     def _number(self, text: str, start: int) -> Iterator[Token]:
-        """A number; what wants a single token is given its first digit, as TeX does."""
+        """A number; what takes a single token is given the first digit alone, as in TeX."""
         if len(text) > _LONGEST:
             problem = f"a number of {len(text)} characters"
             raise self._refused(start, problem, f"one of at most {_LONGEST}")
@@ -201,7 +209,7 @@ class _Scanner:
         yield _named(self._token("words", self._raw(name, start), start))
 
     def _upright(self, name: str, start: int) -> Iterator[Token]:
-        """Upright words; a font change around anything else says nothing."""
+        """Upright words; a font change around anything else is dropped."""
         pattern = _RUN if name in lexicon.UPRIGHT_FROM_HERE else _PLAIN
         match = pattern.match(self._source, self._place)
         if match:
@@ -249,7 +257,7 @@ def _trimmed(words: str) -> str:
 
 
 def _named(token: Token) -> Token:
-    """Words, or the letter or function that only a font was changed around."""
+    """Words, or a letter or function in another font."""
     if token.text in lexicon.FUNCTIONS:
         return Token("function", lexicon.FUNCTIONS[token.text], token.span)
     if len(token.text) == 1 and token.text.isalpha():
@@ -257,43 +265,57 @@ def _named(token: Token) -> Token:
     return token
 
 
-def _macros() -> dict[str, tuple[str, str]]:
-    tables = {
-        "letter": lexicon.LETTERS,
-        "label": lexicon.LABELS,
-        "words": lexicon.WORDS_IN_LABELS,
-        "function": lexicon.FUNCTIONS,
-        "sign": lexicon.SIGNS,
-        "arrow": lexicon.ARROWS,
-        "mark": lexicon.MARKS,
-        "dots": {name: str(count) for name, count in lexicon.DOTS.items()},
-        "decoration": lexicon.DECORATIONS,
-        "alphabet": lexicon.ALPHABETS,
-        "fraction": dict.fromkeys(lexicon.FRACTIONS, "frac"),
-        "derivative": lexicon.DERIVATIVES,
-        "integral": {"int": "int", "oint": "int"},
-        "gap": dict.fromkeys(lexicon.GAPS, "gap"),
-        "row": dict.fromkeys(lexicon.ROWS, "row"),
-        "silent": dict.fromkeys(lexicon.SILENT, ""),
-    }
-    return {name: (kind, text) for kind, table in tables.items() for name, text in table.items()}
-
-
-def _characters() -> dict[str, tuple[str, str]]:
-    return (
-        {mark: ("mark", mark) for mark in "+-/^_'{}()[]|&,;.:*"}
-        | {character: ("mark", mark) for character, mark in lexicon.CHARACTERS.items()}
-        | {character: ("sign", sign) for character, sign in lexicon.SIGN_CHARACTERS.items()}
-        | {character: ("letter", name) for character, name in lexicon.LETTER_CHARACTERS.items()}
-        | {character: ("arrow", character) for character in lexicon.ARROW_CHARACTERS}
-    )
-
-
-_MACROS = _macros()
-_CHARACTERS = _characters()
+_TABLES = {  # macros by kind of token
+    "letter": lexicon.LETTERS,
+    "label": lexicon.LABELS,
+    "words": lexicon.WORDS_IN_LABELS,
+    "function": lexicon.FUNCTIONS,
+    "sign": lexicon.SIGNS,
+    "arrow": lexicon.ARROWS,
+    "mark": lexicon.MARKS,
+    "dots": {name: str(count) for name, count in lexicon.DOTS.items()},
+    "decoration": lexicon.DECORATIONS,
+    "alphabet": lexicon.ALPHABETS,
+    "fraction": dict.fromkeys(lexicon.FRACTIONS, "frac"),
+    "derivative": lexicon.DERIVATIVES,
+    "integral": {"int": "int", "oint": "int"},
+    "gap": dict.fromkeys(lexicon.GAPS, "gap"),
+    "row": dict.fromkeys(lexicon.ROWS, "row"),
+    "silent": dict.fromkeys(lexicon.SILENT, ""),
+}
+_MACROS = {name: (kind, text) for kind, table in _TABLES.items() for name, text in table.items()}
+_CHARACTERS = (
+    {mark: ("mark", mark) for mark in "+-/^_'{}()[]|&,;.:*"}
+    | {character: ("mark", mark) for character, mark in lexicon.CHARACTERS.items()}
+    | {character: ("sign", sign) for character, sign in lexicon.SIGN_CHARACTERS.items()}
+    | {character: ("letter", name) for character, name in lexicon.LETTER_CHARACTERS.items()}
+    | {character: ("arrow", character) for character in lexicon.ARROW_CHARACTERS}
+)
 _SPECIAL = (
     dict.fromkeys(lexicon.WORDS, "words")
     | dict.fromkeys(lexicon.UPRIGHT | lexicon.UPRIGHT_FROM_HERE, "upright")
     | dict.fromkeys(lexicon.SILENT_WITH_ARGUMENT, "skipped")
     | {"tag": "tag", "sqrt": "root", "begin": "environment", "end": "environment"}
 )
+
+
+def _prose_of(source: str) -> dict[int, int]:
+    """Where each stretch of words begins and ends.
+
+    Outside the dollar signs is prose, unless it holds signs of mathematics: transcripts lose
+    dollar signs. Without any, all is mathematics.
+    """
+    edges = [0, *(place for match in _DOLLARS.finditer(source) for place in match.span())]
+    outside = zip(edges[::4], [*edges[1::4], len(source)], strict=False)
+    stretches = {start: end for start, end in outside if _is_prose(source[start:end])}
+    return stretches if len(edges) > 1 else {}
+
+
+def _is_prose(stretch: str) -> bool:
+    bare = _LINE_END.sub(" ", stretch)
+    return bool(_TWO_LETTERS.search(bare)) and not _MATHEMATICS.search(bare)
+
+
+def bare_names(latex: str) -> tuple[str, ...]:
+    """Greek letters and functions without a backslash, which LaTeX reads letter by letter."""
+    return tuple(dict.fromkeys(_BARE.findall(_MACRO.sub(" ", latex))))

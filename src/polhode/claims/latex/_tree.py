@@ -1,4 +1,4 @@
-"""What a formula says, before anybody asks what its letters mean.
+"""What a formula prints, before its letters are given a meaning.
 
 The tree keeps to what is printed: which letter carries a hat, which sign stands between two
 vectors, what is divided by what. Whether a letter is a vector, a function of time or a parameter is
@@ -7,7 +7,7 @@ for the bindings to say. Letters go by their published names: ``theta``, ``Omega
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import Any, TypeVar
@@ -32,16 +32,17 @@ class Piece:
     @cached_property
     def parts(self) -> tuple[Piece, ...]:
         """The pieces directly inside, in order of printing."""
-        return tuple(piece for value in self._said for piece in _pieces(value))
+        entries = (v if isinstance(v, tuple) else (v,) for v in self._contents)
+        return tuple(e for entry in entries for e in entry if isinstance(e, Piece))
 
     @cached_property
-    def _said(self) -> tuple[object, ...]:
+    def _contents(self) -> tuple[object, ...]:
         named: tuple[str, ...] = self.__match_args__
         return tuple(getattr(self, name) for name in named)
 
     @cached_property
     def _key(self) -> int:
-        return hash((type(self), self._said))
+        return hash((type(self), self._contents))
 
     def __hash__(self) -> int:
         return self._key
@@ -49,7 +50,11 @@ class Piece:
     def __eq__(self, other: object) -> bool:
         if self is other or not isinstance(other, Piece):
             return self is other
-        return type(self) is type(other) and self._key == other._key and self._said == other._said
+        return (
+            type(self) is type(other)
+            and self._key == other._key
+            and self._contents == other._contents
+        )
 
     def __getstate__(self) -> dict[str, object]:
         """What is printed, and where: hashes differ from process to process."""
@@ -93,7 +98,7 @@ class Name(Node):
 
     @property
     def is_marked_vector(self) -> bool:
-        """Whether it is printed as a vector; transcripts lose boldness, so false says nothing."""
+        """Whether it is printed as a vector; false is no proof, since transcripts lose boldness."""
         return self.decoration.endswith(("hat", "vector"))
 
 
@@ -280,7 +285,7 @@ class Case(Piece):
     Args:
         value: the value.
         conditions: the relations under which it holds, where there are any.
-        words: what is said of it, "" for nothing.
+        words: that describe it, or "".
     """
 
     value: Node
@@ -297,7 +302,7 @@ class Cases(Node):
 
 @dataclass(frozen=True, eq=False)
 class Statement(Piece):
-    r"""All that one display says.
+    r"""The content of one display.
 
     Args:
         relations: in order of printing.
@@ -314,6 +319,18 @@ class Statement(Piece):
     assumptions: tuple[Relation, ...] = ()
 
 
+def product(factors: Sequence[Node], span: Span = NOWHERE) -> Node:
+    """Factors side by side; a single one is itself, and no factors make 1."""
+    if len(factors) == 1:
+        return factors[0]
+    return Product(tuple(factors), span=span) if factors else Number("1", span=span)
+
+
+def factors_of(node: Node) -> tuple[Node, ...]:
+    """The factors of a product; anything else is its own factor."""
+    return node.factors if isinstance(node, Product) else (node,)
+
+
 def walk(piece: Piece) -> Iterator[Piece]:
     """The piece and all inside it, outermost first."""
     waiting = [piece]
@@ -324,19 +341,21 @@ def walk(piece: Piece) -> Iterator[Piece]:
 
 
 def mapped(piece: PieceT, change: Callable[[Any], Piece]) -> PieceT:
-    """The same piece with each one directly inside it changed; itself where none is."""
-    said = piece._said
-    changed = tuple(_changed(value, change) for value in said)
-    if all(new is old for new, old in zip(changed, said, strict=True)):
+    """The same piece with each one directly inside it changed; itself if nothing changes."""
+    contents = piece._contents
+    changed = tuple(_changed(value, change) for value in contents)
+    if all(new is old for new, old in zip(changed, contents, strict=True)):
         return piece
     return type(piece)(*changed, span=piece.span)
 
 
-def _pieces(value: object) -> Iterator[Piece]:
-    if isinstance(value, Piece):
-        yield value
-    elif isinstance(value, tuple):
-        yield from (item for item in value if isinstance(item, Piece))
+def replaced(node: Node, old: Node, new: Node) -> Node:
+    """The node with one node in it replaced, found by identity: its equals stay."""
+
+    def change(piece: Node) -> Node:
+        return new if piece is old else mapped(piece, change)
+
+    return change(node)
 
 
 def _changed(value: object, change: Callable[[Any], Piece]) -> object:

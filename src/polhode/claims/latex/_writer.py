@@ -7,9 +7,7 @@ from functools import singledispatch
 from itertools import pairwise
 
 from polhode.claims.latex import _lexicon as lexicon
-from polhode.claims.latex._differentials import SIGNS, factors_of
-from polhode.claims.latex._labels import label_latex
-from polhode.claims.latex._name_latex import letter_latex, name_latex, scripts_latex
+from polhode.claims.latex._names import label_latex, letter_latex, name_latex, scripts_latex
 from polhode.claims.latex._tree import (
     At,
     Call,
@@ -39,6 +37,7 @@ from polhode.claims.latex._tree import (
     Statement,
     Sum,
     Words,
+    factors_of,
 )
 
 _SIGNS = {"=": "=", "<": "<", ">": ">", "→": r"\to", "↔": r"\leftrightarrow"} | {
@@ -58,8 +57,8 @@ _SIGNED = (Sum, Negative, PlusMinus)
 _OPEN = (*_SIGNED, Cross, Dot, Integral)  # bracketed beside a sign of multiplication
 _WIDE = (*_OPEN, Product)  # and beside another factor
 _RAISED_BARE = (Number, Dots, At, Magnitude, Component, ComponentList, Evaluated, Differential)
-_TAKEN_FOR_DIFFERENTIALS = frozenset(Name(letter) for letter in SIGNS)
-_BRACKETED_ANGLES = frozenset(SIGNS) | {"n", "k", "pi", "constant"}
+_TAKEN_FOR_DIFFERENTIALS = frozenset(Name(letter) for letter in lexicon.DIFFERENTIALS)
+_BRACKETED_ANGLES = frozenset(lexicon.DIFFERENTIALS) | {"n", "k", "pi", "constant"}
 _KNOWN_TO_LATEX = lexicon.FUNCTIONS.keys() - {"sech", "csch", "arsinh", "arcosh", "artanh"}
 _TIME = re.compile(r"t\b|t_")
 
@@ -76,14 +75,14 @@ def write_latex(piece: Piece) -> str:
 
 @write_latex.register
 def _(statement: Statement) -> str:
-    said = r",\quad ".join(write_latex(relation) for relation in statement.relations)
+    relations = r",\quad ".join(write_latex(relation) for relation in statement.relations)
     conditions = (rf"\quad {_bracketed(relation)}" for relation in statement.conditions)
     assumed = (
         rf"\quad \left(\text{{if }} {write_latex(relation)}\right)"
         for relation in statement.assumptions
     )
     tags = (rf"\tag{{{tag}}}" for tag in statement.tags)
-    return "".join((said, *conditions, *assumed, *tags))
+    return "".join((relations, *conditions, *assumed, *tags))
 
 
 @write_latex.register
@@ -241,8 +240,9 @@ def _(cases: Cases) -> str:
 @write_latex.register
 def _(case: Case) -> str:
     words = [rf"\text{{{case.words}}}"] if case.words else []
-    said = [write_latex(condition) for condition in case.conditions] + words
-    return f"{write_latex(case.value)} & {', '.join(said)}" if said else write_latex(case.value)
+    remarks = [write_latex(condition) for condition in case.conditions] + words
+    value = write_latex(case.value)
+    return f"{value} & {', '.join(remarks)}" if remarks else value
 
 
 def _bracketed(piece: Piece) -> str:

@@ -1,51 +1,30 @@
-"""A statement that was read, bound to a model: its members as relations of exact quantities."""
+"""A statement bound to a model: its members as relations between exact quantities."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from polhode.algebra import ZERO, Expr, Vector
 from polhode.claims.latex import _tree as tree
-from polhode.claims.latex._tree import Node, Relation, Span, Statement, walk
-from polhode.claims.meaning._components import Side
+from polhode.claims.latex._tree import Node, Relation, Statement, walk
 from polhode.claims.meaning._evaluate import FORWARD, TIME, Evaluator
 from polhode.claims.meaning._meaning import (
     BindingError,
     Meaning,
+    Side,
     Tensor,
     as_scalar,
     over,
     rate,
     zero_like,
 )
-from polhode.claims.meaning._printed_terms import PrintedRelation, changing
+from polhode.claims.meaning._relations import BoundRelation, PrintedRelation, changing
 from polhode.claims.meaning._vocabulary import Vocabulary
 
 EQUAL = ("=", "≡")
 COMPARED = (*EQUAL, "≈", "≠", "<", ">", "≤", "≥", "≪", "≫", "∝")
-
-
-@dataclass(frozen=True)
-class BoundRelation:
-    """One member of a claim.
-
-    Attributes:
-        left: what stands left of the sign.
-        sign: one of = ≡ ≈ ≠ < > ≤ ≥ ≪ ≫ ∝.
-        right: what stands right of it.
-        span: first and one past the last character of the member in its LaTeX.
-        is_alternative: whether it is a further value after an "or".
-        printed: its two sides as they stand; None for a relation that nobody printed.
-    """
-
-    left: Side
-    sign: str
-    right: Side
-    span: Span = (0, 0)
-    is_alternative: bool = False
-    printed: PrintedRelation | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
@@ -54,10 +33,10 @@ class Bound:
 
     Attributes:
         branches: the members; twice, for the upper and the lower sign, where it says ±.
-        defined: letters that it defines, bound by nothing else, with what they stand for.
+        defined: letters that it defines, which nothing else does, with what they stand for.
         conditions: what restricts it: relations in brackets after a word such as "if", and the
             range of a coordinate or speed.
-        values: values of coordinates and speeds in brackets, which may restrict it or be said.
+        values: values of coordinates and speeds in brackets, which may be conditions or claims.
         digits: for members with a decimal number on the right, half a unit of its last digit.
     """
 
@@ -88,19 +67,19 @@ def bind(statement: Statement, vocabulary: Vocabulary) -> Bound:
     pieces = list(walk(statement))
     signs = (True, False) if any(isinstance(p, tree.PlusMinus) for p in pieces) else (True,)
     per_time = any(isinstance(p, tree.Differential) and p.of == TIME for p in pieces)
-    readers = [_Binder(Evaluator(vocabulary, upper, per_time)) for upper in signs]
-    branches = tuple(tuple(reader.members(statement.relations)) for reader in readers)
-    first = readers[0]
+    binders = [_Binder(Evaluator(vocabulary, upper, per_time)) for upper in signs]
+    branches = tuple(tuple(binder.members(statement.relations)) for binder in binders)
+    first = binders[0]
     ranges: list[BoundRelation] = []
     values: list[BoundRelation] = []
     for relation in statement.conditions:
-        said = [tuple(reader.members([relation])) for reader in readers]
-        of_state = [r for r in said[0] if _is_of_state(r, vocabulary)]
-        if len(of_state) == len(said[0]) and all(r.sign not in EQUAL for r in of_state):
+        found = [tuple(binder.members([relation])) for binder in binders]
+        of_state = [r for r in found[0] if _is_of_state(r, vocabulary)]
+        if len(of_state) == len(found[0]) and all(r.sign not in EQUAL for r in of_state):
             ranges += of_state
         else:
             values += (r for r in of_state if r.sign in EQUAL)
-            branches = tuple((*one, *more) for one, more in zip(branches, said, strict=True))
+            branches = tuple((*one, *more) for one, more in zip(branches, found, strict=True))
     assumed = tuple(first.members(statement.assumptions))
     return Bound(branches, first.defined, (*assumed, *ranges), first.digits, tuple(values))
 
@@ -119,7 +98,7 @@ def _is_of_state(relation: BoundRelation, vocabulary: Vocabulary) -> bool:
 
 
 class _Binder:
-    """Binds the relations of one statement in their order; later ones know what earlier define."""
+    """Binds the relations of one statement in order; later ones use what earlier ones define."""
 
     def __init__(self, evaluator: Evaluator) -> None:
         self._evaluator = evaluator
@@ -137,7 +116,10 @@ class _Binder:
     def _chain(self, relation: Relation) -> Iterator[BoundRelation]:
         sides = relation.sides
         if relation.signs and relation.signs[0] in EQUAL and self._is_new(sides[0]):
-            self._define(sides[0], self._evaluator.value(sides[1]))
+            definition = {sides[0]: self._evaluator.value(sides[1])}
+            self.defined |= definition
+            vocabulary = self._evaluator.vocabulary.stating(definition)
+            self._evaluator = replace(self._evaluator, vocabulary=vocabulary)
             relation = replace(relation, sides=sides[1:], signs=relation.signs[1:])
         chain = zip(relation.sides, relation.signs, relation.sides[1:], strict=False)
         for place, (left, sign, right) in enumerate(chain):
@@ -145,12 +127,21 @@ class _Binder:
                 yield self._member(PrintedRelation(self._evaluator, left, right, place == 0), sign)
 
     def _is_new(self, node: Node) -> bool:
-        letter = isinstance(node, tree.Name | tree.Differential | tree.At)
+        """Whether a node is a letter without a meaning so far, be it by its parts."""
         self._refuse_primes(node)
-        return letter and not self._evaluator.vocabulary.has(node) and not self._reads(node)
+        is_letter = isinstance(node, tree.Name | tree.Differential | tree.At)
+        if not is_letter or self._evaluator.vocabulary.has(node):
+            return False
+        if isinstance(node, tree.Name):
+            return True
+        try:
+            self._evaluator.value(node)
+        except BindingError:
+            return True
+        return False
 
     def _refuse_primes(self, node: Node) -> None:
-        """Two primes on a quantity of the system are no new letter but a rate."""
+        """Two primes on a quantity of the system are meant as a rate, not as a new letter."""
         vocabulary = self._evaluator.vocabulary
         if not isinstance(node, tree.Name) or node.primes < 2 or vocabulary.has(node):
             return
@@ -161,21 +152,6 @@ class _Binder:
                 advice=r"write \ddot{...}, or define the letter",
                 option="let",
             )
-
-    def _reads(self, node: Node) -> bool:
-        """Whether a node that is no known letter has a meaning by its parts."""
-        if isinstance(node, tree.Name):
-            return False
-        try:
-            self._evaluator.value(node)
-        except BindingError:
-            return False
-        return True
-
-    def _define(self, node: Node, value: Meaning) -> None:
-        self.defined[node] = value
-        vocabulary = self._evaluator.vocabulary.saying({node: value})
-        self._evaluator = replace(self._evaluator, vocabulary=vocabulary)
 
     def _member(self, printed: PrintedRelation, sign: str) -> BoundRelation:
         left, right = printed.left, printed.right
@@ -192,31 +168,32 @@ class _Binder:
 
     def _sides(self, left: Node, right: Node) -> tuple[Side, Side]:
         if _says_constant(right):
-            changing = rate(self._evaluator.value(left))
-            return _side(changing), _side(zero_like(changing))
+            change = rate(self._evaluator.value(left))
+            return _side(change), _side(zero_like(change))
         for node, other in ((left, right), (right, left)):
             inverse = _inverse(node)
             if inverse is not None:
-                return self._undone(node, inverse, other)
+                # c artanh x = y is read as x = tanh(y/c), which has no branches to choose from
+                value = self._evaluator.value
+                factor = value(tree.replaced(node, inverse, tree.Number("1")))
+                inside = as_scalar(over(value(other), factor), inverse.function)
+                return _side(value(inverse.argument)), FORWARD[inverse.function](inside)
         one, two = self._evaluator.value(left), self._evaluator.value(right)
         return _side(one), _side(two)
 
-    def _undone(self, node: Node, inverse: tree.Call, other: Node) -> tuple[Side, Side]:
-        """c artanh x = y read as x = tanh(y/c)."""
-        value = self._evaluator.value
-        factor = value(_without(node, inverse))
-        inside = as_scalar(over(value(other), factor), inverse.function)
-        return _side(value(inverse.argument)), FORWARD[inverse.function](inside)
-
     def _half_unit(self, node: Node) -> Expr | None:
+        """Half a unit of the last digit of the only decimal number in a node, times its factor."""
         numbers = [p for p in walk(node) if isinstance(p, tree.Number) and "." in p.text]
         if len(numbers) != 1:
             return None
         (number,) = numbers
         half = Fraction(1, 2 * 10 ** len(number.text.partition(".")[2]))
-        unit = as_scalar(self._evaluator.value(_replaced(node, number, "1")), "a number")
-        none = as_scalar(self._evaluator.value(_replaced(node, number, "0")), "a number")
-        return (unit - none) * half
+
+        def with_number(text: str) -> Expr:
+            changed = tree.replaced(node, number, tree.Number(text))
+            return as_scalar(self._evaluator.value(changed), "a number")
+
+        return (with_number("1") - with_number("0")) * half
 
 
 def _by_cases(relation: Relation) -> Iterator[Relation]:
@@ -238,12 +215,12 @@ def _labelled(node: Node, words: str) -> Node:
 
 def _says_constant(node: Node) -> bool:
     words = {tree.Name: "letter", tree.Words: "text"}.get(type(node), "")
-    said = str(getattr(node, words, "")).strip(" .,") if words else ""
-    return said in ("constant", "const", "constant vector")
+    text = str(getattr(node, words, "")).strip(" .,") if words else ""
+    return text in ("constant", "const", "constant vector")
 
 
 def _inverse(node: Node) -> tree.Call | None:
-    """The inverse function that a side consists of, but for factors."""
+    """The inverse function that a side consists of, apart from factors."""
     match node:
         case tree.Call(function) if function in FORWARD:
             return node
@@ -253,24 +230,6 @@ def _inverse(node: Node) -> tree.Call | None:
         case tree.Negative(of):
             return _inverse(of)
     return None
-
-
-def _without(node: Node, inverse: tree.Call) -> Node:
-    one = tree.Number("1")
-
-    def change(piece: Node) -> Node:
-        return one if piece is inverse else tree.mapped(piece, change)
-
-    return change(node)
-
-
-def _replaced(node: Node, number: tree.Number, text: str) -> Node:
-    def change(piece: Node) -> Node:
-        if piece is number:
-            return tree.Number(text)
-        return tree.mapped(piece, change)
-
-    return change(node)
 
 
 def _side(meaning: Meaning) -> Side:
@@ -310,4 +269,6 @@ def _scalars(left: Side, right: Side) -> Iterator[tuple[Expr, Expr]]:
         case Vector(), Expr() if not right:
             yield from ((component, ZERO) for component in left.components)
         case _:
-            raise BindingError("a scalar set equal to a vector", expected="two of a kind")
+            raise BindingError(
+                "a scalar set equal to a vector", expected="two scalars or two vectors"
+            )

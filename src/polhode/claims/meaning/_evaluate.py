@@ -1,4 +1,4 @@
-"""From what is printed to what is meant: a node of the tree becomes a scalar or a vector."""
+"""Values of printed formulas: a node of the tree becomes a scalar, a vector or a tensor."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from functools import reduce, singledispatchmethod
 
 from polhode.algebra import (
     Expr,
-    Symbol,
     Vector,
     as_symbol,
     cos,
@@ -23,9 +22,9 @@ from polhode.algebra import (
 from polhode.algebra import tanh as tanh
 from polhode.base import NumericError
 from polhode.claims.latex import _tree as tree
+from polhode.claims.latex._names import spelled
 from polhode.claims.meaning import _meaning as meanings
 from polhode.claims.meaning._meaning import BindingError, Meaning, as_scalar, as_vector
-from polhode.claims.meaning._spelling import spelled
 from polhode.claims.meaning._vocabulary import LAGRANGIAN, Vocabulary
 
 TIME = tree.Name("t")
@@ -47,7 +46,7 @@ _FUNCTIONS: dict[str, Callable[[Expr], Expr]] = {
     "exp": exp,
 }
 
-#: What undoes an inverse function: artanh x = y says x = tanh y.
+#: The inverse of each inverse function: artanh x = y says x = tanh y.
 FORWARD: dict[str, Callable[[Expr], Expr]] = {
     "arcsin": sin,
     "arccos": cos,
@@ -61,12 +60,12 @@ FORWARD: dict[str, Callable[[Expr], Expr]] = {
 
 
 class UnclearDerivativeError(BindingError):
-    """A derivative with d by a coordinate, of a quantity that varies otherwise as well."""
+    """A derivative d/dθ of a quantity that varies with more than θ."""
 
     def __init__(self, of: str, by: str) -> None:
         super().__init__(
             f"d({of})/d({by}) where {of} varies with more than {by}",
-            expected="one that all readings agree on",
+            expected="a derivative on which all readings agree",
             advice=f"write \\partial for the derivative at fixed speeds, or the rate of {of} over "
             f"the rate of {by} for the one along the motion",
         )
@@ -92,12 +91,12 @@ class Evaluator:
         Raises `BindingError` for symbols without a meaning and for kinds that do not go together.
         """
         key = node, self.upper, self.per_time
-        known = self.vocabulary.found
+        known = self.vocabulary.values
         if key not in known:
-            known[key] = self._found(node)
+            known[key] = self._computed(node)
         return known[key]
 
-    def _found(self, node: tree.Node) -> Meaning:
+    def _computed(self, node: tree.Node) -> Meaning:
         found = self.vocabulary.find(node)
         if found is not None:
             return found
@@ -146,24 +145,16 @@ class Evaluator:
         if node.partial:
             whole = self.vocabulary.mechanics.in_rates(whole)
         elif {s for s in whole.symbols() if s.kind.varies} - {variable}:
-            return self._total(node, whole, variable)
-        return reduce(lambda value, _: value.diff(variable), range(node.order), whole)
-
-    def _total(self, node: tree.Derivative, whole: Expr, variable: Symbol) -> Expr:
-        """dE/dθ where E depends on more than θ: two readings, neither of which goes by itself.
-
-        Raises `UnclearDerivativeError` where the vocabulary settles on none.
-        """
-        match self.vocabulary.totals:
-            case "partial":
-                return reduce(lambda value, _: value.diff(variable), range(node.order), whole)
-            case "along the motion":
+            # dE/dθ where E varies with more than θ is ∂E/∂θ in some texts, Ė/θ̇ in others.
+            if not self.vocabulary.total_derivative:
+                raise UnclearDerivativeError(spelled(node.of), spelled(node.by))
+            if self.vocabulary.total_derivative == "along the motion":
                 rate = Expr.generator(variable).dt()
                 return reduce(lambda value, _: value.dt() / rate, range(node.order), whole)
-        raise UnclearDerivativeError(spelled(node.of), spelled(node.by))
+        return reduce(lambda value, _: value.diff(variable), range(node.order), whole)
 
     def _seen_from_axes(self, value: Meaning) -> Meaning:
-        """∂L/∂t of a vector: the rate that its axes see."""
+        """∂L/∂t of a vector: its rate relative to the axes of the body."""
         if isinstance(value, Vector):
             axes = self.vocabulary.mechanics.body.axes
             return value.express(axes).dt(axes)
@@ -218,19 +209,16 @@ class Evaluator:
 
     @_value.register
     def _(self, node: tree.Power) -> Meaning:
-        if self._is_exponential(node):
+        # e is Euler's number unless the text defines it; e² may be the square of a length.
+        is_number = isinstance(node.exponent, tree.Number)
+        if node.base == _EULER and not is_number and not self.vocabulary.has(_EULER):
             return exp(self.scalar(node.exponent))
         return meanings.power(self.value(node.base), self.value(node.exponent), self._root)
-
-    def _is_exponential(self, node: tree.Power) -> bool:
-        """Whether e is no letter of the text; e² would rather be one that it does not explain."""
-        plain = isinstance(node.exponent, tree.Number)
-        return node.base == _EULER and not plain and not self.vocabulary.has(_EULER)
 
     @_value.register
     def _(self, node: tree.Root) -> Meaning:
         if node.index is not None and self.scalar(node.index) != 2:
-            raise BindingError("a root that is no square root", expected="a square root")
+            raise BindingError("a root other than a square root", expected="a square root")
         return self._root(self.scalar(node.of))
 
     def _root(self, radicand: Expr) -> Expr:
@@ -242,7 +230,7 @@ class Evaluator:
             raise BindingError(
                 f"the function {node.function}",
                 expected=f"one of {', '.join(_FUNCTIONS)}",
-                advice="an inverse function may stand alone on one side, but for a factor",
+                advice="an inverse function may stand alone on one side, apart from factors",
             )
         return _FUNCTIONS[node.function](self.scalar(node.argument))
 
@@ -265,8 +253,8 @@ class Evaluator:
     def _(self, node: tree.Evaluated) -> Meaning:
         raise BindingError(
             f"a quantity taken at {node.subscript}",
-            expected="one at the state that the claim is about",
-            advice=f"leave the bar out and restrict the claim to {node.subscript}",
+            expected="a quantity at the state that the claim is about",
+            advice=f"leave out the bar and restrict the claim to {node.subscript}",
             option="given",
         )
 

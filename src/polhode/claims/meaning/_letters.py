@@ -8,13 +8,14 @@ turns with the body and happens to keep their labels.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
+from functools import lru_cache
 
 from polhode.algebra import Vector
+from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Name, Node
 from polhode.claims.meaning._mechanics import Mechanics
-from polhode.claims.meaning._spelling import name_of
 from polhode.model import Contact, Element, Frame, Gravity, Pivot
 
 _VECTOR, _HAT = "vector", "hat"
@@ -23,19 +24,14 @@ _VECTOR, _HAT = "vector", "hat"
 Entry = tuple[Node, tuple[str, ...]]
 
 
-def letters(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
+@lru_cache(maxsize=16)  # systems; mechanics are compared by identity
+def phrases_by_letter(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
     """Phrases for what each letter may stand for, the likeliest first."""
     found: dict[Node, dict[str, None]] = {}
-    for node, phrases in _entries(mechanics):
-        found.setdefault(node, {}).update(dict.fromkeys(phrases))
+    for entries in (_energies, _elements, _motion, _directions):
+        for node, phrases in entries(mechanics):
+            found.setdefault(node, {}).update(dict.fromkeys(phrases))
     return {node: tuple(phrases) for node, phrases in found.items()}
-
-
-def _entries(mechanics: Mechanics) -> Iterator[Entry]:
-    yield from _energies(mechanics)
-    yield from _elements(mechanics)
-    yield from _motion(mechanics)
-    yield from _directions(mechanics)
 
 
 def _energies(mechanics: Mechanics) -> Iterator[Entry]:
@@ -69,7 +65,8 @@ def _motion(mechanics: Mechanics) -> Iterator[Entry]:
         ("r", "position"),
         ("I", "inertia"),
     ):
-        yield Name(letter, decoration=_VECTOR), _of_each(quantity, mechanics)
+        of_each = [""] if len(bodies) == 1 else [f" of {body.name}" for body in bodies]
+        yield Name(letter, decoration=_VECTOR), tuple(f"{quantity}{of}" for of in of_each)
     yield from {
         Name("v", "cm", decoration=_VECTOR): ("velocity of cm",),
         Name("a", "cm", decoration=_VECTOR): ("acceleration of cm",),
@@ -89,16 +86,10 @@ def _motion(mechanics: Mechanics) -> Iterator[Entry]:
         yield Name("g", decoration=_VECTOR), ("gravity",)
 
 
-def _of_each(quantity: str, mechanics: Mechanics) -> tuple[str, ...]:
-    """The quantity of the body, or of each of several."""
-    bodies = mechanics.equations.system.bodies
-    return (quantity,) if len(bodies) == 1 else tuple(f"{quantity} of {b.name}" for b in bodies)
-
-
 def _about_points(quantity: str, mechanics: Mechanics) -> tuple[str, ...]:
     """The quantity about the centre of mass, and about every point that a pivot keeps at rest.
 
-    A particle has none about itself: that of a free one is about the origin.
+    That of a free particle is about the origin, since it has none about itself.
     """
     fixed = [e.name for e in mechanics.equations.kinetics.elements if _keeps_at_rest(e)]
     bodies = mechanics.equations.system.bodies
@@ -126,17 +117,13 @@ def _elements(mechanics: Mechanics) -> Iterator[Entry]:
         if isinstance(letter, Name):
             plain = replace(letter, subscript="", decoration=_VECTOR)
             yield plain, (f"force of {element.name}",)
-        for label in (element.name, *_labels(element)):
+        kinds = ((Contact, ("contact",)), (Pivot, ("pivot", "p")))
+        usual = next((labels for kind, labels in kinds if isinstance(element, kind)), ())
+        for label in (element.name, *usual):
             yield Name("F", label, decoration=_VECTOR), (f"force of {element.name}",)
             yield Name("v", label, decoration=_VECTOR), (f"velocity of {element.name}",)
             yield Name("L", label, decoration=_VECTOR), (f"angular momentum about {element.name}",)
             yield Name("tau", label, decoration=_VECTOR), (f"torque about {element.name}",)
-
-
-def _labels(element: Element) -> tuple[str, ...]:
-    """What texts write below a letter for the kind of contact or joint."""
-    kinds = ((Contact, ("contact",)), (Pivot, ("pivot", "p")))
-    return next((labels for kind, labels in kinds if isinstance(element, kind)), ())
 
 
 def _directions(mechanics: Mechanics) -> Iterator[Entry]:
@@ -153,7 +140,10 @@ def _directions(mechanics: Mechanics) -> Iterator[Entry]:
                     yield Name(label, decoration=_HAT), (f"axis {label} of {frame.name}",)
         known.update(labels)
     for frame in reversed(chain):
-        for subscript in _triad_names(frame):
+        # Below an ω, texts write the labels of a triad: 123, (1,2,3) or 1,2,3.
+        short = all(len(label) == 1 for label in frame.labels)
+        joined = "".join(frame.labels) if short else " ".join(frame.labels)
+        for subscript in (joined, f"({','.join(frame.labels)})", ",".join(frame.labels)):
             yield (
                 Name("omega", subscript, decoration=_VECTOR),
                 (f"angular velocity of {frame.name}",),
@@ -163,10 +153,3 @@ def _directions(mechanics: Mechanics) -> Iterator[Entry]:
 def _is_fixed(frame: Frame) -> bool:
     """Whether a frame keeps its directions in the root frame: all its angles are constant."""
     return not any(s.kind.varies for f in frame.lineage for s in f.angle.symbols())
-
-
-def _triad_names(frame: Frame) -> Iterable[str]:
-    """What texts write below an ω for a triad: 123, (1,2,3) or 1,2,3."""
-    short = all(len(label) == 1 for label in frame.labels)
-    joined = "".join(frame.labels) if short else " ".join(frame.labels)
-    return joined, f"({','.join(frame.labels)})", ",".join(frame.labels)

@@ -1,4 +1,4 @@
-"""What letters mean: scalars, vectors, inertia tensors; and what signs between them do."""
+"""Meanings of formulas: scalars, vectors and inertia tensors, with the operations on them."""
 
 from __future__ import annotations
 
@@ -25,13 +25,16 @@ class Tensor:
 
 Meaning: TypeAlias = Expr | Vector | Tensor
 
+#: One side of a relation.
+Side = Expr | Vector
+
 
 class BindingError(ParseError):
     """A formula that was read but whose symbols cannot be given a meaning.
 
     Attributes:
-        symbol: the symbol at fault, in ASCII; empty where the trouble is a sign between two.
-        near: names that are known and resemble it.
+        symbol: the symbol at fault, in ASCII; empty where two quantities do not go together.
+        near: known names that resemble it.
     """
 
     def __init__(
@@ -91,8 +94,13 @@ def cross(left: Meaning, right: Meaning) -> Meaning:
     match left, right:
         case Vector(), Vector():
             return left.cross(right)
-        case (Expr(), Expr()) | (Expr(), Vector()) | (Vector(), Expr()):
-            return _stretched(left, right)
+        case Expr(), Expr():
+            return left * right
+        case (Expr() as factor, Vector()) | (Vector(), Expr() as factor):
+            # Unless the scalar is a plain number, it is a vector that lost its hat or boldness.
+            if factor.rational is None:
+                raise _mismatch(left, "×", right, "look for a lost hat or arrow")
+            return times(left, right)
     raise _mismatch(left, "×", right, "")
 
 
@@ -106,15 +114,6 @@ def dot(left: Meaning, right: Meaning) -> Meaning:
         case (Expr(), Expr()) | (Expr(), Vector()) | (Vector(), Expr()):
             return times(left, right)
     raise _mismatch(left, "·", right, "")
-
-
-def _stretched(left: Meaning, right: Meaning) -> Meaning:
-    """A scalar × a vector is a lost hat or bold letter, unless the scalar is a plain number."""
-    both = isinstance(left, Expr) and isinstance(right, Expr)
-    numbers = [m.rational for m in (left, right) if isinstance(m, Expr)]
-    if both or any(number is not None for number in numbers):
-        return times(left, right)
-    raise _mismatch(left, "×", right, "look for a lost hat or arrow")
 
 
 def over(above: Meaning, below: Meaning) -> Meaning:
@@ -131,7 +130,7 @@ def power(base: Meaning, exponent: Meaning, root: Callable[[Expr], Expr]) -> Mea
     number = exponent.rational if isinstance(exponent, Expr) else None
     if number is None or number.denominator > 2 or abs(number) > _HIGHEST:
         raise BindingError(
-            "a power whose exponent is no number",
+            "a power whose exponent is not a number",
             expected=f"a whole or half number up to {_HIGHEST}",
         )
     if isinstance(base, Tensor):
@@ -177,7 +176,7 @@ def sort(meaning: Meaning) -> str:
 
 
 def positive_root(radicand: Expr, positive: Collection[Expr]) -> Expr:
-    """The square root, where the signs of some quantities are known besides."""
+    """The square root, simplified by the known signs of some quantities."""
     try:
         return with_signs(sqrt(radicand), positive)
     except NumericError as error:
@@ -187,12 +186,12 @@ def positive_root(radicand: Expr, positive: Collection[Expr]) -> Expr:
 
 
 def positive_size(x: Expr, positive: Collection[Expr]) -> Expr:
-    """The magnitude, where the signs of some quantities are known besides."""
+    """The magnitude, simplified by the known signs of some quantities."""
     return with_signs(absolute(x), positive)
 
 
 def signed(meaning: Meaning, positive: Collection[Expr]) -> Meaning:
-    """A scalar or vector in which the signs of some quantities are used."""
+    """A scalar or vector simplified by the known signs of some quantities."""
     match meaning:
         case Expr():
             return with_signs(meaning, positive)
@@ -203,15 +202,13 @@ def signed(meaning: Meaning, positive: Collection[Expr]) -> Meaning:
 
 def with_signs(x: Expr, positive: Collection[Expr]) -> Expr:
     """With |f| replaced by f for every f that is known to be positive."""
-    plain = {g: known for g in x.generators if (known := _unwrapped(g, positive)) is not None}
-    return x.recast(plain) if plain else x
-
-
-def _unwrapped(generator: Generator, positive: Collection[Expr]) -> Expr | None:
-    inside = getattr(generator, "plain", None)
-    if inside is None:
-        return None
-    return next((f for f in (inside, -inside) if f in positive), None)
+    known: dict[Generator, Expr] = {}
+    for generator in x.generators:
+        inside = getattr(generator, "plain", None)  # the f of a generator |f|
+        for f in () if inside is None else (inside, -inside):
+            if f in positive:
+                known.setdefault(generator, f)
+    return x.recast(known) if known else x
 
 
 def alike(one: Meaning, other: Meaning) -> bool:

@@ -1,7 +1,7 @@
 """Quantities of a model, formed from its declaration.
 
-All declared speeds, all rates and the reaction components stay symbols: what a text says of a
-quantity is then a statement about the declaration, and not about equations derived from it.
+All declared speeds, all rates and the reaction components stay symbols, so that a claim about a
+quantity is a claim about the declaration, and not about equations derived from it.
 """
 
 from __future__ import annotations
@@ -12,14 +12,29 @@ from functools import cached_property
 from polhode.algebra import ZERO, Expr, SymbolKind, Vector, linear_parts, solve, symbols
 from polhode.base import DeclarationError
 from polhode.claims.balance._declared import Placement, declared, reaction_symbol
+from polhode.claims.latex._names import name_of
+from polhode.claims.latex._tree import Node
 from polhode.claims.meaning._meaning import Meaning, Tensor
 from polhode.derive import Equations
 from polhode.model import Body, Frame, Gravity, Restraint
 
 
 @dataclass(frozen=True, eq=False)
+class EquationsKey:
+    """Equations as a key of a cache, equal only to the key of the very same object."""
+
+    equations: Equations
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, EquationsKey) and self.equations is other.equations
+
+    def __hash__(self) -> int:
+        return id(self.equations)
+
+
+@dataclass(frozen=True, eq=False)
 class Mechanics:
-    """The quantities of one system; where no body is named, its first one is meant.
+    """The quantities of one system; of its first body unless another is named.
 
     A point is "cm" (of all bodies), "origin", the name of a body (its centre of mass) or of a
     contact or joint (the point of the body where it acts). Vectors are in inertial space, SI.
@@ -42,6 +57,11 @@ class Mechanics:
         return found | {line.name: _reaction(line.name) for line in self.equations.lines}
 
     @cached_property
+    def letters(self) -> dict[Node, Expr]:
+        """The scalars by the letters that they are printed as, with their dots."""
+        return {name_of(name): value for name, value in self.scalars.items()}
+
+    @cached_property
     def declared(self) -> Placement:
         """The declaration with every body placed."""
         return declared(self.equations.system)
@@ -50,7 +70,7 @@ class Mechanics:
 
     @property
     def body(self) -> Body:
-        """The body meant where none is named."""
+        """The first body, which phrases mean unless they name another."""
         return self.equations.system.bodies[0]
 
     def _body(self, name: str) -> Body:
@@ -66,7 +86,7 @@ class Mechanics:
         return {"lab": self.body.axes.root, "body": self.body.fixed_axes or self.body.axes, **named}
 
     def frame(self, name: str = "") -> Frame:
-        """The frame with a name; the axes of the first body where none is named."""
+        """The frame with a name; without a name, the axes of the first body."""
         if not name:
             return self.body.axes
         if name not in self.frames:
@@ -138,9 +158,9 @@ class Mechanics:
 
     def acceleration(self, of: str = "") -> Vector:
         """Of a centre of mass, m/s²."""
-        return self.velocity(of).dt() if of == "cm" else self._acceleration_of(self._place(of)[0])
-
-    def _acceleration_of(self, body: Body) -> Vector:
+        if of == "cm":
+            return self.velocity(of).dt()
+        body, _ = self._place(of)
         return self.declared.places[body].dt().dt()
 
     def angular_velocity(self, of: str = "") -> Vector:
@@ -200,7 +220,7 @@ class Mechanics:
         return sum(shares, self.body.axes.zero)
 
     def torque(self, about: str = "cm") -> Vector:
-        """Of all that acts from outside, about a point, N m."""
+        """Of all external forces and couples about a point, N m."""
         centre, places = self.position(about or "cm"), self.declared.places
         total = self.body.axes.zero
         for line in self.equations.lines:
@@ -262,7 +282,7 @@ class Mechanics:
         return self.in_rates(self.lagrangian()).diff(known[coordinate].derivative())
 
     def in_speeds(self, quantity: Meaning) -> Meaning:
-        """With rates of coordinates such as ẏ put in terms of the speeds that are declared."""
+        """With rates of coordinates such as ẏ expressed by the declared speeds."""
         rates = {q.derivative(): rate for q, rate in self.declared.rates.items()}
         match quantity:
             case Expr():
@@ -272,7 +292,7 @@ class Mechanics:
         return quantity
 
     def in_rates(self, expression: Expr) -> Expr:
-        """With speeds such as ω₃ put in terms of the rates of the coordinates."""
+        """With speeds such as ω₃ expressed by the rates of the coordinates."""
         rates = self.declared.rates
         found = {s for rate in rates.values() for s in rate.symbols() if s.kind is SymbolKind.SPEED}
         speeds = sorted(found, key=lambda symbol: symbol.published)

@@ -1,4 +1,4 @@
-"""Quantities by name: "axis 3", "angular momentum about pivot", "kinetic energy"."""
+"""Quantities named by phrases: "axis 3", "angular momentum about pivot", "kinetic energy"."""
 
 from __future__ import annotations
 
@@ -7,37 +7,44 @@ from collections.abc import Callable
 from difflib import get_close_matches
 from functools import lru_cache
 
-from polhode.algebra import Expr, Vector, read_expression, time
+from polhode.algebra import (
+    ZERO,
+    Expr,
+    Symbol,
+    Vector,
+    as_symbol,
+    linear_parts,
+    read_expression,
+    solve,
+    sqrt,
+    time,
+)
 from polhode.base import DeclarationError, ParseError
 from polhode.claims.meaning._meaning import BindingError, Meaning
 from polhode.claims.meaning._mechanics import Mechanics
-from polhode.claims.meaning._motions import precession, radius_of_curvature, uniform_velocity
 
 
 @lru_cache(maxsize=4096)
 def quantity(mechanics: Mechanics, phrase: str) -> Meaning:
     """The quantity of a model that a phrase names; docs/claims-format.md lists all of them.
 
-    Raises `BindingError` for a phrase that names none, or something the system does not have.
+    Raises `BindingError` for any other phrase, and for quantities that the system does not have.
     """
     words = " ".join(phrase.split())
     for pattern, method in _PHRASES:
         match = pattern.fullmatch(words)
-        if match:
-            return _found(words, method, mechanics, match.groupdict(default=""))
-    return _spelled(mechanics, words)
+        if match is None:
+            continue
+        try:
+            return method(mechanics, **match.groupdict(default=""))
+        except DeclarationError as error:
+            raise BindingError(
+                f"{words!r}: {error.given}", expected=error.expected, advice=error.advice
+            ) from None
+    return _by_expression(mechanics, words)
 
 
-def _found(words: str, method: _Method, mechanics: Mechanics, named: dict[str, str]) -> Meaning:
-    try:
-        return method(mechanics, **named)
-    except DeclarationError as error:
-        raise BindingError(
-            f"{words!r}: {error.given}", expected=error.expected, advice=error.advice
-        ) from None
-
-
-def _spelled(mechanics: Mechanics, words: str) -> Meaning:
+def _by_expression(mechanics: Mechanics, words: str) -> Meaning:
     """An expression of published names."""
     try:
         return read_expression(words, mechanics.scalars)
@@ -79,20 +86,35 @@ def _published(mechanics: Mechanics, name: str) -> Expr:
     return mechanics.scalars[name]
 
 
-def _time(_: Mechanics) -> Expr:
-    return time
-
-
 def _radius_of_curvature(mechanics: Mechanics) -> Vector:
-    return radius_of_curvature(mechanics.position())
+    """From the centre of curvature of the path to the point, m; of a path that is not straight."""
+    velocity = mechanics.position().dt()
+    across = velocity.cross(velocity.dt())
+    outwards = velocity.cross(across)
+    return outwards * (velocity.dot(velocity) / across.dot(across))
 
 
 def _uniform_velocity(mechanics: Mechanics) -> Vector:
-    return uniform_velocity(mechanics.equations, mechanics.velocity())
+    """The one velocity at which there is no acceleration, m/s."""
+    equations, velocity = mechanics.equations, mechanics.velocity()
+    unknowns = tuple(
+        speed
+        for speed in equations.speeds
+        if any(speed in a.symbols() for a in equations.accelerations.values())
+    )
+    resolved = equations.kinetics.resolve(velocity)
+    rows = [linear_parts(equations.accelerations[s.derivative()], unknowns) for s in unknowns]
+    try:
+        found = solve([row for row, _ in rows], [-rest for _, rest in rows])
+    except ZeroDivisionError:
+        raise DeclarationError(
+            "the uniform velocity", expected="a system with exactly one constant velocity"
+        ) from None
+    return resolved.subs({Expr.generator(s): v for s, v in zip(unknowns, found, strict=True)})
 
 
 def _fictitious(mechanics: Mechanics, kind: str, frame: str) -> Vector:
-    from polhode.analyse import fictitious_torque  # few texts speak of them
+    from polhode.analyse import fictitious_torque  # loaded only for the few texts that need it
 
     equations, turning = mechanics.equations, mechanics.frame(frame)
     torques = fictitious_torque(equations, mechanics.body, turning)
@@ -101,10 +123,33 @@ def _fictitious(mechanics: Mechanics, kind: str, frame: str) -> Vector:
 
 
 def _precession(mechanics: Mechanics, pace: str, coordinate: str) -> Expr:
+    """The smaller or larger of two rates of steady motion, for quick spin, rad/s."""
+    from polhode.analyse import steady  # loaded only for the few texts that need it
+
     rate = mechanics.scalars.get(f"{coordinate}_dot")
     if rate is None:
         raise DeclarationError(f"coordinate {coordinate!r}", expected="one of the system")
-    return precession(mechanics.equations, rate, slower=pace == "slow")
+    symbol = as_symbol(rate)
+    for family in steady(mechanics.equations):
+        for relation in family.relations:
+            coefficients = _quadratic(relation, symbol)
+            if coefficients is not None:
+                a, b, c = coefficients
+                # The slow root vanishes with c; b/a is taken as negative.
+                root = sqrt(1 - 4 * a * c / b**2)
+                return -b / (2 * a) * (1 - root if pace == "slow" else 1 + root)
+    raise DeclarationError(
+        f"slow and fast {symbol.published}", expected="a steady motion with two values of it"
+    )
+
+
+def _quadratic(relation: Expr, symbol: Symbol) -> tuple[Expr, Expr, Expr] | None:
+    """The coefficients a, b, c of a x² + b x + c; None for any other function of x."""
+    second = relation.diff(symbol).diff(symbol)
+    if not second or symbol in second.symbols():
+        return None
+    at_zero = {symbol: ZERO}
+    return second / 2, relation.diff(symbol).subs(at_zero), relation.subs(at_zero)
 
 
 _Method = Callable[..., Meaning]
@@ -142,7 +187,7 @@ _PHRASES: tuple[tuple[re.Pattern[str], _Method], ...] = tuple(
         (r"\((?P<entries>.*,.*)\) along (?P<along>.+)", _components),
         (r"(?P<kind>Coriolis|centrifugal|Euler) torque in (?P<frame>.+)", _fictitious),
         (r"least (?P<name>\w+)", _least),
-        (r"time", _time),
+        (r"time", lambda _: time),
         (r"radius of curvature", _radius_of_curvature),
         (r"uniform velocity", _uniform_velocity),
         (r"(?P<pace>slow|fast) steady (?P<coordinate>\w+?)_dot", _precession),

@@ -1,4 +1,4 @@
-"""What the letters of a text stand for in a model: by themselves, or as the text says."""
+"""What the letters of a text stand for in a model: by usage, or as the text states."""
 
 from __future__ import annotations
 
@@ -9,13 +9,12 @@ from functools import cached_property, lru_cache
 from itertools import chain
 
 from polhode.algebra import Expr, Symbol, SymbolKind, Vector, pi, time
+from polhode.claims.latex._names import name_of, spelled
 from polhode.claims.latex._tree import At, Call, Component, Derivative, Name, Node, Piece, walk
-from polhode.claims.meaning._letters import letters
+from polhode.claims.meaning._letters import phrases_by_letter
 from polhode.claims.meaning._meaning import BindingError, Meaning, alike, dot, positive_root
-from polhode.claims.meaning._mechanics import Mechanics
+from polhode.claims.meaning._mechanics import EquationsKey, Mechanics
 from polhode.claims.meaning._phrases import quantity
-from polhode.claims.meaning._spelling import name_of, spelled
-from polhode.claims.meaning._the import The
 from polhode.derive import Equations
 
 LAGRANGIAN = Name("L")  # where it is no angular momentum
@@ -41,7 +40,7 @@ class Reading:
 
 @dataclass(frozen=True)
 class Sense:
-    """What a letter stands for, and the readings that this rests on: of **L** and ẑ for L_z."""
+    """What a letter stands for, and the readings behind it: of **L** and ẑ for L_z."""
 
     meaning: Meaning
     readings: tuple[Reading, ...] = ()
@@ -53,39 +52,39 @@ class Vocabulary:
 
     Attributes:
         mechanics: of the system.
-        told: what the text says its letters stand for; goes before what is known by itself.
+        stated: what the text says its letters stand for; this overrides all other meanings.
         positive: quantities that the text takes as positive.
         columns: name of the frame that components in a bracket are along.
         chosen: letters that the field uses for several quantities, with the one that is meant.
-        totals: how dE/dθ of what varies otherwise too is read: "partial" or "along the motion";
-            empty where it is not read at all.
+        total_derivative: how dE/dθ is read where E varies with more than θ: "partial" or "along
+            the motion"; empty where it is refused.
     """
 
     mechanics: Mechanics
-    told: Mapping[Node, Meaning] = field(default_factory=dict)
+    stated: Mapping[Node, Meaning] = field(default_factory=dict)
     positive: tuple[Expr, ...] = ()
     columns: str = ""
     chosen: Mapping[Name, str] = field(default_factory=dict)
-    totals: str = ""
+    total_derivative: str = ""
 
     @cached_property
-    def found(self) -> dict[tuple[Node, bool, bool], Meaning]:
-        """What nodes were found to stand for, by how ± and differentials were read."""
+    def values(self) -> dict[tuple[Node, bool, bool], Meaning]:
+        """Values of nodes found so far, by how ± and differentials were read."""
         return {}
 
     @classmethod
     def of(cls, equations: Equations) -> Vocabulary:
         """What is known from the declaration alone."""
-        return cls(_mechanics(The(equations)))
+        return cls(_mechanics(EquationsKey(equations)))
 
-    def saying(self, told: Mapping[Node, Meaning]) -> Vocabulary:
+    def stating(self, meanings: Mapping[Node, Meaning]) -> Vocabulary:
         """With more letters, or with other meanings."""
-        return replace(self, told={**self.told, **told})
+        return replace(self, stated={**self.stated, **meanings})
 
     @property
     def declared(self) -> dict[Node, Expr]:
-        """Letters that the declaration itself uses, with their dots; they have their meaning."""
-        return _declared(self.mechanics)
+        """Letters that the declaration itself uses, with their dots, and their meanings."""
+        return self.mechanics.letters
 
     def choosing(self, chosen: Mapping[Name, str]) -> Vocabulary:
         """With letters of several meanings read as quantities of the model."""
@@ -126,14 +125,14 @@ class Vocabulary:
         return None if sense is None else sense.meaning
 
     def sense(self, node: Node) -> Sense | None:
-        """What a letter stands for and on which readings that rests, or None.
+        """What a letter stands for and the readings behind that, or None.
 
         Transcripts lose boldness and hats: a plain letter may be a vector, and the reverse.
         """
         if isinstance(node, Name):
             return self._named(node)
-        if node in self.told:
-            return Sense(self.told[node])
+        if node in self.stated:
+            return Sense(self.stated[node])
         if isinstance(node, At) and node.argument == Name("t"):
             return self.sense(node.of)
         return None
@@ -149,9 +148,9 @@ class Vocabulary:
         return {}
 
     def _candidates(self, name: Name) -> Iterator[Sense | None]:
-        """What a letter may mean, likeliest first: what the text says goes before what is known."""
-        yield self._said(name)
-        yield self._component(name, self._said)
+        """What a letter may mean, likeliest first; what the text states comes before the rest."""
+        yield self._stated(name)
+        yield self._component(name, self._stated)
         yield self._exactly(name)
         for form in _FORMS[name.decoration]:
             found = self._exactly(replace(name, decoration=form))
@@ -160,21 +159,21 @@ class Vocabulary:
         if name.letter == "e":  # e_z for a unit vector
             yield self._exactly(Name(name.subscript, decoration=_HAT))
 
-    def _said(self, name: Name) -> Sense | None:
-        return Sense(self.told[name]) if name in self.told else None
+    def _stated(self, name: Name) -> Sense | None:
+        return Sense(self.stated[name]) if name in self.stated else None
 
     def _exactly(self, name: Name) -> Sense | None:
-        """What a letter itself is known as, be it by the text, the declaration or the field.
+        """What a letter itself means, by the text, the declaration or the usage of the field.
 
-        Where it has the label of an axis below, it may be meant as a component all the same: F_z
-        that is declared along a rod which swings is not F·ẑ.
+        A letter with the label of an axis may still be meant as a component: an F_z declared
+        along a swinging rod is not F·ẑ.
         """
-        if name in self.told:
-            return self._said(name)
+        if name in self.stated:
+            return self._stated(name)
         if name in self.chosen:
             return self._read(name, (self.chosen[name],))
-        phrases = _phrases(self.mechanics).get(name, ())
-        if name in self._plain:
+        phrases = phrases_by_letter(self.mechanics).get(name, ())
+        if name in self._symbols:
             phrases = (f"declared {spelled(name)}",)
         component = self._component(name, self._exactly) if phrases else None
         if component is not None and len(component.readings) == 2:
@@ -182,11 +181,13 @@ class Vocabulary:
             along = [f"{vector.phrase} along {phrase}" for phrase in axis.phrases]
             if not axis.phrase.startswith("axis "):  # a length taken out of a vector
                 along = []
-            if name in self._plain and self._is_one_of(self._plain[name], along):
-                return Sense(self._plain[name])  # along an axis at rest, as the declaration has it
+            if name in self._symbols and self._is_one_of(self._symbols[name], along):
+                return Sense(
+                    self._symbols[name]
+                )  # along an axis at rest, as the declaration has it
             phrases = (*phrases, *along[:1])
-        if len(phrases) == 1 and name in self._plain:
-            return Sense(self._plain[name])
+        if len(phrases) == 1 and name in self._symbols:
+            return Sense(self._symbols[name])
         return self._read(name, phrases) if phrases else None
 
     def _is_one_of(self, meaning: Meaning, phrases: Iterable[str]) -> bool:
@@ -198,9 +199,10 @@ class Vocabulary:
         meaning = quantity(self.mechanics, distinct[0])
         return Sense(meaning, (Reading(name, distinct[0], distinct),))
 
-    @property
-    def _plain(self) -> dict[Node, Expr]:
-        return _plain(self.mechanics)
+    @cached_property
+    def _symbols(self) -> dict[Node, Expr]:
+        """Letters that stand for a symbol: those of the declaration, π and the time."""
+        return {**self.declared, Name("pi"): pi, Name("t"): time}
 
     def _unit(self, sense: Sense | None) -> Sense | None:
         if sense is None or not isinstance(sense.meaning, Vector):
@@ -220,7 +222,7 @@ class Vocabulary:
         return Sense(dot(vector.meaning, axis.meaning), (*vector.readings, *axis.readings))
 
     def _unknown(self, node: Node) -> BindingError:
-        known = (*self.told, *_phrases(self.mechanics), *self._plain)
+        known = (*self.stated, *phrases_by_letter(self.mechanics), *self._symbols)
         names = {spelled(node): node for node in known}
         near = tuple(get_close_matches(spelled(node), names, n=3, cutoff=0.6))
         return BindingError(
@@ -239,7 +241,7 @@ class Vocabulary:
 
     def letters(self) -> Iterator[Node]:
         """Letters of the text, scalars with their dots, and functions of the angles."""
-        yield from (node for node in self.told if isinstance(node, Name))
+        yield from (node for node in self.stated if isinstance(node, Name))
         for name, value in self.mechanics.scalars.items():
             symbol = value.symbol
             if symbol is not None and symbol.order < 3:
@@ -252,8 +254,8 @@ class Vocabulary:
 
     def vectors(self) -> Iterator[Node]:
         """Letters of vectors that a text on this system may use, those of the text first."""
-        named = _phrases(self.mechanics)
-        for node in dict.fromkeys([*self.told, *named]):
+        named = phrases_by_letter(self.mechanics)
+        for node in dict.fromkeys([*self.stated, *named]):
             if isinstance(node, Name) and node.decoration != _HAT:
                 yield node
 
@@ -272,25 +274,9 @@ def _names(piece: Piece) -> Iterator[Name]:
 
 
 @lru_cache(maxsize=_KEPT)
-def _mechanics(the: The) -> Mechanics:
-    """The same for all texts on one system, with all that was found out about it."""
-    return Mechanics(the.equations)
-
-
-@lru_cache(maxsize=_KEPT)
-def _declared(mechanics: Mechanics) -> dict[Node, Expr]:
-    return {name_of(name): value for name, value in mechanics.scalars.items()}
-
-
-@lru_cache(maxsize=_KEPT)
-def _plain(mechanics: Mechanics) -> dict[Node, Expr]:
-    """Letters that stand for a symbol: those of the declaration, π and the time."""
-    return {**_declared(mechanics), Name("pi"): pi, Name("t"): time}
-
-
-@lru_cache(maxsize=_KEPT)
-def _phrases(mechanics: Mechanics) -> dict[Node, tuple[str, ...]]:
-    return letters(mechanics)
+def _mechanics(key: EquationsKey) -> Mechanics:
+    """One for all texts on a system, so that what it has computed is kept."""
+    return Mechanics(key.equations)
 
 
 @lru_cache(maxsize=4096)

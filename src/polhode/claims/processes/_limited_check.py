@@ -22,7 +22,7 @@ from polhode.base import (
 )
 from polhode.claims._check import CheckRequest
 from polhode.claims._verdict import Verdict
-from polhode.claims.meaning._the import The
+from polhode.claims.meaning._mechanics import EquationsKey
 from polhode.derive import Equations, equations_only
 
 LONGEST = 60.0  # s of processor time
@@ -106,7 +106,7 @@ def uncorrected(failure: Verdict, seconds: float) -> Verdict:
 
 
 # Workers that judge claims on some equations, each while nobody asks it.
-_idle: dict[The, _ClaimWorker] = {}
+_idle: dict[EquationsKey, _ClaimWorker] = {}
 if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_idle.clear)  # they answer the process that began them
 
@@ -115,7 +115,7 @@ def _asked(
     request: CheckRequest, equations: Equations, seconds: float, failed: Tell[Verdict]
 ) -> Verdict:
     """Ask the worker that judges claims on these equations, or a new one."""
-    worker = _idle.pop(The(equations), None)
+    worker = _idle.pop(EquationsKey(equations), None)
     if worker is None or not worker.is_open:
         worker = _ClaimWorker(
             lambda: lambda asked, tell: asked.judged(equations, tell),
@@ -129,7 +129,7 @@ def _asked(
     finally:
         if worker.is_open:
             # Another thread may have kept one for the same equations meanwhile.
-            other, _idle[The(equations)] = _idle.get(The(equations)), worker
+            other, _idle[EquationsKey(equations)] = _idle.get(EquationsKey(equations)), worker
             surplus = [_idle.pop(old) for old in list(_idle)[:-_KEPT]]
             for old in filter(None, [other, *surplus]):
                 old.close()

@@ -1,8 +1,8 @@
-"""Changes of a formula that multiply one place by a known factor, as an author would write them."""
+"""Changes of a formula at one place, as an author would write them, and what they make of it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -17,15 +17,28 @@ from polhode.claims.latex._tree import (
     Power,
     Product,
     Quotient,
+    Statement,
     Sum,
     walk,
 )
 from polhode.claims.repair._multiplier import Match
-from polhode.claims.repair._places import ONE, NodePosition, negated, over, raised, times
+from polhode.claims.repair._places import (
+    ONE,
+    NodePosition,
+    negated,
+    over,
+    places,
+    put,
+    raised,
+    tidied,
+    times,
+)
 
 _AXES = (("1", "2", "3"), ("x", "y", "z"), ("rho", "phi", "z"))
 _PAIRS = (("sin", "cos"), ("sinh", "cosh"), ("tan", "cot"), ("sech", "tanh"))
-_TURNED = {one: other for pair in _PAIRS for one, other in (pair, pair[::-1])}
+_OTHER = {one: other for pair in _PAIRS for one, other in (pair, pair[::-1])}
+_EXCHANGE = 2.0  # size of exchanging sine and cosine throughout: one slip, but not a small one
+_EQUALLY_SMALL = 0.15  # difference in size up to which corrections are proposed together
 
 
 @dataclass(frozen=True)
@@ -50,12 +63,50 @@ class Edit:
         return self.what in ("missing factor", "missing term", "wrong symbol", "wrong expression")
 
 
+@dataclass(frozen=True)
+class Repaired:
+    """A corrected statement and the changes that were made."""
+
+    statement: Statement
+    changes: tuple[Edit, ...]
+
+    @property
+    def size(self) -> float:
+        """How much was changed."""
+        return sum(change.size for change in self.changes)
+
+    def with_changes(self, changes: Sequence[Edit]) -> Repaired:
+        """With more places changed."""
+        changed = self.statement
+        for edit in changes:
+            changed = put(changed, edit.path, edit.node)
+        return Repaired(changed, (*self.changes, *changes))
+
+
+def smallest(found: Sequence[Repaired]) -> tuple[Repaired, ...]:
+    """The smallest, and all others of about its size."""
+    ordered = sorted(found, key=lambda r: r.size)
+    limit = ordered[0].size + _EQUALLY_SMALL
+    kept = {tidied(r.statement): r for r in reversed(ordered) if r.size <= limit}
+    return tuple(reversed(kept.values()))
+
+
+# -- a place multiplied by a factor ---------------------------------------------------------------
+
+
 def edits(place: NodePosition, match: Match) -> Iterator[Edit]:
     """Ways to write that a place is to be multiplied by a matched factor."""
-    if match.powers:
-        yield from _by_quantities(place, match)
-    else:
+    if not match.powers:
         yield from _by_number(place, match.number)
+        return
+    if place.is_term:
+        yield from _inserted(place, match)
+    if match.number == 1 and len(match.powers) == 1:
+        (node, power), *_ = match.powers
+        inside = isinstance(place.parent, Product | Quotient | Negative | PlusMinus)
+        if inside and power == -1 and node == place.node:
+            yield Edit("extra factor", place.path, ONE, 1.0)
+        yield from _repowered(place, node, power)
 
 
 def _by_number(place: NodePosition, number: Fraction) -> Iterator[Edit]:
@@ -67,7 +118,11 @@ def _by_number(place: NodePosition, number: Fraction) -> Iterator[Edit]:
         extra = 0.0 if value.denominator == 1 else 0.5
         what = "wrong power" if place.is_exponent else "wrong factor"
         yield Edit(what, place.path, number_node(value), 1.0 + extra)
-    elif place.is_term and number not in (0, 1) and not _has_number(node):
+    elif (
+        place.is_term
+        and number not in (0, 1)
+        and not any(isinstance(factor, Number) for factor in _factors(node))
+    ):
         changed = _scaled(node, abs(number))
         size = 1.2 if abs(number).denominator == 1 or abs(number).numerator == 1 else 1.6
         if number < 0:
@@ -77,21 +132,8 @@ def _by_number(place: NodePosition, number: Fraction) -> Iterator[Edit]:
         yield Edit("extra term", place.path, Number("0"), 1.0 + len([*letters(node)]) / 20)
 
 
-def emptied(place: NodePosition) -> Iterator[Edit]:
-    """Ways to write that a whole side vanishes: nothing there, or the rate of a constant."""
-    is_letter = isinstance(place.node, Name | Dots)
-    is_said = Number("0") in place.parent.parts
-    if is_letter and is_said:
-        yield replaced(place, dotted(place.node), 1.0)
-    if not is_letter and not is_said:
-        yield Edit("extra term", place.path, Number("0"), 2.0 + len([*letters(place.node)]) / 20)
-
-
-def _has_number(node: Node) -> bool:
-    return any(isinstance(factor, Number) for factor in _factors(node))
-
-
 def _factors(node: Node) -> tuple[Node, ...]:
+    """The factors of a term, above and below."""
     match node:
         case Negative(of) | PlusMinus(of):
             return _factors(of)
@@ -100,16 +142,6 @@ def _factors(node: Node) -> tuple[Node, ...]:
         case Quotient(above, below):
             return (*_factors(above), *_factors(below))
     return (node,)
-
-
-def bases(node: Node) -> set[Node]:
-    """What stands as a factor above the fraction lines, whatever its power."""
-    match node:
-        case Negative(of) | PlusMinus(of) | Power(of, _) | Quotient(of, _):
-            return bases(of)
-        case Product(factors):
-            return {base for factor in factors for base in bases(factor)}
-    return {node}
 
 
 def _scaled(node: Node, number: Fraction) -> Node:
@@ -122,46 +154,29 @@ def _scaled(node: Node, number: Fraction) -> Node:
     return over(above, Number(str(number.denominator)))
 
 
-def _by_quantities(place: NodePosition, match: Match) -> Iterator[Edit]:
-    if place.is_term:
-        yield from _inserted(place, match)
-    yield from _removed(place, match)
-    yield from _repowered(place, match)
-
-
 def _inserted(place: NodePosition, match: Match) -> Iterator[Edit]:
+    """Letters that are missing as factors above or below."""
     if any(power < 0 and node in bases(place.node) for node, power in match.powers):
-        return  # it would only be crossed out
-    above = [raised(node, p) for node, p in match.powers if p > 0]
-    below = [raised(node, -p) for node, p in match.powers if p < 0]
-    number = abs(match.number)
+        return  # it would only be cancelled
     sign = 1 if match.number < 0 else 0
     inner = place.node.of if isinstance(place.node, Negative) else place.node
-    grown = times(Number(str(number.numerator)), *above, inner)
-    shrunk = times(Number(str(number.denominator)), *below)
-    node = over(grown, shrunk)
+    above, below = _above_and_below(match)
+    node = over(times(above, inner), below)
     if isinstance(place.node, Negative) != bool(sign):
         node = Negative(node)
     yield Edit("missing factor", place.path, node, 0.3 + match.size + sign)
 
 
-def _removed(place: NodePosition, match: Match) -> Iterator[Edit]:
-    """A factor that is not to be there: its reciprocal is what the place is multiplied by."""
-    inside = isinstance(place.parent, Product | Quotient | Negative | PlusMinus)
-    if match.number != 1 or not inside or len(match.powers) != 1:
-        return
-    (node, power), *_ = match.powers
-    if power == -1 and node == place.node:
-        yield Edit("extra factor", place.path, ONE, 1.0)
-
-
-def _repowered(place: NodePosition, match: Match) -> Iterator[Edit]:
+def _repowered(place: NodePosition, node: Node, power: int) -> Iterator[Edit]:
     """A quantity that is to have another power."""
-    if match.number != 1 or len(match.powers) != 1:
-        return
-    (node, power), *_ = match.powers
-    base, exponent = _powered(place.node)
-    if base is None or node != base or exponent + power in (0, exponent):
+    match place.node:
+        case Power(base, Number(text)) if text.isdigit():
+            exponent = int(text)
+        case Name() | Dots() | Call():
+            base, exponent = place.node, 1
+        case _:
+            return
+    if node != base or exponent + power in (0, exponent):
         return
     if isinstance(place.parent, Power) and place.parent.base == place.node:
         return
@@ -169,41 +184,69 @@ def _repowered(place: NodePosition, match: Match) -> Iterator[Edit]:
         yield Edit("wrong power", place.path, raised(base, exponent + power), 1.0 + abs(power) / 20)
 
 
-def _powered(node: Node) -> tuple[Node | None, int]:
+def times_match(match: Match, *nodes: Node) -> Node:
+    """Nodes multiplied by a matched factor."""
+    term = times(over(*_above_and_below(match)), *nodes)
+    return negated(term) if match.number < 0 else term
+
+
+def _above_and_below(match: Match) -> tuple[Node, Node]:
+    """Numerator and denominator of the magnitude of a matched factor."""
+    number = abs(match.number)
+    above = [raised(node, p) for node, p in match.powers if p > 0]
+    below = [raised(node, -p) for node, p in match.powers if p < 0]
+    top, bottom = Number(str(number.numerator)), Number(str(number.denominator))
+    return times(top, *above), times(bottom, *below)
+
+
+def number_node(value: Fraction) -> Node:
+    """A positive number as a text prints it."""
+    return over(Number(str(value.numerator)), Number(str(value.denominator)))
+
+
+def bases(node: Node) -> set[Node]:
+    """What stands as a factor above the fraction lines, whatever its power."""
     match node:
-        case Power(base, Number(text)) if text.isdigit():
-            return base, int(text)
-        case Name() | Dots() | Call():
-            return node, 1
-    return None, 0
+        case Negative(of) | PlusMinus(of) | Power(of, _) | Quotient(of, _):
+            return bases(of)
+        case Product(factors):
+            return {base for factor in factors for base in bases(factor)}
+    return {node}
 
 
-def replaced_by(place: NodePosition, known: Mapping[Node, bool]) -> Iterator[Edit]:
-    """A letter or function put in the place of another whose value fits."""
-    for other in known:
+# -- something else at a place --------------------------------------------------------------------
+
+
+def emptied(place: NodePosition) -> Iterator[Edit]:
+    """Ways to write that a whole side vanishes: zero, or the rate of a constant."""
+    is_letter = isinstance(place.node, Name | Dots)
+    beside_zero = Number("0") in place.parent.parts
+    if is_letter and beside_zero:
+        yield replaced(place, dotted(place.node), 1.0)
+    if not is_letter and not beside_zero:
+        yield Edit("extra term", place.path, Number("0"), 2.0 + len([*letters(place.node)]) / 20)
+
+
+def replaced_by(place: NodePosition, others: Iterable[Node]) -> Iterator[Edit]:
+    """Letters or functions whose value fits, put in the place of one."""
+    for other in dict.fromkeys(others):
         if other != place.node:
-            yield Edit(
-                _exchange(place.node, other), place.path, other, _distance(place.node, other)
-            )
+            yield replaced(place, other, _distance(place.node, other))
 
 
 def replaced(place: NodePosition, node: Node, size: float) -> Edit:
     """Something else put at a place."""
-    return Edit(_exchange(place.node, node), place.path, node, size)
+    return Edit(_slip(place.node, node), place.path, node, size)
 
 
-def dotted(node: Node) -> Node:
-    """With one dot more."""
-    return Dots(node.of, node.count + 1) if isinstance(node, Dots) else Dots(node, 1)
-
-
-def _exchange(old: Node, new: Node) -> str:
+def _slip(old: Node, new: Node) -> str:
+    """What an author did who wrote the one for the other."""
     if isinstance(old, Call) and isinstance(new, Call):
         same = old.function == new.function
         return "wrong angle" if same else f"{old.function} where {new.function} is right"
-    if _bare(old) == _bare(new):
-        return "dot lost" if _dots(new) > _dots(old) else "one dot too many"
     first, second = _bare(old), _bare(new)
+    if first == second:
+        return "dot lost" if _dots(new) > _dots(old) else "one dot too many"
     if isinstance(first, Name) and isinstance(second, Name):
         if first.decoration == second.decoration == "hat":
             return "swapped component"
@@ -213,6 +256,7 @@ def _exchange(old: Node, new: Node) -> str:
 
 
 def _distance(old: Node, new: Node) -> float:
+    """The size of the change: a little larger for letters that are less alike."""
     if isinstance(old, Call) and isinstance(new, Call):
         return 1.0
     first, second = _bare(old), _bare(new)
@@ -221,12 +265,12 @@ def _distance(old: Node, new: Node) -> float:
     return 1.05 if _decoration(first) == _decoration(second) else 1.1
 
 
-def _decoration(node: Node) -> str | None:
-    return node.decoration if isinstance(node, Name) else None
-
-
 def _letter(node: Node) -> str:
     return node.letter if isinstance(node, Name) else ""
+
+
+def _decoration(node: Node) -> str | None:
+    return node.decoration if isinstance(node, Name) else None
 
 
 def _bare(node: Node) -> Node:
@@ -237,27 +281,9 @@ def _dots(node: Node) -> int:
     return node.count if isinstance(node, Dots) else 0
 
 
-def times_match(match: Match, *nodes: Node) -> Node:
-    """Nodes multiplied by a matched factor."""
-    above = [raised(node, p) for node, p in match.powers if p > 0]
-    below = [raised(node, -p) for node, p in match.powers if p < 0]
-    number = abs(match.number)
-    top = times(Number(str(number.numerator)), *above)
-    factor = over(top, times(Number(str(number.denominator)), *below))
-    term = times(factor, *nodes)
-    return negated(term) if match.number < 0 else term
-
-
-def number_node(value: Fraction) -> Node:
-    """A positive number as a text prints it."""
-    return over(Number(str(value.numerator)), Number(str(value.denominator)))
-
-
-def turned(node: Node) -> Node | None:
-    """The function that a sine, cosine or the like is most easily confused with."""
-    if isinstance(node, Call) and node.function in _TURNED:
-        return Call(_TURNED[node.function], node.argument)
-    return None
+def dotted(node: Node) -> Node:
+    """With one dot more."""
+    return Dots(node.of, node.count + 1) if isinstance(node, Dots) else Dots(node, 1)
 
 
 def letters(node: Node) -> Iterator[Node]:
@@ -280,3 +306,26 @@ def relabelled(node: Node) -> Iterator[Node]:
 
 def _other_labels(label: str) -> Iterator[str]:
     return (other for axes in _AXES if label in axes for other in axes if other != label)
+
+
+def other_function(node: Node) -> Node | None:
+    """The function that a sine, cosine or the like is most easily confused with."""
+    if isinstance(node, Call) and node.function in _OTHER:
+        return Call(_OTHER[node.function], node.argument)
+    return None
+
+
+def exchanged_functions(statement: Statement) -> Iterator[tuple[Edit, ...]]:
+    """An angle taken from the wrong axis: its sine and cosine exchanged wherever they stand.
+
+    For every angle of which both occur, the changes that exchange them.
+    """
+    calls: dict[object, list[NodePosition]] = {}
+    for place in places(statement):
+        if isinstance(place.node, Call) and place.node.function in ("sin", "cos"):
+            calls.setdefault(place.node.argument, []).append(place)
+    for alike in calls.values():
+        functions = {place.node.function for place in alike if isinstance(place.node, Call)}
+        if len(functions) > 1:
+            others = [(place, other_function(place.node)) for place in alike]
+            yield tuple(replaced(p, node, _EXCHANGE / len(alike)) for p, node in others if node)

@@ -1,25 +1,34 @@
-"""By what a place in a formula would have to be multiplied for the claim to hold."""
+"""By what a place in a formula would have to be multiplied for the claim to hold, in letters.
+
+The factor is found as one number per sample point, then matched with numbers and products of
+known letters that take the same values.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections import Counter
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from itertools import compress
+from itertools import combinations_with_replacement, compress
+from operator import attrgetter
 
 import numpy as np
 
 from polhode.claims.latex._tree import Node
 from polhode.claims.states._numeric import Array
 
-_CLOSE = 1e-8
-_STEPS = 25
-_LARGEST = 60
-_SETTLED = 1e-14
+_CLOSE = 1e-8  # relative; values in doubles at sample points
+_STEPS = 25  # of the secant method
+_LARGEST = 60  # numerator or denominator of a simple number
+_SETTLED = 1e-14  # relative step at which the secant method ends
 _QUOTIENTS = (Fraction(n, d) for n in range(1, 5) for d in range(1, 5) if n != d)
 _TRIED = (Fraction(-1), Fraction(0), *dict.fromkeys(_QUOTIENTS))
 _PROBES = (1.0, 1.25, *map(float, _TRIED))
+_MOST_LETTERS = 40
+_MOST_TOGETHER = 3
+_POWERS = (1, -1, 2, -2)
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +47,7 @@ class Response:
     before: Array
 
     def __call__(self, factors: Array) -> Array:
-        """The changing rows, with arithmetic that may fail at a state."""
+        """The changing rows; not a number at states where arithmetic fails."""
         with np.errstate(all="ignore"):
             return self.changing(factors)
 
@@ -48,7 +57,7 @@ class Response:
         return self(np.outer(_PROBES, np.ones(self.states)))
 
     def among(self, kept: Sequence[int]) -> Response | None:
-        """The same with some of all rows alone; None where none of those changes."""
+        """The same for some of all rows only; None where none of those changes."""
         places = [k for k, row in enumerate(self.rows) if row in kept]
         if len(kept) == len(self.before):
             return self
@@ -66,7 +75,7 @@ class Response:
 
     @property
     def here(self) -> Array:
-        """The changing rows for a factor one: (rows, states)."""
+        """The changing rows for a factor of one: (rows, states)."""
         return np.asarray(self.probed[:, 0])
 
     @property
@@ -76,7 +85,7 @@ class Response:
 
     @property
     def is_faithful(self) -> bool:
-        """Whether a factor one changes nothing."""
+        """Whether a factor of one changes nothing, as it must."""
         known = self.before[list(self.rows)]
         if self.here.shape != known.shape:
             return False
@@ -84,7 +93,7 @@ class Response:
 
     @cached_property
     def change(self) -> Array | None:
-        """Change of the changing rows per unit of the factor, where that is the same for any."""
+        """Change of the changing rows per unit of the factor; None where it is not linear in it."""
         one, two, three = (self.probed[:, _PROBES.index(x)] for x in (1.0, 2.0, 3.0))
         change = two - one
         straight = np.abs(three - two - change) <= _CLOSE * (np.abs(one) + np.abs(three))
@@ -93,7 +102,7 @@ class Response:
         return np.asarray(change)
 
     def slope(self) -> Array | None:
-        """The same of all rows."""
+        """The same for all rows; None where it is not linear."""
         if self.change is None:
             return None
         whole = np.zeros_like(self.before)
@@ -138,7 +147,7 @@ class _Part(Response):
 
 
 def _by_secants(response: Response, row: int) -> Array:
-    """Where one row vanishes, as nearly as that can be found."""
+    """Where one row vanishes, state by state, as closely as the secant method finds it."""
     here, there = (response.probed[row, _PROBES.index(x)] for x in (1.0, 1.25))
     at, before = np.full(response.states, 1.0), np.full(response.states, 1.25)
     for _ in range(_STEPS):
@@ -156,7 +165,7 @@ def _by_secants(response: Response, row: int) -> Array:
 
 
 def simple_numbers(response: Response) -> Iterator[Fraction]:
-    """The simple factors at which all vanishes; what is not linear may have several."""
+    """The simple factors at which everything vanishes; there may be several if not linear."""
     size = np.abs(response.here).max(axis=1) + 1
     tried = response.probed[:, -len(_TRIED) :]
     vanishes = np.isfinite(tried) & (np.abs(tried) <= _CLOSE * size[:, None, None])
@@ -190,3 +199,141 @@ def simple_number(values: Array) -> Fraction | None:
     number = Fraction(first).limit_denominator(_LARGEST)
     close = abs(float(number) - first) <= _CLOSE * max(1.0, abs(first))
     return number if close and abs(number.numerator) <= _LARGEST else None
+
+
+# -- products of letters that equal a quantity at every state --------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class Products:
+    """All products that can be formed of some letters, at sample points.
+
+    Attributes:
+        known: letters with their values: (states,).
+        upright: those that may stand above a fraction line only.
+    """
+
+    known: Sequence[tuple[Node, Array]]
+    upright: Collection[Node] = ()
+
+    def equal_to(self, amount: Array) -> Iterator[Match]:
+        """A number times products of letters, the shortest first.
+
+        Up to two letters may stand above or below; more of them, up to six, above only.
+        """
+        yield from list(self.short(amount)) or sorted(self._long(amount), key=attrgetter("size"))
+
+    def short(self, amount: Array) -> Iterator[Match]:
+        """Those of up to two letters alone, the simplest first."""
+        number = simple_number(amount)
+        if number is not None:
+            yield Match(number)
+        elif self.known:
+            yield from sorted(
+                [*self._singles(amount), *self._pairs(amount)], key=attrgetter("size")
+            )
+
+    # -- one letter or two -----------------------------------------------------------------------
+
+    @cached_property
+    def _values(self) -> Array:
+        return np.array([values for _, values in self.known])
+
+    def _singles(self, amount: Array) -> Iterator[Match]:
+        for (i, j), number in _simple(amount, self._powered):
+            if self._may_stand(self.known[i][0], _POWERS[j]):
+                yield Match(number, ((self.known[i][0], _POWERS[j]),))
+
+    def _may_stand(self, node: Node, power: int) -> bool:
+        return power > 0 or node not in self.upright
+
+    @cached_property
+    def _powered(self) -> Array:
+        """Powers of the letters."""
+        return np.asarray(self._values[:, None] ** np.array(_POWERS, dtype=float)[None, :, None])
+
+    @cached_property
+    def _signed(self) -> list[tuple[Node, int]]:
+        return [(node, power) for power in (1, -1) for node, _ in self.known]
+
+    @cached_property
+    def _table(self) -> Array:
+        """Products of two of the letters or of their reciprocals."""
+        table = np.concatenate([self._values, 1 / self._values])
+        return np.asarray(table[:, None] * table[None])
+
+    def _pairs(self, amount: Array) -> Iterator[Match]:
+        for (i, j), number in _simple(amount, self._table):
+            (first, p), (second, q) = self._signed[i], self._signed[j]
+            allowed = self._may_stand(first, p) and self._may_stand(second, q)
+            if allowed and i < j and first != second:
+                yield Match(number, ((first, p), (second, q)))
+
+    # -- more of them ----------------------------------------------------------------------------
+
+    def _long(self, amount: Array) -> Iterator[Match]:
+        """Meet in the middle: what a few letters leave must be the product of a few others.
+
+        Of the logarithms, so that products are sums; up to a constant factor, found at the end.
+        """
+        if len(amount) < _MOST_TOGETHER or not amount.all() or not self.known:
+            return
+        few = self._few
+        for one, other in few.pairs(_without_number(np.log(np.abs(amount)))):
+            letters = sorted(i for i in (*few.letters[one], *few.letters[other]) if i)
+            number = simple_number(amount / np.prod(few.values[letters], axis=0))
+            if number:
+                counted = Counter(few.nodes[i] for i in letters)
+                yield Match(number, tuple(counted.items()))
+
+    @cached_property
+    def _few(self) -> _FewLetters:
+        different = list({v.tobytes(): (n, v) for n, v in reversed(self.known)}.values())[::-1]
+        kept = different[:_MOST_LETTERS]
+        # the empty product stands first, so that shorter ones are among them
+        values = np.array([np.ones_like(kept[0][1]), *(v for _, v in kept)])
+        return _FewLetters([kept[0][0], *(n for n, _ in kept)], values)
+
+
+class _FewLetters:
+    """Products of a few letters by the logarithms of their values, sorted by a random projection.
+
+    Equal products have equal projections, so that candidates are found by bisection.
+    """
+
+    def __init__(self, nodes: Sequence[Node], values: Array) -> None:
+        self.nodes, self.values = nodes, values
+        places = combinations_with_replacement(range(len(values)), _MOST_TOGETHER)
+        self.letters = np.array(list(places))
+        self._sums = _without_number(np.log(np.abs(values)))[self.letters].sum(axis=1)
+        self._weights = np.random.default_rng(1).uniform(1, 2, self._sums.shape[1])
+        self._keys = self._sums @ self._weights
+        self._order = np.argsort(self._keys)
+        self._sorted = self._keys[self._order]
+
+    def pairs(self, wanted: Array) -> Iterator[tuple[int, int]]:
+        """Pairs of them whose logarithms add up to a sum, the first one before the other."""
+        keys = wanted @ self._weights - self._keys
+        first = np.searchsorted(self._sorted, keys - _CLOSE)
+        last = np.searchsorted(self._sorted, keys + _CLOSE)
+        for one in np.flatnonzero(last > first):
+            for other in self._order[first[one] : last[one]]:
+                left = wanted - self._sums[one] - self._sums[other]
+                if one <= other and np.abs(left).max() < _CLOSE:
+                    yield int(one), int(other)
+
+
+def _simple(amount: Array, table: Array) -> Iterator[tuple[tuple[int, int], Fraction]]:
+    """Where an amount over a table of values, (.., .., states), is one simple number throughout."""
+    first, last = (amount[state] / table[:, :, state] for state in (0, -1))
+    likely = np.abs(last - first) <= _CLOSE * np.abs(first)
+    for i, j in zip(*np.nonzero(likely), strict=True):
+        left = amount / table[i, j]
+        constant = np.ptp(left) <= _CLOSE * abs(left[0])
+        if constant and (number := simple_number(left)):
+            yield (int(i), int(j)), number
+
+
+def _without_number(logs: Array) -> Array:
+    """Logarithms relative to those at the first state, so that a constant factor drops out."""
+    return np.asarray(logs[..., 1:] - logs[..., :1])

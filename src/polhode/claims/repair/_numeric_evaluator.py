@@ -2,79 +2,92 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import reduce
 from itertools import product
+from typing import Any
 
 import numpy as np
 
 from polhode.algebra import Expr, Triad, Vector
-from polhode.base import NumericError, PolhodeError
-from polhode.claims.latex._tree import Node, Statement
-from polhode.claims.meaning._components import Member, Side, triad_of
+from polhode.base import NumericError
+from polhode.claims.latex import _tree as tree
+from polhode.claims.latex._tree import Node, Piece, Statement
 from polhode.claims.meaning._meaning import Tensor
-from polhode.claims.repair._figures import Figure, carried, formed, is_arithmetic, scalar, together
-from polhode.claims.repair._links import Links
-from polhode.claims.repair._places import NodePosition
-from polhode.claims.repair._reading import RepairNotation
+from polhode.claims.meaning._relations import BoundRelation, triad_of
+from polhode.claims.repair._places import MemberSides, NodePosition
+from polhode.claims.repair._trials import RepairNotation
 from polhode.claims.states._bound_claim import BoundClaim
-from polhode.claims.states._numeric import Array
+from polhode.claims.states._numeric import NO_VALUE, Array
 from polhode.claims.states._sample_points import SamplePoints
 
 _CLOSE = 1e-7
 
-#: What does not come to a number.
-UNKNOWN = (PolhodeError, ArithmeticError, ValueError, KeyError)
-
 
 class NumericEvaluator:
-    """Figures of one statement on the states of a bench.
+    """Values of one statement and its parts at sample points.
 
     Args:
-        statement: read.
-        asked: the claim it makes.
-        links: its members and their sides.
-        reading: how it is read.
-        bench: the states.
+        statement: the statement, as parsed.
+        claim: the claim it makes.
+        sides: its members and their sides.
+        notation: how it is read.
+        samples: the states.
     """
 
     def __init__(
         self,
         statement: Statement,
-        asked: BoundClaim,
-        links: Links,
-        reading: RepairNotation,
-        bench: SamplePoints,
+        claim: BoundClaim,
+        sides: MemberSides,
+        notation: RepairNotation,
+        samples: SamplePoints,
     ) -> None:
-        self._statement, self._members, self._links = statement, asked.members, links
-        self._reading, self._bench = reading, bench
-        self._figures: dict[Node, Figure] = {}
+        self._statement, self._members, self._sides = statement, claim.members, sides
+        self._notation, self._samples = notation, samples
+        self._values: dict[Node, NumericTensor] = {}
         self._turns: dict[tuple[Triad, Triad], Array] = {}
-        triads = (triad_of(r.left, r.right) for r in asked.members)
+        triads = (triad_of(r.left, r.right) for r in claim.members)
         self._triad = next((triad for triad in triads if triad is not None), None)
 
-    def of(self, node: Node) -> Figure:
-        """The figure of a node by itself; raises one of `UNKNOWN` where it has none."""
-        if node not in self._figures:
-            self._figures[node] = self._found(node)
-        return self._figures[node]
+    def of(self, node: Node) -> NumericTensor:
+        """The value of a node by itself; raises one of `NO_VALUE` where it has none."""
+        if node not in self._values:
+            self._values[node] = self._found(node)
+        return self._values[node]
 
-    def _found(self, node: Node) -> Figure:
-        """From the figures of its parts where that can be, which is quicker than exactly."""
+    def _found(self, node: Node) -> NumericTensor:
+        """From the values of its parts where possible, which is quicker than exactly."""
         if is_arithmetic(node):
             try:
-                return formed(node, [self.of(part) for part in node.parts])  # type: ignore[arg-type]
-            except UNKNOWN:
+                return combined(node, [self.of(part) for part in node.parts])  # type: ignore[arg-type]
+            except NO_VALUE:
                 pass
-        return self._figure(self._reading.value(node))
+        value = self._notation.value(node)
+        match value:
+            case Expr():
+                return scalar(self._samples.values([value])[0])
+            case Vector(components, triad):
+                along = self._samples.values(components)
+                array = np.einsum("ijs,js->is", self._turn(triad), along)
+                return NumericTensor(1, array[:, None])
+            case Tensor(matrix, triad):
+                turn = self._turn(triad)
+                entries = self._samples.values([e for row in matrix.rows for e in row])
+                square = entries.reshape(3, 3, -1)
+                array = np.einsum("iks,kls,jls->ijs", turn, square, turn)
+                return NumericTensor(2, array[:, :, None])
+        raise NumericError(f"{value}", expected="a scalar, a vector or a tensor")
 
-    def rows(self, place: NodePosition, new: Figure, members: Sequence[int]) -> Array:
+    def rows(self, place: NodePosition, new: NumericTensor, members: Sequence[int]) -> Array:
         """What is left of members with another quantity at a place: (rows, trials, states).
 
         A member of vectors has three rows, along the triad that its residuals are along.
         """
         relation, side, *inside = place.path
         whole = self._statement.relations[relation].sides[side]
-        changed = carried(whole, inside, new, self.of)
+        changed = with_replaced(whole, inside, new, self.of)
         left = [self._left(member, (relation, side), changed) for member in members]
         trials = np.broadcast_shapes(*(rows.shape[1:] for rows in left))
         return np.concatenate([np.broadcast_to(r, (len(r), *trials)) for r in left])
@@ -85,18 +98,20 @@ class NumericEvaluator:
         """Those of some nodes of one rank that make all members hold when put at a place."""
         if not others:
             return []
-        rows = self.rows(place, together([self.of(node) for node in others]), members)
+        rows = self.rows(place, stacked([self.of(node) for node in others]), members)
         holds = np.abs(rows).max(axis=(0, 2)) < _CLOSE
         return [node for i, node in enumerate(others) if holds[i]]
 
-    def amounts(self, place: NodePosition, terms: Figure, members: Sequence[int]) -> Array:
+    def amounts(self, place: NodePosition, terms: NumericTensor, members: Sequence[int]) -> Array:
         """How much of each of some terms is missing at a place: (terms, states), or not a number.
 
-        Raises `NumericError` where what is left does not change evenly with what is added.
+        Raises `NumericError` where what is left is not linear in what is added.
         """
-        there, axes = self.of(place.node), _axes(terms.rank)
+        there, size = self.of(place.node), 3**terms.rank
+        shape = (*(3,) * terms.rank, 1, 1)
+        axes = [NumericTensor(terms.rank, unit.reshape(shape)) for unit in np.eye(size)]
         tried = [there, *(there + axis for axis in axes), there + axes[0] + axes[0]]
-        rest, *steps, twice = np.moveaxis(self.rows(place, together(tried), members), 1, 0)
+        rest, *steps, twice = np.moveaxis(self.rows(place, stacked(tried), members), 1, 0)
         slopes = np.array([step - rest for step in steps])
         if not np.allclose(twice - rest, 2 * slopes[0], rtol=_CLOSE, atol=_CLOSE):
             raise NumericError("a change", expected="one in proportion to what is added")
@@ -108,48 +123,182 @@ class NumericEvaluator:
         fits = left <= _CLOSE * (1 + np.abs(rest).max())
         return np.where(fits[:, None], found, np.nan)
 
-    def _left(self, member: int, side: tuple[int, int], changed: Figure) -> Array:
-        first, second = self._links.sides(member)
+    def _left(self, member: int, side: tuple[int, int], changed: NumericTensor) -> Array:
+        first, second = self._sides.sides(member)
         sides = self._statement.relations[first[0]].sides
         one, other = (changed if s == side else self.of(sides[s[1]]) for s in (first, second))
         difference = one + -other
         if difference.rank == 0:
             return difference.array[None]
-        relation: Member = self._members[member]
+        relation: BoundRelation = self._members[member]
         triad = triad_of(relation.left, relation.right)
         if difference.rank != 1 or triad is None:
             raise NumericError("a member", expected="two scalars or two vectors")
         turn = self._turn(triad)
         return np.asarray(np.einsum("jis,jbs->ibs", turn, difference.array))
 
-    def _figure(self, value: Side | Tensor) -> Figure:
-        match value:
-            case Expr():
-                return scalar(self._bench.values([value])[0])
-            case Vector(components, triad):
-                along = self._bench.values(components)
-                return Figure(1, np.einsum("ijs,js->is", self._turn(triad), along)[:, None])
-            case Tensor(matrix, triad):
-                turn = self._turn(triad)
-                entries = self._bench.values([e for row in matrix.rows for e in row])
-                square = entries.reshape(3, 3, -1)
-                return Figure(2, np.einsum("iks,kls,jls->ijs", turn, square, turn)[:, :, None])
-        raise NumericError(f"{value}", expected="a scalar, a vector or a tensor")
-
     def _turn(self, triad: Triad) -> Array:
-        """Turns components along a triad into those along that of all figures: (3, 3, states)."""
+        """Turns components along a triad into those along the one of all values: (3, 3, states)."""
         if self._triad is None:
             self._triad = triad
         key = triad, self._triad
         if key not in self._turns:
             matrix = triad.rotation_to(self._triad)
             entries = [matrix[i, j] for i, j in product(range(3), range(3))]
-            self._turns[key] = self._bench.values(entries).reshape(3, 3, -1)
+            self._turns[key] = self._samples.values(entries).reshape(3, 3, -1)
         return self._turns[key]
 
 
-def _axes(rank: int) -> list[Figure]:
-    """The unit scalar, or unit vectors."""
-    size = 3**rank
-    shape = (*(3,) * rank, 1, 1)
-    return [Figure(rank, np.eye(size)[i].reshape(shape)) for i in range(size)]
+# -- quantities by numbers, and what nodes make of them --------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class NumericTensor:
+    """A scalar, vector or tensor at many states, in several trials.
+
+    Attributes:
+        rank: 0 for a scalar, 1 for a vector, 2 for a tensor.
+        array: (trials, states) with (3,) in front for every rank, along one triad for all.
+    """
+
+    rank: int
+    array: Array
+
+    def __add__(self, other: NumericTensor) -> NumericTensor:
+        zero = next((q for q in (self, other) if q.rank == 0 and not q.array.any()), None)
+        if self.rank != other.rank and zero is None:  # a bare 0 stands for a vector
+            raise _unlike("+")
+        return NumericTensor(max(self.rank, other.rank), self.array + other.array)
+
+    def __neg__(self) -> NumericTensor:
+        return NumericTensor(self.rank, -self.array)
+
+    def __mul__(self, other: NumericTensor) -> NumericTensor:
+        match self.rank, other.rank:
+            case (0, rank) | (rank, 0):
+                return NumericTensor(rank, self.array * other.array)
+            case 2, 1:
+                return NumericTensor(1, np.einsum("ij...,j...->i...", self.array, other.array))
+        raise _unlike("beside")
+
+    def cross(self, other: NumericTensor) -> NumericTensor:
+        """The vector product; of scalars, the product."""
+        if self.rank == other.rank == 1:
+            (a, b, c), (x, y, z) = self.array, other.array
+            return NumericTensor(1, np.array([b * z - c * y, c * x - a * z, a * y - b * x]))
+        return self * other
+
+    def dot(self, other: NumericTensor) -> NumericTensor:
+        """The scalar product."""
+        if self.rank == other.rank == 1:
+            return NumericTensor(0, (self.array * other.array).sum(axis=0))
+        return self * other
+
+    def over(self, other: NumericTensor) -> NumericTensor:
+        """The quotient by a scalar."""
+        if other.rank:
+            raise _unlike("over")
+        return self * NumericTensor(0, 1 / other.array)
+
+    def size(self) -> NumericTensor:
+        """The length of a vector."""
+        if self.rank != 1:
+            raise _unlike("the length of")
+        return NumericTensor(0, np.sqrt(self.dot(self).array))
+
+    def raised(self, exponent: NumericTensor) -> NumericTensor:
+        """A power; of a vector, of its length."""
+        base = self if self.rank == 0 else self.size()
+        if exponent.rank:
+            raise _unlike("to the power")
+        return NumericTensor(0, base.array**exponent.array)
+
+    def through(self, function: Callable[[Array], Array]) -> NumericTensor:
+        """A function of a scalar."""
+        if self.rank:
+            raise _unlike("a function of")
+        return NumericTensor(0, function(self.array))
+
+
+def scalar(array: Array) -> NumericTensor:
+    """A scalar by its values: (states,) or (trials, states)."""
+    return NumericTensor(0, np.atleast_2d(array))
+
+
+def stacked(quantities: Sequence[NumericTensor]) -> NumericTensor:
+    """Several of one rank as trials of one."""
+    shape = np.broadcast_shapes(*(quantity.array.shape for quantity in quantities))
+    alike = [np.broadcast_to(quantity.array, shape) for quantity in quantities]
+    return NumericTensor(quantities[0].rank, np.concatenate(alike, axis=-2))
+
+
+_FUNCTIONS: Mapping[str, Callable[[Array], Array]] = {
+    "sin": np.sin,
+    "cos": np.cos,
+    "tan": np.tan,
+    "sec": lambda x: 1 / np.cos(x),
+    "csc": lambda x: 1 / np.sin(x),
+    "cot": lambda x: 1 / np.tan(x),
+    "sinh": np.sinh,
+    "cosh": np.cosh,
+    "tanh": np.tanh,
+    "exp": np.exp,
+}
+_COMBINED: Mapping[type[Piece], Callable[..., NumericTensor]] = {
+    tree.Sum: lambda *terms: reduce(NumericTensor.__add__, terms),
+    tree.Product: lambda *factors: reduce(NumericTensor.__mul__, factors),
+    tree.Negative: NumericTensor.__neg__,
+    tree.Cross: NumericTensor.cross,
+    tree.Dot: NumericTensor.dot,
+    tree.Quotient: NumericTensor.over,
+    tree.Power: NumericTensor.raised,
+    tree.Magnitude: NumericTensor.size,
+    tree.Root: lambda of: of.through(np.sqrt),
+}
+_ARITHMETIC = (tree.Sum, tree.Product, tree.Negative, tree.Quotient, tree.Cross, tree.Dot)
+
+
+def is_arithmetic(node: Piece) -> bool:
+    """Whether its value follows from those of its parts with no choice of a branch."""
+    return isinstance(node, _ARITHMETIC)
+
+
+def combined(node: Piece, inside: Sequence[NumericTensor]) -> NumericTensor:
+    """The value of a node from those of its parts.
+
+    Raises `NumericError` for nodes that need more than numbers, such as rates.
+    """
+    with np.errstate(all="ignore"):
+        match node:
+            case tree.PlusMinus(sign=sign):
+                return inside[0] if sign == "±" else -inside[0]
+            case tree.Call(function=name) if name in _FUNCTIONS:
+                return inside[0].through(_FUNCTIONS[name])
+            case _ if type(node) in _COMBINED:
+                return _COMBINED[type(node)](*inside)
+    raise NumericError(f"{type(node).__name__} by numbers", expected="a formula without rates")
+
+
+def with_replaced(
+    root: Piece, path: Sequence[int], new: NumericTensor, known: Callable[[Node], NumericTensor]
+) -> NumericTensor:
+    """The value of a whole in which another quantity stands at a place.
+
+    Args:
+        root: the whole, such as a side.
+        path: of the place in it.
+        new: what stands there instead.
+        known: values of all that is unchanged.
+    """
+    if not path:
+        return new
+    first, *rest = path
+    inside: list[Any] = [
+        with_replaced(part, rest, new, known) if i == first else known(part)  # type: ignore[arg-type]
+        for i, part in enumerate(root.parts)
+    ]
+    return combined(root, inside)
+
+
+def _unlike(sign: str) -> NumericError:
+    return NumericError(f"two kinds of quantity with {sign}", expected="kinds that go together")

@@ -1,12 +1,14 @@
-"""Places in a formula, and the formula with something else put there."""
+"""Places in a formula, the members they belong to, and the formula with a change there."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import count
 
 from polhode.claims.latex._tree import (
+    Cases,
     Derivative,
     Negative,
     Node,
@@ -19,7 +21,17 @@ from polhode.claims.latex._tree import (
     Statement,
     Sum,
     mapped,
+    walk,
 )
+from polhode.claims.states._bound_claim import BoundClaim
+
+ONE = Number("1")
+ZERO = Number("0")
+
+#: Relation of a statement, and number of a side in it.
+Side = tuple[int, int]
+
+_LEFT = 0.02  # size of changing the earlier side: slips are likelier in what is derived from it
 
 
 @dataclass(frozen=True)
@@ -53,7 +65,7 @@ class NodePosition:
 
     @property
     def is_exponent(self) -> bool:
-        """Whether it says to which power something is raised."""
+        """Whether it is the exponent of a power."""
         return isinstance(self.parent, Power) and self.path[-1] == 1
 
     @property
@@ -82,17 +94,15 @@ def put(statement: Statement, path: tuple[int, ...], node: Node) -> Statement:
 
 
 def _changer(path: tuple[int, ...], node: Node) -> Callable[[Piece], Piece]:
-    """Changes the part that the first step of the path leads to; it is shown all in order."""
+    """Changes the part that the first step of the path leads to; parts come in their order."""
     position = count()
 
     def change(part: Piece) -> Piece:
         if next(position) != path[0]:
             return part
-        return (
-            replace(node, span=part.span)
-            if len(path) == 1
-            else mapped(part, _changer(path[1:], node))
-        )
+        if len(path) == 1:
+            return replace(node, span=part.span)
+        return mapped(part, _changer(path[1:], node))
 
     return change
 
@@ -140,7 +150,7 @@ def tidied(piece: Piece) -> Piece:
 
 
 def over(above: Node, below: Node) -> Node:
-    """A quotient, none where nothing is below."""
+    """A quotient; what is above alone where nothing is below."""
     return above if below == ONE else Quotient(above, below)
 
 
@@ -157,5 +167,60 @@ def added(node: Node, term: Node) -> Node:
     return term if terms == (ZERO,) else Sum((*terms, term))
 
 
-ONE = Number("1")
-ZERO = Number("0")
+# -- sides and members ----------------------------------------------------------------------------
+
+
+class MemberSides:
+    """Which sides of a statement each member of its claim relates, and the reverse.
+
+    Args:
+        statement: the statement, as parsed.
+        claim: the claim it makes.
+    """
+
+    def __init__(self, statement: Statement, claim: BoundClaim) -> None:
+        self._statement = statement
+        self._defined = claim.defined
+        self._every = frozenset(range(len(claim.members)))
+
+    @cached_property
+    def _pairs(self) -> list[Side]:
+        """Relation and left side of every member."""
+        claims = ((i, r) for i, r in enumerate(self._statement.relations) if r.is_claim)
+        pairs = (
+            (i, k, r.sides[0]) for i, r in claims for k, sign in enumerate(r.signs) if sign != "↔"
+        )
+        return [(i, k) for i, k, first in pairs if k or first not in self._defined]
+
+    @cached_property
+    def _is_plain(self) -> bool:
+        """Whether there is one member for each sign, and none depends on sides of others."""
+        pieces = list(walk(self._statement))
+        used = any(pieces.count(letter) > 1 for letter in self._defined)
+        cases = any(isinstance(piece, Cases) for piece in pieces)
+        return len(self._pairs) == len(self._every) and not used and not cases
+
+    def sides(self, member: int) -> tuple[Side, ...]:
+        """Both sides of a member."""
+        if member >= len(self._pairs):
+            return ()
+        relation, left = self._pairs[member]
+        return (relation, left), (relation, left + 1)
+
+    def members(self, place: NodePosition) -> frozenset[int]:
+        """Those that change with what stands at a place."""
+        if not self._is_plain:
+            return self._every
+        side = place.path[:2]
+        return frozenset(m for m in range(len(self._pairs)) if side in self.sides(m))
+
+    def cost(self, place: NodePosition, targets: Collection[int]) -> float | None:
+        """What it costs to change this side for these members; None where it is no side of them.
+
+        The later side is the cheaper.
+        """
+        for member in targets:
+            sides = self.sides(member)
+            if place.path[:2] in sides:
+                return _LEFT if place.path[:2] == sides[0] else 0.0
+        return None

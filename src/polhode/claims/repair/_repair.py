@@ -1,124 +1,264 @@
-"""The smallest correction that makes a claim hold."""
+"""The smallest correction that makes a claim hold.
+
+Where what is left of a claim can be fitted, `RepairSearch` proposes candidates from numbers at
+sample points, and only those are judged exactly; claims that are judged as a whole are corrected by
+small changes tried one by one. A correction must hold, be of one dimension and say something.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from itertools import chain, pairwise
+from fractions import Fraction
+from itertools import chain, islice, pairwise
 
+import numpy as np
+
+from polhode.algebra import Vector
 from polhode.base import PolhodeError
 from polhode.claims._dimensions import dimensions_at_odds
-from polhode.claims.latex._tree import Statement
-from polhode.claims.repair._at_limit import AtLimit
-from polhode.claims.repair._exchanged import exchanged
-from polhode.claims.repair._formal import is_empty, says_nothing
-from polhode.claims.repair._one_by_one import JUDGED_WHOLE, one_by_one
-from polhode.claims.repair._reading import RepairNotation
+from polhode.claims.latex._tree import Call, Cross, Dots, Name, Node, Number, Power, Statement, walk
+from polhode.claims.repair._edits import (
+    Edit,
+    Repaired,
+    edits,
+    exchanged_functions,
+    other_function,
+    replaced,
+    smallest,
+)
+from polhode.claims.repair._multiplier import Match
+from polhode.claims.repair._numeric_evaluator import NumericTensor, combined, scalar
+from polhode.claims.repair._places import NodePosition, places, raised, tidied
 from polhode.claims.repair._repair_search import ENOUGH, STAGES, RepairSearch
-from polhode.claims.repair._repaired import Repaired, smallest
-from polhode.claims.repair._trials import FITTED
+from polhode.claims.repair._trials import FITTED, AtLimit, RepairNotation
 from polhode.claims.states._bound_claim import BoundClaim
+from polhode.claims.states._numeric import NO_VALUE
 
 Holds = Callable[[BoundClaim], bool]
 
-_MOST_EDITS = 4
+#: Contexts in which there is no residual that could be fitted.
+JUDGED_WHOLE = ("threshold", "limit", "number")
+
+_MOST_EDITS = 4  # rounds in which some members are corrected
+_MOST_TRIED = 40  # exact judgements of a claim that is judged as a whole
+_NUMBERS = (Fraction(-1), Fraction(2), Fraction(1, 2), Fraction(4), Fraction(1, 4))
+_TRIALS = 3  # random values of each letter
+_CLOSE = 1e-9
 
 
 def repaired(
-    statement: Statement, reading: RepairNotation, context: str, holds: Holds
+    statement: Statement, notation: RepairNotation, context: str, holds: Holds
 ) -> tuple[Repaired, ...]:
     """The smallest corrections, all of about the same size; none where none was found.
 
     Args:
         statement: the claim that fails.
-        reading: how statements are read.
+        notation: how statements are read.
         context: where the claim is to hold.
         holds: exact judgement of a corrected claim.
     """
     if context in FITTED:
-        return _fitted(statement, reading, context, holds)
+        return _fitted(statement, notation, context, holds)
     if context not in JUDGED_WHOLE:
         return ()
-    asked = reading.asked(statement, {})
-    if asked.small and all(small.order == 0 for small in asked.small):
-        limit = AtLimit(reading, asked)
+    claim = notation.asked(statement, {})
+    if claim.small and all(small.order == 0 for small in claim.small):
+        limit = AtLimit(notation, claim)
         found = _fitted(statement, limit, "motion", lambda changed: holds(limit.near(changed)))
         if found:
             return found
-    return one_by_one(statement, reading, holds)
+    return _one_by_one(statement, notation, holds)
+
+
+# -- where what is left can be fitted -------------------------------------------------------------
 
 
 def _fitted(
-    statement: Statement, reading: RepairNotation, context: str, holds: Holds
+    statement: Statement, notation: RepairNotation, context: str, holds: Holds
 ) -> tuple[Repaired, ...]:
     whole = Repaired(statement, ())
-    starts = chain([whole], _exchanged(whole, reading, context))
-    found = (_from(start, reading, context, holds) for start in starts)
+    starts = chain([whole], _exchanged(whole, notation, context))
+    found = (_from(start, notation, context, holds) for start in starts)
     return next(filter(None, found), ())
 
 
-def _exchanged(whole: Repaired, reading: RepairNotation, context: str) -> Iterator[Repaired]:
-    """With sines and cosines of an angle exchanged, if less is wrong then."""
-    before = RepairSearch(whole, reading, context).wrong
-    for changes in exchanged(whole.statement):
+def _exchanged(whole: Repaired, notation: RepairNotation, context: str) -> Iterator[Repaired]:
+    """With sines and cosines of an angle exchanged, where that makes fewer residuals wrong."""
+    before = RepairSearch(whole, notation, context).wrong
+    for changes in exchanged_functions(whole.statement):
         repair = whole.with_changes(changes)
-        if RepairSearch(repair, reading, context).wrong < before:
+        if RepairSearch(repair, notation, context).wrong < before:
             yield repair
 
 
 def _from(
-    repair: Repaired, reading: RepairNotation, context: str, holds: Holds
+    repair: Repaired, notation: RepairNotation, context: str, holds: Holds
 ) -> tuple[Repaired, ...]:
-    """The smallest corrections that begin with some changes."""
+    """The smallest corrections that begin with some changes.
+
+    Where no candidate mends the whole claim, some of its members are corrected and the search
+    begins again from there.
+    """
     for _ in range(_MOST_EDITS):
-        workshop = RepairSearch(repair, reading, context)
-        if not workshop.failing:
+        search = RepairSearch(repair, notation, context)
+        if not search.failing:
             return ()
         whole: list[Repaired] = []
-        for found, enough in zip(workshop.corrected(workshop.failing), ENOUGH, strict=True):
-            whole += [r for r in found if _sound(r, workshop.failing, reading, holds)]
+        for found, enough in zip(search.corrected(search.failing), ENOUGH, strict=True):
+            whole += [r for r in found if _is_sound(r, search.failing, notation, holds)]
             if any(r.size - repair.size < enough for r in whole):
                 break
         if whole:
             return smallest(whole)
-        first = _begun(workshop)
+        first = _partly_corrected(search)
         if first is None:
             return ()
         repair = first
     return ()
 
 
-def _begun(workshop: RepairSearch) -> Repaired | None:
-    """Some of the members corrected: with one place changed if that can be, else with more."""
-    pairs = [pair for pair in pairwise(workshop.failing) if pair[1] == pair[0] + 1]
-    groups = [*pairs, *((member,) for member in workshop.failing)]
-    stages = [workshop.corrected(group) for group in groups]
+def _partly_corrected(search: RepairSearch) -> Repaired | None:
+    """Some of the members corrected: with one place changed where possible, else with more."""
+    pairs = [pair for pair in pairwise(search.failing) if pair[1] == pair[0] + 1]
+    groups = [*pairs, *((member,) for member in search.failing)]
+    stages = [search.corrected(group) for group in groups]
     found = (repairs for _ in range(STAGES) for stage in stages if (repairs := next(stage)))
     return next((repairs[0] for repairs in found), None)
 
 
-def _tells(repair: Repaired, reading: RepairNotation) -> bool:
-    """Whether it says more than that something is what it is."""
-    inserted = [change.path for change in repair.changes if change.inserts]
-    return not any(says_nothing(repair.statement, (p[0], p[1]), reading) for p in inserted)
-
-
-def _sound(repair: Repaired, failing: Sequence[int], reading: RepairNotation, holds: Holds) -> bool:
+def _is_sound(
+    repair: Repaired, failing: Sequence[int], notation: RepairNotation, holds: Holds
+) -> bool:
     """Whether it holds, is of one dimension, and says something."""
-    if is_empty(repair.statement) or not _tells(repair, reading):
+    inserted = [change.path for change in repair.changes if change.inserts]
+    if _is_empty(repair.statement) or any(
+        _is_tautology(repair.statement, (p[0], p[1]), notation) for p in inserted
+    ):
         return False
     try:
-        asked = reading.asked(repair.statement, {})
-        if dimensions_at_odds(asked) or _cancels(repair, asked, failing):
+        claim = notation.asked(repair.statement, {})
+        if dimensions_at_odds(claim):
             return False
-        return holds(asked)
+        if inserted:  # it must not be what makes both sides of a member vanish
+            sides = ((c.member, c.left or c.right) for c in claim.components())
+            left = {member for member, rest in sides if rest}
+            if any(member not in left for member in failing):
+                return False
+        return holds(claim)
     except (PolhodeError, ArithmeticError):
         return False
 
 
-def _cancels(repair: Repaired, asked: BoundClaim, failing: Sequence[int]) -> bool:
-    """Whether what is brought in leaves nothing on both sides of a member."""
-    if not any(change.inserts for change in repair.changes):
+# -- where the claim is judged as a whole ---------------------------------------------------------
+
+
+def _one_by_one(
+    statement: Statement, notation: RepairNotation, holds: Holds
+) -> tuple[Repaired, ...]:
+    """The smallest single changes with which a claim holds.
+
+    Only what is of one dimension is judged, and only a limited number of changes.
+    """
+    whole = Repaired(statement, ())
+    found = [edit for place in places(statement) for edit in _single_changes(place, notation)]
+    tried = (whole.with_changes((edit,)) for edit in sorted(found, key=lambda edit: edit.size))
+    possible = ((r, claim) for r in tried if (claim := _of_one_dimension(r, notation)) is not None)
+    right: list[Repaired] = []
+    for repair, claim in islice(possible, _MOST_TRIED):
+        if right and repair.size > right[0].size:
+            break
+        try:
+            if holds(claim):
+                right.append(repair)
+        except (PolhodeError, ArithmeticError):
+            continue
+    return smallest(right) if right else ()
+
+
+def _single_changes(place: NodePosition, notation: RepairNotation) -> Iterator[Edit]:
+    node = place.node
+    for number in _NUMBERS:
+        yield from edits(place, Match(number))
+    match node:
+        case Power(base, Number(text)) if text.isdigit():
+            for power in (int(text) + 1, int(text) - 1):
+                yield Edit("wrong power", place.path, raised(base, power), 1.05)
+        case Name() | Dots() if not isinstance(place.parent, Power):
+            yield Edit("wrong power", place.path, raised(node, 2), 1.05)
+    if isinstance(node, Dots):
+        less = node.of if node.count == 1 else Dots(node.of, node.count - 1)
+        yield replaced(place, less, 1.1)
+    other = other_function(node)
+    if isinstance(node, Call) and other is not None:
+        yield replaced(place, other, 1.1)
+    if _is_scalar_letter(node) and not isinstance(place.parent, Dots):
+        others = (n for n in notation.names if _is_scalar_letter(n) and n != node)
+        yield from (replaced(place, n, 1.3) for n in others)
+
+
+def _is_scalar_letter(node: Node) -> bool:
+    return isinstance(node, Dots) or (isinstance(node, Name) and not node.is_marked_vector)
+
+
+def _of_one_dimension(repair: Repaired, notation: RepairNotation) -> BoundClaim | None:
+    """The claim it makes, if that is of one dimension."""
+    try:
+        claim = notation.asked(repair.statement, {})
+        return None if dimensions_at_odds(claim) else claim
+    except (PolhodeError, ArithmeticError):
+        return None
+
+
+# -- whether a statement says anything, by its form alone -----------------------------------------
+
+
+def _is_empty(statement: Statement) -> bool:
+    """Whether some member has the same on both sides, or a vector is crossed with itself."""
+    sides = (tuple(map(tidied, relation.sides)) for relation in statement.relations)
+    same = any(one == other for chain in sides for one, other in pairwise(chain))
+    return same or any(isinstance(p, Cross) and p.left == p.right for p in walk(statement))
+
+
+def _is_tautology(statement: Statement, side: tuple[int, int], notation: RepairNotation) -> bool:
+    """Whether a side cancels, or equals one beside it, whatever its letters stand for."""
+    relation, position = side
+    sides = statement.relations[relation].sides
+    beside = sides[max(position - 1, 0) : position] + sides[position + 1 : position + 2]
+    random = _RandomValues(notation)
+    try:
+        own = random.of(sides[position])
+    except NO_VALUE:
         return False
-    sides = ((c.member, c.left or c.right) for c in asked.components())
-    left = {member for member, rest in sides if rest}
-    return any(member not in left for member in failing)
+    return np.abs(own.array).max() < _CLOSE or any(random.equals(own, other) for other in beside)
+
+
+class _RandomValues:
+    """Nodes with random numbers for letters, rates and whatever has no value of its own."""
+
+    def __init__(self, notation: RepairNotation) -> None:
+        self._notation = notation
+        self._random = np.random.default_rng(1)
+        self._letters: dict[Node, NumericTensor] = {}
+
+    def of(self, node: Node) -> NumericTensor:
+        """The value of a node."""
+        if isinstance(node, Number):
+            return scalar(np.full(_TRIALS, float(node.text)))
+        inside = [part for part in node.parts if isinstance(part, Node)]
+        try:
+            return combined(node, [self.of(part) for part in inside])
+        except NO_VALUE:
+            pass
+        if node not in self._letters:
+            rank = 1 if isinstance(self._notation.value(node), Vector) else 0
+            shape = (*(3,) * rank, 1, _TRIALS)
+            self._letters[node] = NumericTensor(rank, self._random.uniform(0.5, 2.0, shape))
+        return self._letters[node]
+
+    def equals(self, one: NumericTensor, node: Node) -> bool:
+        """Whether a node has the same value."""
+        try:
+            other = self.of(node)
+        except NO_VALUE:
+            return False
+        return one.rank == other.rank and np.allclose(one.array, other.array, rtol=_CLOSE)

@@ -10,81 +10,65 @@ import numpy as np
 
 from polhode.algebra import Expr, SymbolKind, Vector
 from polhode.claims.latex._tree import Cross, Derivative, Dots, Name, Node, Statement
-from polhode.claims.meaning._components import Side
-from polhode.claims.repair._edits import letters, relabelled, turned
-from polhode.claims.repair._figures import Figure, together
-from polhode.claims.repair._numeric_evaluator import UNKNOWN, NumericEvaluator
+from polhode.claims.meaning._meaning import Side
+from polhode.claims.repair._edits import letters, other_function, relabelled
+from polhode.claims.repair._multiplier import Products
+from polhode.claims.repair._numeric_evaluator import NumericEvaluator, NumericTensor, stacked
 from polhode.claims.repair._places import NodePosition, places, put
-from polhode.claims.repair._products import Products
-from polhode.claims.repair._reading import RepairNotation
-from polhode.claims.repair._trials import Trials
-from polhode.claims.states._numeric import Array
+from polhode.claims.repair._trials import RepairNotation, Trials
+from polhode.claims.states._numeric import NO_VALUE, Array
 
 _CLOSE = 1e-7
 _MOST_VECTORS = 40
-_UPRIGHT = Name("z", decoration="hat")
+_UPWARD = Name("z", decoration="hat")
 
 
 @dataclass(frozen=True, eq=False)
 class RepairContext:
-    """A statement on the bench.
+    """A statement with the letters of its text and their values.
 
     Attributes:
-        statement: read.
-        reading: how statements are read.
-        tried: where it is to hold, exactly and at states.
-        tally: its figures at these states.
+        statement: the statement, as parsed.
+        notation: how statements are read.
+        trials: where it is to hold, exactly and at sample points.
+        evaluator: its values at these points.
     """
 
     statement: Statement
-    reading: RepairNotation
-    tried: Trials
-    tally: NumericEvaluator
+    notation: RepairNotation
+    trials: Trials
+    evaluator: NumericEvaluator
 
     def value(self, node: Node) -> Side | None:
         """What a node stands for, if it stands for something."""
         try:
-            return self.reading.value(node)
-        except UNKNOWN:
+            return self.notation.value(node)
+        except NO_VALUE:
             return None
 
-    def _vanishes(self, node: Node) -> bool:
-        """Whether a vector is zero in these circumstances, or has no value there."""
-        value = self.value(node)
-        if not isinstance(value, Vector):
-            return False
-        return not any(map(self._settled, value.components))
-
-    def _settled(self, value: Expr) -> Expr | None:
-        """A scalar as it is in these circumstances; None where it has no value there."""
-        try:
-            return self.tried.states.on(value)
-        except UNKNOWN:
-            return None
+    def vanishing(
+        self, changed: Statement, members: Sequence[int], extra: dict[str, Expr]
+    ) -> list[Expr]:
+        """What must vanish for some members of a changed statement, exactly."""
+        return self.trials.vanishing(self.notation.asked(changed, extra), members)
 
     def fitting(
         self, place: NodePosition, others: Sequence[Node], members: Sequence[int]
     ) -> list[Node]:
         """Those of some nodes of one rank that make all members hold when put at a place."""
         try:
-            return self.tally.fitting(place, others, members)
-        except UNKNOWN:
+            return self.evaluator.fitting(place, others, members)
+        except NO_VALUE:
             return [node for node in others if self._fits(place, node, members)]
 
     def _fits(self, place: NodePosition, node: Node, members: Sequence[int]) -> bool:
         changed = put(self.statement, place.path, node)
         try:
-            left = self.left(changed, members, {})
-            values = self.tried.bench.values
+            left = self.vanishing(changed, members, {})
+            values = self.trials.samples.values
             return bool(left) and all(np.abs(values([e])).max() < _CLOSE for e in left)
-        except UNKNOWN:
+        except NO_VALUE:
             return False
-
-    def left(
-        self, changed: Statement, members: Sequence[int], extra: dict[str, Expr]
-    ) -> list[Expr]:
-        """What must vanish for some members of a changed statement, exactly."""
-        return self.tried.left(self.reading.asked(changed, extra), members)
 
     # -- letters ---------------------------------------------------------------------------------
 
@@ -96,121 +80,133 @@ class RepairContext:
 
     @cached_property
     def vocabulary(self) -> dict[Node, Expr | None]:
-        """Letters of the claim and of the text, and the scalars they stand for."""
-        turns = [t for n in self.own if (t := turned(n)) is not None]
+        """Letters of the claim and of the text; with the scalar, where one that is not zero."""
+        functions = [other for n in self.own if (other := other_function(n)) is not None]
         indexed = [other for n in self.own for other in relabelled(n)]
-        wide = dict.fromkeys([*self.own, *turns, *indexed, *self.reading.names])
-        return {node: self._scalar(node) for node in wide}
-
-    def _scalar(self, node: Node) -> Expr | None:
-        value = self.value(node)
-        return value if isinstance(value, Expr) and value else None
+        found: dict[Node, Expr | None] = {}
+        for node in dict.fromkeys([*self.own, *functions, *indexed, *self.notation.names]):
+            value = self.value(node)
+            found[node] = value if isinstance(value, Expr) and value else None
+        return found
 
     @cached_property
-    def known(self) -> list[tuple[Node, Array]]:
-        """Values of the scalars, of those that never vanish."""
+    def scalars(self) -> list[tuple[Node, Array]]:
+        """Scalars that never vanish, with their values: (states,)."""
         found = []
         for node in (n for n, e in self.vocabulary.items() if e is not None):
             try:
-                values = self.tally.of(node).array[0]
-            except UNKNOWN:
+                values = self.evaluator.of(node).array[0]
+            except NO_VALUE:
                 continue
             if np.isfinite(values).all() and values.all():
                 found.append((node, values))
         return found
 
     @cached_property
+    def scalar_values(self) -> Array:
+        """The values of the scalars: (scalars, states)."""
+        return np.array([values for _, values in self.scalars])
+
+    @cached_property
     def products(self) -> Products:
-        """Products of these scalars; authors divide by no force, and by no acceleration."""
-        return Products(self.known, [node for node, _ in self.known if self.is_strange(node)])
+        """Products of the scalars; authors divide by no force, and by no acceleration."""
+        return Products(self.scalars, [node for node, _ in self.scalars if self.is_strange(node)])
 
     def is_strange(self, node: Node) -> bool:
-        """Whether it is a reaction or an acceleration that the claim does not speak of."""
+        """Whether it is a reaction or an acceleration that does not occur in the claim."""
         value = self.vocabulary.get(node)
         symbol = None if value is None else value.symbol
         if symbol is None or node in self.own:
             return False
-        if symbol.name in self.tried.states.equations.components:
+        if symbol.name in self.trials.states.equations.components:
             return True
         return symbol.order + (symbol.kind is SymbolKind.SPEED) > 1
 
     @cached_property
-    def figures(self) -> Array:
-        """The same values alone: (scalars, states)."""
-        return np.array([values for _, values in self.known])
+    def settled(self) -> dict[Node, Expr]:
+        """The scalars as they are where the claim is to hold."""
+        known = {node: e for node, e in self.vocabulary.items() if e is not None}
+        return {n: value for n, e in known.items() if (value := self._settled(e)) is not None}
+
+    def _settled(self, value: Expr) -> Expr | None:
+        """A scalar as it is where the claim is to hold; None where it has no value there."""
+        try:
+            return self.trials.states.on(value)
+        except NO_VALUE:
+            return None
+
+    @cached_property
+    def spellings(self) -> dict[Expr, Node]:
+        """How scalars are written; the first one, where several letters stand for the same."""
+        known = reversed(self.settled)
+        return {e: node for node in known if (e := self.vocabulary[node]) is not None}
+
+    # -- vectors ---------------------------------------------------------------------------------
 
     @cached_property
     def other_vectors(self) -> list[Node]:
         """Vectors of the claim and of the text that do not vanish."""
         named = (n for n, e in self.vocabulary.items() if e is None and isinstance(n, Name | Dots))
-        bold = (n for n in named if isinstance(self.value(n), Vector))
-        return [n for n in bold if not self._vanishes(n)]
+        found: list[Node] = []
+        for node in named:
+            value = self.value(node)
+            if isinstance(value, Vector) and any(map(self._settled, value.components)):
+                found.append(node)
+        return found
 
     @cached_property
     def directions(self) -> list[Node]:
         """Unit vectors along which a term may stand."""
-        wide = [*self.own, *self.reading.names, _UPRIGHT]
+        wide = [*self.own, *self.notation.names, _UPWARD]
         wide += [other for n in self.own for other in relabelled(n)]
         named = (n for n in wide if isinstance(n, Name) and n.decoration == "hat")
         return [n for n in dict.fromkeys(named) if isinstance(self.value(n), Vector)]
 
     @cached_property
-    def settled(self) -> dict[Node, Expr]:
-        """The scalars as they are in these circumstances."""
-        known = {node: e for node, e in self.vocabulary.items() if e is not None}
-        return {n: value for n, e in known.items() if (value := self._settled(e)) is not None}
-
-    @cached_property
-    def plain(self) -> dict[Expr, Node]:
-        """How scalars are written, the first of several letters for one."""
-        known = reversed(self.settled)
-        return {e: node for node in known if (e := self.vocabulary[node]) is not None}
-
-    @cached_property
-    def vectors(self) -> StatementTerms:
+    def vectors(self) -> VectorTerms:
         """Different vectors a missing term may be formed of, and then their rates."""
-        found: dict[Node, Figure] = {}
-        for node in dict.fromkeys([*self.own, *self.reading.vectors]):
+        found: dict[Node, NumericTensor] = {}
+        for node in dict.fromkeys([*self.own, *self.notation.vectors]):
             if isinstance(node, Name) and isinstance(self.value(node), Vector):
-                self._enter(node, found)
+                self._add_if_new(node, found)
         for node in tuple(found):
-            self._enter(Derivative(node, Name("t")), found)
-        return StatementTerms(tuple((node,) for node in found), together(list(found.values())))
+            self._add_if_new(Derivative(node, Name("t")), found)
+        return VectorTerms(tuple((node,) for node in found), stacked(list(found.values())))
+
+    def _add_if_new(self, node: Node, found: dict[Node, NumericTensor]) -> None:
+        """Add a vector, unless it vanishes or has the values of one that was found before."""
+        try:
+            vector = self.evaluator.of(node)
+        except NO_VALUE:
+            return
+        array = vector.array
+        if not np.isfinite(array).all() or np.abs(array).max() <= _CLOSE:
+            return
+        others = (other.array for other in found.values())
+        if not any((np.abs(array - b) <= _CLOSE * (1 + np.abs(b))).all() for b in others):
+            found[node] = vector
 
     @cached_property
-    def crossed(self) -> StatementTerms:
-        """Products of two of these vectors."""
+    def crossed(self) -> VectorTerms:
+        """Vector products of two of these vectors."""
         singles = [nodes[0] for nodes in self.vectors.nodes[:_MOST_VECTORS]]
         first, second = np.triu_indices(len(singles), 1)
-        one, other = (Figure(1, self.vectors.figures.array[:, i]) for i in (first, second))
+        one, other = (NumericTensor(1, self.vectors.values.array[:, i]) for i in (first, second))
         pairs = tuple((singles[i], singles[j]) for i, j in zip(first, second, strict=True))
-        return StatementTerms(pairs, one.cross(other))
-
-    def _enter(self, node: Node, found: dict[Node, Figure]) -> None:
-        try:
-            figure = self.tally.of(node)
-        except UNKNOWN:
-            return
-        finite = np.isfinite(figure.array).all() and np.abs(figure.array).max() > _CLOSE
-        if finite and not any(_alike(figure.array, f.array) for f in found.values()):
-            found[node] = figure
-
-
-def _alike(one: Array, other: Array) -> bool:
-    return bool((np.abs(one - other) <= _CLOSE * (1 + np.abs(other))).all())
+        return VectorTerms(pairs, one.cross(other))
 
 
 @dataclass(frozen=True, eq=False)
-class StatementTerms:
+class VectorTerms:
     """Vectors a formula may lack.
 
     Attributes:
         nodes: for every one the vectors it is the product of; one or two.
-        figures: of all of them, as trials of one.
+        values: of all of them, as trials of one.
     """
 
     nodes: tuple[tuple[Node, ...], ...]
-    figures: Figure
+    values: NumericTensor
 
     def __len__(self) -> int:
         return len(self.nodes)

@@ -1,11 +1,11 @@
-"""One statement that fails, tried at many states: what could be changed for it to hold."""
+"""One statement that fails, tried at sample points: what could be changed for it to hold."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from itertools import product
+from itertools import combinations, product
 
 import numpy as np
 
@@ -14,26 +14,29 @@ from polhode.claims.latex._tree import (
     Call,
     Dots,
     Name,
+    Number,
     Piece,
     Power,
     Product,
     Quotient,
     Statement,
 )
-from polhode.claims.repair._edits import Edit, dotted, edits, emptied, replaced, replaced_by
-from polhode.claims.repair._figures import scalar
-from polhode.claims.repair._links import Links
-from polhode.claims.repair._missing import missing_terms
-from polhode.claims.repair._multiplier import Match, Response, simple_numbers
-from polhode.claims.repair._numeric_evaluator import UNKNOWN, NumericEvaluator
-from polhode.claims.repair._own_terms import fitted
-from polhode.claims.repair._places import NodePosition, places, put, tidied, times
-from polhode.claims.repair._reading import RepairNotation
+from polhode.claims.repair._edits import (
+    Edit,
+    Repaired,
+    dotted,
+    edits,
+    emptied,
+    replaced,
+    replaced_by,
+)
+from polhode.claims.repair._missing_terms import may_be_rewritten, missing_terms, rewritten
+from polhode.claims.repair._multiplier import Match, Response, simple_number, simple_numbers
+from polhode.claims.repair._numeric_evaluator import NumericEvaluator, scalar
+from polhode.claims.repair._places import MemberSides, NodePosition, places, put, tidied, times
 from polhode.claims.repair._repair_context import RepairContext
-from polhode.claims.repair._repaired import Repaired
-from polhode.claims.repair._rewritten import may_be_rewritten, rewritten
-from polhode.claims.repair._trials import Trials, trials
-from polhode.claims.states._numeric import Array
+from polhode.claims.repair._trials import RepairNotation, trials
+from polhode.claims.states._numeric import NO_VALUE, Array
 
 Changing = Callable[[Array], Array]
 
@@ -44,27 +47,42 @@ ENOUGH = (1.9, 2.15, 99.0)
 _FACTOR = Symbol("multiplier")
 _LETTER = "multiplier"
 
-_CLOSE = 1e-8
-_TRIED = 12
+_CLOSE = 1e-8  # relative; values in doubles at sample points
+_INDEPENDENT = 1e-10  # ratio of pivots below which slopes are dependent
+_MOST_CANDIDATES = 12
 _MOST_INNER = 8
 _MOST_COMPONENTS = 3
 _MOST_EDITS_EACH = 3
+_MOST_TOGETHER = 3
+_MOST_PLACES = 24
 
 
 class RepairSearch:
-    """One statement that fails, tried at many states."""
+    """Candidates for the correction of one statement, found from its residuals at sample points.
 
-    def __init__(self, repair: Repaired, reading: RepairNotation, context: str) -> None:
+    Args:
+        repair: the statement, perhaps with some changes already.
+        notation: how statements are read.
+        context: where it is to hold, such as ``motion``.
+    """
+
+    def __init__(self, repair: Repaired, notation: RepairNotation, context: str) -> None:
         self._repair = repair
-        self._statement = repair.statement
-        self._reading = reading
-        self._asked = reading.asked(self._statement, {})
-        self._tried: Trials = trials(self._asked, context)
-        self._links = Links(self._statement, self._asked)
-        bench = self._tried.bench
-        self._tally = NumericEvaluator(self._statement, self._asked, self._links, reading, bench)
+        self._statement = statement = repair.statement
+        self._notation = notation
+        self._claim = claim = notation.asked(statement, {})
+        self._trials = trials(claim, context)
+        self._samples = self._trials.samples
+        self._sides = MemberSides(statement, claim)
+        self._evaluator = NumericEvaluator(statement, claim, self._sides, notation, self._samples)
         self._responses: dict[NodePosition, Response | None] = {}
-        self._work = RepairContext(self._statement, reading, self._tried, self._tally)
+        self._context = RepairContext(statement, notation, self._trials, self._evaluator)
+
+    # -- what is wrong ---------------------------------------------------------------------------
+
+    @cached_property
+    def _residuals(self) -> list[tuple[int, Expr]]:
+        return self._trials.residuals(self._claim)
 
     @cached_property
     def _members(self) -> list[int]:
@@ -72,29 +90,28 @@ class RepairSearch:
         return [member for member, _ in self._residuals]
 
     @cached_property
-    def _residuals(self) -> list[tuple[int, Expr]]:
-        return self._tried.residuals(self._asked)
-
-    @cached_property
     def _values(self) -> Array:
-        return self._tried.bench.values([e for _, e in self._residuals])
-
-    @cached_property
-    def failing(self) -> tuple[int, ...]:
-        """Members that do not hold at the states of the bench."""
-        bad = zip(self._members, self._is_wrong, strict=True)
-        return tuple(dict.fromkeys(member for member, wrong in bad if wrong))
-
-    @property
-    def wrong(self) -> int:
-        """How many residuals differ from nothing."""
-        return sum(self._is_wrong)
+        """The residuals: (residuals, states)."""
+        return self._samples.values([e for _, e in self._residuals])
 
     @cached_property
     def _is_wrong(self) -> list[bool]:
-        """Whether each residual differs from nothing at the states of the bench."""
+        """Whether each residual differs from zero at the sample points."""
         size = 1 + np.abs(self._values).max(initial=0.0)
         return list(np.abs(self._values).max(axis=1, initial=0.0) > _CLOSE * size)
+
+    @property
+    def wrong(self) -> int:
+        """How many residuals differ from zero."""
+        return sum(self._is_wrong)
+
+    @cached_property
+    def failing(self) -> tuple[int, ...]:
+        """Members that do not hold at the sample points."""
+        bad = zip(self._members, self._is_wrong, strict=True)
+        return tuple(dict.fromkeys(member for member, wrong in bad if wrong))
+
+    # -- candidates ------------------------------------------------------------------------------
 
     def corrected(self, targets: Sequence[int]) -> Iterator[list[Repaired]]:
         """Statements in which these members hold, and those that held before still do.
@@ -103,22 +120,28 @@ class RepairSearch:
         those in which a whole expression is another; `STAGES` in all.
         """
         kept = (frozenset(self._members) - set(self.failing)) | set(targets)
-        open_ = [p for p in places(self._statement) if self._links.cost(p, targets) is not None]
-        able = [p for p in open_ if self._links.members(p).issuperset(targets)]
+        open_ = [p for p in places(self._statement) if self._sides.cost(p, targets) is not None]
+        able = [p for p in open_ if self._sides.members(p).issuperset(targets)]
         responses = {p: r for p in able if (r := self._response(p, kept)) is not None}
-        costs = {p: self._links.cost(p, targets) or 0.0 for p in able}
+        costs = {p: self._sides.cost(p, targets) or 0.0 for p in able}
         yield self._ranked(
             (replace(edit, size=edit.size + costs[place]),)
             for place in able
             for edit in self._at(place, responses.get(place), kept)
         )
-        inner = [p for p in able if p in responses and self._can_take_terms(p, responses[p])]
+        # a factor, an argument or the like can take a term if another value makes it right
+        inner = [
+            place
+            for place, response in responses.items()
+            if isinstance(place.parent, Product | Quotient | Power | Call)
+            and response.multiplier is not None
+        ][:_MOST_INNER]
         missing = (
             (replace(edit, size=edit.size + costs[place]),)
             for place in able
-            for edit in self._missing(place, kept, inner[:_MOST_INNER])
+            for edit in missing_terms(self._context, place, self._within(place, kept), inner)
         )
-        chains = {side[0] for target in targets for side in self._links.sides(target)}
+        chains = {side[0] for target in targets for side in self._sides.sides(target)}
         others = [p for p in places(self._statement) if p.relation in chains and p not in able]
         whole = responses | {p: r for p in others if (r := self._response(p, kept)) is not None}
         several = [*self._throughout(kept), *self._along_components(responses, targets, kept)]
@@ -127,8 +150,50 @@ class RepairSearch:
             (replace(edit, size=edit.size + costs[place]),)
             for place, response in responses.items()
             if may_be_rewritten(place) and response.multiplier is not None
-            for edit in rewritten(self._work, place, self._within(place, kept))
+            for edit in rewritten(self._context, place, self._within(place, kept))
         )
+
+    def _ranked(self, found: Iterable[tuple[Edit, ...]]) -> list[Repaired]:
+        """The smallest different statements that sets of changes lead to."""
+        different: dict[Piece, Repaired] = {}
+        for changes in sorted(found, key=lambda changes: sum(c.size for c in changes)):
+            repair = self._repair.with_changes(changes)
+            different.setdefault(tidied(repair.statement), repair)
+            if len(different) == _MOST_CANDIDATES:
+                break
+        return list(different.values())
+
+    def _at(
+        self, place: NodePosition, response: Response | None, kept: Collection[int]
+    ) -> Iterator[Edit]:
+        """Single changes of a place that make the kept members hold."""
+        node = place.node
+        if isinstance(node, Name | Dots) and self._context.vocabulary.get(node, ZERO) is None:
+            others = [n for n in self._context.other_vectors if n != node]
+            fitting = self._context.fitting(place, others, self._within(place, kept))
+            yield from replaced_by(place, fitting)
+        if response is not None:
+            yield from self._scaled(place, response)
+            if place.is_side and 0 in set(simple_numbers(response)):
+                for edit in emptied(place):
+                    if self._holds(self._repair.with_changes((edit,)).statement, kept):
+                        yield edit
+
+    def _scaled(self, place: NodePosition, response: Response) -> Iterator[Edit]:
+        """What a place multiplied by a factor makes right, or a letter of the value it then has."""
+        for number in simple_numbers(response):
+            yield from edits(place, Match(number))
+        factor = response.multiplier
+        if factor is None:
+            return
+        for match in self._context.products.short(factor):
+            yield from edits(place, match)
+        scalars = dict(self._context.scalars)
+        if place.node in scalars:
+            wanted = factor * scalars[place.node]
+            close = np.abs(self._context.scalar_values - wanted) <= _CLOSE * (1 + np.abs(wanted))
+            fitting = np.flatnonzero(close.all(axis=1))
+            yield from replaced_by(place, (self._context.scalars[i][0] for i in fitting))
 
     def _along_components(
         self,
@@ -150,35 +215,33 @@ class RepairSearch:
         yield from product(*options)
 
     def _late(self, changes: tuple[Edit, ...]) -> tuple[Edit, ...]:
-        """Changes of earlier sides of a chain are the dearer ones."""
+        """With changes of earlier sides of a chain a little larger."""
         last = [len(self._statement.relations[change.path[0]].sides) for change in changes]
         extra = [0.02 * (n - change.path[1]) for n, change in zip(last, changes, strict=True)]
         return tuple(replace(c, size=c.size + e) for c, e in zip(changes, extra, strict=True))
 
     def _throughout(self, kept: Collection[int]) -> Iterator[tuple[Edit, ...]]:
-        """One slip made everywhere: what is differentiated by has lost its dot."""
+        """One slip made everywhere: the variable of partial derivatives has lost its dot."""
         found = [p for p in places(self._statement) if p.is_variable]
         for letter in dict.fromkeys(p.node for p in found):
             alike = [p for p in found if p.node == letter]
             changes = tuple(replaced(p, dotted(p.node), 1 / len(alike)) for p in alike)
-            if self._hold(self._repair.with_changes(changes).statement, kept):
+            if self._holds(self._repair.with_changes(changes).statement, kept):
                 yield changes
 
-    def _hold(self, changed: Statement, kept: Collection[int]) -> bool:
+    def _holds(self, changed: Statement, kept: Collection[int]) -> bool:
+        """Whether members of a changed statement hold at the sample points."""
         try:
-            left = self._tried.left(self._reading.asked(changed, {}), kept)
-            return bool(np.abs(self._tried.bench.values(left)).max(initial=0.0) < _CLOSE * 1e2)
-        except UNKNOWN:
+            left = self._trials.vanishing(self._notation.asked(changed, {}), kept)
+            return bool(np.abs(self._samples.values(left)).max(initial=0.0) < _CLOSE * 1e2)
+        except NO_VALUE:
             return False
 
-    def _ranked(self, found: Iterable[tuple[Edit, ...]]) -> list[Repaired]:
-        different: dict[Piece, Repaired] = {}
-        for changes in sorted(found, key=lambda changes: sum(c.size for c in changes)):
-            repair = self._repair.with_changes(changes)
-            different.setdefault(tidied(repair.statement), repair)
-            if len(different) == _TRIED:
-                break
-        return list(different.values())
+    def _within(self, place: NodePosition, kept: Collection[int]) -> list[int]:
+        """Those of some members that a place is part of."""
+        return sorted(self._sides.members(place) & set(kept))
+
+    # -- how residuals respond to a factor -------------------------------------------------------
 
     def _response(self, place: NodePosition, kept: Collection[int]) -> Response | None:
         """How the residuals of these members change with a factor at a place."""
@@ -188,7 +251,8 @@ class RepairSearch:
         return found and found.among([i for i, m in enumerate(self._members) if m in kept])
 
     def _found_response(self, place: NodePosition) -> Response | None:
-        members = sorted(self._links.members(place))
+        """By numbers alone where possible; else with a letter for the factor, exactly."""
+        members = sorted(self._sides.members(place))
         rows = tuple(i for i, m in enumerate(self._members) if m in members)
         if not rows:
             return None
@@ -197,69 +261,68 @@ class RepairSearch:
                 found = Response(changing(place, members), rows, self._values)
                 if found.is_faithful:
                     return found
-            except UNKNOWN:
+            except NO_VALUE:
                 continue
         return None
 
     def _by_numbers(self, place: NodePosition, members: Sequence[int]) -> Changing:
-        known = self._tally.of(place.node)
-        return lambda factors: self._tally.rows(place, scalar(factors) * known, members)
+        known = self._evaluator.of(place.node)
+        return lambda factors: self._evaluator.rows(place, scalar(factors) * known, members)
 
     def _exactly(self, place: NodePosition, members: Collection[int]) -> Changing:
         changed = put(self._statement, place.path, times(Name(_LETTER), place.node))
-        asked = self._reading.asked(changed, {_LETTER: Expr.generator(_FACTOR)})
-        return self._tried.bench.function(self._tried.left(asked, members), _FACTOR)
+        claim = self._notation.asked(changed, {_LETTER: Expr.generator(_FACTOR)})
+        return self._samples.function(self._trials.vanishing(claim, members), _FACTOR)
 
-    def _at(
-        self, place: NodePosition, response: Response | None, kept: Collection[int]
-    ) -> Iterator[Edit]:
-        node = place.node
-        if isinstance(node, Name | Dots) and self._work.vocabulary.get(node, ZERO) is None:
-            yield from self._vectors(place, kept)
-        if response is not None:
-            yield from self._scaled(place, response)
-            if place.is_side and 0 in set(simple_numbers(response)):
-                yield from (e for e in emptied(place) if self._holds_with(e, kept))
 
-    def _holds_with(self, edit: Edit, kept: Collection[int]) -> bool:
-        return self._hold(self._repair.with_changes((edit,)).statement, kept)
+# -- several coefficients of a claim's own terms, fitted together ---------------------------------
 
-    def _scaled(self, place: NodePosition, response: Response) -> Iterator[Edit]:
-        """What a place multiplied by a factor makes right."""
-        for number in simple_numbers(response):
-            yield from edits(place, Match(number))
-        factor = response.multiplier
-        if factor is not None:
-            for match in self._work.products.short(factor):
-                yield from edits(place, match)
-            yield from self._exchanged(place, factor)
 
-    def _missing(
-        self, place: NodePosition, kept: Collection[int], inner: Collection[NodePosition]
-    ) -> Iterator[Edit]:
-        return missing_terms(self._work, place, self._within(place, kept), inner)
+def fitted(responses: Mapping[NodePosition, Response]) -> Iterator[tuple[Edit, ...]]:
+    """Sets of two or three changes of numbers or signs that together let a claim hold.
 
-    def _within(self, place: NodePosition, kept: Collection[int]) -> list[int]:
-        """Those of some members that a place is part of."""
-        return sorted(self._links.members(place) & set(kept))
+    Args:
+        responses: how what must vanish changes with a factor put at each place.
+    """
+    possible = [p for p in responses if p.is_term or isinstance(p.node, Number)]
+    slopes = {p: s.ravel() for p in possible if (s := responses[p].slope()) is not None}
+    if not slopes:
+        return
+    tried = list(slopes)[:_MOST_PLACES]
+    rest = next(iter(responses.values())).before.ravel()
+    for count in range(2, _MOST_TOGETHER + 1):
+        found = False
+        for chosen, factors in _solutions(rest, np.array([slopes[p] for p in tried]), count):
+            where = [tried[i] for i in chosen]
+            if any(_is_inside(a, b) or _is_inside(b, a) for a, b in combinations(where, 2)):
+                continue
+            found = True
+            options = [list(edits(p, match)) for p, match in zip(where, factors, strict=True)]
+            if all(options):
+                yield tuple(min(each, key=lambda edit: edit.size) for each in options)
+        if found:
+            return
 
-    def _can_take_terms(self, place: NodePosition, response: Response) -> bool:
-        """Whether it is a factor or the like, and could be made right by another value."""
-        if not isinstance(place.parent, Product | Quotient | Power | Call):
-            return False
-        return response.multiplier is not None
 
-    def _exchanged(self, place: NodePosition, factor: Array) -> Iterator[Edit]:
-        """Other letters whose value is what the place would have to be."""
-        known = dict(self._work.known)
-        if place.node in known:
-            wanted = factor * known[place.node]
-            close = np.abs(self._work.figures - wanted) <= _CLOSE * (1 + np.abs(wanted))
-            fitting = [self._work.known[i][0] for i in np.flatnonzero(close.all(axis=1))]
-            yield from replaced_by(place, dict.fromkeys(fitting, True))
+def _is_inside(place: NodePosition, whole: NodePosition) -> bool:
+    return place.path[: len(whole.path)] == whole.path
 
-    def _vectors(self, place: NodePosition, kept: Collection[int]) -> Iterator[Edit]:
-        """Other vectors put in the place of one."""
-        others = [n for n in self._work.other_vectors if n != place.node]
-        fitting = self._work.fitting(place, others, self._within(place, kept))
-        yield from replaced_by(place, dict.fromkeys(fitting, True))
+
+def _solutions(
+    rest: Array, slopes: Array, count: int
+) -> Iterator[tuple[tuple[int, ...], list[Match]]]:
+    """Which slopes, with which factors, cancel the rest; by QR of all sets of them at once."""
+    sets = list(combinations(range(len(slopes)), count))
+    if not sets or count > len(rest):
+        return
+    bases, triangles = np.linalg.qr(np.moveaxis(slopes[np.array(sets)], 1, 2))
+    shares = np.einsum("snk,n->sk", bases, -rest)
+    left = np.abs(np.einsum("snk,sk->sn", bases, shares) + rest).max(axis=1)
+    sizes = np.abs(np.diagonal(triangles, axis1=1, axis2=2))
+    independent = sizes.min(axis=1) > _INDEPENDENT * sizes.max(axis=1)
+    for i in np.flatnonzero(independent & (left <= _CLOSE * np.abs(rest).max())):
+        change = np.linalg.solve(triangles[i], shares[i])
+        numbers = [simple_number(np.array([1 + x])) for x in change]
+        factors = [Match(n) for n in numbers if n is not None and n != 1]
+        if len(factors) == count:
+            yield sets[i], factors

@@ -1,18 +1,81 @@
-"""What must vanish for a claim to hold, in each context, at states where to try it."""
+"""How a changed statement is read, and what must vanish for it to hold in each context."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, replace
+from typing import Protocol
 
 from polhode.algebra import Expr
+from polhode.claims.contexts._remainder import vanished
 from polhode.claims.contexts._steady import solved_members
+from polhode.claims.latex._tree import Node, Statement
+from polhode.claims.meaning._meaning import Side
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
-from polhode.claims.states._sample_points import SamplePoints, bench
+from polhode.claims.states._sample_points import SamplePoints, sample_points
 from polhode.claims.states._steady_states import steady_states
 
-_CLOSE = 1e-7
+
+class RepairNotation(Protocol):
+    """What repair needs to know of how a statement is read."""
+
+    def asked(self, statement: Statement, extra: Mapping[str, Expr]) -> BoundClaim:
+        """The claim a statement makes; `extra` are further letters it may use."""
+        ...
+
+    def value(self, node: Node) -> Side:
+        """What one node stands for."""
+        ...
+
+    @property
+    def names(self) -> tuple[Node, ...]:
+        """Letters of the text, with their dots, that a correction may use."""
+        ...
+
+    @property
+    def vectors(self) -> tuple[Node, ...]:
+        """Letters that may stand for vectors, and that a correction may use."""
+        ...
+
+
+@dataclass(frozen=True)
+class AtLimit:
+    """How statements to order zero are read at the limit itself, where all that is small vanishes.
+
+    Attributes:
+        notation: how they are read near it.
+        claim: whose small quantities vanish.
+    """
+
+    notation: RepairNotation
+    claim: BoundClaim
+
+    def asked(self, statement: Statement, extra: Mapping[str, Expr]) -> BoundClaim:
+        """The claim a statement makes there."""
+        near = self.notation.asked(statement, extra)
+        return replace(near, given={**near.given, **vanished(self.claim.small)}, small=())
+
+    def near(self, there: BoundClaim) -> BoundClaim:
+        """The same claim near the limit."""
+        return replace(there, given=self.claim.given, small=self.claim.small)
+
+    def value(self, node: Node) -> Side:
+        """What one node stands for."""
+        return self.notation.value(node)
+
+    @property
+    def names(self) -> tuple[Node, ...]:
+        """Letters that a correction may use."""
+        return self.notation.names
+
+    @property
+    def vectors(self) -> tuple[Node, ...]:
+        """Letters of vectors that a correction may use."""
+        return self.notation.vectors
+
+
+# -- what must vanish -----------------------------------------------------------------------------
 
 #: What must vanish, with the member of the claim it belongs to.
 Residuals = Callable[[BoundClaim], list[tuple[int, Expr]]]
@@ -23,65 +86,57 @@ class Trials:
     """Expressions that vanish where a claim holds, and states to try them at.
 
     Attributes:
-        states: the circumstances.
-        bench: numbers of some of the states.
+        states: where the claim is asked to hold.
+        samples: some of these states by numbers.
         residuals: of any claim of the same form, such as a corrected one.
     """
 
     states: ClaimDomain
-    bench: SamplePoints
+    samples: SamplePoints
     residuals: Residuals
 
-    def left(self, asked: BoundClaim, members: Collection[int]) -> list[Expr]:
+    def vanishing(self, claim: BoundClaim, members: Collection[int]) -> list[Expr]:
         """What must vanish for some of the members of a claim."""
-        return [e for m, e in self.residuals(asked.only(members)) if m in members]
+        return [e for m, e in self.residuals(claim.only(members)) if m in members]
 
 
-def trials(asked: BoundClaim, context: str) -> Trials:
+def trials(claim: BoundClaim, context: str) -> Trials:
     """Where a claim can be tried, by its context."""
-    return _TRIALS[context](asked)
+    return _TRIALS[context](claim)
 
 
-def _on(states: ClaimDomain, asked: BoundClaim, residuals: Residuals) -> Trials:
-    return Trials(states, bench(states, [e for _, e in residuals(asked)]), residuals)
+def _on(states: ClaimDomain, claim: BoundClaim, residuals: Residuals) -> Trials:
+    return Trials(states, sample_points(states, [e for _, e in residuals(claim)]), residuals)
 
 
-def _differences(asked: BoundClaim) -> list[tuple[int, Expr]]:
-    return [(component.member, component.difference) for component in asked.components()]
+def _differences(claim: BoundClaim) -> list[tuple[int, Expr]]:
+    return [(component.member, component.difference) for component in claim.components()]
 
 
-def _identity(asked: BoundClaim) -> Trials:
-    return _on(asked.states(AnyState), asked, _differences)
+def _steady(claim: BoundClaim) -> Trials:
+    """Differences in steady motion; of members that give a quantity, the relation it is to meet."""
+    family, *_ = steady_states(claim)
+    if not solved_members(claim, 0):
+        return _on(family, claim, _differences)
+    relations = [r.numerator for r in family.settled_relations]
+
+    def relations_met(changed: BoundClaim) -> list[tuple[int, Expr]]:
+        solved = solved_members(changed, 0)
+        return [(s.member, r.subs({s.quantity: s.value})) for s in solved for r in relations]
+
+    return _on(claim.states(TrueMotion), claim, relations_met)
 
 
-def _motion(asked: BoundClaim) -> Trials:
-    return _on(asked.states(TrueMotion), asked, _differences)
+def _launch(claim: BoundClaim) -> Trials:
+    from polhode.claims.contexts._initial_value import sample_points_along  # loads the simulator
 
-
-def _steady(asked: BoundClaim) -> Trials:
-    family, *_ = steady_states(asked)
-    if not solved_members(asked, 0):
-        return _on(family, asked, _differences)
-    states = asked.states(TrueMotion)
-    relations: Sequence[Expr] = [r.numerator for r in family.settled_relations]
-
-    def put_in(changed: BoundClaim) -> list[tuple[int, Expr]]:
-        pairs = solved_members(changed, 0)
-        return [(p.member, r.subs({p.quantity: p.value})) for p in pairs for r in relations]
-
-    return _on(states, asked, put_in)
-
-
-def _launch(asked: BoundClaim) -> Trials:
-    from polhode.claims.contexts._initial_value import bench_along  # it needs the simulator
-
-    states, bench = bench_along(asked)
-    return Trials(states, bench, _differences)
+    states, samples = sample_points_along(claim)
+    return Trials(states, samples, _differences)
 
 
 _TRIALS: dict[str, Callable[[BoundClaim], Trials]] = {
-    "identity": _identity,
-    "motion": _motion,
+    "identity": lambda claim: _on(claim.states(AnyState), claim, _differences),
+    "motion": lambda claim: _on(claim.states(TrueMotion), claim, _differences),
     "steady": _steady,
     "launch": _launch,
 }

@@ -1,1 +1,5 @@
-"""The states on which a claim is asked to hold."""
+"""The states on which a claim is asked to hold.
+
+Within claims, packages import one way only: `latex`, then `balance` (numbers from the declaration
+alone), `meaning`, `states`, `contexts`, `repair`.
+"""

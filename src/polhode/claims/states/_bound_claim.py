@@ -9,8 +9,8 @@ from typing import TypeVar, cast
 
 from polhode.algebra import ZERO, Expr, Symbol
 from polhode.claims.latex._tree import Node
-from polhode.claims.meaning._components import Member, ScalarRelation, components
-from polhode.claims.meaning._the import The
+from polhode.claims.meaning._mechanics import EquationsKey
+from polhode.claims.meaning._relations import BoundRelation, ScalarRelation, components
 from polhode.claims.states._claim_domain import ClaimDomain
 from polhode.derive import Equations
 
@@ -44,12 +44,12 @@ class Small:
 @lru_cache(maxsize=_KEPT)
 def _states(
     kind: type[ClaimDomain],
-    the: The,
+    the: EquationsKey,
     given: tuple[tuple[Symbol, Expr], ...],
     relations: tuple[Expr, ...],
     positive: tuple[Expr, ...],
 ) -> ClaimDomain:
-    """The states, kept with all that was found out about them."""
+    """The states; kept, for it takes time to find what expressions are on them."""
     return kind(the.equations, dict(given), relations, positive)
 
 
@@ -68,10 +68,10 @@ class BoundClaim:
         start: for claims on a motion, values at its start.
         when: for statements on a motion, how often they hold: always, never, sometimes,
             initially, finally.
-        defined: letters that the claim defines itself; what defines them is no member.
+        defined: letters that the claim defines itself; their definitions are no members.
     """
 
-    branches: tuple[tuple[Member, ...], ...]
+    branches: tuple[tuple[BoundRelation, ...], ...]
     equations: Equations
     given: Mapping[Symbol, Expr] = field(default_factory=dict)
     relations: tuple[Expr, ...] = ()
@@ -83,12 +83,12 @@ class BoundClaim:
     defined: tuple[Node, ...] = ()
 
     @property
-    def members(self) -> tuple[Member, ...]:
+    def members(self) -> tuple[BoundRelation, ...]:
         """The members, on the first branch."""
         return self.branches[0]
 
     def components(self, branch: int = 0) -> tuple[ScalarRelation, ...]:
-        """All members of a branch as scalar relations."""
+        """All members of a branch, component by component."""
         numbered = enumerate(self.branches[branch])
         return tuple(c for i, r in numbered for c in components(i, r.left, r.right))
 
@@ -99,12 +99,9 @@ class BoundClaim:
 
     def states(self, kind: type[States]) -> States:
         """The states of a kind on which the claim is asked to hold."""
-        found = _states(kind, The(self.equations), self._given, self.relations, self.positive)
+        given = tuple(self.given.items())
+        found = _states(kind, EquationsKey(self.equations), given, self.relations, self.positive)
         return cast(States, found)
-
-    @property
-    def _given(self) -> tuple[tuple[Symbol, Expr], ...]:
-        return tuple(self.given.items())
 
     def only(self, members: Collection[int]) -> BoundClaim:
         """The claim that some of the members make; the others are left in place, as 0 = 0."""
@@ -115,15 +112,5 @@ class BoundClaim:
         return replace(self, branches=branches)
 
 
-@dataclass(frozen=True)
-class _Nothing:
-    """The relation 0 = 0, which keeps the place of a member that is judged elsewhere."""
-
-    left: Expr = ZERO
-    sign: str = "="
-    right: Expr = ZERO
-    is_alternative: bool = False
-    printed: None = None
-
-
-NOTHING = _Nothing()
+#: The relation 0 = 0, which keeps the place of a member that is judged elsewhere.
+NOTHING = BoundRelation(ZERO, "=", ZERO)

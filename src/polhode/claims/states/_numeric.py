@@ -1,4 +1,4 @@
-"""Values of exact expressions by floating-point numbers, one at a time or in arrays."""
+"""Values of exact expressions in floating-point numbers, one at a time or in arrays."""
 
 from __future__ import annotations
 
@@ -11,18 +11,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polhode.algebra import Expr, Generator, Symbol, under_name
+from polhode.base import PolhodeError
 
 Array: TypeAlias = NDArray[np.float64]
 
 _FUNCTIONS = {name: getattr(np, name) for name in ("sin", "cos", "sinh", "cosh", "exp", "sqrt")}
 _PI = Symbol("pi")
 
+#: What is raised where an expression or a formula has no value at a state.
+NO_VALUE = (PolhodeError, ArithmeticError, ValueError, KeyError)
+
 
 def number(expression: Expr, values: Mapping[Symbol, Any]) -> Any:
     """The value of an expression, in the shape of the values; `KeyError` for unknown symbols."""
-    known: dict[Generator, Any] = {}
     with np.errstate(all="ignore"):
-        return _of(expression, values, known)
+        return _value(expression, values, {})
 
 
 def numbers(
@@ -34,7 +37,7 @@ def numbers(
     found = np.empty((len(wanted), *shape))
     with np.errstate(all="ignore"):
         for place, expression in enumerate(wanted):
-            found[place] = _of(expression, values, known)
+            found[place] = _value(expression, values, known)
     return found
 
 
@@ -69,7 +72,7 @@ def rationals(
             others = [g for g in expression.generators if g != unknown]
             if any(unknown in g.symbols() for g in others):
                 return None
-            _learn(others, values, known)
+            _evaluate(others, values, known)
             parts = (expression.numerator, expression.denominator)
             above, below = (_coefficients(part, unknown, known, shape) for part in parts)
             found.append(Rational(above, below))
@@ -88,20 +91,20 @@ def _coefficients(
     return np.array([np.broadcast_to(found.get(p, 0.0), shape) for p in reversed(range(count))])
 
 
-def _of(expression: Expr, values: Mapping[Symbol, Any], known: dict[Generator, Any]) -> Any:
-    _learn(expression.generators, values, known)
+def _value(expression: Expr, values: Mapping[Symbol, Any], known: dict[Generator, Any]) -> Any:
+    _evaluate(expression.generators, values, known)
     above = _sum(expression.numerator, known)
     if expression.is_polynomial:
         return above / _sum(expression.denominator, known)
     return np.true_divide(above, _sum(expression.denominator, known))
 
 
-def _learn(
+def _evaluate(
     generators: Iterable[Generator], values: Mapping[Symbol, Any], known: dict[Generator, Any]
 ) -> None:
     for generator in generators:
         if generator not in known:
-            known[generator] = _generator(generator, values, known)
+            known[generator] = _generator_value(generator, values, known)
 
 
 def _sum(polynomial: Expr, known: Mapping[Generator, Any]) -> Any:
@@ -121,13 +124,13 @@ def _term(
     return term
 
 
-def _generator(
+def _generator_value(
     generator: Generator, values: Mapping[Symbol, Any], known: dict[Generator, Any]
 ) -> Any:
     if isinstance(generator, Symbol):
         return np.pi if generator == _PI else values[generator]
     meaning = under_name(generator)
     if meaning is not None:
-        return _of(meaning, values, known)
+        return _value(meaning, values, known)
     function = _FUNCTIONS[generator.key.partition("(")[0]]
-    return function(_of(generator.arguments[0], values, known))
+    return function(_value(generator.arguments[0], values, known))

@@ -1,32 +1,166 @@
-"""Many states by numbers, at which to see quickly whether relations can hold."""
+"""States of a domain at which relations are tried: one with exact values, or many by numbers."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from fractions import Fraction
+from functools import cached_property, lru_cache, reduce
 from itertools import islice
+from math import atan
+from random import Random
+from typing import Any
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol, variables
-from polhode.base import PolhodeError
+from polhode.algebra import Expr, Generator, Symbol, SymbolKind, sqrt, under_name, variables
+from polhode.base import NumericError
+from polhode.claims.meaning._mechanics import EquationsKey
 from polhode.claims.states._claim_domain import ClaimDomain
-from polhode.claims.states._numeric import Array, Rational, number, numbers, rationals
-from polhode.claims.states._points import points
+from polhode.claims.states._numeric import NO_VALUE, Array, number, numbers, rationals
 
-_STATES = 6
+_STATES = 6  # enough for no wrong correction to hold at all of them by chance
 _TRIES = 40
+_ROUNDING = 1e-9  # relative; moments of inertia of thin bodies only just obey their inequality
 _PI = Symbol("pi")
+
+# -- one state with simple exact numbers ----------------------------------------------------------
+
+_SIMPLE = [Fraction(n, d) for d in (1, 2, 3) for n in range(1, 8) if n % d or d == 1]
+_HALF_TANGENTS = [Fraction(n, d) for d in range(2, 8) for n in range(1, d) if d % n or n == 1]
+
+
+@dataclass(frozen=True)
+class ExactPoint:
+    """Exact values of symbols; angles by the tangent of their half, so that sines are rational.
+
+    Attributes:
+        numbers: value of every symbol that is no angle, SI.
+        half_tangents: of the symbols that sines and cosines are taken of.
+    """
+
+    numbers: Mapping[Symbol, Fraction]
+    half_tangents: Mapping[Symbol, Fraction]
+
+    def __call__(self, expression: Expr) -> Expr:
+        """The exact value of an expression: rational, or a root of rationals.
+
+        Raises `NumericError` where it has no exact value of that sort, and `ZeroDivisionError`.
+        """
+        return expression.recast({g: self._value(g) for g in expression.generators})
+
+    def _value(self, generator: Generator) -> Expr:
+        if generator == _PI:
+            return Expr.generator(generator)
+        if isinstance(generator, Symbol):
+            if generator not in self.numbers:
+                raise _not_exact(generator)
+            return Expr.constant(self.numbers[generator])
+        meaning = under_name(generator)
+        if meaning is not None:
+            return self(meaning)
+        partner = generator.partner() or _odd(generator)
+        if generator.depth and generator.partner() is None:
+            return sqrt(self(generator.arguments[0]))
+        angle, part = _angle(generator)
+        tangent = self.half_tangents.get(angle)
+        if partner is None or partner[1] > 0 or tangent is None:
+            raise _not_exact(generator)
+        cosine = Expr.of((1 - tangent**2) / (1 + tangent**2))
+        sine = Expr.of(2 * tangent / (1 + tangent**2))
+        if part == Fraction(1, 2):
+            sine, cosine = sqrt((1 - cosine) / 2), sqrt((1 + cosine) / 2)
+        elif part != 1:
+            raise _not_exact(generator)
+        return cosine if generator.partner() else sine
+
+    def floats(self) -> dict[Symbol, float]:
+        """All values as numbers, angles in radians."""
+        angles = {s: 2 * atan(tangent) for s, tangent in self.half_tangents.items()}
+        return {**{s: float(v) for s, v in self.numbers.items()}, **angles}
+
+    def described(self) -> dict[str, str]:
+        """All values as text under their published names."""
+        plain = {s.published: str(v) for s, v in self.numbers.items()}
+        angles = {s.published: f"2*atan({t})" for s, t in self.half_tangents.items()}
+        return dict(sorted({**plain, **angles}.items()))
+
+
+def exact_point(expressions: Iterable[Expr], symbols: Iterable[Symbol], seed: int) -> ExactPoint:
+    """A point with simple values for all symbols, those under a sine or cosine being angles."""
+    random = Random(seed)
+    angles = {a for e in expressions for g in e.generators for a in _angles(g)}
+    wanted = sorted({*symbols} - {_PI}, key=lambda s: s.published)
+    draw, draw_tangent = _draws(random, _SIMPLE), _draws(random, _HALF_TANGENTS)
+    plain = {s: draw(s) for s in wanted if s not in angles}
+    return ExactPoint(plain, {s: draw_tangent(s) for s in wanted if s in angles})
+
+
+def _draws(random: Random, pool: list[Fraction]) -> Callable[[Symbol], Fraction]:
+    """Draws values from a pool without repetition as long as it lasts; some rates are negative."""
+    left: list[Fraction] = []
+
+    def draw(symbol: Symbol) -> Fraction:
+        if not left:
+            left.extend(random.sample(pool, len(pool)))
+        value = left.pop()
+        free = symbol.kind is not SymbolKind.PARAMETER and not symbol.positive
+        return -value if free and symbol.order and random.random() < 1 / 3 else value
+
+    return draw
+
+
+@lru_cache(maxsize=1024)
+def _angles(generator: Generator) -> tuple[Symbol, ...]:
+    """Symbols that the generator takes a sine or cosine of, also under roots."""
+    meaning = under_name(generator)
+    if meaning is not None:
+        return tuple(dict.fromkeys(a for g in meaning.generators for a in _angles(g)))
+    odd = _odd(generator)
+    if odd is not None and odd[1] < 0:
+        angle = _angle(generator)[0]
+        return () if angle == _PI else (angle,)
+    inner = (g for argument in generator.arguments for g in argument.generators)
+    return tuple(a for g in inner for a in _angles(g))
+
+
+def _odd(generator: Generator) -> tuple[Generator, int] | None:
+    """The odd function and sign of the family of a sine or cosine."""
+    pairs = (g.partner() for g in generator.companions() if g.depth)
+    own = generator.partner()
+    return own or next((pair for pair in pairs if pair and pair[0] == generator), None)
+
+
+def _angle(generator: Generator) -> tuple[Symbol, Fraction]:
+    """Symbol and factor of the argument of a sine or cosine."""
+    argument = generator.arguments[0]
+    symbols = argument.symbols()
+    if len(symbols) != 1:
+        raise _not_exact(generator)
+    (symbol,) = symbols
+    factor = (argument / Expr.generator(symbol)).rational
+    if factor is None:
+        raise _not_exact(generator)
+    return symbol, factor
+
+
+def _not_exact(generator: Generator) -> NumericError:
+    return NumericError(
+        f"{Expr.generator(generator)} at a point of exact numbers",
+        expected="polynomials, roots, and sines and cosines of single angles",
+    )
+
+
+# -- many states by numbers -----------------------------------------------------------------------
 
 
 class SymbolValues(dict[Symbol, float]):
-    """The number of every symbol at one state, found when first asked for.
+    """The number of every symbol at one state, found when it is first needed.
 
     Args:
-        free: of those that the circumstances leave open.
-        states: the circumstances.
-        seed: of the others that they leave open.
+        free: of the symbols that the domain leaves open.
+        states: the domain.
+        seed: of further symbols that it leaves open.
     """
 
     def __init__(self, free: Mapping[Symbol, float], states: ClaimDomain, seed: int) -> None:
@@ -37,15 +171,15 @@ class SymbolValues(dict[Symbol, float]):
 
     def __missing__(self, symbol: Symbol) -> float:
         image = self._states.of(symbol)
-        unheard = image.symbols() - self._free.keys() - {_PI}
-        self._free |= points((), unheard, self._seed + len(self._free)).floats()
+        unknown = image.symbols() - self._free.keys() - {_PI}
+        self._free |= exact_point((), unknown, self._seed + len(self._free)).floats()
         self[symbol] = number(image, self._free)
         return self[symbol]
 
 
 @dataclass(frozen=True, eq=False)
 class SamplePoints:
-    """Several states that circumstances allow.
+    """Several states of a domain, at which to see quickly whether relations can hold.
 
     Attributes:
         states: the number of every symbol, state by state.
@@ -53,67 +187,112 @@ class SamplePoints:
 
     states: tuple[SymbolValues, ...]
 
-    def values(self, expressions: Sequence[Expr]) -> Array:
-        """Values of expressions: (expressions, states); not a number where there is none."""
-        columns = self._columns(variables(expressions) - {_PI})
-        return numbers(expressions, columns, (self.size,))
-
     @property
     def size(self) -> int:
         """How many states there are."""
         return len(self.states)
 
+    def values(self, expressions: Sequence[Expr]) -> Array:
+        """Values of expressions: (expressions, states); not a number where there is none."""
+        columns = self._columns(variables(expressions) - {_PI})
+        return numbers(expressions, columns, (self.size,))
+
     def function(self, expressions: Sequence[Expr], unknown: Symbol) -> Callable[[Array], Array]:
         """Values of expressions as a function of one symbol that no state fixes, state by state."""
         columns = self._columns(variables(expressions) - {_PI, unknown})
-        shape = (self.size,)
-        found = rationals(expressions, unknown, columns, shape)
+        found = rationals(expressions, unknown, columns, (self.size,))
         if found is None:
             return lambda at: numbers(expressions, {**columns, unknown: at}, at.shape)
-        return partial(_evaluated, found)
+
+        def evaluated(at: Array) -> Array:
+            with np.errstate(all="ignore"):
+                return np.array([function(at) for function in found]).reshape(len(found), *at.shape)
+
+        return evaluated
 
     def _columns(self, symbols: Iterable[Symbol]) -> dict[Symbol, Array]:
-        return {symbol: self._column(symbol) for symbol in symbols}
-
-    def _column(self, symbol: Symbol) -> Array:
-        if symbol not in self._known:
-            self._known[symbol] = np.array([state[symbol] for state in self.states])
-        return self._known[symbol]
+        """The values of each symbol over the states."""
+        wanted = tuple(symbols)
+        for symbol in wanted:
+            if symbol not in self._known:
+                self._known[symbol] = np.array([state[symbol] for state in self.states])
+        return {symbol: self._known[symbol] for symbol in wanted}
 
     @cached_property
     def _known(self) -> dict[Symbol, Array]:
         return {}
 
 
-def _evaluated(found: Sequence[Rational], at: Array) -> Array:
-    with np.errstate(all="ignore"):
-        return np.array([function(at) for function in found]).reshape(len(found), *at.shape)
-
-
-def bench(states: ClaimDomain, expressions: Iterable[Expr]) -> SamplePoints:
-    """States with independent numbers for everything the circumstances leave open."""
+def sample_points(states: ClaimDomain, expressions: Iterable[Expr]) -> SamplePoints:
+    """States with independent numbers for everything the domain leaves open."""
     return SamplePoints(tuple(islice(real_states(states, expressions), _STATES)))
 
 
 def real_states(states: ClaimDomain, expressions: Iterable[Expr]) -> Iterator[SymbolValues]:
-    """One such state after another, as long as some of the first ones drawn are real."""
+    """Such states one after another, of the first ones drawn those where all values are real."""
     used = [states.on(e) for e in expressions]
     used += [*states.settled_relations, *states.signs]
     used += list(states.equations.accelerations.values())
     equations = states.equations
     symbols = {s for e in used for s in e.symbols()}
     symbols |= {*equations.coordinates, *equations.speeds, *equations.parameters}
-    seeds = range(1000, 1000 + _TRIES)
-    every = (SymbolValues(points(used, symbols, seed).floats(), states, seed) for seed in seeds)
-    return (found for found in every if _is_real(found, states, symbols))
+    for seed in range(1000, 1000 + _TRIES):
+        found = SymbolValues(exact_point(used, symbols, seed).floats(), states, seed)
+        if _is_real(found, states, symbols):
+            yield found
 
 
 def _is_real(state: SymbolValues, states: ClaimDomain, symbols: Iterable[Symbol]) -> bool:
+    """Whether all is real at a state, and positive where it has to be; notes the values there."""
     ordered = tuple(symbols)
     try:
         settled = numbers([states.of(s) for s in ordered], state, ())
         positive = numbers([states.on(e) for e in states.signs], state, ()) > 0
-    except (PolhodeError, ArithmeticError, ValueError, KeyError):
+    except NO_VALUE:
         return False
     state.update(zip(ordered, settled.tolist(), strict=True))
     return bool(positive.all() and np.isfinite(settled).all())
+
+
+# -- what real bodies demand: positive parameters, possible moments of inertia --------------------
+
+
+def is_physical(states: ClaimDomain, values: Mapping[Symbol, Any]) -> Any:
+    """Whether there can be bodies with these numbers, which may be arrays of one shape.
+
+    What is declared or was derived as positive is positive, also where the domain determines it;
+    no moment of inertia exceeds the sum of the other two.
+    """
+    above, not_below = _demands(EquationsKey(states.equations))
+    with np.errstate(all="ignore"):
+        met = [number(states.on(e), values) > 0 for e in (*states.signs, *above)]
+        for larger, size in not_below:
+            least = -_ROUNDING * np.abs(number(states.on(size), values))
+            met.append(number(states.on(larger), values) >= least)
+    return reduce(np.logical_and, met, np.bool_(True))
+
+
+def physical_symbols(states: ClaimDomain) -> frozenset[Symbol]:
+    """The symbols whose numbers decide whether bodies are physical."""
+    above, not_below = _demands(EquationsKey(states.equations))
+    every = (*states.signs, *above, *(e for pair in not_below for e in pair))
+    return frozenset(s for e in every for s in states.on(e).symbols())
+
+
+@lru_cache(maxsize=16)
+def _demands(the: EquationsKey) -> tuple[tuple[Expr, ...], tuple[tuple[Expr, Expr], ...]]:
+    """What has to be positive, and what must not be negative, each with its size.
+
+    The latter are the moments of inertia and the sum of each two less the third, which hold along
+    any axes.
+    """
+    inertias: list[tuple[Expr, Expr]] = []
+    for body in the.equations.system.bodies:
+        moments = [body.inertia[i, i] for i in range(3)]
+        whole = moments[0] + moments[1] + moments[2]
+        for moment in filter(None, moments):
+            inertias += [(moment, whole), (whole - 2 * moment, whole)]
+    signed = {s for s in the.equations.parameters if s.positive}
+    signed |= {s for pair in inertias for e in pair for s in e.symbols() if s.positive}
+    ordered = sorted(signed, key=lambda s: s.published)
+    return tuple(map(Expr.generator, ordered)), tuple(inertias)

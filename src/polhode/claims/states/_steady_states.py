@@ -1,4 +1,4 @@
-"""Steady motions as the states on which a claim is asked to hold."""
+"""Steady motions as domains of claims."""
 
 from __future__ import annotations
 
@@ -7,10 +7,9 @@ from functools import cached_property, lru_cache
 
 from polhode.algebra import ZERO, Expr, Symbol, eliminate
 from polhode.analyse import SteadyMotion, steady
-from polhode.claims.meaning._the import The
+from polhode.claims.meaning._mechanics import EquationsKey
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
-from polhode.derive import Equations
 
 _KEPT = 64
 _PI = Symbol("pi")
@@ -24,7 +23,7 @@ class SteadyStates(TrueMotion):
 
     @cached_property
     def is_at_rest(self) -> bool:
-        """Whether an angle stands still at a value of its own, whatever else the motion is."""
+        """Whether an angle stays at a value of its own, such as 0, however the rest moves."""
         if self.family is None or self.family.relations:
             return False
         essential = self.family.reduced.essential
@@ -44,30 +43,28 @@ class SteadyStates(TrueMotion):
         return dict.fromkeys(self.equations.acceleration_symbols, ZERO)
 
 
-def steady_states(asked: BoundClaim) -> tuple[SteadyStates, ...]:
+def steady_states(claim: BoundClaim) -> tuple[SteadyStates, ...]:
     """Every family of steady motions that obeys the claim's own restrictions.
 
     Families where the coordinates are singular are left out: a rate of precession means nothing
     about an upright axis.
     """
-    given = tuple(asked.given.items())
-    return _families(The(asked.equations), given, asked.relations, asked.positive)
+    given = tuple(claim.given.items())
+    return _families(EquationsKey(claim.equations), given, claim.relations, claim.positive)
 
 
 @lru_cache(maxsize=_KEPT)
 def _families(
-    the: The,
+    the: EquationsKey,
     given: tuple[tuple[Symbol, Expr], ...],
     relations: tuple[Expr, ...],
     positive: tuple[Expr, ...],
 ) -> tuple[SteadyStates, ...]:
-    return tuple(
-        SteadyStates(the.equations, dict(given), (*family.relations, *relations), positive, family)
-        for family in steady(the.equations, dict(given))
-        if not _is_singular(the.equations, family)
-    )
-
-
-def _is_singular(equations: Equations, family: SteadyMotion) -> bool:
-    rows = [[entry.subs(family.fixed) for entry in row] for row in equations.mass.rows]
-    return bool(rows) and bool(eliminate(rows, [ZERO] * len(rows)).free)
+    found = []
+    for family in steady(the.equations, dict(given)):
+        rows = [[entry.subs(family.fixed) for entry in row] for row in the.equations.mass.rows]
+        is_singular = bool(rows) and bool(eliminate(rows, [ZERO] * len(rows)).free)
+        if not is_singular:
+            vanishing = (*family.relations, *relations)
+            found.append(SteadyStates(the.equations, dict(given), vanishing, positive, family))
+    return tuple(found)

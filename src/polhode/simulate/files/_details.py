@@ -1,4 +1,4 @@
-"""What belongs to a motion besides its declaration and its series, as plain JSON."""
+"""What is kept of a motion besides its declaration and its series, as plain JSON."""
 
 from __future__ import annotations
 
@@ -9,9 +9,7 @@ from typing import Any
 from polhode.algebra import SHAPES, Expr, Symbol, SymbolKind
 from polhode.base import Codec, ShapeRecord
 from polhode.simulate._event import Event
-from polhode.simulate._segment import Segment
-from polhode.simulate._trajectory import Trajectory
-from polhode.simulate.files._payload import mapping, number, numbers, text
+from polhode.simulate.files._archive import mapping, number, numbers, text
 
 
 @dataclass(frozen=True)
@@ -24,7 +22,7 @@ class _Table:
 def _table(rows: tuple[tuple[Any, Any], ...]) -> _Table:
     for name, expression in rows:
         if not isinstance(name, Symbol | str) or not isinstance(expression, Expr):
-            raise ValueError("a table of something else than expressions")
+            raise ValueError("a table of something other than expressions")
     return _Table(rows)
 
 
@@ -39,9 +37,9 @@ class Details:
 
     Attributes:
         duration, mode, assumed, seconds, integrator, invariants, resolution: as of the trajectory.
-        turned: of large angles: the symbol of the angle less whole turns.
+        turned: for angles that grow large, the symbol of the angle modulo whole turns.
         prescribed: every prescribed function as an expression of time.
-        sides: of absolute values, in order, by number of the segment; none where there are none.
+        sides: signs of the arguments of absolute values, in order, by number of the segment.
         doubt: as of the trajectory.
     """
 
@@ -58,7 +56,7 @@ class Details:
     doubt: str
 
     def as_json(self) -> dict[str, Any]:
-        """As plain values, which `read_details` reads."""
+        """As JSON values, which `read_details` reads."""
         return {
             "duration": self.duration,
             "mode": self.mode,
@@ -74,36 +72,20 @@ class Details:
         }
 
 
-def details_of(run: Trajectory) -> Details:
-    """What is kept of a motion by name."""
-    parts = (part for segment in run.segments for part in segment.parts)
-    return Details(
-        duration=run.duration,
-        mode=run.mode,
-        assumed=run.assumed,
-        seconds=run.seconds,
-        integrator=run.integrator,
-        resolution=run.resolution,
-        turned={s: t for part in parts for s, t in part.solution.turned.items()},
-        prescribed=run.dynamics.prescribed,
-        invariants=run.invariants,
-        sides={i: s for i, segment in enumerate(run.segments) if (s := _sides(segment))},
-        doubt=run.doubt,
-    )
-
-
-def _sides(segment: Segment) -> tuple[int, ...]:
-    """On which sides of their zeros the insides of absolute values are."""
-    return tuple(segment.dynamics.sides.values())
-
-
 def read_details(given: Mapping[str, Any]) -> Details:
     """The details that were written.
 
     Raises:
-        LookupError, ValueError: where something is missing, or is of another kind.
+        LookupError, ValueError: where something is missing or of another type.
         StoreError: for expressions that cannot be read.
     """
+    # A prescribed function is an expression of time, or of one other: the time since a knot.
+    rows = _rows(given["forcing"])
+    table = {name: value for name, value in rows if isinstance(name, Symbol)}
+    plain = {s for s, value in table.items() if all(map(_is_given, value.symbols()))}
+    for name, value in table.items():
+        if not all(_is_given(s) or s in plain for s in value.symbols()):
+            raise ValueError(f"{name.published} is not a function of time")
     return Details(
         duration=number(given["duration"]),
         mode=text(given["mode"]),
@@ -112,7 +94,7 @@ def read_details(given: Mapping[str, Any]) -> Details:
         integrator=text(given["integrator"]),
         resolution=numbers(given["resolution"]),
         turned={symbol(a): symbol(text(b)) for a, b in mapping(given["turned"]).items()},
-        prescribed=_prescribed(_rows(given["forcing"])),
+        prescribed=table,
         invariants={text(name): value for name, value in _rows(given["invariants"])},
         sides={int(i): tuple(map(_side, s)) for i, s in mapping(given["sides"]).items()},
         doubt=text(given["doubt"]),
@@ -121,22 +103,12 @@ def read_details(given: Mapping[str, Any]) -> Details:
 
 def _side(given: object) -> int:
     if given not in (-1, 0, 1):
-        raise ValueError("a side of zero that is neither")
+        raise ValueError("a sign other than -1, 0 and 1")
     return int(number(given))
 
 
 def _rows(document: Any) -> tuple[tuple[Any, Expr], ...]:
     return _CODEC.read(text(document), _Table).rows
-
-
-def _prescribed(rows: tuple[tuple[Any, Expr], ...]) -> dict[Symbol, Expr]:
-    """Functions as expressions of time, each at most by way of one other: the time since a knot."""
-    table = {name: value for name, value in rows if isinstance(name, Symbol)}
-    plain = {s for s, value in table.items() if all(map(_is_given, value.symbols()))}
-    for name, value in table.items():
-        if not all(_is_given(s) or s in plain for s in value.symbols()):
-            raise ValueError(f"{name.published} is no function of time")
-    return table
 
 
 def _is_given(symbol: Symbol) -> bool:
@@ -150,7 +122,7 @@ def read_event(given: Mapping[str, Any], duration: float) -> Event:
     """An event of a motion of some duration.
 
     Raises:
-        LookupError, ValueError: where something is missing, or is of another kind.
+        LookupError, ValueError: where something is missing or of another type.
     """
     before, after = (None if given[end] is None else text(given[end]) for end in ("from", "to"))
     time = number(given["time"])
@@ -163,15 +135,15 @@ def read_event(given: Mapping[str, Any], duration: float) -> Event:
 
 
 def label(symbol: Symbol) -> str:
-    """A symbol as a text."""
+    """A symbol as text."""
     return f"{symbol.kind.value} {symbol.order} {symbol.name}"
 
 
 def symbol(label: str) -> Symbol:
-    """The symbol that a text stands for.
+    """The symbol that `label` wrote as text.
 
     Raises:
-        ValueError: where it stands for none.
+        ValueError: for other text.
     """
     kind, order, name = label.split(" ", 2)
     if order not in ("0", "1", "2"):

@@ -1,9 +1,8 @@
-"""Motions in files: the samples as HDF5, laid out as NetCDF-4, and after it the motion itself.
+"""Motions in files: the samples as HDF5 in NetCDF-4 layout, followed by the motion itself.
 
-Others' tools read the samples, as variables over `t`, and pass over what follows: the motion as
-polhode takes it up again, its length, and a checksum of all before. Reading the motion leaves the
-HDF5 alone: the library that reads it can be brought to hang, or to end the process, by a file
-that was made to.
+Other tools read the samples, as variables over `t`, and ignore what follows: the motion as polhode
+loads it, its length, and a checksum of everything before. Loading does not touch the HDF5 part: a
+malicious file can make the HDF5 library hang or crash.
 """
 
 from __future__ import annotations
@@ -13,11 +12,9 @@ import io
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from polhode.base import SCHEMA, StoreError, extra, read_whole, write_whole
-from polhode.simulate.files._archive import Archive, Sampled
-from polhode.simulate.files._payload import FORMAT, counted, packed, unpacked
+from polhode.simulate.files._archive import FORMAT, Archive, Sampled, counted, packed, unpacked
 
 _MOTION = "polhode.motion"
 _MAGIC = b"\x89HDF\r\n\x1a\n"
@@ -28,80 +25,62 @@ _LENGTH = len(counted(0))
 
 
 def write_archive(path: str | Path, archive: Archive, samples: Mapping[str, Sampled]) -> None:
-    """Write a motion to a file, whole or not at all; the same file for the same motion.
+    """Write a motion to a file, completely or not at all; equal motions give equal files.
 
     Args:
         path: of the file.
         archive: the motion.
-        samples: what others' tools are to read, by name, at its times.
+        samples: the quantities that other tools read, by name, at its times.
 
     Raises:
         StoreError: where the file cannot be written, or h5py is not installed.
     """
     payload = packed(archive)
-    content = _samples_file(archive, samples) + payload + counted(len(payload))
-    write_whole(Path(path), content + _seal(content))
-
-
-def read_archive(path: str | Path) -> Archive:
-    """Read a motion from a file that `write_archive` wrote; its samples are left alone.
-
-    Raises:
-        StoreError: for a file that cannot be read, is damaged, was not written by polhode or by
-            another version of it.
-    """
-    content = _unsealed(Path(path))
-    inside, length = content[:-_LENGTH], int.from_bytes(content[-_LENGTH:], "little")
-    try:
-        if length > len(inside):
-            raise ValueError("it has another length than it says")
-        return unpacked(inside[len(inside) - length :])
-    except (LookupError, OverflowError, ValueError) as error:
-        raise _damaged(path, error) from error
-
-
-# -- samples for others ----------------------------------------------------------------------------
-
-
-def _samples_file(archive: Archive, samples: Mapping[str, Sampled]) -> bytes:
     with extra("h5py", "data"):
         import h5py
     memory = io.BytesIO()
     with h5py.File(memory, "w", track_order=True) as root:
         root.attrs.update({"format": FORMAT, "schema": SCHEMA})
-        _write_samples(root, archive, samples)
-        _write_origin(root.create_group(_MOTION), archive, h5py)
-    return memory.getvalue()
+        times = root.create_dataset("t", data=archive.times)
+        times.attrs.update({"units": "s", "long_name": "time"})
+        times.make_scale("t")
+        for name, sampled in samples.items():
+            column = root.create_dataset(name.replace("/", "|"), data=sampled.values)
+            column.attrs.update({"units": sampled.unit or "1", "long_name": name})
+            column.dims[0].attach_scale(times)
+        # what the samples were computed from, as text
+        origin = {
+            "declaration": archive.declaration,
+            "parameters": json.dumps(dict(archive.parameters)),
+            "events": json.dumps([dict(event) for event in archive.events]),
+            "details": json.dumps(dict(archive.details)),
+            "origin": json.dumps(dict(archive.origin)),
+        }
+        group = root.create_group(_MOTION)
+        for name, text in origin.items():
+            group.create_dataset(name, data=text, dtype=h5py.string_dtype())
+    content = memory.getvalue() + payload + counted(len(payload))
+    write_whole(Path(path), content + _seal(content))
 
 
-def _write_samples(root: Any, archive: Archive, samples: Mapping[str, Sampled]) -> None:
-    times = root.create_dataset("t", data=archive.times)
-    times.attrs.update({"units": "s", "long_name": "time"})
-    times.make_scale("t")
-    for name, sampled in samples.items():
-        column = root.create_dataset(_key(name), data=sampled.values)
-        column.attrs.update({"units": sampled.unit or "1", "long_name": name})
-        column.dims[0].attach_scale(times)
+def read_archive(path: str | Path) -> Archive:
+    """Read a motion from a file that `write_archive` wrote; its samples are not read.
+
+    Raises:
+        StoreError: for a file that cannot be read, is damaged, or was not written by this
+            version of polhode.
+    """
+    content = _unsealed(Path(path))
+    inside, length = content[:-_LENGTH], int.from_bytes(content[-_LENGTH:], "little")
+    try:
+        if length > len(inside):
+            raise ValueError("its length is not the one it states")
+        return unpacked(inside[len(inside) - length :])
+    except (LookupError, OverflowError, ValueError) as error:
+        raise _damaged(path, error) from error
 
 
-def _key(name: str) -> str:
-    return name.replace("/", "|")
-
-
-def _write_origin(group: Any, archive: Archive, h5py: Any) -> None:
-    """What the samples were made with, as texts."""
-    texts = {
-        "declaration": archive.declaration,
-        "parameters": json.dumps(dict(archive.parameters)),
-        "events": json.dumps([dict(event) for event in archive.events]),
-        "details": json.dumps(dict(archive.details)),
-        "origin": json.dumps(dict(archive.origin)),
-    }
-    for name, text in texts.items():
-        group.create_dataset(name, data=text, dtype=h5py.string_dtype())
-
-
-# -- the seal --------------------------------------------------------------------------------------
+# -- the checksum ----------------------------------------------------------------------------------
 
 
 def _seal(content: bytes) -> bytes:
@@ -120,7 +99,7 @@ def _unsealed(path: Path) -> bytes:
         )
     if not content.startswith(_MAGIC) or not seal.startswith(_SEAL):
         raise StoreError(
-            f"{path} is no motion that polhode wrote, or it was cut short or changed",
+            f"{path} is not a motion that polhode wrote, or it was truncated or changed",
             expected="a file from run.save(...)",
         )
     if seal != _seal(inside):
@@ -132,5 +111,5 @@ def _damaged(path: str | Path, what: object) -> StoreError:
     return StoreError(
         f"{path} is damaged: {str(what)[:200]}",
         expected="a motion as polhode wrote it",
-        advice="take a copy of it, or compute it again",
+        advice="use another copy of it, or compute it again",
     )

@@ -1,13 +1,15 @@
-"""What stands for a Python function of time, and how closely the function was looked at."""
+"""Python functions of time as piecewise polynomials that agree with them to rounding."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from math import ceil
+from itertools import pairwise
+from math import ceil, inf, isfinite
 from typing import Any
 
 import numpy as np
+from numpy.polynomial import chebyshev, polynomial
 
 from polhode.base import NumericError
 from polhode.simulate.forcing._pieces import Pieces
@@ -16,20 +18,19 @@ from polhode.simulate.integrate._stepping import Array
 Function = Callable[[float], float]
 
 _GOLDEN = (5**0.5 - 1) / 2
-_MOST_AGAIN = 1000  # times of one motion at which a function is evaluated again
-_NEAR = 1e-9  # of the span: so close to a corner a time is not looked at
+_MOST_AGAIN = 1000  # times of one motion at which a function is evaluated again, at most
+_NEAR = 1e-9  # of the span: times closer than that to a corner are skipped
 
 
 @dataclass(frozen=True, eq=False)
 class Approximation(Pieces):
-    """A Python function of time as polynomials, and how long a departure could have been missed.
+    """A Python function of time as polynomials, with the resolution it was sampled at.
 
     Attributes:
-        resolution: s. Whatever the function does for longer than that has been seen; what it does
-            for less, such as a pulse between two of the times at which it was evaluated, may
-            have been missed.
-        function: itself; a copy in another process is without it.
-        allowed: by how much it may differ from each polynomial, shape (pieces,).
+        resolution: s. Changes that last longer have been seen; shorter ones, such as a pulse
+            between two of the times at which the function was evaluated, may have been missed.
+        function: the function; None in a copy in another process.
+        allowed: largest difference from each polynomial that is accepted, shape (pieces,).
     """
 
     resolution: float = 0.0
@@ -39,12 +40,12 @@ class Approximation(Pieces):
     def __repr__(self) -> str:
         return (
             f"a function of time from {self.start:.6g} s to {self.end:.6g} s as "
-            f"{len(self.coefficients)} polynomials; what it does for less than "
+            f"{len(self.coefficients)} polynomials; changes that last less than "
             f"{self.resolution:.3g} s may have been missed"
         )
 
     def __getstate__(self) -> dict[str, Any]:
-        """Without the function, which need not be one that can be sent to another process."""
+        """Without the function, which often cannot be sent to another process."""
         fields = ("knots", "coefficients", "corners", "resolution")
         return {name: getattr(self, name) for name in fields} | {"function": None, "allowed": None}
 
@@ -52,11 +53,11 @@ class Approximation(Pieces):
         """Evaluate the function again between the ends of steps of a motion.
 
         Args:
-            name: of what it prescribes.
+            name: of the prescribed function.
             steps: increasing times, s.
 
         Raises:
-            NumericError: where it does not have the value that the motion was computed with.
+            NumericError: where it differs from the value that the motion was computed with.
         """
         if self.function is None or self.allowed is None:
             return
@@ -70,16 +71,16 @@ class Approximation(Pieces):
                 f"{name} = {values[first]:.6g} at t = {times[first]:.9g} s, where the motion was "
                 f"computed with {float(self.value(times[first])):.6g}: the function was evaluated "
                 f"before and after, but not there",
-                expected=f"a function that does nothing for less than {self.resolution:.3g} s, "
-                "and has the same value whenever it is asked for",
+                expected=f"a function without changes shorter than {self.resolution:.3g} s, "
+                "and the same value at every evaluation",
                 advice="give the motion as polhode.approximated(function, 0, duration, "
-                "resolution=...), with what it does shortest as the resolution",
+                "resolution=...), with its shortest change as the resolution",
             )
 
     def _between(self, steps: Array) -> Array:
         """A time within each step, neither at rest nor at a corner.
 
-        Not in the middle: where steps are pieces the function was evaluated there.
+        Not the middle: where a step is a piece, the function was evaluated there.
         """
         times = steps[:-1] + _GOLDEN * np.diff(steps)
         times = times[:: ceil(len(times) / _MOST_AGAIN) or 1]
@@ -89,11 +90,11 @@ class Approximation(Pieces):
         return times[np.all(np.abs(times[:, None] - corners) > near, axis=1)]
 
 
-def looked_at(left: float, right: float, resolution: float) -> Array:
-    """Times between two others, at most a resolution apart, from the ends too.
+def sampling_times(left: float, right: float, resolution: float) -> Array:
+    """Times between two others, at most a resolution apart, and from the ends.
 
-    Their distances are two in golden ratio, in a sequence without period: evenly spaced times
-    could meet every gap of what is periodic itself.
+    The spacings are two in golden ratio, in an aperiodic sequence: evenly spaced times could miss
+    every pulse of a periodic function.
     """
     count = ceil((right - left) / (_GOLDEN * resolution))
     numbers = np.arange(count)
@@ -101,7 +102,7 @@ def looked_at(left: float, right: float, resolution: float) -> Array:
 
 
 def values_of(function: Function, times: Array) -> Array:
-    """Of a function, at some times.
+    """Values of a function at some times.
 
     Raises:
         NumericError: where it fails, or has no finite value.
@@ -112,7 +113,7 @@ def values_of(function: Function, times: Array) -> Array:
         raise NumericError(
             f"a prescribed motion that fails between {np.min(times):.6g} s and "
             f"{np.max(times):.6g} s ({error})",
-            expected="a function from a time in seconds to a number",
+            expected="a function of the time in seconds that returns a number",
         ) from error
     if not np.all(np.isfinite(values)):
         raise NumericError(
@@ -120,3 +121,228 @@ def values_of(function: Function, times: Array) -> Array:
             expected="a number at every time",
         )
     return values
+
+
+# -- fitting ---------------------------------------------------------------------------------------
+
+_DEGREE = 11
+_ROUNDING = 6 * np.finfo(float).eps
+_NEGLIGIBLE = np.finfo(float).eps / 2  # relative coefficients below are rounding
+_SMALLEST = np.finfo(float).tiny  # numbers below have fewer digits
+_REDUCTION = 64  # halving a piece reduces a true error by 2**12; less than this is rounding
+_AT_ENDS = 16  # roundings by which a piece may be off where it ends
+_SHORTEST = 1e-7  # length of a piece over the span: shorter ones mean a corner
+_MOST = 100_000  # pieces
+_LOOKS = 2000  # resolutions in a span, by default
+_MOST_LOOKS = 10_000_000
+
+
+def approximated(
+    function: Function,
+    start: float,
+    end: float,
+    *,
+    corners: Iterable[float] = (),
+    resolution: float | None = None,
+) -> Approximation:
+    """A smooth Python function of time as polynomials that agree with it to rounding.
+
+    The function is evaluated at times at most the resolution apart, and more often where that is
+    not enough: no change that lasts longer than the resolution is missed, a shorter one may be. A
+    motion computed with it evaluates it again between its steps.
+
+    Outside the span it keeps the value at the end of the span.
+
+    Args:
+        function: of the time in seconds.
+        start: s.
+        end: s.
+        corners: times at which the function or its rate jumps.
+        resolution: s; by default 1/2000 of the span. The function is evaluated 1.6 times per
+            resolution.
+
+    Raises:
+        NumericError: for a function that is not finite, or not smooth between corners, and for a
+            resolution that is too fine or not positive.
+    """
+    bounds = [start, *sorted(float(t) for t in corners if start < t < end), end]
+    if not (isfinite(start) and isfinite(end) and start < end):
+        raise NumericError(f"a span from {start:g} s to {end:g} s", expected="a span of time")
+    finest = _resolution(resolution, end - start)
+    knots, tables, jerks = np.array([start]), list[Array](), list[int]()
+    allowed = list[Array]()
+    for left, right in pairwise(bounds):
+        times = sampling_times(left, right, finest)
+        seen = _Evaluations(times, values_of(function, times))
+        pieces = _resolved(function, left, right, _SHORTEST * (end - start), seen)
+        ends, table = _joined(pieces)
+        knots = np.concatenate([knots, ends])
+        tables.append(table)
+        jerks.append(len(knots) - 1)
+        # doubled, since joining the pieces has moved their ends
+        allowed.append(np.array([2 * piece.allowed for piece in pieces]))
+    return Approximation(
+        knots,
+        np.vstack(tables),
+        tuple(jerks[:-1]),
+        resolution=finest,
+        function=function,
+        allowed=np.concatenate(allowed),
+    )
+
+
+def _resolution(given: float | None, span: float) -> float:
+    if given is None:
+        return span / _LOOKS
+    if not (isfinite(given) and span / _MOST_LOOKS <= given):
+        raise NumericError(
+            f"a resolution of {given:g} s over {span:g} s",
+            expected=f"a time of at least {span / _MOST_LOOKS:g} s",
+            advice="give the duration of the shortest change of the function",
+        )
+    return float(given)
+
+
+@dataclass(frozen=True)
+class _Evaluations:
+    """Values of the function at increasing times, used to check the polynomials only."""
+
+    times: Array
+    values: Array
+
+    def within(self, left: float, right: float) -> _Evaluations:
+        first, last = np.searchsorted(self.times, [left, right]).tolist()
+        return _Evaluations(self.times[first:last], self.values[first:last])
+
+
+@dataclass(frozen=True)
+class _Piece:
+    """A polynomial between two times, in powers of the time since the left one.
+
+    Attributes:
+        size: of the function's values.
+        rounding: estimated uncertainty of the function's values.
+        error: largest difference from the function between the interpolation nodes.
+        allowed: difference that is accepted elsewhere.
+    """
+
+    left: float
+    right: float
+    powers: Array
+    size: float
+    rounding: float
+    error: float
+    allowed: float
+
+    def misses(self, seen: _Evaluations) -> bool:
+        """Whether it differs by more than allowed from one of the values within it."""
+        own = seen.within(self.left, self.right)
+        values = polynomial.polyval(own.times - self.left, self.powers)
+        return bool(np.any(np.abs(values - own.values) > self.allowed))
+
+
+def _resolved(
+    function: Function, left: float, right: float, shortest: float, seen: _Evaluations
+) -> list[_Piece]:
+    """Pieces from left to right, bisected until each agrees with the function."""
+    noise = _ROUNDING * float(np.max(np.abs(seen.values)))
+    whole = _fitted(function, left, right, noise)
+    noise = max(noise, _ROUNDING * whole.size)
+    done, waiting = list[_Piece](), [(whole, inf)]
+    while waiting:
+        piece, before = waiting.pop()
+        a, b = piece.left, piece.right
+        is_short = b - a < shortest
+        # The error is rounding if it is below that of the values. Where the function itself cancels
+        # large terms it is larger, and shows in that bisection has not reduced it.
+        agrees = (
+            piece.error <= piece.rounding
+            or (0.0 if is_short else before) / _REDUCTION < piece.error <= noise
+        )
+        if agrees and not piece.misses(seen):
+            done.append(piece)
+        elif is_short or len(done) > _MOST:
+            raise _not_smooth(a)
+        else:
+            halves = ((a + b) / 2, b), (a, (a + b) / 2)
+            waiting += [(_fitted(function, *half, noise), piece.error) for half in halves]
+    return done
+
+
+def _fitted(function: Function, left: float, right: float, noise: float) -> _Piece:
+    """The polynomial through the function's values at Chebyshev nodes, checked in between."""
+    values = _values(function, left, right, _NODES)
+    series = _SERIES @ (values - values[0])
+    size = float(np.max(np.abs(values)))
+    series[np.abs(series) < _NEGLIGIBLE * size] = 0.0
+    series[0] += values[0]
+    apart = chebyshev.chebval(_BETWEEN, series) - _values(function, left, right, _BETWEEN)
+    error = float(np.max(np.abs(apart)))
+    rate = float(np.max(np.abs(np.diff(values) / np.diff(_NODES)))) * 2 / (right - left)
+    rounding = _ROUNDING * (size + max(abs(left), abs(right)) * rate) + _SMALLEST
+    powers = _POWERS @ series / (right - left) ** np.arange(_DEGREE + 1)
+    allowed = _AT_ENDS * max(rounding, error, noise)
+    return _Piece(left, right, powers, size, rounding, error, allowed)
+
+
+def _not_smooth(time: float) -> NumericError:
+    return NumericError(
+        f"a prescribed motion that is not smooth near t = {time:.6g} s",
+        expected="a smooth function of time",
+        advice="give the times at which it jumps or has a corner as corners",
+    )
+
+
+def _values(function: Function, left: float, right: float, places: Array) -> Array:
+    """Values of the function at positions between -1 and 1 in an interval."""
+    return values_of(function, (left + right + (right - left) * places) / 2)
+
+
+def _joined(pieces: list[_Piece]) -> tuple[Array, Array]:
+    """Right ends and coefficients, with the rounding between neighbours removed.
+
+    A cubic added on either side of a joint brings values and rates to their mean.
+
+    Raises:
+        NumericError: where they differ by more than rounding: the function jumps, or has a
+            corner, at a joint.
+    """
+    right = np.array([piece.right for piece in pieces])
+    span = right - np.array([piece.left for piece in pieces])
+    table = np.array([piece.powers for piece in pieces])
+    powers = np.arange(_DEGREE + 1)
+    reached = np.array(
+        [
+            np.sum(table * span[:, None] ** powers, axis=1),
+            np.sum((table * powers)[:, 1:] * span[:, None] ** powers[:-1], axis=1),
+        ]
+    )
+    apart = table.T[:2, 1:] - reached[:, :-1]
+    unsure = np.array([piece.allowed for piece in pieces])
+    unsure = np.array([unsure, 2 * _DEGREE**2 / span * unsure])  # Markov's inequality
+    jumps = np.flatnonzero(np.any(np.abs(apart) > unsure[:, 1:] + unsure[:, :-1], axis=0))
+    if len(jumps):
+        raise _not_smooth(right[jumps[0]])
+    gaps = np.pad(apart, ((0, 0), (1, 1))) / 2
+    (d, v), (e, w) = -gaps[:, :-1], gaps[:, 1:]
+    table[:, 0] += d
+    table[:, 1] += v
+    table[:, 2] += 3 * (e - d) / span**2 - (2 * v + w) / span
+    table[:, 3] += 2 * (d - e) / span**3 + (v + w) / span**2
+    return right, table
+
+
+def _shifted_powers() -> Array:
+    """Chebyshev polynomials over [-1, 1] in powers of the position scaled to [0, 1]."""
+    columns = [np.eye(1, _DEGREE + 1)[0]]
+    columns.append(2 * np.roll(columns[0], 1) - columns[0])
+    while len(columns) <= _DEGREE:
+        columns.append(4 * np.roll(columns[-1], 1) - 2 * columns[-1] - columns[-2])
+    return np.array(columns).T
+
+
+_NODES = chebyshev.chebpts1(_DEGREE + 1)
+_BETWEEN = np.cos(np.pi * np.arange(_DEGREE + 2) / (_DEGREE + 1))[1:-1]
+_SERIES = chebyshev.chebvander(_NODES, _DEGREE).T * 2 / (_DEGREE + 1)
+_SERIES[0] /= 2
+_POWERS = _shifted_powers()

@@ -10,17 +10,17 @@ import numpy as np
 from polhode.base import NumericError
 from polhode.simulate.integrate._stepping import Array
 
-_ROUNDING = 1e-13  # change of velocity, over the largest one, that is none
+_ROUNDING = 1e-13  # relative change of value or velocity that counts as rounding
 
 
 @dataclass(frozen=True)
 class Jump:
-    """A jerk: an instant at which a prescribed function or its rate changes at once.
+    """An instant at which a prescribed function or its rate jumps.
 
     Attributes:
         time: s.
-        value: before and after.
-        velocity: before and after, per second.
+        value: before and after it.
+        velocity: before and after it, per second.
     """
 
     time: float
@@ -30,15 +30,15 @@ class Jump:
 
 @dataclass(frozen=True, eq=False)
 class Pieces:
-    """A function of time: a polynomial between knots, at rest before the first and after the last.
+    """A function of time: a polynomial between knots, constant before the first and after the last.
 
-    At a knot it has what holds just after it. An integrator starts anew at every knot.
+    At a knot it has the value just after it. An integrator restarts at every knot.
 
     Attributes:
         knots: increasing times, s, shape (pieces + 1,).
-        coefficients: of each piece, in rising powers of the time since its knot, shape
+        coefficients: of each piece, in increasing powers of the time since its knot, shape
             (pieces, powers).
-        corners: which knots between the first and the last are jerks.
+        corners: indices of the knots between the first and the last where it jumps.
     """
 
     knots: Array
@@ -56,12 +56,12 @@ class Pieces:
         if not (np.all(np.isfinite(self.knots)) and np.all(np.isfinite(self.coefficients))):
             raise NumericError(
                 "a prescribed motion that is not finite",
-                expected="values of moderate size at times that can be told apart",
+                expected="values of moderate size at distinct times",
             )
 
     @property
     def start(self) -> float:
-        """When it leaves its rest, s."""
+        """When it starts to move, s."""
         return float(self.knots[0])
 
     @property
@@ -71,15 +71,15 @@ class Pieces:
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Times at which an integrator has to start anew, s."""
+        """Times at which an integrator has to restart, s."""
         return tuple(self.knots.tolist())
 
     def piece(self, time: float) -> int:
-        """The polynomial that holds from a time on: -1 before the first, their number after."""
+        """Index of the polynomial just after a time: -1 before the first one."""
         return int(np.searchsorted(self.knots, time, "right")) - 1
 
     def polynomial(self, piece: int) -> tuple[float, Array]:
-        """Time from which a piece is counted, s, and its coefficients; also of both rests."""
+        """The time that a piece is expanded about, s, and its coefficients; at rest too."""
         return float(self._begins[piece + 1]), self._table[piece + 1]
 
     def value(self, time: float | Array) -> Array:
@@ -96,31 +96,21 @@ class Pieces:
 
     @cached_property
     def jumps(self) -> tuple[Jump, ...]:
-        """The jerks in order, with the one at which it comes to rest if there is one."""
-        found = (self._jump(knot) for knot in (0, *self.corners, len(self.knots) - 1))
-        return tuple(jump for jump in found if self._is_felt(jump))
-
-    def _jump(self, knot: int) -> Jump:
-        left, right = self._table[knot], self._table[knot + 1]
-        span = self.knots[knot] - self._begins[knot]
-        (before, slope), (after, rate) = _from_left(left, span), right[:2].tolist()
-        return Jump(float(self.knots[knot]), (before, after), (slope, rate))
-
-    def _is_felt(self, jump: Jump) -> bool:
-        (before, after), (slope, rate) = jump.value, jump.velocity
-        size, speed = self._sizes
-        return abs(after - before) > _ROUNDING * size or abs(rate - slope) > _ROUNDING * speed
-
-    @cached_property
-    def _sizes(self) -> tuple[float, float]:
-        """Largest value and rate at the knots."""
-        table, spans = self._table[1:-1], self._spans[:, None]
-        powers = np.arange(table.shape[1])
+        """All jumps in order, those at the start and at the end included."""
+        powers, table = np.arange(self._table.shape[1]), self._table[1:-1]
+        spans = self._spans[:, None]
         values = np.sum(table * spans**powers, axis=1)
         rates = np.sum((table * powers)[:, 1:] * spans ** powers[:-1], axis=1)
-        both = np.abs(np.vstack([table[:, :2], np.column_stack([values, rates])]))
-        size, speed = np.max(both, axis=0).tolist()
-        return size, speed
+        ends = np.abs(np.vstack([table[:, :2], np.column_stack([values, rates])]))
+        size, speed = np.max(ends, axis=0).tolist()
+        found = list[Jump]()
+        for knot in (0, *self.corners, len(self.knots) - 1):
+            span = self.knots[knot] - self._begins[knot]
+            before, slope = _from_left(self._table[knot], span)
+            after, rate = self._table[knot + 1][:2].tolist()
+            if abs(after - before) > _ROUNDING * size or abs(rate - slope) > _ROUNDING * speed:
+                found.append(Jump(float(self.knots[knot]), (before, after), (slope, rate)))
+        return tuple(found)
 
     @property
     def _spans(self) -> Array:
@@ -132,7 +122,7 @@ class Pieces:
 
     @cached_property
     def _table(self) -> Array:
-        """Coefficients of the rest before, of all pieces, and of the rest after."""
+        """Coefficients before the first knot, of all pieces, and after the last knot."""
         table = np.zeros((len(self.knots) + 1, max(2, self.coefficients.shape[1])))
         table[1:-1, : self.coefficients.shape[1]] = self.coefficients
         table[0, 0] = self.coefficients[0, 0]

@@ -1,4 +1,4 @@
-"""Prescribed motions as integrated: expressions of time, with constants stretch by stretch."""
+"""Prescribed motions as integrated: expressions of time, with constants between knots."""
 
 from __future__ import annotations
 
@@ -12,8 +12,7 @@ from typing import Any
 from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, time
 from polhode.base import DeclarationError, look_up
 from polhode.simulate._names import Name, by_name, published
-from polhode.simulate.forcing._approximation import Approximation
-from polhode.simulate.forcing._callable import approximated
+from polhode.simulate.forcing._approximation import Approximation, approximated
 from polhode.simulate.forcing._pieces import Pieces
 from polhode.simulate.integrate._stepping import Array
 
@@ -24,15 +23,15 @@ class PrescribedMotion:
 
     Attributes:
         expressions: each as an expression of time, of parameters, and of coefficients that change
-            from stretch to stretch.
-        pieces: the functions that are polynomials between knots.
+            at the knots.
+        pieces: those that are polynomials between knots.
     """
 
     expressions: Mapping[Symbol, Expr]
     pieces: Mapping[Symbol, Pieces]
 
     def constants(self, now: float) -> Mapping[Symbol, float]:
-        """Coefficients that hold from an instant on: the same object as long as they hold."""
+        """The coefficients just after an instant: the same object until they change."""
         return self._held(bisect_right(self._times, now))
 
     @cached_property
@@ -40,7 +39,7 @@ class PrescribedMotion:
         return lru_cache(maxsize=4)(self._on_stretch)
 
     def _on_stretch(self, stretch: int) -> Mapping[Symbol, float]:
-        """Coefficients on one of the stretches between changes, 0 being before the first."""
+        """The coefficients between two changes; 0 is before the first."""
         now = self._times[stretch - 1] if stretch else -inf
         found: dict[Symbol, float] = {}
         for symbol, pieces in self.pieces.items():
@@ -58,14 +57,14 @@ class PrescribedMotion:
 
     @cached_property
     def resolution(self) -> dict[str, float]:
-        """Of those that were given as Python functions, by name, s."""
+        """Resolution of those given as Python functions, by name, s."""
         return {symbol.published: p.resolution for symbol, p in self._approximations.items()}
 
     def confirm(self, steps: Array) -> None:
         """Evaluate Python functions again, within the steps of a motion.
 
         Raises:
-            NumericError: where one does not have the value that the motion was computed with.
+            NumericError: where one differs from the value that the motion was computed with.
         """
         for symbol, pieces in self._approximations.items():
             pieces.confirm(symbol.published, steps)
@@ -75,7 +74,7 @@ class PrescribedMotion:
         return {s: p for s, p in self.pieces.items() if isinstance(p, Approximation)}
 
     def until(self, now: float, end: float) -> float:
-        """How far the coefficients hold, at most to the end."""
+        """Until when the coefficients hold, at most to the end."""
         place = bisect_right(self._times, now)
         return min(end, self._times[place]) if place < len(self._times) else end
 
@@ -89,7 +88,7 @@ class PrescribedMotion:
         return sorted(self.breaks)
 
     def stretches(self, end: float) -> Iterator[tuple[float, float]]:
-        """Between 0 and the end, from each change of coefficients to the next."""
+        """Intervals between changes of coefficients, from 0 to the end."""
         breaks = [t for t in self._times if 0 < t < end]
         yield from zip([0.0, *breaks], [*breaks, end], strict=True)
 
@@ -97,10 +96,10 @@ class PrescribedMotion:
 def prescribed_motion(
     functions: tuple[Symbol, ...], forcing: Mapping[Name, Any], duration: float
 ) -> PrescribedMotion:
-    """Prescribed functions from what was given for each: an expression, samples or a callable.
+    """Prescribed functions from an expression, samples or a callable for each.
 
     Raises:
-        DeclarationError: for a function that is missing, not known, or given by the motion itself.
+        DeclarationError: for a function that is missing, unknown, or depends on the motion.
         NumericError: for a callable that is not smooth.
     """
     known = by_name(functions)
@@ -118,7 +117,12 @@ def prescribed_motion(
     pieces = {s: p for s, motion in given.items() if (p := _pieces(motion, duration)) is not None}
     plain = {s: _expression(s, motion) for s, motion in given.items() if s not in pieces}
     counted = {_since(s): time - Expr.generator(_begin(s)) for s in pieces}
-    polynomials = {s: _polynomial(s, p) for s, p in pieces.items()}
+    polynomials = dict[Symbol, Expr]()
+    for symbol, p in pieces.items():
+        # in powers of the time since the knot, which are accurate however late the knot is
+        since = Expr.generator(_since(symbol))
+        powers = enumerate(_coefficients(symbol, p))
+        polynomials[symbol] = sum((Expr.generator(c) * since**k for k, c in powers), ZERO)
     return PrescribedMotion({**plain, **polynomials, **counted}, pieces)
 
 
@@ -132,23 +136,16 @@ def _pieces(motion: Any, duration: float) -> Pieces | None:
 
 def _expression(symbol: Symbol, motion: Any) -> Expr:
     expression = Expr.of(motion)
-    strange = [
+    others = [
         s for s in expression.symbols() if s.kind not in (SymbolKind.TIME, SymbolKind.PARAMETER)
     ]
-    if strange:
+    if others:
         raise DeclarationError(
-            f"the prescribed {symbol.published}(t) depends on {strange[0].published}",
+            f"the prescribed {symbol.published}(t) depends on {others[0].published}",
             expected="an expression of time and parameters",
             advice="a force that depends on the motion is a load of the system",
         )
     return expression
-
-
-def _polynomial(symbol: Symbol, pieces: Pieces) -> Expr:
-    """Counted from the beginning of its stretch, which keeps its digits however late that is."""
-    since = Expr.generator(_since(symbol))
-    powers = enumerate(_coefficients(symbol, pieces))
-    return sum((Expr.generator(c) * since**k for k, c in powers), ZERO)
 
 
 def _begin(symbol: Symbol) -> Symbol:
@@ -156,7 +153,7 @@ def _begin(symbol: Symbol) -> Symbol:
 
 
 def _since(symbol: Symbol) -> Symbol:
-    """Time since then. A symbol of its own: multiplied out, the powers would lose their digits."""
+    """Time since the knot, as a symbol: powers of t multiplied out would cancel digits."""
     return Symbol(f"{symbol.name} since", SymbolKind.FUNCTION)
 
 

@@ -1,18 +1,95 @@
-"""Start values to any precision, once they are known and checked as doubles."""
+"""Parameters and start of a motion to any precision, once they are checked in doubles."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
-from polhode.algebra import Compiled, Expr, Symbol
+from polhode.algebra import Arithmetic, Compiled, Expr, Symbol, compile_program
 from polhode.base import ConstraintError, NumericError
 from polhode.simulate._dynamics import CLOCK, Dynamics
+from polhode.simulate._names import Name, by_name
 from polhode.simulate._start import Start
-from polhode.simulate.precise._exactly import on
+from polhode.simulate._task import InitialState, Task
+from polhode.simulate._values import given_values
+from polhode.simulate.integrate._number_types import NumberType, ratio
 
 _INDEPENDENT = 1e-12  # relative size below which a pivot is rounding
-_ROUNDS = 20  # of Newton's method: each doubles the digits
+_ROUNDS = 20  # of Newton's method: each doubles the number of correct digits
+
+
+def evaluated(constants: Sequence[Expr], context: Any) -> list[Any]:
+    """Constant expressions in the numbers of an mpmath context."""
+    return list(compile_program(constants, ()).function(on(context))())
+
+
+def on(context: Any) -> Arithmetic:
+    """The arithmetic of an mpmath context, one value at a time."""
+    return Arithmetic.of(context, lambda number: ratio(context, number))
+
+
+Values = Mapping[Symbol, Any]
+
+
+@dataclass(frozen=True)
+class Given:
+    """The values given for a motion, in numbers with spare bits.
+
+    Attributes:
+        parameters: the constants.
+        start: coordinates and speeds at the start, of the mode in which it was read.
+        begun: the start in doubles, and the equations it was read in.
+        context: of mpmath.
+    """
+
+    parameters: Values
+    start: Values
+    begun: InitialState
+    context: Any
+
+    def state(self, symbols: tuple[Symbol, ...]) -> dict[Symbol, Any]:
+        """Coordinates and speeds of any mode, from those of the mode of the start."""
+        dynamics = self.begun.dynamics
+        parameters = {s: self.parameters[s] for s in dynamics.parameters}
+        wanted = [dynamics.lifted.get(s, Expr.generator(s)) for s in symbols]
+        program = dynamics.program(wanted, (*self.start, *parameters, CLOCK))
+        zero = self.context.mpf(0)
+        function = program.function(on(self.context))
+        values = function(*self.start.values(), *parameters.values(), zero)
+        return dict(zip(symbols, values, strict=True))
+
+
+def read_exactly(begun: InitialState, known: set[Symbol], task: Task, numbers: NumberType) -> Given:
+    """The given values to higher precision, once they are checked in doubles.
+
+    Args:
+        begun: the start in doubles, and the equations it was read in.
+        known: the parameters.
+
+    Raises:
+        ConstraintError: where loops do not close to the precision.
+    """
+    context = numbers.exact
+
+    def values(given: Mapping[Symbol, Expr]) -> dict[Symbol, Any]:
+        return dict(zip(given, evaluated(list(given.values()), context), strict=True))
+
+    exact = _exact(task.given, known, {})
+    parameters = values(exact)
+    equations = begun.dynamics.equations
+    rates = (*equations.kinematics, *equations.dependent)
+    given = values(_exact(task.start, (*equations.coordinates, *equations.speeds, *rates), exact))
+    own = {s: parameters[s] for s in begun.dynamics.parameters}
+    start = precise_start(begun.dynamics, begun.start, given, own, context)
+    return Given(parameters, start, begun, context)
+
+
+def _exact(
+    given: Mapping[Name, Any], symbols: Iterable[Symbol], known: Mapping[Symbol, Expr]
+) -> dict[Symbol, Expr]:
+    names = by_name(symbols)
+    return {names[v.name]: v.exact(known) for v in given_values(given).values()}
 
 
 def precise_start(
@@ -50,7 +127,7 @@ def _closed(
     parameters: Mapping[Symbol, Any],
     context: Any,
 ) -> dict[Symbol, Any]:
-    """Coordinates that close the loops: those that follow are improved by Newton's method."""
+    """Coordinates that close the loops: those not given are found by Newton's method."""
     free = [q for q in places if q not in given]
     closures = dynamics.equations.closures
     slopes = [closure.diff(q) for closure in closures for q in free]
@@ -69,8 +146,8 @@ def _closed(
         for j, step in zip(pivots, steps, strict=True):
             found[free[j]] -= step
     raise ConstraintError(
-        f"loops that close to {float(max(map(abs, residuals))):.1g} m only",
-        expected="a start at which they close to the precision that was asked for",
+        f"loops that close only to {float(max(map(abs, residuals))):.1g} m",
+        expected="a start at which they close to the requested precision",
         advice="leave out the coordinates that the loops determine",
     )
 
@@ -121,7 +198,7 @@ def _function(
 
 
 def _independent(matrix: Sequence[Sequence[Any]]) -> tuple[list[int], list[int]]:
-    """Rows that say something new, and the unknown that each is solved for."""
+    """Independent rows, and the unknown that each is solved for."""
     reduced = [list(row) for row in matrix]
     rows, pivots = list[int](), list[int]()
     for i, row in enumerate(reduced):

@@ -8,22 +8,21 @@ from typing import Any
 
 from polhode.algebra import Expr
 from polhode.base import DeclarationError, Progress
-from polhode.simulate._event import Event, events_of, placed
+from polhode.simulate._event import Event, events_of, placed, zero_crossings
 from polhode.simulate._segment import Segment
 from polhode.simulate._task import Guarded, MotionResult, Task
 from polhode.simulate._trajectory import Trajectory
-from polhode.simulate._watching import passages
-from polhode.simulate.contact._hybrid_integrator import HybridSolution
+from polhode.simulate.contact._contact_kinematics import State
+from polhode.simulate.contact._hybrid_integrator import HybridIntegrator, HybridSolution
 from polhode.simulate.contact._hybrid_system import HybridSystem
-from polhode.simulate.contact._initial_mode import begun_at
-from polhode.simulate.contact._state import State
+from polhode.simulate.contact._through_modes import begun_at
 from polhode.simulate.forcing._pieces import Pieces
 from polhode.simulate.integrate._number_types import NumberType
 from polhode.simulate.integrate._series import SeriesIntegrator
-from polhode.simulate.precise._given import Given, exactly, read_exactly
 from polhode.simulate.precise._precise_declared import as_declared
-from polhode.simulate.precise._precise_piece import PieceIntegrator
-from polhode.simulate.precise._precise_walk import PreciseWalk
+from polhode.simulate.precise._precise_modes import precise_pieces
+from polhode.simulate.precise._precise_piece import SeriesStepper
+from polhode.simulate.precise._precise_start import Given, evaluated, read_exactly
 from polhode.simulate.precise._wanted import Wanted
 
 
@@ -45,14 +44,14 @@ def precisely(
     _refuse_samples(task.forcing, numbers)
     known = {*motion.begun.dynamics.parameters, *motion.segments[0].dynamics.parameters}
     given = read_exactly(motion.begun, known, task, numbers)
-    duration = exactly(wanted.duration, numbers)
+    (duration,) = evaluated([wanted.duration.exact()], numbers.exact)
     end = numbers.array([duration])[0]
-    steps = PieceIntegrator(_integrator(task.integrator.name), numbers, end, progress)
+    steps = SeriesStepper(_integrator(task.integrator.name), numbers, end, progress)
     if motion.guarded is None:
         course = as_declared(motion.begun.dynamics, given, steps)
         events = _events_beside(rough, course)
     else:
-        course = _through_modes(motion.guarded, given, steps, task, progress)
+        course = _through_modes(motion.guarded, given, steps, task)
         events = events_of(course)
     end = course.segments[-1].end
     run = replace(
@@ -79,7 +78,7 @@ def _refuse_samples(forcing: Mapping[Any, Any], numbers: NumberType) -> None:
     for name, given in forcing.items():
         if isinstance(given, Pieces) or (callable(given) and not isinstance(given, Expr)):
             raise DeclarationError(
-                f"the motion {name}, which is known to doubles only, in {numbers.name} precision",
+                f"the motion {name}, known only in double precision, in {numbers.name} precision",
                 expected="an expression of time for every prescribed function",
                 advice="write it with polhode.time instead of samples or a Python function",
             )
@@ -87,7 +86,7 @@ def _refuse_samples(forcing: Mapping[Any, Any], numbers: NumberType) -> None:
 
 def _integrator(name: str) -> SeriesIntegrator:
     if name == "heyoka":
-        from polhode.simulate.integrate._heyoka_series import TaylorSeries
+        from polhode.simulate.integrate._heyoka import TaylorSeries
 
         return TaylorSeries()
     from polhode.simulate.integrate._flint import PowerSeries
@@ -99,10 +98,10 @@ def _integrator(name: str) -> SeriesIntegrator:
 
 
 def _through_modes(
-    guarded: Guarded, given: Given, steps: PieceIntegrator, task: Task, progress: Progress
+    guarded: Guarded, given: Given, steps: SeriesStepper, task: Task
 ) -> HybridSolution:
     """Through all contact modes, as the forces demand."""
-    rough, numbers = guarded.machine, steps.numbers.careful
+    rough, numbers = guarded.hybrid, steps.numbers.careful
     machine = HybridSystem(
         rough.automaton, rough.drive, given.parameters, rough.integrator, None, numbers, rough
     )
@@ -113,8 +112,8 @@ def _through_modes(
     )
     zero = given.context.mpf(0)
     first = begun_at(machine, State(zero, coordinates, speeds, zero), guarded.apart)
-    walk = PreciseWalk(machine, steps, task.near_flat, progress, task.until)
-    return walk.along(first, steps.end)
+    pieces = precise_pieces(machine, task.near_flat, steps)
+    return HybridIntegrator(machine, pieces, task.until).integrate(first, steps.end)
 
 
 # -- samples and events ------------------------------------------------------------------------
@@ -135,7 +134,7 @@ def _with_events(run: Trajectory, events: Mapping[str, Expr]) -> Trajectory:
     segments = run.segments
     found = []
     for name, expression in events.items():
-        for near, k, begins in passages([s.rounded() for s in segments], expression):
+        for near, k, begins in zero_crossings([s.rounded() for s in segments], expression):
             segment, mode = segments[k], segments[k].mode
             time = segment.begin if begins else _root(segment, expression, near)
             found.append(Event(time, name, mode, mode, segment, segment))

@@ -1,4 +1,4 @@
-"""What is asked for beyond doubles."""
+"""The request for a motion in more than double precision."""
 
 from __future__ import annotations
 
@@ -6,22 +6,22 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from polhode.algebra import Expr
+from polhode.algebra import Expr, GivenValue
 from polhode.simulate.integrate._number_types import NumberType
 
 
 @dataclass(frozen=True)
 class Wanted:
-    """What is asked for, as it was given.
+    """Precision, duration, samples and events requested.
 
     Attributes:
-        numbers: what to compute in.
-        duration: s, with a unit or exactly.
+        numbers: number type to compute in.
+        duration: s.
         samples: how many, or their times.
-        events: expressions whose passing through zero is recorded, by name.
+        events: expressions whose zero crossings are recorded, by name.
     """
 
     numbers: NumberType
-    duration: Any
+    duration: GivenValue
     samples: Any
     events: Mapping[str, Expr]

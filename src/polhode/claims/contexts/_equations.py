@@ -1,0 +1,153 @@
+"""Whether equations hold on given states, member by member and component by component."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import product
+from math import prod
+
+from polhode.algebra import ONE, Expr
+from polhode.claims._dimensions import dimensions_at_odds
+from polhode.claims._verdict import Answer, Evidence, Refuted, Residual, Verdict
+from polhode.claims.balance._declared import reaction_symbol
+from polhode.claims.latex._tree import Name
+from polhode.claims.meaning._mechanics import Mechanics
+from polhode.claims.meaning._relations import ScalarRelation
+from polhode.claims.states._bound_claim import BoundClaim
+from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotion
+
+_LAGRANGIANS = ("cal L", "L")
+
+
+def judged_identity(claim: BoundClaim) -> Verdict:
+    """For all states obeying the constraints, accelerations free."""
+    return judged(claim, [claim.states(AnyState)], "identity")
+
+
+def judged_motion(claim: BoundClaim) -> Verdict:
+    """On every true motion."""
+    return judged(claim, [claim.states(TrueMotion)], "motion")
+
+
+def judged(claim: BoundClaim, domains: Sequence[ClaimDomain], context: str) -> Verdict:
+    """The verdict on equations: holds, or fails with evidence."""
+    found = list(failures(claim, domains))
+    equivalent = [
+        f for f in found if len(claim.branches) == 1 and _is_equivalent(claim, f.component)
+    ]
+    wrong = [f for f in found if f not in equivalent]
+    if wrong:
+        return failed(wrong, context)
+    remarks = dict.fromkeys(_difference_of_lagrangians(f.component) for f in equivalent)
+    return Verdict(Answer.HOLDS, context, remarks=tuple(remarks))
+
+
+@dataclass(frozen=True)
+class Failure:
+    """One component of a claim that does not hold on some states."""
+
+    component: ScalarRelation
+    states: ClaimDomain
+    residual: Residual
+
+
+def failures(claim: BoundClaim, domains: Iterable[ClaimDomain]) -> Iterator[Failure]:
+    """Every component that does not vanish on every domain.
+
+    ± is one choice for the whole statement: at every state all components vanish on one branch,
+    which is so where each product of residuals, one of each branch, vanishes. A ± of which one
+    sign is right everywhere and the other is not says too much.
+    """
+    branches = [claim.components(branch) for branch in range(len(claim.branches))]
+    found: dict[ScalarRelation, Failure] = {}
+    single: list[list[Failure]] = [[] for _ in branches]  # of one branch each
+    for states in domains:
+        wrong = [[c for c in branch if states.on(c.difference)] for branch in branches]
+        for chosen in sorted(product(*wrong), key=lambda picked: len({*map(_place, picked)})):
+            failure = _failure(chosen, states)
+            if failure is not None:
+                found.setdefault(chosen[0], failure)
+        for failing, components in zip(single, wrong, strict=True):
+            failing += [f for c in components if (f := _failure((c,), states)) is not None]
+    if not found and not all(single):
+        yield from next(filter(None, single), ())
+        return
+    yield from sorted(found.values(), key=lambda f: branches[0].index(f.component))
+
+
+def _failure(chosen: Sequence[ScalarRelation], states: ClaimDomain) -> Failure | None:
+    """Of components, one of each branch: the failure where none of them vanishes."""
+    left = prod((states.on(component.difference) for component in chosen), start=ONE)
+    first = chosen[0]
+    return Failure(first, states, Residual(first.member, first.label, left)) if left else None
+
+
+def failed(found: Sequence[Failure], context: str) -> Verdict:
+    """The verdict on a claim with these failures, refuted at a state."""
+    first = found[0]
+    component, equations = first.component, first.states.equations
+    where = "; ".join(dict.fromkeys(_place(f.component) for f in found))
+    used = component.left.symbols() | component.right.symbols()
+    undetermined = [name for name in equations.undetermined if reaction_symbol(name) in used]
+    remarks: tuple[str, ...] = ()
+    if undetermined:
+        names = ", ".join(undetermined)
+        remarks = (f"Newton's laws do not determine {names}: there are more supports than needed",)
+
+    def evidence() -> Evidence:
+        from polhode.claims.contexts._counterexample import refutation  # NumPy, for failures only
+
+        whole = first.residual.expression
+        return refutation(component, first.residual, first.states, nonzero=whole)
+
+    return Refuted(
+        Answer.FAILS,
+        context,
+        f"the sides differ in {where}",
+        residuals=tuple(f.residual for f in found),
+        remarks=remarks,
+        evidence=evidence,
+    )
+
+
+def _place(component: ScalarRelation) -> str:
+    member = f"member {component.member + 1}"
+    return f"component {component.label} of {member}" if component.label else member
+
+
+# -- Lagrangians that differ by a constant or a total time derivative -----------------------------
+
+
+def _is_equivalent(claim: BoundClaim, component: ScalarRelation) -> bool:
+    """Whether a text's Lagrangian has the equations of motion of the model's.
+
+    It has where the variation of the difference vanishes for every coordinate: Landau and
+    Lifshitz, Mechanics, § 2.
+    """
+    printed = claim.members[component.member].printed
+    if printed is None or not isinstance(printed.left, Name) or component.label:
+        return False
+    mechanics = Mechanics(claim.equations)
+    if printed.left.letter not in _LAGRANGIANS or component.left != mechanics.lagrangian():
+        return False
+    if dimensions_at_odds(claim.only([component.member])):
+        return False
+    rest = mechanics.in_rates(component.difference)
+    if not _varies(rest):
+        return True
+    coordinates = mechanics.declared.coordinates
+    rates = {q.derivative() for q in coordinates}
+    known = {s for s in rest.symbols() if s.kind.varies} <= {*coordinates, *rates}
+    variations = (rest.diff(q.derivative()).dt() - rest.diff(q) for q in coordinates)
+    return known and not any(map(bool, variations))
+
+
+def _difference_of_lagrangians(component: ScalarRelation) -> str:
+    difference = component.difference
+    kind = ", a total time derivative," if _varies(difference) else ","
+    return f"the Lagrangians differ by {difference}{kind} which no equation of motion contains"
+
+
+def _varies(expression: Expr) -> bool:
+    return any(s.kind.varies for s in expression.symbols())

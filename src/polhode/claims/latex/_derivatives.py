@@ -1,0 +1,109 @@
+"""Derivatives d/dt and ∂/∂θ recognised in fractions, and the variable of an integral in its dx."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from polhode.claims.latex._tree import (
+    Derivative,
+    Differential,
+    Name,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Quotient,
+    Span,
+    factors_of,
+    product,
+)
+
+_DERIVING = {"d": "d", "∂": "partial"}
+_ORDERS = tuple("123456789")
+
+
+@dataclass(frozen=True)
+class Operator(Node):
+    """A d/dt without the quantity it acts on."""
+
+    by: tuple[tuple[Node, int], ...]
+    partial: bool
+
+    def applied(self, of: Node, span: Span) -> Node:
+        """The derivative of a quantity."""
+        for by, order in reversed(self.by):
+            of = Derivative(of, by, order, self.partial, span=span)
+        return of
+
+
+def derivative(above: Node, below: Node, span: Span) -> Node | None:
+    """The derivative, or the operator, that a fraction prints; None for a mere fraction."""
+    if isinstance(above, Negative):
+        inner = derivative(above.of, below, span)
+        lacks_operand = inner is None or isinstance(factors_of(inner)[-1], Operator)
+        return None if inner is None or lacks_operand else replace(above, of=inner)
+    denominators = [_denominator(factor) for factor in factors_of(below)]
+    by = tuple((of, order) for _, of, order in denominators)
+    signs = {sign for sign, _, _ in denominators}
+    if len(signs) != 1 or not signs <= set(_DERIVING):
+        return None
+    return _differentiated(factors_of(above), signs.pop(), by, span)
+
+
+def measured(integrand: Node, span: Span) -> tuple[Node, Node] | None:
+    """The quantity under an integral and the variable it runs over; None without a differential."""
+    factors = factors_of(integrand)
+    for place, factor in enumerate(factors):
+        found = _variable(factor)
+        if found is not None:
+            left, by = found
+            return product((*factors[:place], *left, *factors[place + 1 :]), span), by
+    return None
+
+
+def _variable(factor: Node) -> tuple[tuple[Node, ...], Node] | None:
+    match factor:
+        case Differential(of, "d"):
+            return (), of
+        case Quotient(above, below):
+            found = measured(above, above.span)
+            return found and ((replace(factor, above=found[0], below=below),), found[1])
+    return None
+
+
+def _denominator(factor: Node) -> tuple[str, Node, int]:
+    """The sign, quantity and order of dt, dt² or ∂θ; no sign for anything else."""
+    match factor:
+        case Differential(of, sign):
+            return sign, of, 1
+        case Power(Differential(of, sign), Number(text)) if text in _ORDERS:
+            return sign, of, int(text)
+    return "", factor, 0
+
+
+def _differentiated(
+    above: tuple[Node, ...], sign: str, by: tuple[tuple[Node, int], ...], span: Span
+) -> Node | None:
+    total = sum(order for _, order in by)
+    for place, factor in enumerate(above):
+        started = _started(factor, sign, total)
+        if started is not None:
+            operator = Operator(by, partial=sign == "∂", span=span)
+            of = (*started, *above[place + 1 :])
+            derived = operator.applied(product(of, span), span) if of else operator
+            return product((*above[:place], derived), span)
+    return None
+
+
+def _started(factor: Node, sign: str, order: int) -> tuple[Node, ...] | None:
+    """What is differentiated, if a factor begins a numerator: the x of dx; None for any other."""
+    match factor:
+        case Differential(of, printed) if printed == sign and order == 1:
+            return (of,)
+        case Power(Differential(of, printed), exponent) if printed == sign and order == 1:
+            return (Power(of, exponent, span=factor.span),)
+        case Name(letter, "", 0, "", "") if letter == _DERIVING[sign] and order == 1:
+            return ()
+        case Power(Name(letter, "", 0, "", ""), Number(text)) if letter == _DERIVING[sign]:
+            return () if text == str(order) else None
+    return None

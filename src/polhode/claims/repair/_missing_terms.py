@@ -1,0 +1,354 @@
+"""Terms that a claim has lost, and whole expressions that are wrong, in the letters of its text.
+
+What is needed at a place is found by numbers along known directions, or exactly: the claim is
+solved for an unknown that stands there, and the solution is written as products of letters.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
+from itertools import islice
+
+import numpy as np
+
+from polhode.algebra import Expr, Symbol, Vector, factors, length
+from polhode.base import PolhodeError
+from polhode.claims.latex._tree import (
+    Call,
+    ComponentList,
+    Cross,
+    Derivative,
+    Dot,
+    Dots,
+    Name,
+    Negative,
+    Node,
+    Number,
+    Piece,
+    Power,
+    Product,
+    Quotient,
+    Root,
+    Statement,
+    Sum,
+    walk,
+)
+from polhode.claims.repair._edits import Edit, bases, number_node, times_match
+from polhode.claims.repair._numeric_evaluator import scalar
+from polhode.claims.repair._places import (
+    ZERO,
+    NodePosition,
+    added,
+    negated,
+    over,
+    put,
+    raised,
+    times,
+)
+from polhode.claims.repair._repair_context import RepairContext, VectorTerms
+from polhode.claims.states._numeric import NO_VALUE
+
+_MOST_MATCHES = 5
+_MOST_VECTOR_MATCHES = 2
+_LARGEST_SIZE = 12  # factors of a term
+_LONGEST_SUM = 4  # terms of a sum of letters
+_LONGEST = 16  # terms of what is factored
+_FACTOR = 4  # how much longer something may be than a short multiple of it
+
+#: Stands in a statement where something is to be found.
+_UNKNOWN_TERM = Name("missing")
+_UNKNOWN = Symbol("missing")
+
+
+# -- terms that are missing -----------------------------------------------------------------------
+
+
+def missing_terms(
+    context: RepairContext,
+    place: NodePosition,
+    members: Sequence[int],
+    inner: Collection[NodePosition],
+) -> Iterator[Edit]:
+    """Terms to be added to a side, or to whatever can be a sum inside it.
+
+    Args:
+        context: the statement that fails.
+        place: where a term may be added.
+        members: of the claim, that are to hold with it.
+        inner: factors and the like that another value could make right.
+    """
+    inside = isinstance(place.parent, Derivative | Root | ComponentList | Cross | Dot)
+    if not (place.is_side or inside or isinstance(place.node, Sum) or place in inner):
+        return
+    deep = 0.05 if isinstance(place.parent, Node) else 0.0
+    for term in _terms(context, place, members):
+        letters = {piece for piece in walk(term) if isinstance(piece, Node)}
+        if any(map(context.is_strange, letters)):  # it would only rewrite what is left over
+            continue
+        size = 2.0 + deep + _length(term) / 20
+        yield Edit("missing term", place.path, added(place.node, term), size)
+
+
+def _terms(context: RepairContext, place: NodePosition, members: Sequence[int]) -> Iterator[Node]:
+    def adds(term: Node) -> bool:
+        """Whether a term does more than put something else in the place of what is there."""
+        parts = term.terms if isinstance(term, Sum) else (term,)
+        is_letter = isinstance(place.node, Name | Dots)
+        cancels = negated(place.node) in parts or (is_letter and place.node in bases(term))
+        return not cancels and not _repeats(context, place, term)
+
+    value = context.value(place.node)
+    if isinstance(value, Expr):
+        yield from _along(context, place, None, members, adds)
+    elif isinstance(value, Vector):
+        for direction in context.directions:
+            yield from _along(context, place, direction, members, adds)
+        yield from filter(adds, _multiples(context, place, members, context.vectors))
+        yield from filter(adds, _multiples(context, place, members, context.crossed))
+
+
+def _along(
+    context: RepairContext,
+    place: NodePosition,
+    direction: Node | None,
+    members: Sequence[int],
+    adds: Callable[[Node], bool],
+) -> Iterator[Node]:
+    """Terms along one direction, or scalar ones."""
+    evaluator = context.evaluator
+    ones = np.ones(context.trials.samples.size)
+    tail = [] if direction is None else [direction]
+    try:
+        unit = scalar(ones) if direction is None else evaluator.of(direction)
+        amount = evaluator.amounts(place, unit, members)[0]
+    except NO_VALUE:
+        amount = None
+    if amount is not None:
+        if not np.isfinite(amount).all():
+            return
+        matches = islice(context.products.equal_to(amount), _MOST_MATCHES)
+        found = [t for match in matches if adds(t := times_match(match, *tail))]
+        yield from found
+        if found:
+            return
+    unknown = added(place.node, times(_UNKNOWN_TERM, *tail))
+    lost = _solved(context, put(context.statement, place.path, unknown), members)
+    if lost is not None:
+        yield from filter(adds, _written(context, lost, tail))
+
+
+def _multiples(
+    context: RepairContext, place: NodePosition, members: Sequence[int], terms: VectorTerms
+) -> Iterator[Node]:
+    """Multiples of vectors of the text, or of products of two, that make a formula right."""
+    if not len(terms):
+        return
+    try:
+        amounts = context.evaluator.amounts(place, terms.values, members)
+    except NO_VALUE:
+        return
+    for i in np.flatnonzero(np.isfinite(amounts).all(axis=1)):
+        for match in islice(context.products.equal_to(amounts[i]), _MOST_VECTOR_MATCHES):
+            yield times_match(match, terms[int(i)])
+
+
+# -- terms and sums that are wrong as a whole -----------------------------------------------------
+
+
+def may_be_rewritten(place: NodePosition) -> bool:
+    """Whether it is a whole side, a term or a sum; what the claim is about keeps its letter."""
+    is_subject = place.is_side and isinstance(_base(place.node), Name | Dots)
+    return (place.is_term or isinstance(place.node, Sum)) and not is_subject
+
+
+def rewritten(
+    context: RepairContext, place: NodePosition, members: Sequence[int]
+) -> Iterator[Edit]:
+    """What would have to stand at a place, with its vectors unchanged."""
+    tail = _tail(context, place.node)
+    if tail is None:
+        return
+    changed = put(context.statement, place.path, times(_UNKNOWN_TERM, *tail))
+    wanted = _solved(context, changed, members)
+    if wanted:
+        for node in _plainly_written(context, wanted, tail):
+            if not _repeats(context, place, node):
+                one, other = _letters(place.node), _letters(node)
+                unshared = (one - other).total() + (other - one).total()
+                ordered = _in_order(node, place.node)
+                yield Edit("wrong expression", place.path, ordered, 2.1 + unshared / 20)
+
+
+def _tail(context: RepairContext, node: Node) -> list[Node] | None:
+    """The vectors that scalars of a term multiply; None where there is not exactly one."""
+    if isinstance(node, Negative):
+        return _tail(context, node.of)
+    if isinstance(context.value(node), Expr):
+        return []
+    vectors = node.factors if isinstance(node, Product) else (node,)
+    found = [n for n in vectors if isinstance(context.value(n), Vector)]
+    return found if len(found) == 1 and not isinstance(found[0], Sum) else None
+
+
+def _letters(node: Node) -> Counter[Node]:
+    """The letters and functions of an expression, as often as they are multiplied."""
+    match node:
+        case Power(base, Number(text)) if text.isdigit():
+            return Counter({letter: n * int(text) for letter, n in _letters(base).items()})
+        case Call() | Name() | Dots():
+            return Counter([node])
+    return sum((_letters(part) for part in node.parts if isinstance(part, Node)), Counter())
+
+
+def _in_order(node: Node, old: Node) -> Node:
+    """A product with its factors in the order in which they stood before, and vectors last."""
+    before = [*walk(old)]
+
+    def place(factor: Node) -> int:
+        if isinstance(factor, Name) and factor.is_marked_vector:
+            return len(before) + 1
+        return before.index(_base(factor)) if _base(factor) in before else len(before)
+
+    match node:
+        case Negative(of):
+            return Negative(_in_order(of, old))
+        case Product(factors):
+            return Product(tuple(sorted(factors, key=place)))
+    return node
+
+
+def _base(node: Node) -> Node:
+    return node.base if isinstance(node, Power) else node
+
+
+# -- exact quantities, written in the letters of the text -----------------------------------------
+
+
+def _solved(context: RepairContext, changed: Statement, members: Sequence[int]) -> Expr | None:
+    """What the unknown term of a changed statement has to be for some members to hold, exactly."""
+    found = None
+    try:
+        extra = {_UNKNOWN_TERM.letter: Expr.generator(_UNKNOWN)}
+        for residual in context.vanishing(changed, members, extra):
+            settled = context.trials.states.on(residual).numerator
+            slope = settled.diff(_UNKNOWN)
+            if _UNKNOWN in slope.symbols():
+                return None
+            rest = settled - slope * Expr.generator(_UNKNOWN)
+            if slope and found is None:
+                found = -rest / slope
+            if settled and (found is None or settled.subs({_UNKNOWN: found})):
+                return None
+    except (PolhodeError, ArithmeticError):
+        return None
+    return found
+
+
+def _length(node: Node) -> int:
+    """How much a term says: letters with their powers, and how they are put together."""
+    match node:
+        case Power(base, Number(text)) if text.isdigit():
+            return _length(base) * int(text)
+        case Name(decoration="hat"):
+            return 0
+        case Number("1"):
+            return 0
+        case Call() | Name() | Dots() | Number():
+            return 1
+    rate = isinstance(node, Derivative | Cross)
+    nested = 2 * isinstance(node, Sum)
+    if isinstance(node, Quotient) and not isinstance(node.below, Number):
+        nested = 4
+    return rate + nested + sum(_length(part) for part in node.parts if isinstance(part, Node))
+
+
+def _written(context: RepairContext, value: Expr, tail: Sequence[Node]) -> Iterator[Node]:
+    """A quantity times vectors in the letters of the text.
+
+    At most one of them is of a quantity that the motion determines, such as a reaction.
+    """
+    yield from _plainly_written(context, value, tail)
+    for node, moved in context.settled.items():
+        if not moved or moved == context.vocabulary[node]:
+            continue
+        shorter, longer = sorted((length(value), length(moved)))
+        if longer <= _FACTOR * shorter:  # else neither is a short multiple of the other
+            yield from _plainly_written(context, value / moved, [node, *tail])
+
+
+def _plainly_written(context: RepairContext, value: Expr, tail: Sequence[Node]) -> Iterator[Node]:
+    """The same in letters alone that are free on the states of the claim, if it is that simple."""
+    product = _product(value, context.spellings)
+    if product is not None and len(product[1]) + len(product[2]) < _LARGEST_SIZE:
+        number, above, below = product
+        term = times(_fraction(abs(number), above, below), *tail)
+        yield negated(term) if number < 0 else term
+
+
+def _product(
+    expression: Expr, plain: Mapping[Expr, Node]
+) -> tuple[Fraction, list[Node], list[Node]] | None:
+    """An expression as a number times letters over letters, if it is that simple."""
+    if _is_longer(expression.numerator, _LONGEST) or _is_longer(expression.denominator, _LONGEST):
+        return None
+    number, powers = factors(expression)
+    above: list[Node] = []
+    below: list[Node] = []
+    for factor, power in powers.items():
+        node = plain.get(factor)
+        if node is None and -factor in plain:
+            node, number = plain[-factor], number * (-1) ** (power % 2)
+        elif (
+            node is None
+            and number < 0
+            and power % 2
+            and any(coefficient < 0 for _, coefficient in factor.terms())
+        ):
+            factor, number = -factor, -number
+        node = node or _sum(factor, plain)
+        if node is None:
+            return None
+        (above if power > 0 else below).append(raised(node, abs(power)))
+    return number, above, below
+
+
+def _sum(factor: Expr, plain: Mapping[Expr, Node]) -> Node | None:
+    """A short sum of products of letters."""
+    terms: list[Node] = []
+    if _is_longer(factor, _LONGEST_SUM) or not _is_longer(factor, 1):
+        return None
+    for powers, coefficient in factor.terms():
+        nodes = [(plain.get(Expr.generator(g)), power) for g, power in powers.items()]
+        if any(node is None for node, _ in nodes):
+            return None
+        above = [raised(node, power) for node, power in nodes if node is not None]
+        term = _fraction(abs(Fraction(coefficient)), above, ())
+        terms.append(negated(term) if coefficient < 0 else term)
+    if isinstance(terms[0], Negative):
+        terms.sort(key=lambda term: isinstance(term, Negative))
+    return Sum(tuple(terms))
+
+
+def _is_longer(polynomial: Expr, most: int) -> bool:
+    """Whether it has more than so many terms."""
+    return any(islice(polynomial.terms(), most, None))
+
+
+def _fraction(number: Fraction, above: Iterable[Node], below: Iterable[Node]) -> Node:
+    top = times(number_node(Fraction(number.numerator)), *above)
+    return over(top, times(number_node(Fraction(number.denominator)), *below))
+
+
+def _repeats(context: RepairContext, place: NodePosition, node: Node) -> bool:
+    """Whether something new at a place brings in a whole other side of the same chain."""
+    sides = context.statement.relations[place.relation].sides
+    others = {side for i, side in enumerate(sides) if i != place.path[1]} - {ZERO}
+    return _stands_in(node, others)
+
+
+def _stands_in(piece: Piece, others: Collection[Piece]) -> bool:
+    """Whether one of these is the piece or stands in it, other than as the base of a power."""
+    inside = (*piece.base.parts, piece.exponent) if isinstance(piece, Power) else piece.parts
+    return piece in others or any(_stands_in(part, others) for part in inside)

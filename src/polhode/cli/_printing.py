@@ -1,0 +1,106 @@
+"""What commands print: JSON documents, and text laid out for the terminal."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import shutil
+import textwrap
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
+
+from polhode.algebra import Expr
+from polhode.base import NumericError, StoreError, provenance
+
+
+def print_document(content: Mapping[str, Any]) -> None:
+    """Print one JSON document with the versions it was made with.
+
+    Raises:
+        NumericError: for a number that is not finite.
+    """
+    print(document(content))
+
+
+def document(content: Mapping[str, Any]) -> str:
+    """The text of a JSON document with the versions it was made with.
+
+    Raises:
+        NumericError: for a number that is not finite.
+    """
+    try:
+        return json.dumps({**provenance(), **content}, indent=2, allow_nan=False)
+    except ValueError as error:
+        raise NumericError("a result that is not finite", expected="finite numbers") from error
+
+
+def printed_all(expressions: Sequence[Expr]) -> str:
+    """Expressions as `sympy.srepr` text: of a single one, or a Tuple of several."""
+    texts = [printed(expression)["sympy"] for expression in expressions]
+    return texts[0] if len(texts) == 1 else f"Tuple({', '.join(texts)})"
+
+
+def printed(expression: Expr) -> dict[str, str]:
+    """An expression as LaTeX and as `sympy.srepr` text in plain symbols.
+
+    Raises:
+        StoreError: where SymPy is not installed.
+    """
+    from polhode.algebra import to_sympy
+
+    try:
+        from sympy import srepr
+    except ImportError as error:
+        raise StoreError(
+            "SymPy is not installed",
+            expected="SymPy, which writes the expressions of JSON documents",
+            advice="pip install 'polhode[sympy]'",
+        ) from error
+    return {"latex": expression.latex(), "sympy": srepr(to_sympy(expression))}
+
+
+# -- text ------------------------------------------------------------------------------------------
+
+_LABEL = 14  # width of the column of labels
+_NARROWEST, _WIDEST = 60, 100
+
+
+def wrapped(label: str, words: Iterable[str], indent: str = "  ") -> Iterator[str]:
+    """A label and words beside it, wrapped to the terminal; words with blanks stay whole."""
+    width = min(max(shutil.get_terminal_size().columns, _NARROWEST), _WIDEST)
+    text = " ".join(word.replace(" ", "\N{NO-BREAK SPACE}") for word in words).rstrip(",")
+    lines = textwrap.wrap(text, width - len(indent) - _LABEL, break_on_hyphens=False) or ["none"]
+    for line, start in zip(lines, [label, *[""] * len(lines)], strict=False):
+        yield f"{indent}{start:<{_LABEL}}{line.replace(chr(0xA0), ' ')}"
+
+
+def values(numbers: Mapping[str, float | str]) -> list[str]:
+    """Items "name = value," of a list; texts are left as they are."""
+    shown = {n: v if isinstance(v, str) else f"{v:.9g}" for n, v in numbers.items()}
+    return [f"{name} = {value}," for name, value in shown.items()]
+
+
+_SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
+_LONG = r"(-?\d{5,}/\d+|-?\d+/\d{5,})"  # a fraction that stands for a decimal number
+_OF_LONG = re.compile(rf"(sin|cos)([⁰¹²³⁴⁵⁶⁷⁸⁹]*)\({_LONG}\)")
+
+
+def in_decimals(text: str) -> str:
+    """Formulas with long fractions, and their sines and cosines, as decimal numbers.
+
+    The sine of 80 degrees, for instance, cannot be written exactly in one line.
+    """
+    text = _OF_LONG.sub(_sine, text)
+    return re.sub(_LONG, lambda found: f"{_ratio(found[1]):.10g}", text)
+
+
+def _sine(found: re.Match[str]) -> str:
+    name, power, ratio = found.groups()
+    value = getattr(math, name)(_ratio(ratio)) ** int(power.translate(_SUPERSCRIPTS) or 1)
+    return f"{value:.10g}"
+
+
+def _ratio(text: str) -> float:
+    above, below = text.split("/")
+    return int(above) / int(below)

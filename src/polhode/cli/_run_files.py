@@ -1,0 +1,94 @@
+"""The files of a run: a table of samples, a figure, a page. None is ever left half written."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from pathlib import Path
+
+from polhode.base import DeclarationError, StoreError
+from polhode.catalogue import CatalogueEntry, audit, document_of
+from polhode.simulate import Trajectory
+from polhode.view import Judgement, figure_of_run, origin_of, page, save_figure
+
+# The files of a run: a table of samples, a figure, a page, each whole or not there.
+
+
+def write_run(folder: Path, entry: CatalogueEntry, trajectory: Trajectory) -> list[Path]:
+    """Write the samples and a figure of a run into a folder, made if it is not there.
+
+    Raises:
+        StoreError: where a file cannot be written.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise StoreError(
+            f"the folder {folder} cannot be made ({error.strerror})",
+            expected="a place where a folder can be made",
+            advice="give --out another one",
+        ) from error
+    equations = trajectory.equations
+    everything = (
+        [symbol.published for symbol in equations.coordinates],
+        [symbol.published for symbol in equations.speeds],
+        trajectory.reactions,
+    )
+    plots = entry.plots or [group for group in everything if group]
+    stem = entry.name.rpartition(":")[2].replace("/", "-")
+    table, picture = folder / f"{stem}.csv", folder / f"{stem}.png"
+    trajectory.to_csv(table)
+    try:
+        figure = figure_of_run(trajectory.rounded(), plots)
+        save_figure(figure, picture, origin=origin_of(trajectory))
+    except KeyboardInterrupt as interrupt:
+        interrupt.add_note(f"kept {table}")
+        raise
+    return [table, picture]
+
+
+def write_page(
+    path: Path, entry: CatalogueEntry, about: str, trajectory: Trajectory, claims: Collection[str]
+) -> Path:
+    """Write a page that plays a run, with verdicts on claims of the problem set, given by id.
+
+    Args:
+        about: description of the system in a few sentences.
+
+    Raises:
+        StoreError: where the file cannot be written.
+    """
+    page(
+        trajectory,
+        path,
+        title=entry.title,
+        about=about,
+        plots=entry.plots,
+        meanings={parameter.name: parameter.meaning for parameter in entry.parameters},
+        judgements=judgements_on(claims),
+    )
+    return path
+
+
+# -- claims of the problem set, for the page -------------------------------------------------------
+
+
+def claims_about(entry: CatalogueEntry) -> tuple[str, ...]:
+    """Ids of the problem set's claims about a system.
+
+    Raises:
+        DeclarationError: if there are none.
+    """
+    found = tuple(claim.id for claim in document_of(None).about(entry.name))
+    if not found:
+        raise DeclarationError(
+            f"--verdicts for {entry.name}: the problem set says nothing about it",
+            expected="a system of the problem set, such as rolling-disk",
+            advice="judge your own with ph.check and give them to ph.page as judgements",
+        )
+    return found
+
+
+def judgements_on(claims: Collection[str]) -> tuple[Judgement, ...]:
+    """The verdicts on claims of the problem set, given by id, part by part."""
+    parted = audit(only=claims).by_part() if claims else ()
+    return tuple(Judgement.on(judged) for _, found in parted for judged in found)

@@ -1,0 +1,111 @@
+"""Checks after the kinematics: clashing names, unknown coordinates, forces nothing supplies."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import pairwise
+
+from polhode.algebra import ZERO, Symbol, SymbolKind, variables
+from polhode.base import DeclarationError, NumericError
+from polhode.derive._balance import Wrench
+from polhode.derive._constraints import partial_velocity
+from polhode.derive._equations import Equations
+from polhode.derive._motion import Kinematics
+from polhode.derive._unconstrained import depends_on_motion
+from polhode.model import Body
+
+
+def refuse_shared_names(motion: Kinematics, required: Mapping[Body, Wrench]) -> None:
+    """Refuse two symbols of one name, and reactions named like another or like a symbol."""
+    owners: dict[str, str] = {}
+    for element in motion.elements:
+        names = [restraint.name for restraint in motion.restraints[element.name]]
+        for friction in element.friction(motion.places):
+            names += [name for name, _ in friction.directions]
+        for name in names:
+            if name in owners:
+                raise _shared(name, f"both {owners[name]!r} and {element.name!r}")
+            owners[name] = element.name
+    components = (c for w in required.values() for v in (w.force, w.couple) for c in v.components)
+    symbols = sorted(symbol.published for symbol in variables(components))
+    for first, second in pairwise(symbols):
+        if first == second:
+            raise DeclarationError(
+                f"two different quantities are both called {first!r}",
+                expected="one meaning for one name",
+                advice="rename one of them",
+            )
+    for name in symbols:
+        if name in owners:
+            raise _shared(name, f"{owners[name]!r}, and a symbol of the declaration")
+
+
+def _shared(name: str, owners: str) -> DeclarationError:
+    return DeclarationError(
+        f"{name}, a reaction of {owners}",
+        expected="a name of its own for every reaction component and symbol",
+        advice="give one another letter, such as force='G' or torque='sigma', or its body a tag",
+    )
+
+
+def refuse_unknown_coordinates(motion: Kinematics, required: Mapping[Body, Wrench]) -> None:
+    """Refuse coordinates that place or turn no body: nothing says how they move."""
+    wrenches = (c for w in required.values() for v in (w.force, w.couple) for c in v.components)
+    used = variables((*wrenches, *motion.kinematics.values(), *motion.dependent.values()))
+    coordinates = {s.base() for s in used if s.kind is SymbolKind.COORDINATE}
+    unknown = sorted(s.published for s in coordinates - set(motion.coordinates))
+    if unknown:
+        raise DeclarationError(
+            f"the coordinate {', '.join(unknown)}, by which no body is placed or turned",
+            expected=f"one of {', '.join(s.published for s in motion.coordinates)}",
+            advice="for a prescribed motion, use functions(...) or an expression of time",
+        )
+
+
+def refuse_unbalanced(equations: Equations) -> None:
+    """Refuse moving supports whose reactions cannot keep the body in the motion they allow.
+
+    A support may move with coordinates of the body it holds, as along a light rod. The equations of
+    motion then hold by d'Alembert's principle, and so does the balance of every body, unless the
+    body would need more than is declared: a couple that turns it with the rod, say.
+
+    Raises:
+        DeclarationError: naming the contact or joint.
+    """
+    motion = equations.kinetics
+    works: dict[str, list[Symbol]] = {}
+    for name, restraints in motion.restraints.items():
+        for restraint in (r for r in restraints if depends_on_motion(r.velocity)):
+            moved, along = motion.resolve(restraint.velocity), restraint.direction
+            if speeds := [s for s in motion.speeds if partial_velocity(moved, s).dot(along)]:
+                works[name] = speeds
+    if works and not _is_balanced(equations):
+        name, speeds = next(iter(works.items()))
+        raise DeclarationError(
+            f"{name!r}, whose support moves with {', '.join(s.published for s in speeds)}: what it "
+            "supplies is not enough to keep the body in that motion",
+            expected="a support that moves with time alone, or a body",
+            advice="name the body that carries it: to=body.point(offset), or to=body",
+        )
+
+
+def _is_balanced(equations: Equations) -> bool:
+    """Whether all balances hold along the motion, and the reactions do no work on the whole."""
+    try:
+        if any(map(equations.on_shell, equations.unexplained)):
+            return False
+        moved = [
+            (column, equations.kinetics.resolve(column.restraint.velocity))
+            for column in equations.lines
+            if depends_on_motion(column.restraint.velocity)
+        ]
+        for speed in equations.speeds:
+            works = (
+                equations.components[c.name] * partial_velocity(v, speed).dot(c.direction)
+                for c, v in moved
+            )
+            if equations.on_shell(sum(works, ZERO)):
+                return False
+    except NumericError:  # accelerations not solved for: it cannot be decided
+        return False
+    return True

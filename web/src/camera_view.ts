@@ -1,0 +1,155 @@
+// The view: around the middle of the motion, or following a body.
+
+import { type PerspectiveCamera, Plane, Quaternion, Raycaster, Sphere, Vector2, Vector3 } from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import type { Extent } from "./extent";
+import type { Display } from "./display";
+import type { Triple } from "./scene";
+
+const CLOSE = 2.15; // reaches of the body that are in view about it when it is followed
+const LIT = 1.7; // of what is in view, so that shadows beside it are there too
+const STEEPEST = 0.995; // cosine from the upright
+
+export class CameraView {
+  private readonly controls: OrbitControls;
+  private readonly place = new Vector3();
+  private readonly level: [Vector3, Vector3];
+
+  /**
+   * @param follow whether it goes along with a body.
+   * @param body where that is at the time that is shown.
+   * @param moved told of every change.
+   */
+  constructor(
+    private readonly display: Display,
+    private readonly holder: HTMLElement,
+    private readonly extent: Extent,
+    public follow: boolean,
+    private readonly body: (out: Vector3) => Vector3,
+    private readonly moved: () => void,
+  ) {
+    const { radius, reach, up } = extent;
+    this.level = horizontal(up);
+    this.camera.up.copy(up); // which the controls read when they are made
+    this.controls = new OrbitControls(this.camera, holder);
+    this.controls.maxDistance = 40 * Math.max(radius, reach);
+    this.controls.minDistance = 1.5 * reach;
+    this.controls.addEventListener("change", moved);
+    this.camera.near = reach / 8;
+    this.camera.far = 300 * Math.max(radius, reach);
+    this.camera.updateProjectionMatrix();
+    display.lights.fit(reach);
+  }
+
+  private get camera(): PerspectiveCamera {
+    return this.display.camera;
+  }
+
+  /** Whether dragging rotates the view. */
+  set turns(turns: boolean) {
+    this.controls.enabled = turns;
+  }
+
+  /** Take over an earlier view, at a distance in proportion to the size of the bodies. */
+  takeOver({ controls, extent }: CameraView, from: Vector3): void {
+    const offset = from.clone().sub(controls.target).multiplyScalar(this.extent.reach / extent.reach);
+    if (!this.follow && this.extent.reach === extent.reach) this.controls.target.copy(controls.target);
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.controls.enabled = controls.enabled;
+    this.controls.update();
+  }
+
+  leave(): void {
+    this.controls.dispose();
+  }
+
+  /** The point on the horizontal ground under a point of the screen, in the root frame; m. */
+  groundAt(x: number, y: number): Triple | null {
+    const box = this.holder.getBoundingClientRect();
+    const point = new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2);
+    const sight = new Raycaster();
+    sight.setFromCamera(point, this.camera);
+    const hit = sight.ray.intersectPlane(new Plane(this.extent.up), this.place);
+    return hit && hit.toArray();
+  }
+
+  /** Back to the initial view, as close as possible with everything in view. */
+  home(): void {
+    const [side, ahead] = this.level;
+    const offset = this.extent.up.clone().multiplyScalar(0.44).addScaledVector(ahead, -0.82).addScaledVector(side, 0.36);
+    this.target(this.controls.target);
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.controls.update();
+    this.camera.position.copy(this.controls.target).addScaledVector(offset.normalize(), this.distance());
+    this.controls.update();
+    this.aim();
+    this.moved();
+  }
+
+  setFollow(follow: boolean): void {
+    this.follow = follow;
+    this.home();
+  }
+
+  /** Rotate the view about the vertical and up or down, rad. */
+  orbit(round: number, over: number): void {
+    const { up } = this.extent;
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    offset.applyQuaternion(new Quaternion().setFromAxisAngle(up, round));
+    const aside = up.clone().cross(offset).normalize();
+    const tipped = offset.clone().applyQuaternion(new Quaternion().setFromAxisAngle(aside, over));
+    if (Math.abs(tipped.clone().normalize().dot(up)) < STEEPEST) offset.copy(tipped);
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.controls.update();
+    this.moved();
+  }
+
+  zoom(factor: number): void {
+    this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
+    this.controls.update();
+    this.moved();
+  }
+
+  /** Move with the body, if it is followed. */
+  chase(): void {
+    if (!this.follow) return;
+    const before = this.controls.target.clone();
+    const step = this.target(this.controls.target).clone().sub(before);
+    this.camera.position.add(step);
+    this.controls.update();
+    this.aim();
+  }
+
+  private target(out: Vector3): Vector3 {
+    return this.follow ? this.body(out) : out.copy(this.extent.middle);
+  }
+
+  private get balls(): Sphere[] {
+    const { balls, reach } = this.extent;
+    return this.follow ? [new Sphere(this.body(new Vector3()), CLOSE * reach)] : balls;
+  }
+
+  /** Distance from which all spheres are in view, in the present direction of the camera; m. */
+  private distance(): number {
+    const half = Math.tan((this.camera.fov * Math.PI) / 360);
+    const turn = this.camera.quaternion.clone().invert();
+    const needed = this.balls.map(({ center, radius }) => {
+      const { x, y, z } = center.clone().sub(this.controls.target).applyQuaternion(turn);
+      return z + Math.max(Math.abs(y) + radius, (Math.abs(x) + radius) / this.camera.aspect) / half;
+    });
+    return Math.max(...needed);
+  }
+
+  private aim(): void {
+    const target = this.target(this.place);
+    const radius = Math.max(...this.balls.map((ball) => ball.center.distanceTo(target) + ball.radius));
+    this.display.lights.aim(target, LIT * radius, this.extent.up, this.level);
+  }
+}
+
+/** Two horizontal directions, to the right and away. */
+function horizontal(up: Vector3): [Vector3, Vector3] {
+  const guess = Math.abs(up.z) > 0.9 ? new Vector3(0, 1, 0) : new Vector3(0, 0, 1);
+  const side = guess.clone().cross(up).normalize();
+  return [side, up.clone().cross(side)];
+}
