@@ -7,8 +7,7 @@ import polhode as ph
 from polhode.base import DeclarationError, UnitError
 from polhode.catalogue import CATALOGUE
 from polhode.derive import is_angle
-from polhode.study._found import Found, measured
-from polhode.study._thresholds import thresholds
+from polhode.study._maps import Found, measured, thresholds
 from polhode.view import figures
 from polhode.view._quantities import instants
 from polhode.view.figures._potential import potential

@@ -27,7 +27,7 @@ from polhode.base._errors import (
     look_up,
 )
 from polhode.base._files import read_whole, write_whole
-from polhode.base._forked_worker import ForkedWorker, Tell, can_part, within
+from polhode.base._processes import Start, Tell, preload, shared_flag
 from polhode.base._progress import Progress, SilentProgress, StopRequested, terminal_progress
 from polhode.base._quantity import (
     Quantity,
@@ -38,8 +38,18 @@ from polhode.base._quantity import (
     to_si,
 )
 from polhode.base._units import LENGTH, MASS, PURE, TIME, Dimension, Unit, read_unit
+from polhode.base._workers import (
+    COPY_MEMORY,
+    Outcome,
+    Worker,
+    WorkerEndedError,
+    answers,
+    can_copy,
+    within,
+)
 
 __all__ = [
+    "COPY_MEMORY",
     "LENGTH",
     "MASS",
     "PURE",
@@ -51,8 +61,8 @@ __all__ = [
     "Dimension",
     "DriftWarning",
     "Exit",
-    "ForkedWorker",
     "NumericError",
+    "Outcome",
     "ParseError",
     "PolhodeError",
     "Progress",
@@ -61,17 +71,21 @@ __all__ = [
     "ShapeRecord",
     "Shown",
     "SilentProgress",
+    "Start",
     "StopRequested",
     "StoreError",
     "Tell",
     "Unit",
     "UnitError",
     "Value",
+    "Worker",
+    "WorkerEndedError",
+    "answers",
     "bound_growth",
     "bound_memory",
     "bound_time",
     "cache",
-    "can_part",
+    "can_copy",
     "check_dimension",
     "digest",
     "ended_with",
@@ -79,11 +93,13 @@ __all__ = [
     "extra",
     "installed_version",
     "look_up",
+    "preload",
     "provenance",
     "quantity_of",
     "read_quantity",
     "read_unit",
     "read_whole",
+    "shared_flag",
     "show_with",
     "terminal_progress",
     "to_si",

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
+from functools import partial
 from itertools import chain, groupby
-from multiprocessing import get_context
 
 import polhode as ph
+from polhode.base import NumericError, Tell, Worker, WorkerEndedError
 from polhode.catalogue import CATALOGUE, document_of
 from polhode.claims import Note, audit
 from polhode.view import Judgement, Markup, tag, typeset
@@ -77,10 +77,34 @@ class JudgedClaim:
 
 
 @contextmanager
-def judging(only: Iterable[str]) -> Iterator[Future[tuple[JudgedClaim, ...]]]:
-    """The verdicts to come, on claims with some ids or on all of them."""
-    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as workers:
-        yield workers.submit(judged, tuple(only))
+def judging(only: Iterable[str]) -> Iterator[Callable[[], tuple[JudgedClaim, ...]]]:
+    """The verdicts on claims with some ids, or on all of them, from a process that judges them
+    within this block. To call for them waits until all are there.
+
+    Raises:
+        NumericError: where that process ends before.
+    """
+    with closing(Worker[None, tuple[JudgedClaim, ...]](partial(_judging, tuple(only)))) as worker:
+
+        def verdicts() -> tuple[JudgedClaim, ...]:
+            try:
+                return worker.ask(None)
+            except WorkerEndedError:
+                raise NumericError(
+                    "a worker process that ended while it judged the claims",
+                    expected="enough memory for it",
+                    advice="judge fewer of them with only",
+                ) from None
+
+        yield verdicts
+
+
+def _judging(
+    only: tuple[str, ...],
+) -> Callable[[None, Tell[tuple[JudgedClaim, ...]]], tuple[JudgedClaim, ...]]:
+    """In the worker, which judges as soon as it begins, and is asked later."""
+    verdicts = judged(only)
+    return lambda question, tell: verdicts
 
 
 def judged(only: tuple[str, ...]) -> tuple[JudgedClaim, ...]:

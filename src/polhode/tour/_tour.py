@@ -47,7 +47,7 @@ def write_tour(
         ) from error
     progress.begin("tour", len(CATALOGUE) + 1)
     try:
-        with judging(only) as claims:
+        with judging(only) as judged:
             for entry in CATALOGUE.values():
                 worked = work_through(entry)
                 all_worked.append(worked)
@@ -58,7 +58,7 @@ def write_tour(
                     write_whole(dark, for_dark_pages(drawing.svg).encode())
                 tell(text_of(worked))
                 progress.advance()
-            verdicts = claims.result()
+            verdicts = judged()
             progress.advance()
     finally:
         progress.finish()

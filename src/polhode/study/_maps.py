@@ -1,32 +1,109 @@
-"""What a store of a sweep holds, as a map over two of its axes."""
+"""Maps over two quantities: an output of a sweep, and exact thresholds of stability."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.algebra import Expr, Symbol, dimension_of
-from polhode.base import PURE, DeclarationError, Dimension, look_up, read_quantity
+from polhode.algebra import Expr, Symbol, arrays, compile_program, dimension_of, pi
+from polhode.analyse import SteadyMotion, stability, steady
+from polhode.base import PURE, DeclarationError, Dimension, PolhodeError, look_up, read_quantity
 from polhode.derive import Equations, automaton, derive, is_angle
 from polhode.model import System, read_declaration
 from polhode.study._columns import Array
+from polhode.study._ensemble_runner import Reason
 from polhode.study._grid import SAMPLE
-from polhode.study._reasons import Reason
 from polhode.study._store import REASON, Store, intact, open_store
-from polhode.study._thresholds import Threshold, thresholds
 
-_MOST = 100_000_000
+_ATTITUDES = (Fraction(0), Fraction(1, 2), Fraction(1))  # steady attitudes looked at, over pi
+_NEAR = 0.1  # how far beyond the ends of an axis a steady attitude may be, relative to its length
+_MOST = 100_000_000  # values of a map
+
+
+@dataclass(frozen=True)
+class Threshold:
+    """Where a family of steady motions changes between stable and unstable.
+
+    Attributes:
+        family: in words.
+        condition: positive where it is stable; a function of the axes and the numbers.
+    """
+
+    family: str
+    condition: Expr
+
+    def values(self, names: tuple[str, str], numbers: Mapping[str, float], grid: Array) -> Array:
+        """The condition over a grid of two quantities, shape (2, …) to (…)."""
+        symbols = {s.published: s for s in self.condition.symbols()}
+        given = tuple(s for name, s in symbols.items() if name in (*names, *numbers))
+        function = compile_program([self.condition], given).function(arrays())
+        along = dict(zip(names, grid, strict=True))
+        known = [along.get(s.published, numbers.get(s.published)) for s in given]
+        with np.errstate(all="ignore"):
+            return np.broadcast_to(np.asarray(function(*known)[0], dtype=float), grid.shape[1:])
+
+
+def thresholds(
+    equations: Equations, axes: Mapping[str, Array], numbers: Mapping[str, float]
+) -> list[Threshold]:
+    """The exact thresholds that are curves over two axes.
+
+    Only attitudes of 0, π/2 and π that lie on an axis or at the start are looked at.
+
+    Args:
+        axes: values of two quantities, by name.
+        numbers: values of everything else.
+    """
+    known = {*axes, *numbers, "pi"}
+    found: dict[Expr, Threshold] = {}
+    for at in _attitudes(equations, axes, numbers):
+        try:
+            families = steady(equations, at)
+        except PolhodeError:
+            continue  # no steady motions there, or none that can be found
+        for family in families:
+            for condition in _conditions(family):
+                names = {s.published for s in condition.symbols()}
+                if names <= known and names & set(axes):
+                    found.setdefault(condition, Threshold(str(family), condition))
+    return list(found.values())
+
+
+def _conditions(family: SteadyMotion) -> list[Expr]:
+    try:
+        return [condition.expression for condition in stability(family).conditions]
+    except PolhodeError:
+        return []
+
+
+def _attitudes(
+    equations: Equations, axes: Mapping[str, Array], numbers: Mapping[str, float]
+) -> Iterator[dict[Symbol | Expr | str, Expr]]:
+    for coordinate in equations.coordinates:
+        name = coordinate.published
+        values = axes.get(name, np.array([numbers[name]]) if name in numbers else np.empty(0))
+        if not len(values):
+            continue
+        low, high = float(np.min(values)), float(np.max(values))
+        margin = _NEAR * max(high - low, 1.0)
+        for attitude in _ATTITUDES:
+            if low - margin <= float(attitude) * np.pi <= high + margin:
+                yield {coordinate: Expr.constant(attitude) * pi}
+
+
+# -- a map from a store ----------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Measured:
-    """A quantity of a system, as people read it.
+    """A quantity of a system, for labels and units.
 
     Attributes:
         symbol: of the system.
@@ -41,7 +118,7 @@ class Measured:
 
 @dataclass(frozen=True)
 class Found:
-    """One output over two axes.
+    """An output over two axes.
 
     Attributes:
         system: its name.
@@ -72,10 +149,10 @@ def found_in(path: Path, output: str = "") -> Found:
     """The map that a store holds.
 
     Args:
-        output: name of what to map; by default the first that is a code.
+        output: name of the output to map; by default the first that is a code.
 
     Raises:
-        DeclarationError: for a store that does not have two axes, or an output it has not.
+        DeclarationError: for a store without two axes, or an unknown output.
         StoreError: where there is no store.
     """
     store = open_store(path)
@@ -90,7 +167,7 @@ def found_in(path: Path, output: str = "") -> Found:
 
 
 def _mapped(store: Store, output: str) -> tuple[Found, System, bool]:
-    """A map still without thresholds, the system, and whether it was kept to one mode."""
+    """A map without thresholds, the system, and whether it was simulated in one mode only."""
     origin = store.origin
     names = list(origin["axes"])
     if len(names) != 2 or any(axis["axis"] == SAMPLE for axis in origin["axes"].values()):
@@ -139,7 +216,7 @@ def _all_of(array: Any) -> Array:
 
 
 def measured(equations: Equations, names: Iterable[str]) -> dict[str, Measured]:
-    """Those of some names that are quantities of a system."""
+    """The quantities of a system among some names."""
     rates = (q.derivative() for q in equations.coordinates)
     own = (*equations.coordinates, *equations.speeds, *rates, *equations.parameters)
     known = {symbol.published: symbol for symbol in own}

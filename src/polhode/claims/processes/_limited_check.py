@@ -1,4 +1,4 @@
-"""One claim checked against a model, in a process that ends where it takes too long."""
+"""One claim checked against a model, in a process that is ended where it takes too long."""
 
 from __future__ import annotations
 
@@ -7,8 +7,19 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
 from math import inf
+from typing import TypeAlias
 
-from polhode.base import ForkedWorker, NumericError, ParseError, Tell, can_part, within
+from polhode.base import (
+    COPY_MEMORY,
+    NumericError,
+    ParseError,
+    Start,
+    Tell,
+    Worker,
+    WorkerEndedError,
+    can_copy,
+    within,
+)
 from polhode.claims._check import CheckRequest
 from polhode.claims._verdict import Verdict
 from polhode.claims.meaning._mechanics import EquationsKey
@@ -17,7 +28,9 @@ from polhode.derive import Equations, equations_only
 LONGEST = 60.0  # s of processor time
 
 _ADVICE = "judge its members one by one, restrict it with given, or allow more seconds"
-_KEPT = 2
+_KEPT = 2  # workers
+
+_ClaimWorker: TypeAlias = Worker[CheckRequest, Verdict]
 
 
 def check(
@@ -64,30 +77,26 @@ def check(
     if not isinstance(latex, str):
         raise ParseError(f"an equation of type {type(latex).__name__}", expected="LaTeX, as a str")
     equations_only(equations, "a claim about the motion")
-    said = map(_several, (let, given, small, read, positive))
-    enquiry = CheckRequest(latex, context, *said)
+    texts = ((t,) if isinstance(t, str) else tuple(t) for t in (let, given, small, read, positive))
+    request = CheckRequest(latex, context, *texts)
     if seconds is None:
-        return enquiry.judged(equations, tell)
+        return request.judged(equations, tell)
     if not isinstance(seconds, int | float) or not 0 < seconds < inf:
         raise NumericError(f"{seconds!r} s to judge in", expected="some time, or None for no bound")
-    ask = _asked if can_part() else _interruptible
-    told: list[Verdict] = []
+    failures: list[Verdict] = []
 
-    def heard(failure: Verdict) -> None:
-        told.append(failure)
+    def failed(failure: Verdict) -> None:
+        failures.append(failure)
         tell(failure)
 
     try:
-        return ask(enquiry, equations, seconds, heard)
+        if can_copy():
+            return _asked(request, equations, seconds, failed)
+        return within(seconds, partial(request.judged, equations), advice=_ADVICE, heard=failed)
     except NumericError:
-        if not told:
+        if not failures:
             raise
-        return uncorrected(told[-1], seconds)
-
-
-def _several(texts: Iterable[str]) -> tuple[str, ...]:
-    """Several texts, or one by itself."""
-    return (texts,) if isinstance(texts, str) else tuple(texts)
+        return uncorrected(failures[-1], seconds)
 
 
 def uncorrected(failure: Verdict, seconds: float) -> Verdict:
@@ -96,35 +105,31 @@ def uncorrected(failure: Verdict, seconds: float) -> Verdict:
     return replace(failure, remarks=(*failure.remarks, remark))
 
 
-def _interruptible(
-    enquiry: CheckRequest, equations: Equations, seconds: float, heard: Tell[Verdict]
-) -> Verdict:
-    return within(seconds, partial(enquiry.judged, equations), advice=_ADVICE, heard=heard)
-
-
-_sittings: dict[EquationsKey, ForkedWorker[CheckRequest, Verdict]] = {}
+# Workers that judge claims on some equations, each while nobody asks it.
+_idle: dict[EquationsKey, _ClaimWorker] = {}
 if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_sittings.clear)  # they answer the process that began them
+    os.register_at_fork(after_in_child=_idle.clear)  # they answer the process that began them
 
 
 def _asked(
-    enquiry: CheckRequest, equations: Equations, seconds: float, heard: Tell[Verdict]
+    request: CheckRequest, equations: Equations, seconds: float, failed: Tell[Verdict]
 ) -> Verdict:
-    """Ask the process that judges claims on these equations, which nobody else asks meanwhile."""
-    sitting = _sittings.pop(EquationsKey(equations), None)
-    if sitting is None or not sitting.is_open:
-        sitting = ForkedWorker(lambda asked, tell: asked.judged(equations, tell))
+    """Ask the worker that judges claims on these equations, or a new one."""
+    worker = _idle.pop(EquationsKey(equations), None)
+    if worker is None or not worker.is_open:
+        worker = _ClaimWorker(
+            lambda: lambda asked, tell: asked.judged(equations, tell),
+            Start.COPY,
+            memory=COPY_MEMORY,
+        )
     try:
-        return sitting.ask(enquiry, seconds, _ADVICE, heard)
+        return worker.ask(request, seconds, failed)
+    except WorkerEndedError as ended:
+        raise ended.explained(seconds, _ADVICE) from None
     finally:
-        _keep(EquationsKey(equations), sitting)
-
-
-def _keep(the: EquationsKey, sitting: ForkedWorker[CheckRequest, Verdict]) -> None:
-    """Keep it for the next claim, and few of its like."""
-    if not sitting.is_open:
-        return
-    other, _sittings[the] = _sittings.get(the), sitting
-    surplus = [_sittings.pop(old) for old in list(_sittings)[:-_KEPT]]
-    for old in filter(None, [other, *surplus]):
-        old.close()
+        if worker.is_open:
+            # Another thread may have kept one for the same equations meanwhile.
+            other, _idle[EquationsKey(equations)] = _idle.get(EquationsKey(equations)), worker
+            surplus = [_idle.pop(old) for old in list(_idle)[:-_KEPT]]
+            for old in filter(None, [other, *surplus]):
+                old.close()

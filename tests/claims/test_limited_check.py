@@ -15,7 +15,7 @@ import polhode as ph
 from polhode.base import within
 from polhode.catalogue import CATALOGUE
 from polhode.claims import Answer, CheckRequest, Verdict
-from polhode.claims.processes import _bounded
+from polhode.claims.processes import _limited_check
 
 WRONG = r"F_z = Mg + Ma(\ddot\theta\sin\theta + \dot\theta^2\cos\theta)"
 RIGHT = r"\dot\omega_1 = 0"
@@ -40,8 +40,8 @@ def alone(monkeypatch):
 
 
 def end_all():
-    while _bounded._sittings:
-        _bounded._sittings.popitem()[1].close()
+    while _limited_check._idle:
+        _limited_check._idle.popitem()[1].close()
 
 
 def compiled(*_):
@@ -68,7 +68,7 @@ def test_one_process_judges_claim_after_claim(gyroscope, alone):
     judging = set()
     for _ in range(3):
         ph.check(RIGHT, gyroscope)
-        judging |= {sitting._child for sitting in _bounded._sittings.values()}
+        judging |= {worker.pid for worker in _limited_check._idle.values()}
     assert len(judging) == 1
 
 
@@ -77,14 +77,14 @@ def test_no_more_processes_are_kept_than_a_few():
     systems = [CATALOGUE["gyroscope"].build() for _ in range(4)]
     for system in systems:
         ph.check(RIGHT, ph.derive(system))
-    assert len(_bounded._sittings) == _bounded._KEPT
+    assert len(_limited_check._idle) == _limited_check._KEPT
 
 
 def test_a_process_that_somebody_ended_is_replaced(gyroscope, alone):
     ph.check(RIGHT, gyroscope)
-    (sitting,) = _bounded._sittings.values()
-    os.kill(sitting._child, signal.SIGKILL)
-    os.waitid(os.P_PID, sitting._child, os.WEXITED | os.WNOWAIT)
+    (worker,) = _limited_check._idle.values()
+    os.kill(worker.pid, signal.SIGKILL)
+    os.waitid(os.P_PID, worker.pid, os.WEXITED | os.WNOWAIT)
     assert ph.check(RIGHT, gyroscope).holds
 
 
@@ -98,14 +98,14 @@ def test_a_process_parted_from_this_one_asks_its_own(gyroscope):
     ph.check(RIGHT, gyroscope)
     child = os.fork()
     if not child:
-        os._exit(int(bool(_bounded._sittings)) or int(not ph.check(RIGHT, gyroscope).holds))
+        os._exit(int(bool(_limited_check._idle)) or int(not ph.check(RIGHT, gyroscope).holds))
     _, status = os.waitpid(child, 0)
     assert status == 0
     assert ph.check(WRONG, gyroscope).answer is Answer.FAILS
 
 
 def test_a_failure_is_told_even_where_no_correction_is_found_in_time(gyroscope, alone, monkeypatch):
-    def failing(enquiry, equations, tell):
+    def failing(request, equations, tell):
         tell(Verdict(Answer.FAILS, "motion", reason="for a reason"))
         compiled()
 
@@ -161,7 +161,7 @@ def test_an_interruption_ends_the_process_that_judges(gyroscope, alone, monkeypa
             ph.check(RIGHT, gyroscope)
     finally:
         signal.signal(signal.SIGINT, before)
-    assert not _bounded._sittings
+    assert not _limited_check._idle
 
 
 def test_a_motion_can_be_followed_there_after_one_was_followed_here():
@@ -182,7 +182,7 @@ def test_what_is_open_is_not_held_open_by_the_process_that_judges():
     reading, writing = os.pipe()
     assert ph.check(RIGHT, anew).answer is Answer.HOLDS
     os.close(writing)
-    ready, _, _ = select([reading], [], [], 5.0)
+    ready, _, _ = select([reading], [], [], 60.0)
     assert ready
     assert os.read(reading, 1) == b""
     os.close(reading)

@@ -1,4 +1,4 @@
-"""Maps that look closely only where outcomes meet."""
+"""Maps of outcomes that are refined only at the boundaries between them."""
 
 from __future__ import annotations
 
@@ -14,23 +14,22 @@ from polhode.base import DeclarationError, Progress, SilentProgress
 from polhode.derive import Automaton, Equations
 from polhode.study._columns import Array, Column, Members, Name, published_names
 from polhode.study._ensemble_runner import EnsembleRunner, EnsembleSpec, Subject, options_of
-from polhode.study._event_outputs import Fate
-from polhode.study._found import Found, measured, plain_numbers
 from polhode.study._grid import split_axes
+from polhode.study._maps import Found, measured, plain_numbers, thresholds
 from polhode.study._output import Output
+from polhode.study._outputs import Fate
 from polhode.study._refused import parameter_names, refuse_mistakes
-from polhode.study._thresholds import thresholds
 
 _MOST = 16_385  # points along an axis
 
 
 @dataclass(frozen=True)
 class Refined:
-    """A map whose boundaries are known to the finest grid.
+    """A map whose boundaries are resolved to the finest grid.
 
     Attributes:
-        found: the map, as `outcome_map` draws it; far from boundaries a point has the outcome of
-            those around it.
+        found: the map, as `outcome_map` draws it; away from boundaries a point takes the outcome of
+            its neighbours.
         computed: which points were computed, shape of the map.
     """
 
@@ -39,7 +38,7 @@ class Refined:
 
     @property
     def members(self) -> int:
-        """How many motions it took."""
+        """How many motions were simulated."""
         return int(np.sum(self.computed))
 
 
@@ -60,8 +59,8 @@ def refine_map(
 ) -> Refined:
     """The outcome of motions over two quantities, refined where outcomes differ.
 
-    Every cell of a coarse grid whose corners do not agree, and every neighbour of such a cell, is
-    cut into four, again and again. What is thinner than a coarse cell may be missed.
+    Every cell of a coarse grid whose corners differ, and every neighbour of such a cell, is divided
+    into four, repeatedly. Regions thinner than a coarse cell may be missed.
 
     Args:
         subject: a declaration, its automaton, or equations derived from it.
@@ -71,36 +70,36 @@ def refine_map(
         duration: s.
         outcome: an output that is one code; by default the `Fate`.
         coarse: points of the coarse grid along each axis.
-        levels: how often a cell is cut: the map has (coarse − 1)·2^levels + 1 points a side.
+        levels: how often a cell is divided: the map has (coarse − 1)·2^levels + 1 points a side.
         forcing, near_flat, until: as of `ensemble`.
         progress: told of every member.
 
     Raises:
-        DeclarationError: for other than two axes, or an outcome that is no code.
+        DeclarationError: unless there are two axes, and the outcome is a code.
     """
     options = options_of(forcing=forcing, near_flat=near_flat, until=until)
     chosen = outcome or Fate()
-    order = EnsembleSpec(subject, duration, {"outcome": chosen}, options)
-    _check(axes, chosen, order, coarse, levels)
+    spec = EnsembleSpec(subject, duration, {"outcome": chosen}, options)
+    _check(axes, chosen, spec, coarse, levels)
     side = (coarse - 1) * 2**levels + 1
     ends = published_names(axes)
     spans = {name: np.linspace(*_ends(name, span), side) for name, span in ends.items()}
     fixed = (published_names(parameters), published_names(start))
-    own, others = split_axes(list(spans), parameter_names(order))
+    own, others = split_axes(list(spans), parameter_names(spec))
     refuse_mistakes(
-        order,
+        spec,
         {**fixed[0], **{name: Column(spans[name]) for name in own}},
         {**fixed[1], **{name: Column(spans[name]) for name in others}},
     )
     shown = progress or SilentProgress()
     shown.begin("members")
     try:
-        points = _Points(order, spans, fixed, shown)
+        points = _Points(spec, spans, fixed, shown)
         computed = _refined(points, side, 2**levels)
     finally:
         shown.finish()
     numbers = plain_numbers({**fixed[0], **fixed[1]})
-    return Refined(_found(order, spans, points.codes, numbers), computed)
+    return Refined(_found(spec, spans, points.codes, numbers), computed)
 
 
 def _ends(name: str, span: Any) -> tuple[float, float]:
@@ -115,13 +114,13 @@ def _ends(name: str, span: Any) -> tuple[float, float]:
 def _check(
     axes: Mapping[Name, Any],
     outcome: Output,
-    order: EnsembleSpec,
+    spec: EnsembleSpec,
     coarse: int,
     levels: int,
 ) -> None:
     if len(axes) != 2:
         raise DeclarationError(f"a map over {len(axes)} axes", expected="two")
-    if outcome.shape or not outcome.labels(order.legend):
+    if outcome.shape or not outcome.labels(spec.legend):
         raise DeclarationError(f"the outcome {outcome}", expected="one code, such as Fate()")
     if coarse < 2 or levels < 0 or (coarse - 1) * 2**levels >= _MOST:
         raise DeclarationError(
@@ -131,21 +130,21 @@ def _check(
 
 
 class _Points:
-    """Points of the finest grid, computed when they are asked for."""
+    """Outcomes at points of the finest grid, computed on demand."""
 
     def __init__(
         self,
-        order: EnsembleSpec,
+        spec: EnsembleSpec,
         spans: Mapping[str, Array],
         fixed: tuple[Mapping[str, Any], Mapping[str, Any]],
         progress: Progress,
     ) -> None:
         side = len(next(iter(spans.values())))
         self.codes = np.full((side, side), -1.0)
-        self._crew = EnsembleRunner(order)
+        self._runner = EnsembleRunner(spec)
         self._spans = spans
         self._fixed = fixed
-        self._constants = parameter_names(order)
+        self._constants = parameter_names(spec)
         self._progress = progress
 
     def compute(self, where: NDArray[np.bool_]) -> None:
@@ -159,18 +158,24 @@ class _Points:
         moved = {name: c for name, c in columns.items() if name not in self._constants}
         parameters, start = self._fixed
         members = Members(len(places[0]), {**parameters, **own}, {**start, **moved})
-        block = self._crew.follow(members, self._progress.advance)
-        self.codes[where] = block.values["outcome"]
+        results = self._runner.follow(members, self._progress.advance)
+        self.codes[where] = results.values["outcome"]
 
 
 def _refined(points: _Points, side: int, stride: int) -> NDArray[np.bool_]:
-    """Compute what is needed, and give everything else the outcome around it."""
+    """Compute the points that are needed, and give all others the outcome around them."""
     computed = np.zeros((side, side), dtype=bool)
     computed[::stride, ::stride] = True
     points.compute(computed)
     active = np.ones(((side - 1) // stride,) * 2, dtype=bool)
     while stride > 1:
-        active &= _near(_mixed(points.codes[::stride, ::stride]))
+        codes = points.codes[::stride, ::stride]
+        corners = np.stack([codes[:-1, :-1], codes[1:, :-1], codes[:-1, 1:], codes[1:, 1:]])
+        mixed = np.any(corners != corners[0], axis=0)
+        padded = np.pad(mixed, 1)
+        rows, columns = mixed.shape
+        neighbours = [padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3)]
+        active &= np.any(np.stack(neighbours), axis=0)
         half = stride // 2
         wanted = np.zeros_like(computed)
         for i, j in np.argwhere(active) * stride:
@@ -184,22 +189,8 @@ def _refined(points: _Points, side: int, stride: int) -> NDArray[np.bool_]:
     return computed
 
 
-def _mixed(corners: Array) -> NDArray[np.bool_]:
-    """Cells whose corners do not agree."""
-    four = np.stack([corners[:-1, :-1], corners[1:, :-1], corners[:-1, 1:], corners[1:, 1:]])
-    return np.asarray(np.any(four != four[0], axis=0))
-
-
-def _near(cells: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """These cells and their neighbours."""
-    padded = np.pad(cells, 1)
-    rows, columns = cells.shape
-    shifted = [padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3)]
-    return np.asarray(np.any(np.stack(shifted), axis=0))
-
-
 def _inherit(codes: Array, computed: NDArray[np.bool_], stride: int) -> None:
-    """Points between those of a grid take the code of the nearest of it, unless computed."""
+    """Points between those of the coarser grid take the code of its nearest, unless computed."""
     half = stride // 2
     rows = np.arange(0, len(codes), half)
     nearest = (rows + half // 2) // stride * stride
@@ -209,14 +200,14 @@ def _inherit(codes: Array, computed: NDArray[np.bool_], stride: int) -> None:
 
 
 def _found(
-    order: EnsembleSpec, spans: Mapping[str, Array], codes: Array, numbers: Mapping[str, float]
+    spec: EnsembleSpec, spans: Mapping[str, Array], codes: Array, numbers: Mapping[str, float]
 ) -> Found:
-    derived = order.derived
+    derived = spec.derived
     equations: Equations = derived.together.equations if isinstance(derived, Automaton) else derived
     return Found(
         system=equations.system.name,
         output="outcome",
-        labels=order.outputs["outcome"].labels(order.legend),
+        labels=spec.outputs["outcome"].labels(spec.legend),
         axes=dict(spans),
         values=np.where(codes < 0, np.nan, codes),
         thresholds=tuple(thresholds(equations, spans, numbers)),

@@ -8,8 +8,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from polhode.lab._work import DONE, REFUSED
-from polhode.lab._worker_pool import BrokenError, GoneError, TooLongError, WorkerPool
+from polhode.lab import _workers
+from polhode.lab._workers import DONE, REFUSED, BrokenError, GoneError, TooLongError, WorkerPool
 
 QUICK = b'run\n{"system": "gyroscope", "duration": "0.1 s"}'
 LONG = (
@@ -27,20 +27,20 @@ PATIENCE = 100.0
 
 def in_a_thread(run):
     """Run a coroutine function where no event loop is: tests in a browser leave one behind."""
-    with ThreadPoolExecutor(1) as pool:
-        pool.submit(asyncio.run, run()).result()
+    with ThreadPoolExecutor(1) as thread:
+        thread.submit(asyncio.run, run()).result()
 
 
 def with_worker(act):
-    """Run a coroutine function on one worker of a crew, which is ended afterwards."""
+    """Run a coroutine function on one worker of a pool, which is ended afterwards."""
 
     async def run():
-        crew = WorkerPool(None)
-        crew.begin()
+        pool = WorkerPool(None)
+        pool.begin()
         try:
-            await act(await crew.worker("motions"))
+            await act(await pool.worker("motions"))
         finally:
-            await crew.end()
+            await pool.end()
 
     in_a_thread(run)
 
@@ -50,7 +50,9 @@ async def answers(worker):
     assert reply.startswith(DONE)
 
 
-def test_a_motion_that_nobody_waits_for_is_stopped_and_the_worker_stays():
+def test_a_motion_that_nobody_waits_for_is_stopped_and_the_worker_stays(monkeypatch):
+    monkeypatch.setattr(_workers, "_GRACE", PATIENCE)  # to see its next step on a busy machine
+
     async def act(worker):
         await answers(worker)
         number = worker.pid
@@ -129,14 +131,14 @@ def test_what_cannot_be_is_refused_in_words():
 
 def test_workers_not_asked_for_longest_make_room():
     async def run():
-        crew = WorkerPool(None)
-        crew.begin()
+        pool = WorkerPool(None)
+        pool.begin()
         try:
-            first = await crew.worker("0")
+            first = await pool.worker("0")
             for purpose in "1234":
-                await crew.worker(purpose)
-            assert await crew.worker("0") is not first
+                await pool.worker(purpose)
+            assert await pool.worker("0") is not first
         finally:
-            await crew.end()
+            await pool.end()
 
     in_a_thread(run)
