@@ -12,12 +12,12 @@ from pathlib import Path
 import pytest
 
 from base.worker_tasks import all_of, doing, from_list, not_starting, refusing
-from polhode.base import DeclarationError, Start, Worker, WorkerEndedError, answers, can_copy
+from polhode.base import DeclarationError, StartMethod, Worker, WorkerEndedError, answers, can_copy
 
 TESTS = Path(__file__).parents[1]
 LONG = 120.0  # s within which something is seen to happen, on a machine that has other work
 
-STARTS = [Start.FRESH, Start.SERVER, *([Start.COPY] if can_copy() else [])]
+STARTS = [StartMethod.FRESH, StartMethod.SERVER, *([StartMethod.COPY] if can_copy() else [])]
 
 
 @pytest.fixture(params=STARTS, ids=lambda start: start.name.lower())

@@ -27,7 +27,7 @@ from polhode.base._errors import (
     look_up,
 )
 from polhode.base._files import read_whole, write_whole
-from polhode.base._processes import Start, Tell, preload, shared_flag
+from polhode.base._processes import StartMethod, Tell, preload, shared_flag
 from polhode.base._progress import Progress, SilentProgress, StopRequested, terminal_progress
 from polhode.base._quantity import (
     Quantity,
@@ -71,7 +71,7 @@ __all__ = [
     "ShapeRecord",
     "Shown",
     "SilentProgress",
-    "Start",
+    "StartMethod",
     "StopRequested",
     "StoreError",
     "Tell",

@@ -29,7 +29,7 @@ Tell: TypeAlias = Callable[[Reply], object]
 Setup: TypeAlias = Callable[[], Callable[[Question, Tell[Reply]], Reply]]
 
 
-class Start(Enum):
+class StartMethod(Enum):
     """How a worker process begins."""
 
     COPY = auto()
@@ -67,7 +67,7 @@ class Process(Protocol):
 
 
 def begin_process(
-    start: Start,
+    start: StartMethod,
     setup: Setup[Any, Any],
     questions: Connection,
     replies: Connection,
@@ -76,15 +76,15 @@ def begin_process(
 ) -> Process:
     """Begin a process that serves at the far ends of two pipes."""
     with _interrupts_withheld(start):
-        if start is Start.COPY:
+        if start is StartMethod.COPY:
             return _copied(setup, questions, replies, memory)
-        if start is Start.FRESH and sys.platform != "win32":
+        if start is StartMethod.FRESH and sys.platform != "win32":
             return _Fresh(questions, replies, memory, environment)
         return _InContext(_context(start), setup, questions, replies, memory)
 
 
 @contextmanager
-def _interrupts_withheld(start: Start) -> Iterator[None]:
+def _interrupts_withheld(start: StartMethod) -> Iterator[None]:
     """Keep Ctrl-C, which a terminal sends to all processes, from what begins within this block.
 
     A process inherits the signals that the thread blocks which begins it.
@@ -92,7 +92,7 @@ def _interrupts_withheld(start: Start) -> Iterator[None]:
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    if start is Start.SERVER:
+    if start is StartMethod.SERVER:
         from multiprocessing import resource_tracker
 
         resource_tracker.ensure_running()  # begun later, it would unblock the signal again
@@ -253,21 +253,21 @@ def _begin_in_context(
     _serve(setup, questions, replies)
 
 
-def _context(start: Start) -> Any:
+def _context(start: StartMethod) -> Any:
     from multiprocessing import get_all_start_methods, get_context
 
     has_server = "forkserver" in get_all_start_methods()
-    return get_context("forkserver" if start is Start.SERVER and has_server else "spawn")
+    return get_context("forkserver" if start is StartMethod.SERVER and has_server else "spawn")
 
 
 def preload(modules: list[str]) -> None:
-    """Have the server process of `Start.SERVER`, where there is one, import some modules."""
-    _context(Start.SERVER).set_forkserver_preload(modules)
+    """Have the server process of `StartMethod.SERVER`, where there is one, import some modules."""
+    _context(StartMethod.SERVER).set_forkserver_preload(modules)
 
 
 def shared_flag() -> Any:
-    """A number, `value`, that this process shares with a `Start.SERVER` worker in its setup."""
-    return _context(Start.SERVER).RawValue("i", 0)
+    """A number, `value`, shared by this process with a `StartMethod.SERVER` worker in its setup."""
+    return _context(StartMethod.SERVER).RawValue("i", 0)
 
 
 # -- in the worker ---------------------------------------------------------------------------------

@@ -12,7 +12,7 @@ process, or `answers`, which shares tasks out among several:
 
 Is it safe to fork while other threads run? Not in general, and Python 3.12 warns about it: the
 copy has one thread alone, and a lock that another thread held stays locked in it for ever. So a
-process begins in one of three ways (`Start`):
+process begins in one of three ways (`StartMethod`):
 
 - FRESH, a new interpreter, is the rule: audits, ensembles, sweeps and the tour. It shares nothing
   with our threads, be they of BLAS, heyoka (TBB, LLVM), asyncio or the caller.
@@ -46,7 +46,7 @@ from polhode.base._processes import (
     Question,
     Reply,
     Setup,
-    Start,
+    StartMethod,
     Tell,
     begin_process,
     send_setup,
@@ -98,7 +98,7 @@ class Worker(Generic[Question, Reply]):
     def __init__(
         self,
         setup: Setup[Question, Reply],
-        start: Start = Start.FRESH,
+        start: StartMethod = StartMethod.FRESH,
         *,
         memory: int | None = None,
         environment: Mapping[str, str] | None = None,
@@ -359,7 +359,9 @@ def within(
         with _interrupted(seconds, advice):
             return task(heard)
     with closing(
-        Worker[None, Reply](lambda: lambda _, tell: task(tell), Start.COPY, memory=COPY_MEMORY)
+        Worker[None, Reply](
+            lambda: lambda _, tell: task(tell), StartMethod.COPY, memory=COPY_MEMORY
+        )
     ) as worker:
         try:
             return worker.ask(None, seconds, heard)

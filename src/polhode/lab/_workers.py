@@ -10,7 +10,15 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Protocol
 
-from polhode.base import PolhodeError, Start, Tell, Worker, WorkerEndedError, preload, shared_flag
+from polhode.base import (
+    PolhodeError,
+    StartMethod,
+    Tell,
+    Worker,
+    WorkerEndedError,
+    preload,
+    shared_flag,
+)
 from polhode.lab._offer import Own
 
 if TYPE_CHECKING:
@@ -106,7 +114,7 @@ class LabWorker:
     def _start(self) -> None:
         self._unwanted: Flag = shared_flag()
         self._process = Worker[bytes, bytes](
-            partial(_task_worker, self._unwanted, self._own), Start.SERVER
+            partial(_task_worker, self._unwanted, self._own), StartMethod.SERVER
         )
 
     def end(self) -> None:

@@ -31,8 +31,8 @@ from polhode.simulate._trajectory import Trajectory
 from polhode.simulate._validity import doubt_about, pulling_contacts, refuse_lost_side, warn_of
 from polhode.simulate._values import given_values
 from polhode.simulate.integrate._arrays import Array
+from polhode.simulate.integrate._integrators import chosen
 from polhode.simulate.integrate._number_types import DOUBLES, Precision, numbers_for
-from polhode.simulate.integrate._stepping import chosen
 from polhode.simulate.precise._wanted import Wanted
 
 

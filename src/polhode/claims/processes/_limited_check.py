@@ -13,7 +13,7 @@ from polhode.base import (
     COPY_MEMORY,
     NumericError,
     ParseError,
-    Start,
+    StartMethod,
     Tell,
     Worker,
     WorkerEndedError,
@@ -119,7 +119,7 @@ def _asked(
     if worker is None or not worker.is_open:
         worker = _ClaimWorker(
             lambda: lambda asked, tell: asked.judged(equations, tell),
-            Start.COPY,
+            StartMethod.COPY,
             memory=COPY_MEMORY,
         )
     try:

@@ -32,7 +32,8 @@ from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._through_modes import can_be_followed, check_numbers
 from polhode.simulate.forcing._prescribed_motion import prescribed_motion
 from polhode.simulate.integrate._arrays import Array, rows
-from polhode.simulate.integrate._stepping import Integrator, chosen
+from polhode.simulate.integrate._integrators import chosen
+from polhode.simulate.integrate._stepping import Integrator
 
 # -- start values of many motions, and whether they are in any doubt -------------------------------
 

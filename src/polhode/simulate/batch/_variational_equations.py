@@ -16,7 +16,8 @@ import numpy as np
 from polhode.algebra import Arithmetic, Expr, Op, Program, Symbol, arrays
 from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate.integrate._arrays import Array, rows
-from polhode.simulate.integrate._stepping import broken, chosen
+from polhode.simulate.integrate._integrators import chosen
+from polhode.simulate.integrate._stepping import broken
 
 _TOLERANCE = 1e-13  # relative, of Runge–Kutta steps
 _ABSOLUTE = 1e-14

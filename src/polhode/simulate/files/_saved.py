@@ -30,7 +30,7 @@ from polhode.simulate.files._details import (
 from polhode.simulate.files._store import read_archive
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion
 from polhode.simulate.integrate._driver import SegmentSolution
-from polhode.simulate.integrate._stepping import chosen
+from polhode.simulate.integrate._integrators import chosen
 from polhode.simulate.integrate._stop_criteria import Stop
 
 LONGEST = 60.0  # s of processor time

@@ -1,12 +1,10 @@
-"""What an integrator is, and which one is used."""
+"""What an integrator is: steps over a span, and what they leave."""
 
 from __future__ import annotations
 
-import os
-from importlib.util import find_spec
 from typing import Protocol
 
-from polhode.base import DeclarationError, NumericError
+from polhode.base import NumericError
 from polhode.simulate.integrate._arrays import Array as Array
 from polhode.simulate.integrate._flow import Flow
 
@@ -90,30 +88,3 @@ def broken(time: float) -> NumericError:
         expected="finite accelerations",
         advice="it runs into a singular position there: end before, or start elsewhere",
     )
-
-
-# -- the only place where a library is chosen --------------------------------------------------
-
-CHOICE = "POLHODE_INTEGRATOR"
-"""Environment variable that names the integrator to use."""
-
-
-def chosen() -> Integrator:
-    """heyoka's Taylor method where it is installed, else SciPy's DOP853.
-
-    Raises:
-        DeclarationError: where POLHODE_INTEGRATOR names one that is not installed.
-    """
-    there = ["heyoka", "scipy"] if find_spec("heyoka") else ["scipy"]
-    name = os.environ.get(CHOICE) or there[0]
-    if name not in there:
-        raise DeclarationError(
-            f"{CHOICE} = {name!r}", expected=f"one of {', '.join(there)}", advice="or unset it"
-        )
-    if name == "heyoka":
-        from polhode.simulate.integrate._heyoka import Taylor
-
-        return Taylor()
-    from polhode.simulate.integrate._scipy import DormandPrince
-
-    return DormandPrince()

@@ -1,0 +1,33 @@
+"""The integrators there are, and which one is used."""
+
+from __future__ import annotations
+
+import os
+from importlib.util import find_spec
+
+from polhode.base import DeclarationError
+from polhode.simulate.integrate._stepping import Integrator
+
+CHOICE = "POLHODE_INTEGRATOR"
+"""Environment variable that names the integrator to use."""
+
+
+def chosen() -> Integrator:
+    """heyoka's Taylor method where it is installed, else SciPy's DOP853.
+
+    Raises:
+        DeclarationError: where POLHODE_INTEGRATOR names one that is not installed.
+    """
+    there = ["heyoka", "scipy"] if find_spec("heyoka") else ["scipy"]
+    name = os.environ.get(CHOICE) or there[0]
+    if name not in there:
+        raise DeclarationError(
+            f"{CHOICE} = {name!r}", expected=f"one of {', '.join(there)}", advice="or unset it"
+        )
+    if name == "heyoka":
+        from polhode.simulate.integrate._heyoka import Taylor
+
+        return Taylor()
+    from polhode.simulate.integrate._scipy import DormandPrince
+
+    return DormandPrince()
