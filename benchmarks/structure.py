@@ -178,7 +178,8 @@ def main() -> None:
         ("private functions", private),
         (
             "of them with a single use",
-            f"{once} ({100 * once / len(bodies):.0f} % of all functions), {few} of at most {FEW} lines",
+            f"{once} ({100 * once / len(bodies):.0f} % of all functions), "
+            f"{few} of at most {FEW} lines",
         ),
         ("comments per thousand lines", f"{1000 * sum(map(comments, every)) / lines:.0f}"),
         (f"modules under {SHORT} lines", len(short)),
