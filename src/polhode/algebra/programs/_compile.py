@@ -357,7 +357,10 @@ def _centred(factor: Expr, exponent: Expr) -> _Centred | None:
     """
     ways = []
     for meaning, power in factors(exponent)[1].items():
-        for symbol in meaning.symbols() if power > 0 and len(meaning.num) > 1 else ():
+        if power <= 0 or len(meaning.num) < 2:
+            continue
+        # In a fixed order: of equally short ways the first is taken, whatever the hash seed is.
+        for symbol in sorted(meaning.symbols(), key=lambda s: s.published):
             slope = meaning.diff(symbol)
             if slope.generators:
                 continue  # it is not linear in the symbol with a number as coefficient
