@@ -214,17 +214,17 @@ REFUSALS: dict[str, Refusal] = {
             ph.Pivot(ph.cylinder("can", mass=m, radius=a, height=a, axes=SPUN_OTHERWISE)),
         ),
         DECLARATION,
-        ("body 'can'", "spins about 3", "likewise with s", "spin=WithAxes()"),
+        ("body 'can'", "spins about 3", "about the same axis with s", "spin=WithAxes()"),
     ),
     "the same by its spin relative to them": (
         system(ph.Pivot(wheel(axes=SPUN_OTHERWISE, spin=ph.Relative("3")))),
         DECLARATION,
-        ("body 'wheel'", "likewise with s", "leave out that rotation"),
+        ("body 'wheel'", "about the same axis with s", "leave out that rotation"),
     ),
     "a ball with axes that turn for nothing": (
         system(ph.Rolling(ph.sphere("ball", mass=m, radius=a, axes=TURNED), on=FLOOR)),
         DECLARATION,
-        ("body 'ball'", "about x, y, z", "likewise with phi"),
+        ("body 'ball'", "about x, y, z", "about the same axis with phi"),
     ),
 }
 
