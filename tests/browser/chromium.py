@@ -70,7 +70,7 @@ def _unpacked(node: str) -> Path:
             check=True,
             capture_output=True,
             text=True,
-            timeout=120,
+            timeout=600,
         )
     return Path(told.stdout.strip())
 
@@ -78,6 +78,6 @@ def _unpacked(node: str) -> Path:
 def lacking_libraries(program: Path) -> list[str]:
     """Shared libraries that the loader does not find."""
     ldd = subprocess.run(
-        ["ldd", os.fspath(program)], capture_output=True, text=True, check=False, timeout=60
+        ["ldd", os.fspath(program)], capture_output=True, text=True, check=False, timeout=600
     )
     return re.findall(r"(\S+) => not found", ldd.stdout)

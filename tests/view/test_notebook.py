@@ -28,7 +28,7 @@ CELLS = (
 @pytest.fixture(scope="module")
 def executed():
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(c) for c in CELLS])
-    NotebookClient(notebook, timeout=120, kernel_name="python3").execute()
+    NotebookClient(notebook, timeout=600, startup_timeout=600, kernel_name="python3").execute()
     return [cell.outputs[-1]["data"] for cell in notebook.cells]
 
 

@@ -66,7 +66,7 @@ def test_altered_files_are_refused_or_are_motions(files, tmp_path):
     for _ in range(60):
         path.write_bytes(altered(rng, rng.choice(files))[1])
         try:
-            run = ph.load(path, seconds=10)
+            run = ph.load(path, seconds=60)
         except StoreError:
             told["refused"] += 1
             continue

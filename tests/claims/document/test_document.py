@@ -246,7 +246,7 @@ def test_a_formula_changed_by_one_letter_is_noticed() -> None:
 
 
 def test_the_example_of_the_format_is_a_document() -> None:
-    page = (Path(__file__).parents[2] / "docs" / "claims-format.md").read_text("utf-8")
+    page = (Path(__file__).parents[3] / "docs" / "claims-format.md").read_text("utf-8")
     found = read_document(page.split("```toml\n")[1].split("```")[0])
     assert [claim.id for claim in found.claims] == ["3", "4"]
     for claim in found.claims:
@@ -257,7 +257,7 @@ def test_the_example_of_the_format_is_a_document() -> None:
 
 
 def test_the_page_of_the_format_names_every_field() -> None:
-    page = (Path(__file__).parents[2] / "docs" / "claims-format.md").read_text("utf-8")
+    page = (Path(__file__).parents[3] / "docs" / "claims-format.md").read_text("utf-8")
     own = {name for owner in (Part, Claim) for name in owner.__dataclass_fields__}
     names = (own - {"definitions", "line"}) | {"let", "like"}
     assert [name for name in sorted(names) if f"`{name}`" not in page] == []
