@@ -9,6 +9,7 @@ from itertools import chain
 import pytest
 
 import polhode as ph
+from catalogue.systems import equations
 from claims.transcript import document
 from polhode.algebra import Expr, Vector, read_expression
 from polhode.base import ParseError
@@ -24,11 +25,6 @@ from polhode.claims.meaning._meaning import BindingError, Meaning
 from polhode.claims.meaning._mechanics import Mechanics
 from polhode.claims.meaning._phrases import quantity
 from polhode.derive import Equations
-
-
-@cache
-def equations(name: str) -> Equations:
-    return ph.derive(CATALOGUE[name].build())
 
 
 @cache

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from catalogue.systems import equations
 from polhode.claims import Answer
 
 #: The system, the belief, its context, and what the textbooks have instead.
@@ -59,7 +59,7 @@ HOPELESS = [
 
 
 def judged(system, latex, context):
-    return ph.check(latex, ph.derive(CATALOGUE[system].build()), context=context)
+    return ph.check(latex, equations(system), context=context)
 
 
 @pytest.mark.parametrize(("system", "belief", "context", "right"), BELIEFS)
