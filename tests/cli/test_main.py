@@ -139,7 +139,8 @@ def test_a_terminal_without_greek_still_gets_an_answer():
     assert (run.returncode, run.stderr) == (0, b"")
 
 
-def test_the_cache_is_cleared(polhode):
+def test_the_cache_is_cleared(polhode, tmp_path, monkeypatch):
+    monkeypatch.setenv("POLHODE_CACHE", str(tmp_path / "cache"))
     main(["cache", "clear"])
     (base.cache.folder("compiled") / "object").write_bytes(bytes(1000))
     code, out, _ = polhode("cache", "clear")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import polhode as ph
-from derive.states import Numeric, agree
+from derive.states import Numeric, Values, agree
 from derive.trailers import by_hand, train
 from polhode.derive import Equations
 
@@ -33,12 +33,15 @@ def state(found: Equations, seed: int) -> dict[str, float]:
 
 
 @seeds
-@pytest.mark.parametrize(("size", "hitch"), [(1, True), (2, True), (3, True), (4, False)])
+@pytest.mark.parametrize(("size", "hitch"), [(1, True), (2, True), (3, True), (3, False)])
 def test_motion_and_forces_are_those_found_by_hand(size: int, hitch: bool, seed: int) -> None:
     declared = equations(size, hitch)
     given = state(declared, seed)
     found = numeric(size, hitch).at(**given)
-    expected = by_hand(size, found, hitch=hitch)
+    agree_with_hand(declared, found, by_hand(size, found, hitch=hitch))
+
+
+def agree_with_hand(declared: Equations, found: Values, expected: Values) -> None:
     independent = [s.published for s in declared.acceleration_symbols if "phi" in s.published]
     agree(found, expected, independent, 1e-9)
     agree(found, expected, [name for name in expected if name[0] in "WH"], 1e-9)
@@ -97,5 +100,4 @@ def test_rows_that_outgrow_the_page_are_derived_in_parts() -> None:
     assert declared.motion_in_parts
     assert declared.in_parts
     found = numeric(4).at(**state(declared, 0))
-    expected = by_hand(4, found)
-    agree(found, expected, [name for name in expected if name[0] in "WH"], 1e-9)
+    agree_with_hand(declared, found, by_hand(4, found))

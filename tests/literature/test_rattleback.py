@@ -88,7 +88,7 @@ def oracle(rate):
     ) @ np.array([0.0, np.sin(TILT), np.cos(TILT)])
     start = np.concatenate([rate * tilted, tilted])
     found = solve_ivp(
-        rates, (0, LAST), start, method="DOP853", t_eval=TIMES, rtol=1e-13, atol=1e-15
+        rates, (0, LAST), start, method="DOP853", t_eval=TIMES, rtol=1e-12, atol=1e-14
     )
     return np.sum(found.y[:3] * found.y[3:], axis=0)
 
