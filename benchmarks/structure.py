@@ -7,7 +7,9 @@ stand for more than one thing, and circles of imports, those inside functions in
 from __future__ import annotations
 
 import ast
+import io
 import sys
+import tokenize
 from collections import Counter, defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -139,6 +141,12 @@ def single_use(every: list[Module]) -> tuple[int, int, int]:
     return len(private), len(once), len(few)
 
 
+def comments(module: Module) -> int:
+    """Comments, on lines of their own or behind code."""
+    tokens = tokenize.generate_tokens(io.StringIO(module.text).readline)
+    return sum(token.type == tokenize.COMMENT for token in tokens)
+
+
 def is_private(function: Function) -> bool:
     """Whether its name says that nobody else calls it; `_` itself registers a method."""
     return (
@@ -160,17 +168,20 @@ def main() -> None:
     names = Counter(name for m in every for name in m.classes)
     twice = sorted(name for name, count in names.items() if count > 1)
     private, once, few = single_use(every)
+    lines = sum(m.lines for m in every)
     short = [m for m in every if m.lines < SHORT and not m.is_package]
     rows = [
         ("files", len(every)),
-        ("lines", sum(m.lines for m in every)),
+        ("lines", lines),
         ("functions", len(bodies)),
         ("median lines of a function", median(bodies)),
         ("private functions", private),
         (
             "of them with a single use",
-            f"{once} ({100 * once / private:.0f} %), {few} of at most {FEW} lines",
+            f"{once} ({100 * once / len(bodies):.0f} % of all functions), "
+            f"{few} of at most {FEW} lines",
         ),
+        ("comments per thousand lines", f"{1000 * sum(map(comments, every)) / lines:.0f}"),
         (f"modules under {SHORT} lines", len(short)),
         ("of them imported by one other module", sum(importers[m.name] == 1 for m in short)),
         ("class names used twice", len(twice)),

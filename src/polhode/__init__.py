@@ -79,6 +79,7 @@ if TYPE_CHECKING:
     from polhode.derive import automaton as automaton
     from polhode.derive import derive as derive
     from polhode.model import About as About
+    from polhode.model import Action as Action
     from polhode.model import Body as Body
     from polhode.model import BodyPoint as BodyPoint
     from polhode.model import Components as Components
@@ -93,9 +94,11 @@ if TYPE_CHECKING:
     from polhode.model import Guide as Guide
     from polhode.model import Hinge as Hinge
     from polhode.model import Hold as Hold
+    from polhode.model import Load as Load
     from polhode.model import Motor as Motor
     from polhode.model import Pivot as Pivot
     from polhode.model import Plane as Plane
+    from polhode.model import Profile as Profile
     from polhode.model import Relative as Relative
     from polhode.model import Rim as Rim
     from polhode.model import Rolling as Rolling
@@ -103,6 +106,7 @@ if TYPE_CHECKING:
     from polhode.model import Sheet as Sheet
     from polhode.model import Smooth as Smooth
     from polhode.model import Spring as Spring
+    from polhode.model import Surface as Surface
     from polhode.model import System as System
     from polhode.model import Torque as Torque
     from polhode.model import Turntable as Turntable
@@ -159,7 +163,7 @@ if TYPE_CHECKING:
 
     __version__: str
 
-_ROOMS = {
+_PACKAGES = {
     "study": (
         "Duration",
         "EndMode",
@@ -281,6 +285,7 @@ _ROOMS = {
     ),
     "model": (
         "About",
+        "Action",
         "Body",
         "BodyPoint",
         "Components",
@@ -295,9 +300,11 @@ _ROOMS = {
         "Guide",
         "Hinge",
         "Hold",
+        "Load",
         "Motor",
         "Pivot",
         "Plane",
+        "Profile",
         "Relative",
         "Rim",
         "Rolling",
@@ -305,6 +312,7 @@ _ROOMS = {
         "Sheet",
         "Smooth",
         "Spring",
+        "Surface",
         "System",
         "Torque",
         "Turntable",
@@ -324,7 +332,7 @@ _ROOMS = {
         "with_friction",
     ),
 }
-_HOME = {name: f"polhode.{room}" for room, names in _ROOMS.items() for name in names}
+_HOME = {name: f"polhode.{package}" for package, names in _PACKAGES.items() for name in names}
 
 __all__ = [*_HOME, "__version__"]
 

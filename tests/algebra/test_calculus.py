@@ -8,7 +8,7 @@ import sympy
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from algebra.worlds import (
+from algebra.backends import (
     KERNEL,
     NAMES,
     POINT,
@@ -16,7 +16,7 @@ from algebra.worlds import (
     a,
     are_close,
     b,
-    cooked,
+    evaluated,
     expression_of,
     numbers_at,
     omega_3,
@@ -57,21 +57,21 @@ variables = st.sampled_from(["x", "a", "theta", "theta_dot"])
 
 @settings(max_examples=60)
 @given(smooth, variables)
-def test_a_derivative_is_the_one_of_sympy(recipe, name):
-    expression = expression_of(recipe)
+def test_a_derivative_is_the_one_of_sympy(tree, name):
+    expression = expression_of(tree)
     assume(expression is not None)
-    theirs = sympy.diff(cooked(recipe, SYMPY), sympy.Symbol(name))
+    theirs = sympy.diff(evaluated(tree, SYMPY), sympy.Symbol(name))
     assert expression.diff(NAMES[name]) == from_sympy(theirs, NAMES)
 
 
 @settings(max_examples=60)
 @given(smooth, variables)
-def test_a_derivative_is_the_slope(recipe, name):
-    expression = expression_of(recipe)
+def test_a_derivative_is_the_slope(tree, name):
+    expression = expression_of(tree)
     assume(expression is not None)
     step = mpmath.mpf(10) ** -20
     there, here = (
-        cooked(recipe, numbers_at(POINT | {name: POINT[name] + sign * step})) for sign in (1, -1)
+        evaluated(tree, numbers_at(POINT | {name: POINT[name] + sign * step})) for sign in (1, -1)
     )
     slope = value(expression.diff(NAMES[name]))
     assert abs((there - here) / (2 * step) - slope) < mpmath.mpf(10) ** -20 * (1 + abs(slope)) ** 3
@@ -79,7 +79,7 @@ def test_a_derivative_is_the_slope(recipe, name):
 
 @given(polynomials, polynomials)
 def test_the_rules_of_differentiation(p, q):
-    p, q = cooked(p, KERNEL), cooked(q, KERNEL)
+    p, q = evaluated(p, KERNEL), evaluated(q, KERNEL)
     assert (p * q).dt() == p.dt() * q + p * q.dt()
     assert (p + q).diff(theta) == p.diff(theta) + q.diff(theta)
     assert p.diff(theta).diff(phi) == p.diff(phi).diff(theta)
@@ -102,21 +102,21 @@ def test_what_changes_in_time():
 
 
 @given(polynomials, polynomials, symbols)
-def test_substitution_has_the_value_at_the_image(recipe, image, name):
+def test_substitution_has_the_value_at_the_image(tree, image, name):
     name = name[1]
     assume(name not in ("theta", "phi"))  # the image of an angle is tested below
-    replaced = cooked(recipe, KERNEL).subs({NAMES[name]: cooked(image, KERNEL)})
-    point = POINT | {name: cooked(image, numbers_at(POINT))}
-    assert are_close(value(replaced), cooked(recipe, numbers_at(point)))
+    replaced = evaluated(tree, KERNEL).subs({NAMES[name]: evaluated(image, KERNEL)})
+    point = POINT | {name: evaluated(image, numbers_at(POINT))}
+    assert are_close(value(replaced), evaluated(tree, numbers_at(point)))
 
 
 @pytest.mark.parametrize("image", [phi, 2 * phi, phi + pi / 2, -theta, x, x / 2 - phi, pi / 3])
 @settings(max_examples=15)
-@given(recipe=polynomials)
-def test_an_angle_can_be_replaced_by_another(recipe, image):
-    replaced = cooked(recipe, KERNEL).subs({theta: image})
+@given(tree=polynomials)
+def test_an_angle_can_be_replaced_by_another(tree, image):
+    replaced = evaluated(tree, KERNEL).subs({theta: image})
     point = POINT | {"theta": value(image)}
-    assert are_close(value(replaced), cooked(recipe, numbers_at(point)))
+    assert are_close(value(replaced), evaluated(tree, numbers_at(point)))
 
 
 def test_symbols_are_replaced_all_at_once():

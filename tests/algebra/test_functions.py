@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from algebra.worlds import (
+from algebra.backends import (
     KERNEL,
     POINT,
     a,
@@ -15,7 +15,7 @@ from algebra.worlds import (
     are_close,
     arguments,
     b,
-    cooked,
+    evaluated,
     phi,
     polynomials,
     theta,
@@ -47,15 +47,15 @@ from polhode.base import NumericError
 
 @given(angles(), angles())
 def test_addition_theorems_are_decided(first, second):
-    p, q = cooked(first, KERNEL), cooked(second, KERNEL)
+    p, q = evaluated(first, KERNEL), evaluated(second, KERNEL)
     assert sin(p + q) == sin(p) * cos(q) + cos(p) * sin(q)
     assert cos(p - q) == cos(p) * cos(q) + sin(p) * sin(q)
     assert sin(p) * sin(q) == (cos(p - q) - cos(p + q)) / 2
 
 
 @given(angles())
-def test_identities_of_one_angle_are_decided(recipe):
-    p = cooked(recipe, KERNEL)
+def test_identities_of_one_angle_are_decided(tree):
+    p = evaluated(tree, KERNEL)
     assert sin(p) ** 2 + cos(p) ** 2 == 1
     assert sin(2 * p) == 2 * sin(p) * cos(p)
     assert cos(3 * p) == 4 * cos(p) ** 3 - 3 * cos(p)
@@ -116,7 +116,7 @@ def test_functions_of_functions():
 
 @given(arguments, arguments)
 def test_exponentials_and_hyperbolic_functions_agree(first, second):
-    p, q = cooked(first, KERNEL), cooked(second, KERNEL)
+    p, q = evaluated(first, KERNEL), evaluated(second, KERNEL)
     assert exp(p) * exp(q) == exp(p + q)
     assert exp(p) / exp(q) == exp(p - q)
     assert cosh(p) ** 2 - sinh(p) ** 2 == 1
@@ -144,8 +144,8 @@ def test_roots_of_numbers_are_exact(number):
 
 
 @given(polynomials)
-def test_the_root_of_a_square_has_the_absolute_value(recipe):
-    base = cooked(recipe, KERNEL)
+def test_the_root_of_a_square_has_the_absolute_value(tree):
+    base = evaluated(tree, KERNEL)
     root = sqrt(base**2)
     assert root**2 == base**2
     assert absolute(base) == absolute(-base)

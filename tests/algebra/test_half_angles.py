@@ -8,7 +8,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from algebra.worlds import KERNEL, a, angles, b, cooked, phi, theta, x
+from algebra.backends import KERNEL, a, angles, b, evaluated, phi, theta, x
 from polhode.algebra import (
     Expr,
     as_symbol,
@@ -21,7 +21,7 @@ from polhode.algebra import (
 from polhode.algebra._half_angles import lowest
 
 trigonometric = st.one_of(
-    st.tuples(st.sampled_from(["sin", "cos"]), angles()).map(lambda recipe: cooked(recipe, KERNEL)),
+    st.tuples(st.sampled_from(["sin", "cos"]), angles()).map(lambda tree: evaluated(tree, KERNEL)),
     st.sampled_from([a + b * cos(theta), x, a * sin(theta) + b * cos(phi)]),
 )
 products = st.lists(trigonometric, min_size=1, max_size=2).map(

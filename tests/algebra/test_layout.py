@@ -6,14 +6,14 @@ import mpmath
 import pytest
 from hypothesis import assume, given, settings
 
-from algebra.worlds import (
+from algebra.backends import (
     NAMES,
     NUMBERS,
     POINT,
     are_close,
-    cooked,
+    evaluated,
     expression_of,
-    recipes,
+    trees,
     value,
 )
 from polhode.algebra import (
@@ -266,26 +266,26 @@ class _AsNumbers:
         return mpmath.sqrt(radicand.drawn(self))
 
 
-@given(recipes)
-def test_the_tree_has_the_value_of_the_expression(recipe):
-    expression = expression_of(recipe)
+@given(trees)
+def test_the_tree_has_the_value_of_the_expression(tree):
+    expression = expression_of(tree)
     assume(expression is not None)
-    assert are_close(layout(expression).drawn(_AsNumbers()), cooked(recipe, NUMBERS))
+    assert are_close(layout(expression).drawn(_AsNumbers()), evaluated(tree, NUMBERS))
 
 
 @settings(max_examples=60)
-@given(recipes)
-def test_text_of_anything_is_read_back(recipe):
-    expression = expression_of(recipe)
+@given(trees)
+def test_text_of_anything_is_read_back(tree):
+    expression = expression_of(tree)
     assume(expression is not None and len(str(expression)) <= LONGEST)
     again = read_expression(str(expression), NAMES)
     assert are_close(value(again), value(expression))
     assert (again - expression) * (again + expression) == 0
 
 
-@given(recipes)
-def test_latex_is_well_formed(recipe):
-    expression = expression_of(recipe)
+@given(trees)
+def test_latex_is_well_formed(tree):
+    expression = expression_of(tree)
     assume(expression is not None)
     printed = expression.latex()
     assert printed.count("{") == printed.count("}")
@@ -302,9 +302,9 @@ def test_mathml_holds_the_symbols():
     assert "sin" in (m * g * s).mathml()
 
 
-@given(recipes)
-def test_the_form_does_not_depend_on_how_it_was_made(recipe):
-    expression = expression_of(recipe)
+@given(trees)
+def test_the_form_does_not_depend_on_how_it_was_made(tree):
+    expression = expression_of(tree)
     assume(expression is not None)
     detour = (expression + M * sin(phi)) - M * sin(phi)
     assert str(detour) == str(expression)

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from algebra.worlds import a, b, phi, theta, x, y
+from algebra.backends import a, b, phi, theta, x, y
 from polhode.algebra import (
     ONE,
     ZERO,

@@ -84,7 +84,7 @@ def test_arithmetic_is_that_of_fractions(tree):
         ("a*", 3, "the text ends"),
         ("1/(a-a)", 2, "a division by zero"),
         ("0**-1", 2, "a division by zero"),
-        ("a**m", 2, "a power that is no number"),
+        ("a**m", 2, "a power that is not a number"),
         ("a**0.3", 2, "half-integer power"),
         ("sqrt(-1)", 1, "the square root of a negative number"),
         ("sin(pi/7)", 1, "multiple of pi/12"),

@@ -9,15 +9,15 @@ import sympy
 from hypothesis import assume, given, settings
 from sympy.physics.mechanics import dynamicsymbols
 
-from algebra.worlds import (
+from algebra.backends import (
     NAMES,
     SYMPY,
     a,
-    cooked,
+    evaluated,
     expression_of,
     polynomials,
-    recipes,
     theta,
+    trees,
     x,
     y,
 )
@@ -45,9 +45,9 @@ X, T = sympy.symbols("x t")
 
 
 @settings(max_examples=80)
-@given(recipes)
-def test_there_and_back(recipe):
-    expression = expression_of(recipe)
+@given(trees)
+def test_there_and_back(tree):
+    expression = expression_of(tree)
     assume(expression is not None)
     again = from_sympy(to_sympy(expression), NAMES)
     assert (again - expression) * (again + expression) == 0
@@ -60,9 +60,9 @@ def absolute_free(expression):
 
 
 @given(polynomials)
-def test_what_sympy_makes_of_it_is_the_same(recipe):
-    assert from_sympy(cooked(recipe, SYMPY), NAMES) == expression_of(recipe)
-    assert from_sympy(sympy.expand(cooked(recipe, SYMPY)), NAMES) == expression_of(recipe)
+def test_what_sympy_makes_of_it_is_the_same(tree):
+    assert from_sympy(evaluated(tree, SYMPY), NAMES) == expression_of(tree)
+    assert from_sympy(sympy.expand(evaluated(tree, SYMPY)), NAMES) == expression_of(tree)
 
 
 def test_every_symbol_is_a_plain_one_of_its_published_name():

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from algebra.worlds import KERNEL, a, cooked, phi, simple, theta, theta_dot, x, y
+from algebra.backends import KERNEL, a, evaluated, phi, simple, theta, theta_dot, x, y
 from polhode.algebra import ZERO, Expr, Matrix, Vector, cos, rotation, sin, sqrt, zero_vector
 
 
@@ -33,7 +33,7 @@ SPACE, BODY, OTHER = Turned(ZERO), Turned(theta), Turned(phi + theta)
 TRIADS = [SPACE, BODY, OTHER]
 
 components = st.tuples(simple, simple, simple).map(
-    lambda recipes: tuple(cooked(recipe, KERNEL) for recipe in recipes)
+    lambda trees: tuple(evaluated(tree, KERNEL) for tree in trees)
 )
 vectors = st.builds(Vector.along, st.sampled_from(TRIADS), components)
 

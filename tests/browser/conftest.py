@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -18,6 +19,8 @@ from polhode.catalogue import CATALOGUE
 WIDE = {"width": 1000, "height": 640}
 SMALL = {"width": 520, "height": 480}
 PHONE = {"width": 390, "height": 844}
+PATIENCE = 90_000  # ms, on a machine that has other work
+PAINTED = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
 AXE = Path(__file__).parent / "node_modules" / "axe-core" / "axe.min.js"
 
 
@@ -33,13 +36,17 @@ class Opened:
         """What the clock of the page shows, s."""
         return float(self.page.locator("output.time").inner_text().split()[0])
 
-    def wait_until_past(self, time: float) -> None:
-        """Until the clock of the page is past a time, s."""
-        for _ in range(200):
-            if self.time() > time:
+    def until(self, condition: Callable[[], bool]) -> None:
+        """Wait until something is so, however slow the machine is."""
+        for _ in range(PATIENCE // 50):
+            if condition():
                 return
             self.page.wait_for_timeout(50)
-        raise AssertionError(f"the clock stands at {self.time()} s")
+        assert condition()
+
+    def wait_until_past(self, time: float) -> None:
+        """Until the clock of the page is past a time, s."""
+        self.until(lambda: self.time() > time)
 
     def value(self, number: int = 0) -> str:
         """What stands beside a quantity above its plot."""
@@ -48,6 +55,7 @@ class Opened:
     def picture(self, folder: Path) -> np.ndarray:
         """Pixels of the three-dimensional picture, shape (height, width, 3)."""
         self.page.wait_for_timeout(150)
+        self.page.evaluate(PAINTED)
         shot = folder / "picture.png"
         self.page.locator(".picture").screenshot(path=shot)
         return np.asarray(Image.open(shot).convert("RGB"), dtype=int)
@@ -71,6 +79,7 @@ def opened(browser):
     def open_page(path, *, viewport=WIDE, script="", **options):
         context = browser.new_context(viewport=viewport, offline=True, locale="en-US", **options)
         page = context.new_page()
+        page.set_default_timeout(PATIENCE)
         shown = Opened(page)
         page.on("console", lambda m: shown.complaints.append(m.text) if _bad(m) else None)
         page.on("pageerror", lambda error: shown.complaints.append(str(error)))
@@ -79,7 +88,7 @@ def opened(browser):
         if script:
             page.add_init_script(script)
         page.goto(path.as_uri())
-        page.wait_for_selector("body[data-ready]", timeout=90_000)
+        page.wait_for_selector("body[data-ready]", timeout=PATIENCE)
         yield shown
         context.close()
 

@@ -10,7 +10,7 @@ from threading import Thread
 
 import pytest
 
-from browser.conftest import AXE, PHONE, WIDE
+from browser.conftest import AXE, PATIENCE, PHONE, WIDE
 
 ROOT = Path(__file__).parents[2]
 #: A front page, examples with figures, a reference with tables of parameters.
@@ -71,12 +71,12 @@ EVERY = [*((name, PHONE) for name in CHOSEN), *((name, WIDE) for name in CHOSEN[
 
 @pytest.mark.parametrize("page", EVERY, indirect=True, ids=str)
 def test_axe_finds_no_serious_fault_of_the_documents(page):
-    page.wait_for_selector(".md-search[aria-label]", state="attached", timeout=10_000)
-    page.wait_for_function(NAMED, timeout=10_000)
+    page.wait_for_selector(".md-search[aria-label]", state="attached", timeout=PATIENCE)
+    page.wait_for_function(NAMED, timeout=PATIENCE)
     page.evaluate(AXE.read_text("utf-8"))
     for scheme, named in (("light", "default"), ("dark", "slate")):
         page.emulate_media(color_scheme=scheme)
-        page.wait_for_selector(f"body[data-md-color-scheme={named}]", timeout=10_000)
+        page.wait_for_selector(f"body[data-md-color-scheme={named}]", timeout=PATIENCE)
         page.wait_for_timeout(400)  # colours fade
         faults = page.evaluate("axe.run()")["violations"]
         told = [(f["id"], f["nodes"][0]["html"]) for f in faults if f["impact"] != "minor"]

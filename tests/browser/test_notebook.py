@@ -2,6 +2,7 @@
 
 import pytest
 
+from browser.conftest import PATIENCE
 from browser.runs import run_of
 
 
@@ -16,14 +17,10 @@ def cell(tmp_path_factory):
 def test_the_frame_plays(opened, cell):
     with opened(cell) as shown:
         frame = shown.page.frame_locator("iframe")
-        frame.locator("body[data-ready]").wait_for(timeout=90_000)
+        frame.locator("body[data-ready]").wait_for(timeout=PATIENCE)
         frame.get_by_role("button", name="Play").click()
         frame.get_by_role("button", name="Pause").wait_for()
-        for _ in range(100):
-            if float(frame.locator("output.time").inner_text().split()[0]) > 0:
-                break
-            shown.page.wait_for_timeout(50)
-        assert float(frame.locator("output.time").inner_text().split()[0]) > 0
+        shown.until(lambda: float(frame.locator("output.time").inner_text().split()[0]) > 0)
         assert frame.locator(".plot canvas").count() > 0
         assert shown.page.locator("iframe").bounding_box()["width"] <= 1000
         assert [url for url in shown.requests if not url.startswith(("file:", "about:"))] == []
@@ -36,5 +33,5 @@ def test_a_frame_out_of_sight_is_ready_when_it_is_scrolled_to(opened, cell):
         shown.page.evaluate("document.body.style.paddingTop = '5000px'")
         shown.page.frames[1].evaluate("location.reload()")
         frame = shown.page.frame_locator("iframe")
-        frame.locator("body[data-ready]").wait_for(state="attached", timeout=90_000)
+        frame.locator("body[data-ready]").wait_for(state="attached", timeout=PATIENCE)
         assert frame.locator("canvas").count() > 1

@@ -34,9 +34,8 @@ ROOT = r"\sqrt{\frac{mga}{I_1}}"
 
 
 def _tour():
-    from polhode.tour._page import _style
-
-    return f"<style>{_style()}</style>{typeset(ROOT)}"
+    style = files("polhode").joinpath("tour", "style.css").read_text("utf-8")
+    return f"<style>{math_fonts()}\n{style}</style>{typeset(ROOT)}"
 
 
 def _page():

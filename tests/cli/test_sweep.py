@@ -48,12 +48,12 @@ def test_a_map_is_drawn(store, tmp_path, capsys):
         ([*SWEEP, *SHORT, "--workers", "0", "--out", "x"], "0 workers"),
         ([*SWEEP, *SHORT, "--out", "/dev/null/x"], "cannot be written"),
         ([*SWEEP, *SHORT, "--scheduler", "nowhere", "--out", "x"], "no scheduler answers"),
-        (["map", "nothing", "-o", "x.png"], "is not there"),
+        (["map", "nothing", "-o", "x.png"], "does not exist"),
     ],
 )
 def test_refusals(words, told, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("polhode.study._cluster._REACHED_WITHIN", 0.5)
+    monkeypatch.setattr("polhode.study._compute._REACHED_WITHIN", 0.5)
     assert main(words) == 2
     assert told in capsys.readouterr().err
 

@@ -43,11 +43,11 @@ def until(condition):
 
 
 def workers(sweep):
-    return sum("spawn_main" in words for words in processes(sweep.pid))
+    return sum("begin_fresh" in words for words in processes(sweep.pid))
 
 
 def starting(sweep, store):
-    """Its first worker is there, and the cluster not yet."""
+    """Its first worker is there, and not ready yet."""
     until(lambda: workers(sweep) > 0)
 
 

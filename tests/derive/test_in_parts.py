@@ -52,7 +52,7 @@ def test_what_elimination_outgrows_is_derived_in_parts(
 ) -> None:
     written = declared()
     undetermined = written.undetermined
-    monkeypatch.setattr("polhode.algebra._linear.LONGEST", 1)
+    monkeypatch.setattr("polhode.algebra._elimination.LONGEST", 1)
     equations = declared.__wrapped__()  # type: ignore[attr-defined]
     assert equations.in_parts
     assert not written.in_parts

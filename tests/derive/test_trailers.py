@@ -81,7 +81,7 @@ def test_reactions_alone_may_be_in_parts_and_say_so(monkeypatch: pytest.MonkeyPa
     """Letters are explained, and are no coordinates: every trailer has a z of its own."""
     written = equations(2)
     declared = ph.derive(train(2))
-    monkeypatch.setattr("polhode.algebra._linear.LONGEST", 20)
+    monkeypatch.setattr("polhode.algebra._elimination.LONGEST", 20)
     assert declared.in_parts
     assert not declared.motion_in_parts
     monkeypatch.undo()

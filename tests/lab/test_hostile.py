@@ -66,7 +66,7 @@ def test_forms_of_other_pages_cannot_post(client):
     response = client.post(
         RUN, content=b'{"system": "gyroscope"}', headers={"content-type": "text/plain"}
     )
-    refused(response, status=[415], says="no JSON")
+    refused(response, status=[415], says="not JSON")
 
 
 def test_huge_bodies(client):

@@ -5,7 +5,7 @@ import pytest
 
 import polhode as ph
 from polhode.catalogue import CATALOGUE
-from polhode.lab._sheet import sheet_path
+from polhode.lab._system_session import sheet_path
 
 NUMBERS = {"m": 0.05, "r": 0.02, "k": 0.4, "g": 9.81}
 INSTANTS = np.arange(0.0, 1.0001, 1 / 60)

@@ -261,7 +261,7 @@ REFUSALS: dict[str, Refusal] = {
     "no such load": (
         lambda: ph.derive(ph.System(wheel(), ph.Gravity(g))).load_power("weight"),
         DECLARATION,
-        ("load 'weight'", "one of gravity"),
+        ("'weight' is no load", "one of gravity"),
     ),
     "no such body": (lambda: ph.System(wheel()).body("ball"), DECLARATION, ("'ball'", "wheel")),
     "no such contact": (

@@ -165,15 +165,6 @@ def test_systems_of_any_make(steps, radius, contact, support, name):
     assert read_declaration(write_declaration(system)) == system
 
 
-class MyLoad(ph.Gravity):
-    """A load of the user's own."""
-
-
-def test_a_users_own_class_is_refused():
-    with pytest.raises(StoreError, match="a MyLoad in a declaration"):
-        write_declaration(ph.System(ball(), MyLoad(g)))
-
-
 # -- what is no declaration ------------------------------------------------------------------------
 
 

@@ -31,3 +31,42 @@ def test_a_contact_tells_what_touches_what():
     ]
     assert str(table).splitlines()[-1].split() == ["Omega", "Omega"]
     assert str(ball.point(lab["z"] * a)).startswith("point (0, 0, a) along lab (x y z) of ball")
+
+
+m, a, g = ph.symbols("m a g", positive=True)
+theta, phi = ph.coordinates("theta phi")
+lab = ph.Frame("lab")
+turned = lab.rotated(phi, "z", name="turned")
+axes = turned.rotated(theta, "x", labels="1 2 3", name="axes")
+disk = ph.disk("disk", mass=m, radius=a, axes=axes)
+rolls = ph.System(ph.Rolling(disk, on=ph.Plane(lab)), ph.Gravity(g), name="roll")
+
+
+def test_symbols_and_frames() -> None:
+    assert repr(ph.derive(rolls).speeds) == "(phi_dot, theta_dot, omega_3)"
+    assert repr(lab) == "Frame lab (x y z)"
+    assert repr(axes) == "Frame axes (1 2 3): turned turned by theta about x"
+
+
+def test_vectors_and_bodies() -> None:
+    assert repr(axes["3"] * a) == "(0, 0, a) along axes (1 2 3)"
+    assert repr(disk) == (
+        "Body 'disk': mass m, inertia (m*a**2/4, m*a**2/4, m*a**2/2) along axes (1 2 3)"
+    )
+
+
+def test_a_full_inertia_is_told_by_rows() -> None:
+    stone = ph.Body("stone", mass=m, inertia=((3, 1, 0), (1, 3, 0), (0, 0, 3)), axes=axes)
+    assert "[[3, 1, 0], [1, 3, 0], [0, 0, 3]]" in repr(stone)
+
+
+def test_systems_and_what_is_found() -> None:
+    assert repr(rolls) == "System 'roll': Body 'disk', Rolling 'contact', Gravity 'gravity'"
+    families = ph.steady(ph.derive(rolls), {theta: ph.pi / 2})
+    assert repr(families[0]) == "SteadyMotion: theta = pi/2, phi_dot = 0"
+    assert str(ph.invariants(ph.derive(rolls))).startswith("E = ")
+
+
+def test_a_motion() -> None:
+    run = ph.simulate(rolls, {m: 1, a: 1, g: 9.81}, {theta: 1, "omega_3": 20}, 0.1)
+    assert repr(run) == "Trajectory of 'roll' over 0.1 s: rolling; 2 events"

@@ -11,17 +11,17 @@ import mpmath
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from algebra.worlds import (
+from algebra.backends import (
     NAMES,
     POINT,
-    cooked,
     divisors,
+    evaluated,
     expression_of,
     numbers_at,
     polynomials,
-    recipes,
     smooth,
     symbols,
+    trees,
 )
 from polhode.algebra import Expr, pi, read_expression
 from polhode.base import ParseError
@@ -40,16 +40,16 @@ def point(seed: int) -> dict[str, Any]:
 
 
 def agree_everywhere(first: tuple, second: tuple, seed: int) -> bool:
-    """Whether two recipes have the same value, to fifty digits, at three random points."""
+    """Whether two trees have the same value, to fifty digits, at three random points."""
     with mpmath.workdps(DIGITS):
-        worlds = [numbers_at(point(3 * seed + i)) for i in range(3)]
-        pairs = [(cooked(first, world), cooked(second, world)) for world in worlds]
+        backends = [numbers_at(point(3 * seed + i)) for i in range(3)]
+        pairs = [(evaluated(first, backend), evaluated(second, backend)) for backend in backends]
         return all(abs(u - v) <= FIFTY * (1 + abs(u) + abs(v)) for u, v in pairs)
 
 
 @st.composite
 def disguised(draw: st.DrawFn, kind: st.SearchStrategy) -> tuple[tuple, tuple]:
-    """A recipe and what may look quite unlike it: the same, or off by next to nothing."""
+    """A tree and what may look quite unlike it: the same, or off by next to nothing."""
     plain = draw(kind)
     other = plain
     for _ in range(draw(st.integers(1, 3))):
@@ -57,31 +57,31 @@ def disguised(draw: st.DrawFn, kind: st.SearchStrategy) -> tuple[tuple, tuple]:
     return plain, other
 
 
-def _added_and_taken_away(draw: st.DrawFn, recipe: tuple) -> tuple:
+def _added_and_taken_away(draw: st.DrawFn, tree: tuple) -> tuple:
     more = draw(polynomials)
-    return ("-", ("+", recipe, more), more)
+    return ("-", ("+", tree, more), more)
 
 
-def _times_and_over(draw: st.DrawFn, recipe: tuple) -> tuple:
+def _times_and_over(draw: st.DrawFn, tree: tuple) -> tuple:
     factor = draw(divisors)
-    return ("/", ("*", recipe, factor), factor)
+    return ("/", ("*", tree, factor), factor)
 
 
-def _times_one(draw: st.DrawFn, recipe: tuple) -> tuple:
+def _times_one(draw: st.DrawFn, tree: tuple) -> tuple:
     angle = ("+", draw(symbols), draw(symbols))
-    return ("*", recipe, ("+", ("^", ("sin", angle), 2), ("^", ("cos", angle), 2)))
+    return ("*", tree, ("+", ("^", ("sin", angle), 2), ("^", ("cos", angle), 2)))
 
 
-def _squared_apart(draw: st.DrawFn, recipe: tuple) -> tuple:
+def _squared_apart(draw: st.DrawFn, tree: tuple) -> tuple:
     """((r + m)² - (r - m)²)/(4 m)"""
     more = draw(symbols)
-    plus, minus = ("^", ("+", recipe, more), 2), ("^", ("-", recipe, more), 2)
+    plus, minus = ("^", ("+", tree, more), 2), ("^", ("-", tree, more), 2)
     return ("/", ("-", plus, minus), ("*", ("number", Fraction(4)), more))
 
 
-def _nearly(draw: st.DrawFn, recipe: tuple) -> tuple:
+def _nearly(draw: st.DrawFn, tree: tuple) -> tuple:
     trifle = ("number", Fraction(draw(st.integers(-3, 3)), 10 ** draw(st.integers(0, 30))))
-    return ("+", recipe, ("*", trifle, draw(symbols)))
+    return ("+", tree, ("*", trifle, draw(symbols)))
 
 
 DISGUISES = (_added_and_taken_away, _times_and_over, _times_one, _squared_apart, _nearly)
@@ -104,7 +104,7 @@ def test_strangers_are_equal_just_where_fifty_digits_agree(one, other, seed):
 
 
 @partial(widened, examples=1500)
-@given(disguised(recipes), st.integers(0, 10**6))
+@given(disguised(trees), st.integers(0, 10**6))
 def test_what_is_called_equal_agrees_with_roots_and_sizes_in_it(pair, seed):
     first, second = map(expression_of, pair)
     assume(first is not None and second is not None and first == second)
@@ -125,9 +125,9 @@ def read_back(text: str) -> Expr | None:
 
 
 @partial(widened, examples=2000)
-@given(recipes)
-def test_what_is_printed_is_read_back(recipe):
-    expression = expression_of(recipe)
+@given(trees)
+def test_what_is_printed_is_read_back(tree):
+    expression = expression_of(tree)
     assume(expression is not None)
     again = read_back(str(expression))
     assume(again is not None)
@@ -136,8 +136,8 @@ def test_what_is_printed_is_read_back(recipe):
 
 @partial(widened, examples=2000)
 @given(polynomials)
-def test_polynomials_are_printed_to_be_read_back_always(recipe):
-    expression = expression_of(recipe)
+def test_polynomials_are_printed_to_be_read_back_always(tree):
+    expression = expression_of(tree)
     assume(expression is not None and len(str(expression)) <= 1000)
     assert read_expression(str(expression), NAMES) == expression
 

@@ -42,7 +42,7 @@ def test_start_values_may_use_parameters():
     assert run.at(0.0)["x"] == 0.5
 
 
-def test_what_is_not_given_starts_at_zero_and_is_told():
+def test_what_is_not_given_starts_at_zero_and_is_reported():
     run = started(pendulum(), UNITS, {"theta": 1})
     assert run.assumed == {"theta_dot": 0.0}
     assert started(pendulum(), UNITS, {"theta": 1, "theta_dot": 2}).assumed == {}
@@ -86,7 +86,7 @@ def test_a_loop_is_closed_for_the_coordinates_that_are_left_out():
     assert np.sin(alpha) + 3 * np.sin(beta) == pytest.approx(2.5 * np.sin(gamma))
 
 
-def test_a_free_choice_in_a_loop_is_told():
+def test_a_free_choice_in_a_loop_is_reported():
     run = started(four_bar(), RODS, {"alpha_dot": 1})
     assert set(run.assumed) == {"alpha", "beta", "gamma"}
 
@@ -114,7 +114,7 @@ def test_a_loop_that_cannot_be_closed_is_named():
         (UNITS, {"theta_ddot": 1}, DeclarationError, "'theta_ddot' is no coordinate"),
     ],
 )
-def test_bad_values_are_refused_by_name(parameters, start, error, said):
+def test_bad_values_are_refused(parameters, start, error, said):
     kilogram = Dimension(mass=1)
     equations = pendulum()
     mass = next(s for s in equations.parameters if s.name == "m")
@@ -175,7 +175,7 @@ def test_an_integrator_that_is_not_there_is_named(monkeypatch):
         started(pendulum(), UNITS, {})
 
 
-def test_a_singular_start_and_a_singular_end_are_told(integrator):
+def test_a_singular_start_and_a_singular_end_are_reported(integrator):
     (x,) = coordinates("x")
     right = oscillator()
     falling = ByHand(
@@ -188,7 +188,7 @@ def test_a_singular_start_and_a_singular_end_are_told(integrator):
         simulate(falling, {"m": 1, "k": 1}, {"x": 1}, 2)
 
 
-def test_what_has_no_equations_of_motion_is_refused_by_name():
+def test_what_has_no_equations_of_motion_is_refused():
     for attempt in (
         lambda: simulate("rolling-disk", {}, {}, 1),
         lambda: linearise("rolling-disk", {}, at={}),

@@ -52,9 +52,9 @@ def test_maps(span):
 
 
 def test_a_name_is_no_system(tmp_path):
-    with pytest.raises(DeclarationError, match="'rolling-disk' to be followed"):
+    with pytest.raises(DeclarationError, match="'rolling-disk' to be simulated"):
         ensemble("rolling-disk", NUMBERS, {"theta": [1.0]}, 0.1)  # type: ignore[arg-type]
-    with pytest.raises(DeclarationError, match="'rolling-disk' to be followed"):
+    with pytest.raises(DeclarationError, match="'rolling-disk' to be simulated"):
         sweep("rolling-disk", {"theta": [1.0]}, NUMBERS, {}, 0.1, out=tmp_path / "s")  # type: ignore[arg-type]
 
 

@@ -92,7 +92,7 @@ def test_units_that_members_have_in_common(rolling, angles):
     [
         ({"X": 0}, DeclarationError, "no motion for Y, chi"),
         ({"X": 0, "Y": 0, "chi": lambda t: 1 / (t - 0.05)}, NumericError, "prescribed motion"),
-        ({"X": 0, "Y": 0, "chi": "sin(t)"}, NumericError, "no expression"),
+        ({"X": 0, "Y": 0, "chi": "sin(t)"}, NumericError, "not an expression"),
     ],
 )
 def test_motions_of_supports_that_nobody_can_be_followed_on(sheet, error, words):

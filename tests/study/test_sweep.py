@@ -15,7 +15,7 @@ import zarr
 from polhode.base import DeclarationError, StoreError
 from polhode.catalogue import CATALOGUE
 from polhode.simulate import simulate
-from polhode.study import Final, Reason, found_in, open_store, sweep
+from polhode.study import Final, Reason, _store, found_in, open_store, sweep
 from polhode.view.figures import new_figure, outcome_map
 from study.examples import NUMBERS, disk
 from study.sweeps import AXES, fates, interrupted_after
@@ -78,6 +78,23 @@ def test_killed_and_gone_on_with_it_ends_with_the_same_bits(whole, tmp_path):
     assert same_bits(path, whole[0])
 
 
+def test_an_interrupt_waits_until_a_chunk_is_written(tmp_path, monkeypatch):
+    """Zarr has a thread that writes: it must not be left alone with a chunk."""
+    write_whole, kept = _store.write_whole, []
+
+    def interrupted(path, data):
+        signal.raise_signal(signal.SIGINT)
+        kept.append(path)
+        write_whole(path, data)
+
+    monkeypatch.setattr(_store, "write_whole", interrupted)
+    path = tmp_path / "interrupted"
+    with pytest.raises(KeyboardInterrupt):
+        fates(path)
+    assert len(kept) == 1
+    assert np.sum(open_store(path).done) == 1
+
+
 def test_an_interrupt_keeps_what_is_done(tmp_path, whole):
     path = tmp_path / "interrupted"
     with pytest.raises(KeyboardInterrupt) as caught:
@@ -115,7 +132,7 @@ def test_a_full_disk_is_told_and_what_is_done_is_kept(tmp_path, whole, monkeypat
 
 def test_another_sweep_is_not_gone_on_with(whole, tmp_path):
     path, _ = whole
-    with pytest.raises(StoreError, match="is there already"):
+    with pytest.raises(StoreError, match="exists already"):
         fates(path)
     with pytest.raises(StoreError, match="other options"):
         fates(path, resume=True, near_flat=0.2)
@@ -123,7 +140,7 @@ def test_another_sweep_is_not_gone_on_with(whole, tmp_path):
         fates(path, resume=True, chunk=2)
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "file").touch()
-    with pytest.raises(StoreError, match="no store"):
+    with pytest.raises(StoreError, match="not a store"):
         fates(tmp_path / "other", resume=True)
     with pytest.raises(StoreError, match="cannot be written"):
         fates(tmp_path / "other" / "file" / "below")
@@ -161,7 +178,7 @@ def test_what_cannot_be_swept_is_refused(tmp_path, axes, options, words):
 
 
 def test_an_unreachable_scheduler_is_told(tmp_path, monkeypatch):
-    monkeypatch.setattr("polhode.study._cluster._REACHED_WITHIN", 0.5)
+    monkeypatch.setattr("polhode.study._compute._REACHED_WITHIN", 0.5)
     with pytest.raises(StoreError, match="no scheduler answers"):
         fates(tmp_path / "far", address="tcp://127.0.0.1:9")
 

@@ -6,10 +6,17 @@ import pytest
 
 from polhode.catalogue import CATALOGUE
 from polhode.simulate import simulate
-from polhode.tour import _balance as balance
-from polhode.tour._checks import ALLOWED, decided, measured
-from polhode.tour._formulations import appell, is_holonomic, lagrange
-from polhode.tour._work import exact_checks, numeric_checks
+from polhode.tour._checks import (
+    ALLOWED,
+    appell,
+    decided,
+    displacement_balance,
+    exact_checks,
+    is_holonomic,
+    lagrange,
+    measured,
+    numeric_checks,
+)
 
 ROLLING = ["rolling-disk", "marble-on-turntable", "marble-on-turntable/tilted", "ball-on-paper"]
 HOLONOMIC = [name for name in CATALOGUE if name not in ROLLING]
@@ -24,7 +31,7 @@ def exact(equations):
 
 
 def numeric(run, equations):
-    return outcome(numeric_checks(run, equations, balance.travel(run, equations)))
+    return outcome(numeric_checks(run, equations, displacement_balance(run, equations)))
 
 
 @pytest.mark.parametrize("name", list(CATALOGUE))

@@ -6,8 +6,7 @@ import pytest
 
 from polhode.claims import Note
 from polhode.tour import TourReport
-from polhode.tour._claims import Told, judged
-from polhode.tour._verdicts import counted, formula, verdicts
+from polhode.tour._claims import JudgedClaim, counted, formula, judged, verdicts
 from polhode.view import Judgement
 
 
@@ -22,7 +21,7 @@ def told(answer="holds", **changed):
         "correction": "",
         "judgement": Judgement("(12) a < b", answer),
     }
-    return Told(**{**values, **changed})
+    return JudgedClaim(**{**values, **changed})
 
 
 def test_a_variant_belongs_to_its_problem():

@@ -5,9 +5,8 @@ from collections import Counter
 from xml.etree import ElementTree
 
 import polhode as ph
-from polhode.tour._formulas import equation, inline, listed, with_formulas
-from polhode.tour._html import joined, raised, table, tag
-from polhode.tour._numerals import power_of_ten, scientific
+from polhode.tour._formulas import equation, listed, power_of_ten, raised, scientific, with_formulas
+from polhode.view import inline
 
 a, b, c = ph.symbols("a b c")
 theta = ph.coordinate("theta")
@@ -101,17 +100,6 @@ def test_dotted_letters_in_prose_become_formulas():
     shown = with_formulas("turn at -θ̇ about <1>")
     assert re.sub("<[^>]*>", "", shown) == "turn at −θ˙ about &lt;1&gt;"
     assert "<math>" in shown
-
-
-def test_text_is_escaped_and_markup_is_not():
-    inner = tag("b", "1 < 2 & 3")
-    assert tag("p", "<i>", inner, class_='a"b') == (
-        '<p class="a&quot;b">&lt;i&gt;<b>1 &lt; 2 &amp; 3</b></p>'
-    )
-    assert joined(["<", inner]) == "&lt;<b>1 &lt; 2 &amp; 3</b>"
-    assert "<td>&lt;script&gt;</td>" in table(["x"], [["<script>"]])
-    assert tag("img", src="x.svg") == '<img src="x.svg">'
-    assert tag("p", aria_label="x") == '<p aria-label="x"></p>'
 
 
 def test_powers_of_ten():

@@ -14,8 +14,8 @@ import polhode as ph
 from polhode.base import SCHEMA, SilentProgress, StoreError
 from polhode.catalogue import CATALOGUE
 from polhode.tour import TourReport, write_tour
-from polhode.tour._declaration import source_of
 from polhode.tour._pictures import pictures_of
+from polhode.tour._sections import source_of
 from polhode.tour._work import work_through
 from polhode.view import svg_of
 

@@ -4,7 +4,7 @@ import pytest
 
 import polhode as ph
 from polhode.claims import Answer
-from polhode.tour._verdicts import _WORDS
+from polhode.tour._claims import _WORDS
 from polhode.view import audit_html
 
 DOCUMENT = r"""
@@ -52,7 +52,7 @@ def test_every_answer_has_its_word(report):
     ]
     page = audit_html(report)
     for answer in answers:
-        assert f"<span class='verdict {answer.value}'>" in page
+        assert f'<span class="verdict {answer.value}">' in page
     assert set(_WORDS) == {answer.value for answer in Answer}
 
 

@@ -7,12 +7,11 @@ import polhode as ph
 from polhode.base import DeclarationError, UnitError
 from polhode.catalogue import CATALOGUE
 from polhode.derive import is_angle
-from polhode.study._found import Found, measured
-from polhode.study._thresholds import thresholds
+from polhode.study._maps import Found, measured, thresholds
 from polhode.view import figures
 from polhode.view._quantities import instants
-from polhode.view.figures._herpolhode import invariable_path
 from polhode.view.figures._potential import potential
+from polhode.view.figures._rotation import invariable_path
 
 
 @pytest.fixture(scope="module")
@@ -64,7 +63,7 @@ def test_one_plot_has_a_panel_for_every_name(run_of):
 
 def test_the_bold_polhode_lies_on_both_quadrics(run_of):
     """Drawn on the ellipsoid of energy, it keeps the angular momentum too."""
-    from polhode.view.figures._polhodes import free_body, moments_of, rates_of
+    from polhode.view.figures._rotation import free_body, moments_of, rates_of
 
     run = run_of("tennis-racquet")
     body = free_body(run)
@@ -125,7 +124,7 @@ def test_turning_points_are_the_limits_of_the_swing(run_of):
 def test_an_effective_potential_needs_one_tilt(run_of):
     with pytest.raises(DeclarationError, match="reduces to one tilt"):
         figures.effective_potential(run_of("tennis-racquet"))
-    with pytest.raises(DeclarationError, match="energy stays the same"):
+    with pytest.raises(DeclarationError, match="energy is conserved"):
         figures.effective_potential(run_of("marble-on-turntable"))
 
 
@@ -203,7 +202,7 @@ def test_a_relation_of_the_family_is_put_in():
 
 
 def test_a_map_says_what_it_lacks(rolling):
-    with pytest.raises(DeclarationError, match="without a value of g"):
+    with pytest.raises(DeclarationError, match="no value of g, m for a map"):
         figures.stability_map(rolling, ("omega_3", 0, 10), ("a", "2 cm", "20 cm"))
     with pytest.raises(UnitError, match="omega_3 = '10 m'"):
         figures.stability_map(rolling, ("omega_3", 0, "10 m"), ("a", 0.1, 0.2), {"g": 9.81})

@@ -35,7 +35,7 @@ def executed():
 def test_everything_is_shown_as_html(executed):
     system, equations, steady, motion, figure = executed
     assert "<caption>bodies</caption>" in system["text/html"]
-    assert equations["text/html"].count("class='row'") >= 3
+    assert equations["text/html"].count('class="row"') >= 3
     assert "<summary>reactions</summary>" in equations["text/html"]
     assert "exists where" in steady["text/html"]
     assert "stable" in steady["text/html"]
@@ -45,7 +45,7 @@ def test_everything_is_shown_as_html(executed):
 
 def test_a_motion_is_a_frame_that_reaches_nothing(executed):
     html = executed[3]["text/html"]
-    assert re.findall(r"sandbox='([^']*)'", html[:300]) == ["allow-scripts"]
+    assert re.findall(r'sandbox="([^"]*)"', html[:300]) == ["allow-scripts"]
     assert len(html) < 1_500_000
     (inner,) = framed(html)
     assert "default-src 'none'" in inner
@@ -224,7 +224,7 @@ def test_a_scene_is_played_as_its_motion_is():
     run = ph.simulate(CATALOGUE["gyroscope"].build(), numbers, start, "0.1 s")
     scene = ph.scene(run, title="it's a top")
     html = scene._repr_html_()
-    assert html.startswith('<iframe title="it&#x27;s a top, played" sandbox=')
+    assert html.startswith('<iframe title="it\'s a top, played" sandbox=')
     (inner,) = framed(html)
     assert inner == page_of(scene)
     assert repr(scene) == f'Scene "it\'s a top": gyroscope, {scene.frames} frames over 0.1 s'

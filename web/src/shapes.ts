@@ -5,6 +5,7 @@ import {
   CylinderGeometry,
   DoubleSide,
   Group,
+  LatheGeometry,
   Matrix4,
   Mesh,
   type BufferGeometry,
@@ -12,6 +13,7 @@ import {
   type Object3D,
   SphereGeometry,
   TorusGeometry,
+  Vector2,
   Vector3,
 } from "three";
 import { edge, marked, PALETTE, panels, sectors, surface } from "./marks";
@@ -28,6 +30,7 @@ const BUILDERS: Record<string, Builder> = {
   rod,
   box,
   racquet,
+  revolution,
 };
 
 /** A body with thin rods to the points at which it is held, and its joints there. */
@@ -57,7 +60,7 @@ export function bodyObject(body: BodyData, joints: JointData[]): Object3D {
 /** Distance from the centre of mass to the farthest drawn point. */
 export function reach(body: BodyData): number {
   const half = ["box", "rod", "racquet"].includes(body.shape.kind) ? 0.5 : 1;
-  const far = half * Math.max(...body.shape.size) + Math.hypot(...body.shape.centre);
+  const far = half * Math.max(...body.shape.size.map(Math.abs)) + Math.hypot(...body.shape.centre);
   return Math.max(far, ...body.arms.map((arm) => Math.hypot(...arm)));
 }
 
@@ -80,6 +83,17 @@ function sphere(a: number, b: number, c: number): Object3D {
 function upright(radius: number, height: number, material: Material | Material[]): Mesh {
   const geometry = new CylinderGeometry(radius, radius, height, 96);
   geometry.rotateX(Math.PI / 2);
+  return mesh(geometry, material);
+}
+
+/** The outline, of heights and radii in turn from the top downwards, turned about the z axis. */
+function revolution(lengths: number[]): Object3D {
+  const points: Vector2[] = [];
+  for (let i = 0; i < lengths.length; i += 2) points.push(new Vector2(lengths[i + 1], lengths[i]));
+  const geometry = new LatheGeometry(points.reverse(), 96);
+  geometry.rotateX(Math.PI / 2);
+  const material = marked(edge());
+  material.side = DoubleSide;
   return mesh(geometry, material);
 }
 

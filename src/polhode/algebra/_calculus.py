@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from fractions import Fraction
-from math import comb, factorial
+from math import comb, factorial, prod
 
 from polhode.algebra._expression import ONE, ZERO, Expr, ExprLike, as_symbol
 from polhode.algebra._functions import CIRCULAR, Elementary, Even, cos, sin
-from polhode.algebra._generators import Generator, Symbol
+from polhode.algebra._ring import Symbol
 from polhode.base import NumericError
 
 
@@ -38,13 +37,6 @@ def _not_linear(expression: Expr, symbols: Iterable[Symbol]) -> NumericError:
     )
 
 
-def _product(powers: dict[Generator, int], coefficient: Fraction) -> Expr:
-    result = Expr.constant(coefficient)
-    for generator, power in powers.items():
-        result = result * Expr.generator(generator) ** power
-    return result
-
-
 def taylor(expression: ExprLike, symbol: Expr | Symbol, order: int, about: ExprLike = 0) -> Expr:
     """Taylor polynomial in `symbol - about`, up to and including `order`."""
     derivative, result, variable = Expr.of(expression), ZERO, as_symbol(symbol)
@@ -70,13 +62,23 @@ def integrate(
 
 def _primitive(integrand: Expr, variable: Symbol) -> Expr:
     x = Expr.generator(variable)
-    unit = _angular_unit(integrand, variable)
+    # functions of the variable x must be those of kx, k being the unit
+    unit = ONE
+    for generator in integrand.generators:
+        if generator == variable or variable not in generator.symbols():
+            continue
+        if not isinstance(generator, Elementary) or generator.family != CIRCULAR:
+            raise _not_integrable(integrand, variable)
+        unit = generator.argument / x
+        if variable in unit.symbols():
+            raise _not_integrable(integrand, variable)
     result = ZERO
     if variable in integrand.denominator.symbols():
         raise _not_integrable(integrand, variable)
     for powers, coefficient in integrand.terms():
         mine = {g: p for g, p in powers.items() if variable in g.symbols()}
-        rest = _product({g: p for g, p in powers.items() if g not in mine}, coefficient)
+        others = (Expr.generator(g) ** p for g, p in powers.items() if g not in mine)
+        rest = prod(others, start=Expr.constant(coefficient))
         length = mine.pop(variable, 0)
         if length and mine:
             raise _not_integrable(integrand, variable)
@@ -87,20 +89,6 @@ def _primitive(integrand: Expr, variable: Symbol) -> Expr:
         else:
             result = result + rest * x ** (length + 1) / (length + 1)
     return result / integrand.denominator
-
-
-def _angular_unit(integrand: Expr, variable: Symbol) -> Expr:
-    """The factor k where the functions of the variable x are those of kx."""
-    unit = ONE
-    for generator in integrand.generators:
-        if generator == variable or variable not in generator.symbols():
-            continue
-        if not isinstance(generator, Elementary) or generator.family != CIRCULAR:
-            raise _not_integrable(integrand, variable)
-        unit = generator.argument / Expr.generator(variable)
-        if variable in unit.symbols():
-            raise _not_integrable(integrand, variable)
-    return unit
 
 
 def _circular_primitive(sines: int, cosines: int, angle: Expr) -> Expr:

@@ -2,34 +2,95 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from abc import abstractmethod
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
+from math import isfinite, prod
 from numbers import Rational
-from typing import Any, TypeAlias, Union
+from typing import Any, ClassVar, TypeAlias, Union
 
-from flint import fmpq
+from flint import ctx, fmpq
 
-from polhode.algebra._generators import Generator, Rate, Symbol
-from polhode.algebra._given import decimal, is_numpy_scalar
-from polhode.algebra._ring import CONSTANTS, Polynomial, Ring, ring_of, union
-from polhode.algebra.printing._printed import Printed
-from polhode.base import DeclarationError, NumericError
+from polhode.algebra._ring import (
+    CONSTANTS,
+    Ball,
+    Generator,
+    PlainTerms,
+    Polynomial,
+    Ring,
+    Symbol,
+    as_fraction,
+    ring_of,
+    union,
+)
+from polhode.base import DeclarationError, NumericError, Shown
 
 #: What is accepted wherever an expression is wanted: also SymPy's expressions.
 ExprLike: TypeAlias = Union["Expr", int, float, Fraction, Any]
 
 
-#: Beyond it a power is taken for a slip that would fill the memory.
+#: The derivative, or the image, of every symbol.
+Rate = Callable[[Symbol], "Expr"]
+
+#: A higher power is taken for a mistake that would fill the memory.
 _LARGEST_POWER = 1000
 
+_STATES = (1, 2)  # random ones, at which expressions with named parts are compared with zero
+_BITS = 448  # precision of the values there, 134 decimal digits
 
-class Expr(Printed):
+
+class Composite(Generator):
+    """A generator made of an expression: a function of it such as a sine, or a name for it."""
+
+    @property
+    @abstractmethod
+    def inside(self) -> Expr:
+        """The expression it is made of."""
+
+    @abstractmethod
+    def remade(self, inside: Expr) -> Expr:
+        """The same function of another expression."""
+
+    @abstractmethod
+    def chain(self, rate: Rate) -> Expr:
+        """Derivative, given the derivative of every symbol."""
+
+    def replaced(self, image: Rate) -> Expr:
+        """The same with every symbol replaced by its image."""
+        return self.remade(self.inside.replaced(image))
+
+    def refined(self, others: tuple[Generator, ...]) -> Expr | None:
+        """The same in terms of a finer unit that occurs among `others`, if one does."""
+        return None
+
+    def symbols(self) -> frozenset[Symbol]:
+        return self.inside.symbols()
+
+
+@dataclass(frozen=True)
+class Facilities:
+    """Functions of modules built on `Expr`, which it offers as methods but must not import."""
+
+    square_root: Callable[[Expr], Expr]
+    from_sympy: Callable[[Any], Expr]
+    text: Callable[[Expr], str]
+    pretty: Callable[[Expr], str]
+    latex: Callable[[Expr], str]
+    mathml: Callable[[str], str]
+
+
+class Expr(Shown):
     """An exact expression; immutable, hashable, picklable, with a decided equality.
 
     Made from `symbols`, `coordinates`, `speeds`, numbers and functions by ordinary arithmetic.
-    Floats are read as the decimal they print as (0.1 is one tenth).
+    Floats are read as the decimal they print as (0.1 is one tenth). A notebook shows expressions
+    as MathML, which needs no script from a network.
     """
+
+    #: Roots, printing and SymPy; set where `polhode.algebra` is imported.
+    facilities: ClassVar[Facilities]
 
     def __init__(self, ring: Ring, num: Polynomial, den: Polynomial) -> None:
         """Internal: `num` and `den` must already be in normal form; see `fraction`."""
@@ -49,15 +110,15 @@ class Expr(Printed):
         if isinstance(value, Rational):
             return cls.constant(Fraction(int(value.numerator), int(value.denominator)))
         if isinstance(value, float):
-            return cls.constant(decimal(value))
+            if not isfinite(value):
+                raise NumericError(f"the number {value}", expected="a finite number", advice="")
+            return cls.constant(Fraction(repr(float(value))))  # the decimal that it prints as
         if type(value).__module__.startswith("sympy"):
-            from polhode.algebra._sympy import from_sympy
-
-            return from_sympy(value)
-        if is_numpy_scalar(value):
+            return cls.facilities.from_sympy(value)
+        if _is_numpy_scalar(value):
             return cls.of(value.item())  # type: ignore[union-attr]
         raise NumericError(
-            f"{value!r} of type {type(value).__name__} is no expression",
+            f"{value!r} of type {type(value).__name__} is not an expression",
             expected="a number, a symbol or an expression of symbols",
             advice="declare names with symbols, coordinates or speeds",
         )
@@ -67,7 +128,7 @@ class Expr(Printed):
         """Whether `of` takes values of this type."""
         if isinstance(value, Expr) or type(value) is int:
             return True
-        plain = isinstance(value, Rational | float) or is_numpy_scalar(value)
+        plain = isinstance(value, Rational | float) or _is_numpy_scalar(value)
         return plain or type(value).__module__.startswith("sympy")
 
     @classmethod
@@ -96,15 +157,20 @@ class Expr(Printed):
     def is_zero(self) -> bool:
         """Whether it vanishes identically; decided, up to the branch of a root.
 
-        With named parts, which are not multiplied out, it is evaluated instead: see `vanishes`.
+        With named parts, which are not multiplied out, it is evaluated at random states instead.
+        A value whose ball excludes zero proves that it does not vanish; where all hold zero, to
+        more than a hundred digits, it is taken to vanish.
         """
         return bool(self.num == 0) or (self.ring.has_parts and self._vanishes)
 
     @cached_property
     def _vanishes(self) -> bool:
-        from polhode.algebra._balls import vanishes
+        return all(self.ball(state).contains(0) for state in _STATES)
 
-        return vanishes(self)
+    def ball(self, state: int) -> Ball:
+        """Its value at one of the random states of `Ring.ball`."""
+        with ctx.workprec(_BITS):
+            return self.ring.ball(self.num, state) / self.ring.ball(self.den, state)
 
     @property
     def is_polynomial(self) -> bool:
@@ -117,7 +183,7 @@ class Expr(Printed):
         if not (self.num.is_constant() and self.den.is_constant()):
             return None
         value = self.num.leading_coefficient() if self.num != 0 else fmpq(0)
-        return Fraction(int(value.p), int(value.q))
+        return as_fraction(value)
 
     @property
     def symbol(self) -> Symbol | None:
@@ -153,7 +219,7 @@ class Expr(Printed):
         for monomial, coefficient in self.num.terms():
             pairs = zip(self.ring.generators, monomial, strict=True)
             powers = {generator: int(power) for generator, power in pairs if power}
-            yield powers, Fraction(int(coefficient.p), int(coefficient.q))
+            yield powers, as_fraction(coefficient)
 
     @property
     def numerator(self) -> Expr:
@@ -221,9 +287,7 @@ class Expr(Printed):
                 f"power {exponent!s}", expected="an integer or half-integer power", advice=""
             )
         if power.denominator == 2:
-            from polhode.algebra._roots import sqrt
-
-            return sqrt(self) ** power.numerator
+            return self.facilities.square_root(self) ** power.numerator
         ring, times = self.ring, abs(int(power))
         if times > _LARGEST_POWER:
             raise NumericError(f"power {power}", expected=f"at most the power {_LARGEST_POWER}")
@@ -273,11 +337,34 @@ class Expr(Printed):
         return not self.is_zero
 
     def __reduce__(self) -> tuple[Any, ...]:
-        from polhode.algebra._plain import plain, rebuilt
+        generators = self.generators
+        parts = (self.ring.plain(generators, part) for part in (self.num, self.den))
+        return _rebuilt, (generators, *parts)
 
-        return rebuilt, (self.generators, plain(self, self.num), plain(self, self.den))
+    # -- printing -------------------------------------------------------------------------------
 
-    # -- calculus: thin faces of their own rooms ------------------------------------------------
+    def __repr__(self) -> str:
+        return str(self)
+
+    def __str__(self) -> str:
+        return self.facilities.text(self)
+
+    def pretty(self) -> str:
+        """One line with Greek letters, dots and superscripts."""
+        return self.facilities.pretty(self)
+
+    def latex(self) -> str:
+        """LaTeX as a text would print it."""
+        return self.facilities.latex(self)
+
+    def mathml(self) -> str:
+        """Presentation MathML."""
+        return self.facilities.mathml(self.latex())
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.latex()}$"
+
+    # -- derivatives and substitution -----------------------------------------------------------
 
     def chain(self, rate: Rate) -> Expr:
         """Derivative along a direction in which every symbol changes at its `rate`."""
@@ -285,7 +372,7 @@ class Expr(Printed):
 
     def _chain(self, changing: Iterable[Generator], rate: Rate) -> Expr:
         slopes = ((g, self.partial(g)) for g in changing)
-        return total(slope * g.chain(rate) for g, slope in slopes if slope)
+        return total(slope * chained(g, rate) for g, slope in slopes if slope)
 
     def partial(self, generator: Generator) -> Expr:
         """Partial derivative by a generator, all others held."""
@@ -311,7 +398,7 @@ class Expr(Printed):
         return total(self.diff(s) * rate for s in changing if (rate := time_rate(s)))
 
     def subs(self, images: Mapping[Any, ExprLike]) -> Expr:
-        """With symbols replaced, all at once, also inside functions."""
+        """With symbols replaced simultaneously, also inside functions."""
         table = {as_symbol(symbol): Expr.of(image) for symbol, image in images.items()}
         if not table.keys() & self.symbols():
             return self
@@ -320,22 +407,72 @@ class Expr(Printed):
             return table[symbol] if symbol in table else Expr.generator(symbol)
 
         changed = (g for g in self.generators if not table.keys().isdisjoint(g.symbols()))
-        return self.recast({g: g.replaced(image) for g in changed})
+        return self.recast({g: _replaced(g, image) for g in changed})
 
     def replaced(self, image: Rate) -> Expr:
         """With every symbol replaced by its image."""
-        return self.recast({g: g.replaced(image) for g in self.generators})
+        return self.recast({g: _replaced(g, image) for g in self.generators})
 
     def recast(self, images: Mapping[Generator, Expr]) -> Expr:
         """With whole generators replaced by expressions."""
-        from polhode.algebra._substituted import substituted
+        num = _substituted(self.numerator, images)
+        return num if self.is_polynomial else num / _substituted(self.denominator, images)
 
-        num = substituted(self.numerator, images)
-        return num if self.is_polynomial else num / substituted(self.denominator, images)
+
+def _rebuilt(generators: tuple[Generator, ...], num: PlainTerms, den: PlainTerms) -> Expr:
+    """The expression that was pickled."""
+    ring = ring_of(frozenset(generators))
+    return Expr(ring, ring.polynomial(generators, num), ring.polynomial(generators, den))
+
+
+def _is_numpy_scalar(value: object) -> bool:
+    """Whether it is a single number of NumPy's, without importing that."""
+    return getattr(value, "shape", None) == () and hasattr(value, "item")
+
+
+def chained(generator: Generator, rate: Rate) -> Expr:
+    """Derivative of a generator, given the derivative of every symbol."""
+    if isinstance(generator, Composite):
+        return generator.chain(rate)
+    assert isinstance(generator, Symbol)
+    return rate(generator)
+
+
+def _replaced(generator: Generator, image: Rate) -> Expr:
+    if isinstance(generator, Composite):
+        return generator.replaced(image)
+    assert isinstance(generator, Symbol)
+    return image(generator)
+
+
+def _substituted(polynomial: Expr, images: Mapping[Generator, Expr]) -> Expr:
+    """A polynomial with generators replaced by their images; others stay as they are."""
+    ring, used = polynomial.ring, polynomial.generators
+    changed = tuple(g for g in used if g in images)
+    if not changed:
+        return polynomial
+    kept = ring_of(frozenset(used).difference(images))
+    vanishing = [images[g].num == 0 for g in changed]
+    known = dict[tuple[Generator, int], Expr]()  # no image is raised to the same power twice
+
+    def raised(generator: Generator, power: int) -> Expr:
+        if (generator, power) not in known:
+            known[generator, power] = images[generator] ** power
+        return known[generator, power]
+
+    terms = []
+    positions = [ring.index[generator] for generator in changed]
+    for powers, part in ring.grouped(polynomial.num, positions).items():
+        if any(power and zero for power, zero in zip(powers, vanishing, strict=True)):
+            continue
+        factors = (raised(g, int(p)) for g, p in zip(changed, powers, strict=True) if p)
+        product = prod(factors, start=Expr.constant(1))
+        terms.append(product * Expr(kept, part.project_to_context(kept.context), kept.one))
+    return total(terms)
 
 
 def total(expressions: Iterable[Expr]) -> Expr:
-    """Their sum; of many polynomials at once, which is quicker than one by one."""
+    """Their sum; many polynomials are added in one ring, which is quicker than one by one."""
     terms = tuple(expressions)
     if len(terms) < 3 or not all(term.is_polynomial for term in terms):
         return sum(terms, ZERO)
@@ -343,6 +480,16 @@ def total(expressions: Iterable[Expr]) -> Expr:
     if _refinements(ring):
         return sum(terms, ZERO)
     return Expr(ring, sum((_lifted(term, ring).num for term in terms), ring.zero), ring.one)
+
+
+def length(expression: Expr) -> int:
+    """Terms above and below the bar."""
+    return len(expression.num) + len(expression.den)
+
+
+def variables(expressions: Iterable[Expr]) -> frozenset[Symbol]:
+    """Every symbol that occurs."""
+    return frozenset().union(*(e.symbols() for e in expressions))
 
 
 def as_symbol(value: Expr | Symbol) -> Symbol:
@@ -362,7 +509,7 @@ def time_rate(symbol: Symbol) -> Expr:
 
 @lru_cache(maxsize=1024)
 def _along(wanted: Symbol) -> Rate:
-    """The same function for the same symbol, so that what it gave of a part is known again."""
+    """The same function for the same symbol, so that derivatives of parts are found again."""
     return lambda symbol: ONE if symbol == wanted else ZERO
 
 
@@ -381,8 +528,8 @@ def _together(first: Expr, second: ExprLike) -> tuple[Expr, Expr, Ring]:
 
 @lru_cache(maxsize=16384)
 def _refinements(ring: Ring) -> dict[Generator, Expr]:
-    functions = tuple(g for g in ring.generators if g.arguments)
-    pairs = ((g, g.refined(functions)) for g in functions)
+    composites = tuple(g for g in ring.generators if isinstance(g, Composite))
+    pairs = ((g, g.refined(composites)) for g in composites)
     return {g: finer for g, finer in pairs if finer is not None}
 
 

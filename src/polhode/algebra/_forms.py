@@ -1,12 +1,15 @@
-"""Other forms of one polynomial: cos² written for sin² where that is shorter."""
+"""Other forms of one polynomial: cos² for sin² where that is shorter, and products."""
 
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from math import comb, gcd, lcm
 from typing import Any
 
-from polhode.algebra._generators import Generator
-from polhode.algebra._ring import Monomial, Polynomial, Ring
+from polhode.algebra._ring import Generator, Monomial, Polynomial, Ring, as_fraction
 
 
 def shortest(ring: Ring, polynomial: Polynomial) -> Polynomial:
@@ -28,12 +31,198 @@ def traded(ring: Ring, polynomial: Polynomial, even: Generator) -> Polynomial:
     if partner is None:
         return polynomial
     odd, sign = partner
+    return ring.folded(polynomial, ring.index[odd], sign * (ring.variable(even) ** 2 - 1))
+
+
+# -- squares of sines or of cosines, whichever is shorter ------------------------------------------
+
+#: Coefficients by half the powers of (odd, even).
+Binary = dict[tuple[int, int], Any]
+
+
+def in_shortest_squares(ring: Ring, polynomial: Polynomial) -> Polynomial:
+    """The form with fewest terms: I₁ sin²θ + I₃ cos²θ for I₃ + (I₁ - I₃) sin²θ.
+
+    The choice is made anew for everything that stands with a square; the result is in general
+    not reduced. Among equals one sign is preferred: 1 + 4 cos²θ for 5 - 4 sin²θ.
+    """
+    polynomial = ring.reduce(polynomial)
+    for even in ring.generators:
+        partner = even.partner()
+        if partner is not None and polynomial.degrees()[ring.index[partner[0]]] > 1:
+            polynomial = _rewritten(ring, polynomial, even, *partner)
+    return polynomial
+
+
+def _rewritten(
+    ring: Ring, polynomial: Polynomial, even: Generator, odd: Generator, sign: int
+) -> Polynomial:
     position = ring.index[odd]
-    square = sign * (ring.variable(even) ** 2 - 1)
-    parts: dict[int, dict[Monomial, Any]] = defaultdict(dict)
+    cofactors: dict[Monomial, dict[int, Any]] = defaultdict(dict)
     for monomial, coefficient in polynomial.to_dict().items():
-        power, rest = divmod(monomial[position], 2)
-        parts[power][(*monomial[:position], rest, *monomial[position + 1 :])] = coefficient
-    return sum(
-        (ring.context.from_dict(part) * square**power for power, part in parts.items()), ring.zero
+        half, rest = divmod(monomial[position], 2)
+        cofactor = (*monomial[:position], rest, *monomial[position + 1 :])
+        cofactors[cofactor][half] = coefficient
+    squares = ring.variable(odd) ** 2, ring.variable(even) ** 2
+    result = ring.zero
+    for cofactor, halves in cofactors.items():
+        parts = [halves.get(k, 0) for k in range(max(halves) + 1)]
+        in_odd: Binary = {(k, 0): part for k, part in enumerate(parts)}
+        forms = (in_odd, _in_even(parts, sign), _in_both(parts, sign))
+        best = min(forms, key=lambda form: _terms_and_signs(form.values()))
+        square = sum(
+            (c * squares[0] ** odds * squares[1] ** evens for (odds, evens), c in best.items()),
+            ring.zero,
+        )
+        result += ring.context.from_dict({cofactor: 1}) * square
+    return result
+
+
+def _terms_and_signs(coefficients: Iterable[Any]) -> tuple[int, int]:
+    """Terms in all, and those that break the common sign."""
+    signs = [coefficient > 0 for coefficient in coefficients if coefficient != 0]
+    return len(signs), min(sum(signs), len(signs) - sum(signs))
+
+
+def _in_even(parts: Sequence[Any], sign: int) -> Binary:
+    """odd² = sign · (even² - 1)."""
+    return {
+        (0, m): sum(comb(k, m) * (-1) ** (k - m) * sign**k * parts[k] for k in range(m, len(parts)))
+        for m in range(len(parts))
+    }
+
+
+def _in_both(parts: Sequence[Any], sign: int) -> Binary:
+    """1 = even² - sign · odd², until all terms have one degree."""
+    top = len(parts) - 1
+    return {
+        (j, top - j): sum(
+            comb(top - k, j - k) * (-sign) ** (j - k) * parts[k] for k in range(j + 1)
+        )
+        for j in range(top + 1)
+    }
+
+
+# -- products --------------------------------------------------------------------------------------
+
+#: Polynomials with their powers.
+Factors = list[tuple[Polynomial, int]]
+
+#: Longer polynomials are not worth the search for factors.
+_LONGEST_TO_FACTOR = 150
+
+
+@dataclass(frozen=True)
+class Factored:
+    """number · Π generator^power · Π sum^power; powers of either sign."""
+
+    number: Fraction = Fraction(1)
+    powers: dict[Generator, int] = field(default_factory=dict)
+    sums: tuple[tuple[Polynomial, int], ...] = ()
+
+    def __mul__(self, other: Factored) -> Factored:
+        generators = self.powers.keys() | other.powers.keys()
+        powers = {g: self.powers.get(g, 0) + other.powers.get(g, 0) for g in generators}
+        return Factored(
+            self.number * other.number,
+            {g: p for g, p in powers.items() if p},
+            self.sums + other.sums,
+        )
+
+    def inverse(self) -> Factored:
+        """One over this."""
+        return Factored(
+            1 / self.number,
+            {g: -p for g, p in self.powers.items()},
+            tuple((s, -p) for s, p in self.sums),
+        )
+
+
+def terms(ring: Ring, polynomial: Polynomial) -> Iterator[Factored]:
+    """Its terms."""
+    for monomial, coefficient in polynomial.terms():
+        yield Factored(as_fraction(coefficient), powers_of(ring, monomial))
+
+
+def products(ring: Ring, polynomial: Polynomial) -> list[Factored]:
+    """Its forms as a product: content taken out; factors over the sines, over the cosines."""
+    if len(polynomial) == 1:
+        return list(terms(ring, polynomial))
+    forms = [extracted(ring, polynomial), factorised(ring, polynomial)]
+    other = over_cosines(ring, polynomial)
+    if other != polynomial:
+        forms.append(factorised(ring, other))
+    return [form for i, form in enumerate(forms) if form not in forms[:i]]
+
+
+def extracted(ring: Ring, polynomial: Polynomial) -> Factored:
+    """With the number and the generators common to all terms taken out."""
+    number = content(as_fraction(c) for c in polynomial.coeffs())
+    if polynomial.leading_coefficient() < 0:
+        number = -number
+    common = tuple(min(powers) for powers in zip(*polynomial.monoms(), strict=True))
+    rest = polynomial / (ring.context.from_dict({common: 1}) * number.numerator)
+    rest *= number.denominator
+    return Factored(number, powers_of(ring, common)) * _part(ring, rest)
+
+
+def factorised(ring: Ring, polynomial: Polynomial) -> Factored:
+    """As a product of irreducible factors; (1 - sin)(1 + sin) is cos²."""
+    if len(polynomial) > _LONGEST_TO_FACTOR:
+        return extracted(ring, polynomial)
+    number, factors = polynomial.factor()
+    result = Factored(as_fraction(number))
+    for factor, exponent in _with_squares(ring, factors):
+        part = _part(ring, factor)
+        powers = {g: p * exponent for g, p in part.powers.items()}
+        sums = tuple((s, p * exponent) for s, p in part.sums)
+        result *= Factored(part.number**exponent, powers, sums)
+    return result
+
+
+def over_cosines(ring: Ring, polynomial: Polynomial) -> Polynomial:
+    """With every square of a sine replaced."""
+    for generator in ring.generators:
+        polynomial = traded(ring, polynomial, generator)
+    return polynomial
+
+
+def content(numbers: Iterable[Fraction]) -> Fraction:
+    """The largest number of which all are whole multiples."""
+    found = list(numbers)
+    return Fraction(
+        gcd(*(n.numerator for n in found)),
+        lcm(*(n.denominator for n in found)),
     )
+
+
+def _part(ring: Ring, polynomial: Polynomial) -> Factored:
+    if len(polynomial) == 1:
+        return next(terms(ring, polynomial))
+    return Factored(sums=((polynomial, 1),))
+
+
+def powers_of(ring: Ring, monomial: Iterable[int]) -> dict[Generator, int]:
+    """The generators of a monomial and their powers."""
+    return {g: int(p) for g, p in zip(ring.generators, monomial, strict=True) if p}
+
+
+def _with_squares(ring: Ring, factors: Factors) -> Factors:
+    for even in ring.generators:
+        for parts, square in _squares(ring, even):
+            shared = min(next((e for f, e in factors if f == part), 0) for part in parts)
+            if shared:
+                rest = ((f, e - shared if f in parts else e) for f, e in factors)
+                factors = [*((f, e) for f, e in rest if e), (square, shared)]
+    return factors
+
+
+def _squares(ring: Ring, even: Generator) -> Iterator[tuple[list[Polynomial], Polynomial]]:
+    """Irreducible factors that together are a square, by even² = 1 + sign · odd²."""
+    partner = even.partner()
+    if partner is None:
+        return
+    odd, sign = partner
+    e, o = ring.variable(even), ring.variable(odd)
+    yield ([o - 1, o + 1], -(e**2)) if sign < 0 else ([o**2 + 1], e**2)
+    yield [e - 1, e + 1], sign * o**2

@@ -13,17 +13,17 @@ from fractions import Fraction
 from functools import cached_property, lru_cache, reduce
 from math import gcd, lcm
 
-from polhode.algebra._expression import ONE, ZERO, Expr, ExprLike
-from polhode.algebra._generators import Generator, Rate, Symbol
-from polhode.algebra._ring import Polynomial, Ring
-from polhode.algebra._special import PI, cosine_of_turn
+from polhode.algebra._expression import ONE, ZERO, Composite, Expr, ExprLike, Rate
+from polhode.algebra._ring import PI, Ball, Generator, Polynomial, Ring, Symbol
+from polhode.algebra._roots import sqrt
+from polhode.base import NumericError
 
-pi = PI
+pi = Expr.generator(PI)
 """The ratio of a circle's circumference to its diameter, exactly."""
 
 #: Multiples up to this one are expanded (sin 4θ); beyond it the multiple is a unit of its own.
-_LARGEST_RATIO = 64  # of multiples of one angle that are written in a common unit
 _LARGEST_MULTIPLE = 8
+_LARGEST_RATIO = 64  # of multiples of one angle that are written in a common unit
 
 Pair = tuple[Expr, Expr]
 
@@ -63,7 +63,7 @@ class FunctionPair:
     def _term(self, base: Expr, factor: Fraction) -> Pair:
         if base == pi and self.sign < 0:
             half_pi = Fraction(1, 2)
-            return cosine_of_turn(factor), cosine_of_turn(half_pi - factor)
+            return _cosine_of_turn(factor), _cosine_of_turn(half_pi - factor)
         unit, times = _unit(factor)
         return self.multiple(base, unit, times)
 
@@ -73,7 +73,7 @@ HYPERBOLIC = FunctionPair("cosh", "sinh", +1)
 
 
 @dataclass(frozen=True)
-class Elementary(Generator):
+class Elementary(Composite):
     """One function of `unit` times `base`."""
 
     family: FunctionPair
@@ -106,8 +106,15 @@ class Elementary(Generator):
     def arguments(self) -> tuple[Expr, ...]:
         return (self.argument,)
 
+    @property
+    def inside(self) -> Expr:
+        return self.argument
+
     def symbols(self) -> frozenset[Symbol]:
         return self.base.symbols()
+
+    def ball(self, state: int) -> Ball:
+        return getattr(self.argument.ball(state), self.name)()
 
     def companions(self) -> tuple[Generator, ...]:
         return Odd(*self._same), Even(*self._same)
@@ -123,8 +130,8 @@ class Elementary(Generator):
     def chain(self, rate: Rate) -> Expr:
         return self.pair()[0] * self.argument.chain(rate)
 
-    def replaced(self, image: Rate) -> Expr:
-        return self.family.of(self.argument.replaced(image))[1]
+    def remade(self, inside: Expr) -> Expr:
+        return self.family.of(inside)[1]
 
     def finest(self, others: tuple[Generator, ...]) -> Fraction:
         """The largest unit of which like functions among `others` take whole multiples.
@@ -174,8 +181,8 @@ class Even(Elementary):
     def chain(self, rate: Rate) -> Expr:
         return self.family.sign * self.pair()[1] * self.argument.chain(rate)
 
-    def replaced(self, image: Rate) -> Expr:
-        return self.family.of(self.argument.replaced(image))[0]
+    def remade(self, inside: Expr) -> Expr:
+        return self.family.of(inside)[0]
 
     def in_units(self, unit: Fraction, times: int) -> Expr:
         return self.family.multiple(self.base, unit, times)[0]
@@ -196,8 +203,8 @@ class Exponential(Elementary):
     def chain(self, rate: Rate) -> Expr:
         return Expr.generator(self) * self.argument.chain(rate)
 
-    def replaced(self, image: Rate) -> Expr:
-        return exp(self.argument.replaced(image))
+    def remade(self, inside: Expr) -> Expr:
+        return exp(inside)
 
     def refined(self, others: tuple[Generator, ...]) -> Expr | None:
         kin = [g for g in others if isinstance(g, Even | Odd) and g.base == self.base]
@@ -283,7 +290,8 @@ def _related(units: set[Fraction]) -> list[tuple[set[Fraction], Fraction]]:
     groups: list[tuple[set[Fraction], Fraction]] = []
     for unit in sorted(units, reverse=True):
         for i, (group, common) in enumerate(groups):
-            finer = _common_unit(common, unit)
+            below = lcm(common.denominator, unit.denominator)
+            finer = Fraction(gcd(int(common * below), int(unit * below)), below)
             if max(group) / finer <= _LARGEST_RATIO:
                 groups[i] = (group | {unit}, finer)
                 break
@@ -292,9 +300,31 @@ def _related(units: set[Fraction]) -> list[tuple[set[Fraction], Fraction]]:
     return groups
 
 
-def _common_unit(first: Fraction, second: Fraction) -> Fraction:
-    below = lcm(first.denominator, second.denominator)
-    return Fraction(gcd(int(first * below), int(second * below)), below)
+def _cosine_of_turn(multiple: Fraction) -> Expr:
+    """cos(multiple · π), exact for multiples of π/12."""
+    multiple = abs(multiple) % 2
+    if multiple > 1:
+        multiple = 2 - multiple
+    if multiple > Fraction(1, 2):
+        return -_cosine_of_turn(1 - multiple)
+    twelfths = multiple * 12
+    if twelfths.denominator > 1:
+        raise NumericError(
+            f"the angle {multiple}*pi inside a sine or cosine",
+            expected="a multiple of pi/12 (15 degrees), whose sine is a square root",
+            advice="use a symbol for the angle and give it its value as a number",
+        )
+    root2, root3 = sqrt(2), sqrt(3)
+    table = (
+        ONE,
+        root2 * (root3 + 1) / 4,
+        root3 / 2,
+        root2 / 2,
+        ONE / 2,
+        root2 * (root3 - 1) / 4,
+        ZERO,
+    )
+    return table[int(twelfths)]
 
 
 def exponentials(expression: Expr) -> list[tuple[Expr, Expr]] | None:

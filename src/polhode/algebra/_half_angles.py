@@ -1,30 +1,27 @@
 """Trigonometric fractions in lowest terms, by way of the tangent of half the angle.
 
-In normal form sin(θ - φ)/sin(θ + φ) has a denominator free of cosines, both multiplied by a sine
-that may be as small as it likes. In t = tan θ/2 every sine and cosine is rational, and what is
-common to both is an ordinary common factor.
+In normal form sin(θ - φ)/sin(θ + φ) has a denominator free of cosines, at the price of a common
+factor that vanishes somewhere. In t = tan θ/2 every sine and cosine is rational, and the common
+factor is an ordinary one of polynomials.
 """
 
 from __future__ import annotations
 
-from collections import defaultdict
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, NamedTuple
 
 from polhode.algebra._expression import Expr
+from polhode.algebra._forms import Factors
 from polhode.algebra._functions import CIRCULAR, Even
-from polhode.algebra._generators import Generator
-from polhode.algebra._ring import Monomial, Polynomial, Ring
+from polhode.algebra._ring import Generator, Monomial, Polynomial, Ring
 
 #: Longer numerators take longer to divide than the digits are worth.
 _LONGEST = 3000
 
-Factors = list[tuple[Polynomial, int]]
-
 
 class Lowest(NamedTuple):
-    """A fraction with what is common to both taken out, its denominator as powers of factors."""
+    """A fraction in lowest terms, its denominator as powers of factors."""
 
     num: Polynomial
     factors: Factors
@@ -37,18 +34,31 @@ def lowest(expression: Expr) -> Lowest | None:
 
 @lru_cache(maxsize=512)
 def _lowest(expression: Expr, _generators: tuple[Generator, ...]) -> Lowest | None:
-    """Equal expressions of different rings are told apart: the outcome lives in its ring."""
+    """Cached by the ring too, since equal expressions may lie in different rings."""
     ring, num, den = expression.ring, expression.num, expression.den
     angles = _angles_below(ring, den)
     if not angles or len(num) > _LONGEST:
         return None
     degrees = {a: max(a.degree(num), a.degree(den)) for a in angles}
-    above, below = (_in_tangents(p, degrees) for p in (num, den))
+    above, below = num, den
+    for angle, degree in degrees.items():
+        above, below = angle.in_tangent(above, degree), angle.in_tangent(below, degree)
     common = above.gcd(below)
     left = {a: 2 * degrees[a] - a.power(common) for a in angles}
     if common.is_constant() or _odd(left):
         return None
-    return _in_angles(above / common, below / common, left)
+    # back in sines and cosines, which takes even degrees
+    number, parts = _by_multiplicity(below / common)
+    missing = {
+        angle: degree - sum(angle.power(part) * exponent for part, exponent in parts)
+        for angle, degree in left.items()
+    }
+    powers = [{angle: angle.power(part) for angle in left} for part, _ in parts]
+    if any(map(_odd, (missing, *powers))):
+        return None
+    factors = [(_back(p, own), e) for (p, e), own in zip(parts, powers, strict=True)]
+    factors += [(angle.cosine_squared, degree // 2) for angle, degree in missing.items() if degree]
+    return Lowest(_back(above / common, left) / number, factors)
 
 
 def lowest_numerator(expression: Expr) -> Expr:
@@ -57,21 +67,6 @@ def lowest_numerator(expression: Expr) -> Expr:
     if cancelled is None:
         return expression.numerator
     return Expr(expression.ring, cancelled.num, expression.ring.one)
-
-
-def _in_angles(above: Polynomial, below: Polynomial, degrees: Degrees) -> Lowest | None:
-    """Back in sines and cosines, which takes even degrees; None where there are odd ones."""
-    number, parts = _by_multiplicity(below)
-    missing = {
-        angle: degree - sum(angle.power(part) * exponent for part, exponent in parts)
-        for angle, degree in degrees.items()
-    }
-    powers = [{angle: angle.power(part) for angle in degrees} for part, _ in parts]
-    if any(map(_odd, (missing, *powers))):
-        return None
-    factors = [(_back(p, own), e) for (p, e), own in zip(parts, powers, strict=True)]
-    factors += [(angle.cosine_squared, degree // 2) for angle, degree in missing.items() if degree]
-    return Lowest(_back(above, degrees) / number, factors)
 
 
 def _odd(degrees: Degrees) -> bool:
@@ -132,15 +127,9 @@ class _Angle:
             total += part * rest * (sine / 2) ** odd
         return total
 
-    def _parts(self, polynomial: Polynomial) -> dict[tuple[int, int], Polynomial]:
+    def _parts(self, polynomial: Polynomial) -> dict[Monomial, Polynomial]:
         """Coefficients of the powers of the two."""
-        parts: dict[tuple[int, int], dict[Monomial, Any]] = defaultdict(dict)
-        for monomial, coefficient in polynomial.to_dict().items():
-            rest = list(monomial)
-            p, q = rest[self.sine], rest[self.cosine]
-            rest[self.sine] = rest[self.cosine] = 0
-            parts[int(p), int(q)][tuple(rest)] = coefficient
-        return {key: self.ring.context.from_dict(part) for key, part in parts.items()}
+        return self.ring.grouped(polynomial, (self.sine, self.cosine))
 
 
 Degrees = dict[_Angle, int]
@@ -158,12 +147,6 @@ def _angles_below(ring: Ring, den: Polynomial) -> list[_Angle]:
             if any(factor.degrees()[sine] > 0 for factor in sums):
                 angles.append(_Angle(ring, sine, cosine))
     return angles
-
-
-def _in_tangents(polynomial: Polynomial, degrees: Degrees) -> Polynomial:
-    for angle, degree in degrees.items():
-        polynomial = angle.in_tangent(polynomial, degree)
-    return polynomial
 
 
 def _back(polynomial: Polynomial, degrees: Degrees) -> Polynomial:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from math import prod
 
 from polhode.algebra._expression import Expr
 from polhode.algebra._functions import pi
-from polhode.algebra._generators import Generator, Symbol
+from polhode.algebra._ring import Generator, Symbol
 from polhode.base import PURE, TIME, Dimension, UnitError
 
 
@@ -17,7 +18,7 @@ def dimension_of(expression: Expr, known: Mapping[Symbol, Dimension]) -> Dimensi
     A bare number that is added to other terms is SI of whatever they are.
 
     Args:
-        expression: what is asked about.
+        expression: any.
         known: dimension of every symbol that has one; rates follow from what they are rates of.
 
     Raises:
@@ -31,24 +32,17 @@ def dimension_of(expression: Expr, known: Mapping[Symbol, Dimension]) -> Dimensi
 
 def _of_sum(polynomial: Expr, known: Mapping[Symbol, Dimension]) -> Dimension:
     products = (powers for powers, _ in polynomial.terms())
-    found = dict.fromkeys(_of_product(powers, known) for powers in products if not _bare(powers))
+    found = dict.fromkeys(
+        prod((_of_factor(g, known) ** p for g, p in powers.items()), start=PURE)
+        for powers in products
+        if not all(g.symbols() <= pi.symbols() for g in powers)
+    )
     if len(found) > 1:
         raise UnitError(
             f"{polynomial} adds quantities in {' and '.join(map(str, found))}",
             expected="terms of one dimension",
         )
     return next(iter(found), PURE)
-
-
-def _bare(powers: Mapping[Generator, int]) -> bool:
-    return all(g.symbols() <= pi.symbols() for g in powers)
-
-
-def _of_product(powers: Mapping[Generator, int], known: Mapping[Symbol, Dimension]) -> Dimension:
-    total = PURE
-    for generator, power in powers.items():
-        total = total * _of_factor(generator, known) ** power
-    return total
 
 
 def _of_factor(generator: Generator, known: Mapping[Symbol, Dimension]) -> Dimension:

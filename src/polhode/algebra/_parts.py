@@ -1,7 +1,7 @@
-"""Named parts: long expressions that stand under one name, so that nothing is multiplied out.
+"""Named parts: long expressions under one name each, which are not multiplied out.
 
-Arithmetic takes a part for a symbol of its own. Derivatives, substitution, programs and printing
-look inside, and do there once what they would do wherever it occurs.
+Arithmetic treats a part as a symbol. Derivatives, substitution, programs and printing look inside,
+once for all the places where it occurs.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from hashlib import blake2b
 from math import prod
 from typing import Any
 
-from polhode.algebra._expression import ONE, ZERO, Expr, total
-from polhode.algebra._generators import Generator, Rate, Symbol
+from polhode.algebra._expression import ONE, ZERO, Composite, Expr, Rate, chained, total
+from polhode.algebra._ring import Ball, Generator, Symbol
 from polhode.algebra._roots import factors
 
 _SHORT = 3  # terms that cost no more written out than under a name
@@ -22,7 +22,7 @@ _MEMORY = 65536  # derivatives and substitutions that are remembered
 
 
 @dataclass(frozen=True, eq=False)
-class NamedPart(Generator):
+class NamedPart(Composite):
     """A name for an expression."""
 
     meaning: Expr
@@ -64,11 +64,21 @@ class NamedPart(Generator):
     def replaced(self, image: Rate) -> Expr:
         return _replaced(self, image)
 
+    @property
+    def inside(self) -> Expr:
+        return self.meaning
+
+    def remade(self, inside: Expr) -> Expr:
+        return named(inside)
+
+    def ball(self, state: int) -> Ball:
+        return self.meaning.ball(state)
+
 
 @lru_cache(_MEMORY)
 def _chained(part: NamedPart, rate: Rate) -> Expr:
     slopes = ((g, part.slope(g)) for g in part.meaning.generators)
-    return named(total(slope * named(g.chain(rate)) for g, slope in slopes))
+    return named(total(slope * named(chained(g, rate)) for g, slope in slopes))
 
 
 @lru_cache(_MEMORY)
@@ -77,19 +87,23 @@ def _replaced(part: NamedPart, image: Rate) -> Expr:
 
 
 def named(expression: Expr, visible: Iterable[Symbol] = ()) -> Expr:
-    """An expression with what is long in it under names, and no denominators.
+    """An expression with its long coefficients under names, and without denominators.
 
     Args:
         expression: any.
-        visible: symbols in which it is a polynomial, and remains one for all to see.
+        visible: symbols in which it is a polynomial, and remains one explicitly.
     """
     ring = expression.ring
     open_ = [symbol for symbol in visible if symbol in ring.index]
     groups = ring.grouped(expression.num, [ring.index[symbol] for symbol in open_])
-    below = ONE if expression.is_polynomial else _reciprocal(expression.denominator)
+    below = ONE
+    if not expression.is_polynomial:
+        number, powers = factors(expression.denominator)
+        inverses = (_part(1 / factor) ** power for factor, power in powers.items())
+        below = prod(inverses, start=Expr.constant(1 / number))
     terms = []
-    for powers, part in groups.items():
-        product = (Expr.generator(s) ** int(p) for s, p in zip(open_, powers, strict=True) if p)
+    for exponents, part in groups.items():
+        product = (Expr.generator(s) ** int(p) for s, p in zip(open_, exponents, strict=True) if p)
         terms.append(prod(product, start=_named(Expr(ring, part, ring.one) * below)))
     return total(terms)
 
@@ -102,13 +116,6 @@ def _named(expression: Expr) -> Expr:
     if expression.num.leading_coefficient() < 0:
         return -_part(-expression)
     return _part(expression)
-
-
-def _reciprocal(denominator: Expr) -> Expr:
-    """One over it, each of its factors under a name."""
-    number, powers = factors(denominator)
-    inverses = (_part(1 / factor) ** power for factor, power in powers.items())
-    return prod(inverses, start=Expr.constant(1 / number))
 
 
 def _part(meaning: Expr) -> Expr:

@@ -7,17 +7,115 @@ tried.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from difflib import get_close_matches
 from fractions import Fraction
+from math import comb, prod
 
-from polhode.algebra._bounded import FUNCTIONS, add, apply, multiply, raise_to
+from polhode.algebra import _functions as functions
 from polhode.algebra._expression import Expr
 from polhode.algebra._functions import pi
+from polhode.algebra._roots import absolute, sqrt
 from polhode.algebra._symbols import time
 from polhode.base import NumericError, ParseError
+
+# -- arithmetic that refuses beforehand what would take long ---------------------------------------
+
+HIGHEST = 64  # power
+MOST_TERMS = 2000  # of an expression multiplied out
+MOST_BITS = 4096  # of a whole number raised to a power
+MOST_BITS_OF_ROOT = 160  # of a whole number that is factorised to take a root
+
+FUNCTIONS: dict[str, Callable[[Expr], Expr]] = {
+    "sin": functions.sin,
+    "cos": functions.cos,
+    "tan": functions.tan,
+    "sqrt": sqrt,
+    "abs": absolute,
+    "exp": functions.exp,
+    "sinh": functions.sinh,
+    "cosh": functions.cosh,
+    "tanh": functions.tanh,
+}
+"""The functions that a text may use."""
+
+
+def add(first: Expr, second: Expr) -> Expr:
+    """The sum; like all that follows, raises `NumericError` for what may be too long."""
+    _refuse_many(max(_size(first) * _below(second), _size(second) * _below(first)))
+    return _small(first + second)
+
+
+def multiply(first: Expr, second: Expr) -> Expr:
+    """The product."""
+    _refuse_many(_size(first) * _size(second))
+    return _small(first * second)
+
+
+def raise_to(base: Expr, exponent: Expr) -> Expr:
+    """A whole or half-integer power."""
+    power = exponent.rational
+    if power is None or abs(power) > HIGHEST:
+        raise NumericError(
+            "a power that is not a number, or too high",
+            expected=f"one from -{HIGHEST} to {HIGHEST}",
+        )
+    times = abs(power.numerator)
+    _refuse_many(comb(_size(base) + times - 1, times))
+    _refuse_long(_bits(base) * times, MOST_BITS)
+    if power.denominator > 1:
+        _refuse_hard_root(base)
+    return _small(base**power)
+
+
+def apply(name: str, argument: Expr) -> Expr:
+    """A function of `FUNCTIONS`."""
+    if name in ("sqrt", "abs"):
+        _refuse_hard_root(argument)
+    else:  # sines of sums and multiples are written out in those of the parts
+        _refuse_many(prod(2 * min(abs(c.numerator), 8) for _, c in argument.terms()))
+    return _small(FUNCTIONS[name](argument))
+
+
+def _refuse_hard_root(radicand: Expr) -> None:
+    _refuse_many(_size(radicand) ** 2)
+    _refuse_long(_bits(radicand), MOST_BITS_OF_ROOT)
+
+
+def _small(expression: Expr) -> Expr:
+    _refuse_many(_size(expression))
+    return expression
+
+
+def _refuse_many(terms: int) -> None:
+    if terms > MOST_TERMS:
+        raise NumericError("a result that may be very long", expected=f"at most {MOST_TERMS} terms")
+
+
+def _refuse_long(bits: int, most: int) -> None:
+    if bits > most:
+        raise NumericError(
+            f"a number of {round(bits * 0.30103)} digits",
+            expected=f"at most {round(most * 0.30103)} digits",
+        )
+
+
+def _size(expression: Expr) -> int:
+    """Number of terms above or below the bar, whichever is more."""
+    return max(sum(1 for _ in expression.terms()), _below(expression))
+
+
+def _below(expression: Expr) -> int:
+    return sum(1 for _ in expression.denominator.terms())
+
+
+def _bits(expression: Expr) -> int:
+    """Length of the longest coefficient, numerator and denominator together."""
+    numbers = [c for part in (expression, expression.denominator) for _, c in part.terms()]
+    return max((c.numerator.bit_length() + c.denominator.bit_length() for c in numbers), default=0)
+
 
 LONGEST = 1000  # characters
 SHOWN = 40  # of them, in messages
@@ -47,7 +145,7 @@ def read_expression(text: str, names: Mapping[str, Expr]) -> Expr:
         names: what each name stands for.
 
     Raises:
-        ParseError: for anything else, pointing at the place, and for what is too large.
+        ParseError: for anything else, pointing at the place, and for results too long.
     """
     if len(text) > LONGEST:
         raise ParseError(
@@ -119,7 +217,11 @@ class _ExpressionParser:
     def _atom(self) -> Expr:
         token = self._token
         if token.kind == "number":
-            return self._number(self._take())
+            self._take()
+            if abs(int(token.text.lower().partition("e")[2] or 0)) > HIGHEST_OF_TEN:
+                limit = f"powers of ten up to {HIGHEST_OF_TEN}"
+                raise self._refusal(token, "a number too large or too small", limit)
+            return Expr.constant(Fraction(token.text))
         if token.kind == "name":
             return self._named(self._take())
         if token.text == "(":
@@ -134,14 +236,6 @@ class _ExpressionParser:
         self._take()
         return inside
 
-    def _number(self, token: _Token) -> Expr:
-        power_of_ten = token.text.lower().partition("e")[2]
-        if abs(int(power_of_ten or 0)) > HIGHEST_OF_TEN:
-            raise self._refusal(
-                token, "a number out of all bounds", f"powers of ten up to {HIGHEST_OF_TEN}"
-            )
-        return Expr.constant(Fraction(token.text))
-
     def _named(self, token: _Token) -> Expr:
         if token.text in self._names:
             return self._names[token.text]
@@ -151,7 +245,13 @@ class _ExpressionParser:
                 return apply(token.text, argument)
         if token.text in FUNCTIONS:
             raise self._unexpected(f"the argument of {token.text} in brackets")
-        raise self._unknown(token)
+        near = get_close_matches(token.text, [*self._names, *FUNCTIONS], n=3)
+        raise self._refusal(
+            token,
+            f"{token.text!r} is not known",
+            f"a number or one of {', '.join([*self._names, *FUNCTIONS])}",
+            f"did you mean {' or '.join(near)}?" if near else "",
+        )
 
     @property
     def _token(self) -> _Token:
@@ -184,15 +284,6 @@ class _ExpressionParser:
         token = self._token
         what = f"unexpected {token.text!r}" if token.text else "the text ends"
         return self._refusal(token, what, expected)
-
-    def _unknown(self, token: _Token) -> ParseError:
-        near = get_close_matches(token.text, [*self._names, *FUNCTIONS], n=3)
-        return self._refusal(
-            token,
-            f"{token.text!r} is not known",
-            f"a number or one of {', '.join([*self._names, *FUNCTIONS])}",
-            f"did you mean {' or '.join(near)}?" if near else "",
-        )
 
     def _refusal(self, token: _Token, what: str, expected: str, advice: str = "") -> ParseError:
         place = f"at character {token.place + 1} of {_shown(self._text, token.place)}"

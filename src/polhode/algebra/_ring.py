@@ -1,28 +1,164 @@
-"""Polynomial rings: an ordered set of generators, with the relations between them.
+"""Generators and the polynomial rings over them.
 
-A ring is the bridge to python-flint. Polynomials are kept reduced: no algebraic generator occurs
-with a power above one. Fractions are kept with denominators free of algebraic generators. With
-numerator and denominator coprime and the denominator monic that form is unique, so that "is it
-zero" is decided and never guessed.
+A generator is a symbol, or a function of symbols such as sin θ or √a. A ring is an ordered set of
+generators with the relations between them, and the bridge to python-flint. Polynomials are kept
+reduced: no algebraic generator occurs with a power above one. Fractions are kept with denominators
+free of algebraic generators. With numerator and denominator coprime and the denominator monic that
+form is unique, so that "is it zero" is decided and never guessed.
 """
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
-from functools import lru_cache
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+from fractions import Fraction
+from functools import cached_property, lru_cache
+from hashlib import blake2b
 from itertools import pairwise
 from typing import Any
 
-from flint import Ordering, fmpq_mpoly_ctx
+from flint import Ordering, acb, arb, fmpq, fmpq_mpoly_ctx
 
-from polhode.algebra._generators import Generator
 from polhode.base import DeclarationError, NumericError
 
-_MOST_PRODUCTS = 2 * 10**6  # of terms; beyond, what comes out is of no use and fills the memory
-_FEW = 16  # terms up to which it is quicker to put the variables in one by one
+_MOST_PRODUCTS = 2 * 10**6  # of terms; a longer result is useless and fills the memory
+_FEW = 16  # terms up to which composing with the variables is quicker than projecting
+_MEMORY = 65536  # values of generators that are remembered
+
 Polynomial = Any  # flint.fmpq_mpoly: python-flint ships no usable type information
+Ball = Any  # flint.acb, likewise
 Monomial = tuple[int, ...]
+#: Powers over some generators, numerator and denominator of the coefficient, for each term.
+PlainTerms = tuple[tuple[tuple[int, ...], int, int], ...]
+
+
+# -- generators ------------------------------------------------------------------------------------
+
+
+class Generator(ABC):
+    """One variable of a polynomial ring: a symbol, or a function such as sin θ of an expression.
+
+    A generator is *algebraic* when its square is a polynomial in simpler generators
+    (cos² = 1 - sin², a square root); every other one is transcendental.
+    """
+
+    #: Unique name; fixes the order of generators everywhere.
+    key: str
+    #: Whether its value is known to be positive.
+    positive: bool = False
+    #: Whether it stands for a longer expression that is not multiplied out.
+    is_part: bool = False
+
+    @property
+    def depth(self) -> int:
+        """Height in the tower of algebraic generators; 0 for a transcendental one."""
+        return 0
+
+    def square(self, ring: Ring) -> Polynomial:
+        """What the square of an algebraic generator equals, in a ring that holds it."""
+        return ring.variable(self) ** 2
+
+    def companions(self) -> tuple[Generator, ...]:
+        """Generators that its square, or another form of it, is written with."""
+        return ()
+
+    def partner(self) -> tuple[Generator, int] | None:
+        """The odd function and the sign with which this one's square is 1 + sign · odd²."""
+        return None
+
+    @property
+    def arguments(self) -> tuple[Any, ...]:
+        """The expressions that it is a function of; their class, `Expr`, is built on rings."""
+        return ()
+
+    @abstractmethod
+    def symbols(self) -> frozenset[Symbol]:
+        """The symbols it depends on."""
+
+    @abstractmethod
+    def ball(self, state: int) -> Ball:
+        """Its value at one of the random states of `Ring.ball`."""
+
+
+class SymbolKind(Enum):
+    """What a symbol stands for; decides what its time derivative is."""
+
+    PARAMETER = "parameter"
+    COORDINATE = "coordinate"
+    SPEED = "speed"
+    FUNCTION = "function"
+    TIME = "time"
+
+    @property
+    def varies(self) -> bool:
+        """Whether the time derivative is a further symbol."""
+        return self in (SymbolKind.COORDINATE, SymbolKind.SPEED, SymbolKind.FUNCTION)
+
+
+_DOTS = ("", "_dot", "_ddot", "_dddot")
+
+
+@dataclass(frozen=True)
+class Symbol(Generator):
+    """A named quantity, or one of its time derivatives.
+
+    `positive` is what is known of its sign; it decides √(x²) = x and is not part of the identity.
+    """
+
+    name: str
+    kind: SymbolKind = SymbolKind.PARAMETER
+    order: int = 0
+    positive: bool = field(default=False, compare=False)
+
+    @cached_property
+    def published(self) -> str:
+        """ASCII name as scripts know it: `theta`, `theta_dot`, `omega_3_dot`."""
+        if self.order < len(_DOTS):
+            return self.name + _DOTS[self.order]
+        return f"{self.name}_d{self.order}"
+
+    @cached_property
+    def key(self) -> str:  # type: ignore[override]
+        return self.published if self.kind is not SymbolKind.TIME else "t"
+
+    def derivative(self) -> Symbol:
+        """The symbol of the time derivative."""
+        return Symbol(self.name, self.kind, self.order + 1)
+
+    def base(self) -> Symbol:
+        """The quantity this is a time derivative of."""
+        return Symbol(self.name, self.kind, 0, self.positive)
+
+    def __hash__(self) -> int:
+        return hash(self.key)
+
+    def __repr__(self) -> str:
+        return self.published
+
+    def symbols(self) -> frozenset[Symbol]:
+        return frozenset((self,))
+
+    def ball(self, state: int) -> Ball:
+        if self == PI:
+            return acb.pi()
+        digest = blake2b(f"{state} {self.key}".encode(), digest_size=16).digest()
+        drawn = fmpq(1, 8) + fmpq(int.from_bytes(digest, "big"), 2**128)  # from 1/8 to 9/8
+        return acb(arb(drawn if self.positive else drawn - fmpq(1, 2)))
+
+
+#: The ratio of a circle's circumference to its diameter.
+PI = Symbol("pi", SymbolKind.PARAMETER, 0, positive=True)
+
+
+def as_fraction(number: Any) -> Fraction:
+    """A rational number of flint's as one of Python's."""
+    return Fraction(int(number.p), int(number.q))
+
+
+# -- rings -----------------------------------------------------------------------------------------
 
 
 class Ring:
@@ -72,15 +208,16 @@ class Ring:
         degrees = polynomial.degrees()
         for position, square in self.algebraic:
             if degrees[position] > 1:
-                polynomial = self._fold(polynomial, position, square)
+                polynomial = self.folded(polynomial, position, square)
                 degrees = polynomial.degrees()
         return polynomial
 
-    def _fold(self, polynomial: Polynomial, position: int, square: Polynomial) -> Polynomial:
+    def folded(self, polynomial: Polynomial, position: int, square: Polynomial) -> Polynomial:
+        """With `square` for every square of the generator at `position`."""
         by_power: dict[int, dict[Monomial, Any]] = defaultdict(dict)
         for monomial, coefficient in polynomial.to_dict().items():
             power, rest = divmod(monomial[position], 2)
-            by_power[power][_with(monomial, position, rest)] = coefficient
+            by_power[power][(*monomial[:position], rest, *monomial[position + 1 :])] = coefficient
         return sum(
             (self.context.from_dict(part) * square**power for power, part in by_power.items()),
             self.zero,
@@ -122,7 +259,9 @@ class Ring:
         if den.is_constant():
             return num / den.leading_coefficient(), self.one
         common = den
-        for part in self._over_transcendentals(num):
+        positions = [position for position, _ in self.algebraic]
+        parts = self.grouped(num, positions).values() if positions else (num,)
+        for part in parts:  # coefficients of the products of algebraic generators
             common = common.gcd(part)
             if common.is_constant():
                 break
@@ -131,10 +270,43 @@ class Ring:
         lead = den.leading_coefficient()
         return num / lead, den / lead
 
-    def _over_transcendentals(self, num: Polynomial) -> Iterable[Polynomial]:
-        """Coefficients of `num` over the monomials of the algebraic generators."""
-        positions = [position for position, _ in self.algebraic]
-        return self.grouped(num, positions).values() if positions else (num,)
+    def ball(self, polynomial: Polynomial, state: int) -> Ball:
+        """Its value at a random state, in the working precision, as a ball that holds it for sure.
+
+        In the same state a generator has the same value in every ring.
+        """
+        total = acb(0)
+        for monomial, coefficient in polynomial.terms():
+            term = acb(arb(fmpq(coefficient)))
+            for generator, power in zip(self.generators, monomial, strict=True):
+                if power:
+                    term *= _ball(generator, state) ** int(power)
+            total += term
+        return total
+
+    def plain(self, generators: Sequence[Generator], polynomial: Polynomial) -> PlainTerms:
+        """The terms of a polynomial over some generators, which hold all that occur in it."""
+        positions = [self.index[g] for g in generators]
+        return tuple(
+            (tuple(monomial[p] for p in positions), int(c.p), int(c.q))
+            for monomial, c in polynomial.terms()
+        )
+
+    def polynomial(self, generators: Sequence[Generator], terms: PlainTerms) -> Polynomial:
+        """The polynomial that has these plain terms."""
+        positions = [self.index[g] for g in generators]
+        table = {}
+        for powers, p, q in terms:
+            monomial = [0] * len(self.generators)
+            for position, power in zip(positions, powers, strict=True):
+                monomial[position] = power
+            table[tuple(monomial)] = fmpq(p, q)
+        return self.context.from_dict(table)
+
+
+@lru_cache(_MEMORY)
+def _ball(generator: Generator, state: int) -> Ball:
+    return generator.ball(state)
 
 
 def _refuse_if_hopeless(products: int) -> None:
@@ -146,10 +318,6 @@ def _refuse_if_hopeless(products: int) -> None:
             expected=f"at most {_MOST_PRODUCTS:.0e}",
             advice="give some of its symbols values, or multiply the denominator out",
         )
-
-
-def _with(monomial: Monomial, position: int, power: int) -> Monomial:
-    return (*monomial[:position], power, *monomial[position + 1 :])
 
 
 def ring_of(generators: frozenset[Generator]) -> Ring:
@@ -168,11 +336,7 @@ def _ring_of(generators: frozenset[Generator], positive: frozenset[str]) -> Ring
         closure |= needed
     if len(closure) > len(generators):
         return ring_of(frozenset(closure))
-    return Ring(_ordered(closure))
-
-
-def _ordered(generators: set[Generator]) -> tuple[Generator, ...]:
-    symbols = sorted(frozenset().union(*(g.symbols() for g in generators)), key=lambda s: s.key)
+    symbols = sorted(frozenset().union(*(g.symbols() for g in closure)), key=lambda s: s.key)
     for first, second in pairwise(symbols):
         if first.key == second.key:
             raise DeclarationError(
@@ -180,13 +344,14 @@ def _ordered(generators: set[Generator]) -> tuple[Generator, ...]:
                 expected="one meaning for one name",
                 advice="rename one of them",
             )
-    return tuple(sorted(generators, key=lambda g: g.key))
+    return Ring(tuple(sorted(closure, key=lambda g: g.key)))
 
 
 @lru_cache(maxsize=16384)
 def union(*rings: Ring) -> Ring:
     """The smallest ring that holds them all."""
     generators = (generator for ring in rings for generator in ring.generators)
+    # of equal symbols a set keeps the first, which should be the one whose sign is known
     known_first = sorted(generators, key=lambda g: not g.positive)
     return ring_of(frozenset(known_first))
 

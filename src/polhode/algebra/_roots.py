@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -9,16 +10,14 @@ from math import prod
 
 from flint import fmpz
 
-from polhode.algebra._expression import ONE, Expr, ExprLike
-from polhode.algebra._forms import shortest
-from polhode.algebra._generators import Generator, Rate, Symbol
-from polhode.algebra._ring import Polynomial, Ring
-from polhode.algebra._squares import in_shortest_squares
+from polhode.algebra._expression import ONE, Composite, Expr, ExprLike, Rate
+from polhode.algebra._forms import in_shortest_squares, shortest
+from polhode.algebra._ring import Ball, Generator, Polynomial, Ring, as_fraction
 from polhode.base import NumericError
 
 
 @dataclass(frozen=True)
-class SquareRoot(Generator):
+class SquareRoot(Composite):
     """The non-negative square root of a polynomial; |f| where that is the square of f."""
 
     radicand: Expr
@@ -48,22 +47,28 @@ class SquareRoot(Generator):
         return ring.lift(self.radicand.ring, self.radicand.num)
 
     def refined(self, others: tuple[Generator, ...]) -> Expr | None:
-        pairs = ((g, g.refined(others)) for g in self.radicand.generators)
-        finer = {g: unit for g, unit in pairs if unit is not None}
+        finer = dict[Generator, Expr]()
+        for generator in self.radicand.generators:
+            if isinstance(generator, Composite) and (unit := generator.refined(others)) is not None:
+                finer[generator] = unit
         return sqrt(self.radicand.recast(finer)) if finer else None
 
     @property
     def arguments(self) -> tuple[Expr, ...]:
         return (self.radicand,)
 
-    def symbols(self) -> frozenset[Symbol]:
-        return self.radicand.symbols()
+    @property
+    def inside(self) -> Expr:
+        return self.radicand
+
+    def remade(self, inside: Expr) -> Expr:
+        return sqrt(inside)
+
+    def ball(self, state: int) -> Ball:
+        return self.radicand.ball(state).sqrt()
 
     def chain(self, rate: Rate) -> Expr:
         return self.radicand.chain(rate) / (2 * Expr.generator(self))
-
-    def replaced(self, image: Rate) -> Expr:
-        return sqrt(self.radicand.replaced(image))
 
 
 def sqrt(x: ExprLike) -> Expr:
@@ -90,7 +95,7 @@ def sqrt(x: ExprLike) -> Expr:
 def principal_root(x: ExprLike) -> Expr:
     """A square root that is a plain expression wherever x is a perfect square.
 
-    √(sin²θ) is sin θ here: the branch on which it is positive. Whoever calls must say so.
+    √(sin²θ) is sin θ here: the branch on which it is positive. The caller must state that.
     """
     x = Expr.of(x)
     number, powers = factors(x)
@@ -124,7 +129,7 @@ def is_positive(x: Expr) -> bool:
 
 
 def is_plainly_positive(x: Expr) -> bool:
-    """The same of the terms as they stand, which decides what comes out of a root."""
+    """The same from the terms as they stand; it decides what comes out of a root."""
     return _all_positive(x.numerator) and _all_positive(x.denominator)
 
 
@@ -153,7 +158,7 @@ def factors(x: Expr) -> tuple[Fraction, dict[Expr, int]]:
     number, powers = Fraction(1), dict[Expr, int]()
     for polynomial, sense in ((x.num, 1), (x.den, -1)):
         content, pairs = shortest(x.ring, polynomial).factor()
-        number *= Fraction(int(content.p), int(content.q)) ** sense
+        number *= as_fraction(content) ** sense
         for factor, exponent in pairs:
             base = Expr(x.ring, x.ring.reduce(factor), x.ring.one)
             powers[base] = powers.get(base, 0) + sense * int(exponent)
@@ -183,3 +188,62 @@ def _root_of_unknown_sign(sign: int, powers: dict[Expr, int]) -> Expr:
         return _root(factor * sign) ** exponent
     below = prod((_size(f) ** ((1 - e) // 2) for f, e in powers.items()), start=ONE)
     return _root(prod(powers, start=Expr.constant(sign))) / below
+
+
+# -- roots replaced --------------------------------------------------------------------------------
+#
+# |x| is x on one side of zero and −x on the other. Put in, the sign cancels wherever it can: x/|x|
+# becomes 1 or −1, and 1/(1 + |x|) loses the denominator 1 − x² of its normal form.
+
+
+def roots_in(expressions: Iterable[Expr]) -> tuple[SquareRoot, ...]:
+    """Every square root that occurs, also within functions and named parts; inner ones first."""
+    found: dict[SquareRoot, None] = {}
+    seen: set[Generator] = set()
+    for expression in expressions:
+        found |= dict.fromkeys(_roots_in(expression, seen))
+    return tuple(found)
+
+
+def _roots_in(expression: Expr, seen: set[Generator]) -> Iterator[SquareRoot]:
+    for generator in expression.generators:
+        if generator in seen:
+            continue
+        seen.add(generator)
+        if isinstance(generator, Composite):
+            yield from _roots_in(generator.inside, seen)
+        if isinstance(generator, SquareRoot):
+            yield generator
+
+
+def with_roots(expression: Expr, images: Mapping[SquareRoot, Expr]) -> Expr:
+    """An expression with some of its square roots replaced, also within functions and parts.
+
+    Roots that appear only once others are replaced, as |x − 1| in ||x| − 1|, are replaced too.
+    """
+    if not images:
+        return expression
+    return _RootReplacement(images).of(expression)
+
+
+class _RootReplacement:
+    """Replaces roots; remembers what became of each function and part."""
+
+    def __init__(self, images: Mapping[SquareRoot, Expr]) -> None:
+        self._known: dict[Generator, Expr | None] = {r: e for r, e in images.items()}  # noqa: C416
+
+    def of(self, expression: Expr) -> Expr:
+        """The expression with its images; the same object where nothing changes."""
+        images = {g: image for g in expression.generators if (image := self._image(g)) is not None}
+        return expression.recast(images) if images else expression
+
+    def _image(self, generator: Generator) -> Expr | None:
+        """What a generator becomes; None where it stays as it is."""
+        if generator not in self._known:
+            image = None
+            if isinstance(generator, Composite):
+                before = generator.inside
+                after = self.of(before)
+                image = None if after is before else self.of(generator.remade(after))
+            self._known[generator] = image
+        return self._known[generator]

@@ -6,7 +6,7 @@ import re
 from keyword import iskeyword
 
 from polhode.algebra._expression import Expr
-from polhode.algebra._generators import Symbol, SymbolKind
+from polhode.algebra._ring import Symbol, SymbolKind
 from polhode.base import DeclarationError
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*_?")

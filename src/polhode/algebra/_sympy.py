@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from fractions import Fraction as Rational
+from fractions import Fraction
 from math import prod
 from typing import Any
 
 from polhode.algebra import _functions as functions
 from polhode.algebra._expression import ZERO, Expr
-from polhode.algebra._generators import Symbol
+from polhode.algebra._ring import Symbol
 from polhode.algebra._roots import absolute, sqrt
 from polhode.algebra._symbols import coordinate, symbol, time
 from polhode.algebra.printing._layout import layout
@@ -102,7 +102,7 @@ class _SympyReader:
             "AppliedUndef": self._dynamic,
             "Derivative": self._derivative,
             "Symbol": lambda value: self._symbol(value.name, value.is_positive is True),
-            "Rational": lambda value: Expr.constant(Rational(int(value.p), int(value.q))),
+            "Rational": lambda value: Expr.constant(Fraction(int(value.p), int(value.q))),
             "Float": lambda value: Expr.of(float(value)),
             "Pi": lambda value: functions.pi,
             "Exp1": lambda value: functions.exp(1),
@@ -128,17 +128,6 @@ class _SympyReader:
         return self.read(base) ** self.read(exponent)
 
     def _symbol(self, name: str, positive: bool) -> Expr:
-        known = self._known(name)
-        if known is not None:
-            return known
-        try:
-            return symbol(name, positive=positive)
-        except DeclarationError as error:
-            raise NumericError(
-                f"the SymPy symbol {name!r}", expected=error.expected, advice=error.advice
-            ) from error
-
-    def _known(self, name: str) -> Expr | None:
         if name in self._names:
             return self._names[name]
         if name == "t":
@@ -146,7 +135,12 @@ class _SympyReader:
         base, _, suffix = name.rpartition("_")
         if base in self._names and f"_{suffix}" in _DERIVATIVES:
             return _rate(self._names[base], _DERIVATIVES[f"_{suffix}"])
-        return None
+        try:
+            return symbol(name, positive=positive)
+        except DeclarationError as error:
+            raise NumericError(
+                f"the SymPy symbol {name!r}", expected=error.expected, advice=error.advice
+            ) from error
 
     def _dynamic(self, value: Any) -> Expr:
         if [argument.name for argument in value.free_symbols] != ["t"] or len(value.args) != 1:
@@ -188,5 +182,5 @@ def _unreadable(value: Any) -> NumericError:
     return NumericError(
         f"the SymPy object {value} of type {type(value).__name__}",
         expected="numbers, symbols, sums, products, half-integer powers and elementary functions",
-        advice="evaluate or substitute it before",
+        advice="evaluate or substitute it beforehand",
     )

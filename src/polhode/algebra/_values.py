@@ -17,9 +17,9 @@ from typing import Any, TypeVar
 
 from polhode.algebra._expression import Expr
 from polhode.algebra._functions import pi
-from polhode.algebra._generators import Symbol
 from polhode.algebra._homogeneity import dimension_of
 from polhode.algebra._reading import read_expression
+from polhode.algebra._ring import Symbol
 from polhode.algebra.programs._compile import compile_program
 from polhode.algebra.programs._program import FLOATS, Compiled
 from polhode.base import (

@@ -1,15 +1,89 @@
-"""Vectors of ordinary space, resolved along a triad of unit vectors that may turn."""
+"""Exact matrices, and vectors of space along a triad of unit vectors that may turn."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from polhode.algebra._expression import ZERO, Expr, ExprLike
-from polhode.algebra._linear import Matrix, Row, dot
+from polhode.algebra._expression import ONE, ZERO, Expr, ExprLike, total
 from polhode.algebra._roots import sqrt
 from polhode.base import Shown
+
+Row = tuple[Expr, ...]
+
+
+def dot(first: Iterable[Expr], second: Iterable[Expr]) -> Expr:
+    """Sum of products."""
+    return total(a * b for a, b in zip(first, second, strict=True) if a and b)
+
+
+@dataclass(frozen=True)
+class Matrix(Shown):
+    """An exact matrix, as a tuple of rows."""
+
+    rows: tuple[Row, ...]
+
+    @classmethod
+    def of(cls, rows: Iterable[Iterable[ExprLike]]) -> Matrix:
+        """From anything that reads as rows of expressions."""
+        return cls(tuple(tuple(Expr.of(entry) for entry in row) for row in rows))
+
+    @classmethod
+    def diagonal(cls, entries: Sequence[ExprLike]) -> Matrix:
+        """With these entries on the diagonal and zero elsewhere."""
+        size = range(len(entries))
+        return cls.of([[entries[i] if i == j else 0 for j in size] for i in size])
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """(rows, columns)."""
+        return len(self.rows), len(self.rows[0]) if self.rows else 0
+
+    @property
+    def T(self) -> Matrix:
+        """Transpose."""
+        return Matrix(tuple(zip(*self.rows, strict=True)))
+
+    def __getitem__(self, position: tuple[int, int]) -> Expr:
+        return self.rows[position[0]][position[1]]
+
+    def __matmul__(self, other: Matrix) -> Matrix:
+        columns = other.T.rows
+        return Matrix(tuple(tuple(dot(row, col) for col in columns) for row in self.rows))
+
+    def times(self, column: Sequence[Expr]) -> Row:
+        """Product with a column."""
+        return tuple(dot(row, column) for row in self.rows)
+
+    def __repr__(self) -> str:
+        rows = (f"[{', '.join(map(str, row))}]" for row in self.rows)
+        return f"[{', '.join(rows)}]"
+
+    def latex(self) -> str:
+        """LaTeX of the whole matrix."""
+        body = r" \\ ".join(" & ".join(e.latex() for e in row) for row in self.rows)
+        return rf"\begin{{bmatrix}} {body} \end{{bmatrix}}"
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.latex()}$"
+
+
+def rotation(axis: Sequence[Expr], cosine: Expr, sine: Expr) -> Matrix:
+    """Rodrigues' rotation about a unit axis: components in the turned axes → in the old ones."""
+    x, y, z = axis
+    cross = ((ZERO, -z, y), (z, ZERO, -x), (-y, x, ZERO))
+    return Matrix(
+        tuple(
+            tuple(
+                (cosine if i == j else ZERO)
+                + (ONE - cosine) * axis[i] * axis[j]
+                + sine * cross[i][j]
+                for j in range(3)
+            )
+            for i in range(3)
+        )
+    )
 
 
 class Triad(Protocol):
@@ -87,7 +161,13 @@ class Vector(Shown):
 
     def cross(self, other: Vector) -> Vector:
         """Vector product."""
-        return Vector(_cross(self.components, other.express(self.triad).components), self.triad)
+        a, b = self.components, other.express(self.triad).components
+        product = (
+            a[1] * b[2] - a[2] * b[1],
+            a[2] * b[0] - a[0] * b[2],
+            a[0] * b[1] - a[1] * b[0],
+        )
+        return Vector(product, self.triad)
 
     def norm(self) -> Expr:
         """Length."""
@@ -113,11 +193,3 @@ class Vector(Shown):
 def zero_vector(triad: Triad) -> Vector:
     """The vector of length zero."""
     return Vector((ZERO, ZERO, ZERO), triad)
-
-
-def _cross(a: Row, b: Row) -> Row:
-    return (
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    )

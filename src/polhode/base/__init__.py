@@ -1,9 +1,17 @@
-"""What every room stands on: errors, units, the cache, progress and the schema."""
+"""What every package builds on: errors, units, files, the cache, progress, worker processes."""
 
 from polhode.base import _cache as cache
 from polhode.base._bounds import bound_growth, bound_memory, bound_time, ended_with
-from polhode.base._dimension import LENGTH, MASS, PURE, TIME, Dimension
 from polhode.base._display import Shown, show_with
+from polhode.base._documents import (
+    SCHEMA,
+    Codec,
+    Provenance,
+    ShapeRecord,
+    digest,
+    installed_version,
+    provenance,
+)
 from polhode.base._errors import (
     ConstraintError,
     DeclarationError,
@@ -15,12 +23,11 @@ from polhode.base._errors import (
     StoreError,
     UnitError,
     exit_code,
+    extra,
+    look_up,
 )
-from polhode.base._extras import extra
 from polhode.base._files import read_whole, write_whole
-from polhode.base._forked_worker import ForkedWorker, Tell, can_part, within
-from polhode.base._lookup import look_up
-from polhode.base._plain import Codec, ShapeRecord, digest
+from polhode.base._processes import StartMethod, Tell, preload, shared_flag
 from polhode.base._progress import Progress, SilentProgress, StopRequested, terminal_progress
 from polhode.base._quantity import (
     Quantity,
@@ -30,11 +37,19 @@ from polhode.base._quantity import (
     read_quantity,
     to_si,
 )
-from polhode.base._schema import SCHEMA, Provenance, installed_version, provenance
-from polhode.base._unit_text import read_unit
-from polhode.base._units import Unit
+from polhode.base._units import LENGTH, MASS, PURE, TIME, Dimension, Unit, read_unit
+from polhode.base._workers import (
+    COPY_MEMORY,
+    Outcome,
+    Worker,
+    WorkerEndedError,
+    answers,
+    can_copy,
+    within,
+)
 
 __all__ = [
+    "COPY_MEMORY",
     "LENGTH",
     "MASS",
     "PURE",
@@ -46,8 +61,8 @@ __all__ = [
     "Dimension",
     "DriftWarning",
     "Exit",
-    "ForkedWorker",
     "NumericError",
+    "Outcome",
     "ParseError",
     "PolhodeError",
     "Progress",
@@ -56,17 +71,21 @@ __all__ = [
     "ShapeRecord",
     "Shown",
     "SilentProgress",
+    "StartMethod",
     "StopRequested",
     "StoreError",
     "Tell",
     "Unit",
     "UnitError",
     "Value",
+    "Worker",
+    "WorkerEndedError",
+    "answers",
     "bound_growth",
     "bound_memory",
     "bound_time",
     "cache",
-    "can_part",
+    "can_copy",
     "check_dimension",
     "digest",
     "ended_with",
@@ -74,11 +93,13 @@ __all__ = [
     "extra",
     "installed_version",
     "look_up",
+    "preload",
     "provenance",
     "quantity_of",
     "read_quantity",
     "read_unit",
     "read_whole",
+    "shared_flag",
     "show_with",
     "terminal_progress",
     "to_si",

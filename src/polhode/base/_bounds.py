@@ -1,4 +1,4 @@
-"""Bounds that the operating system keeps on this process, even deep in compiled code."""
+"""Limits that the operating system enforces on this process, even within compiled code."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from pathlib import Path
 
 
 def bound_time(seconds: float) -> None:
-    """Have the process ended after some processor time; after none at all, do not."""
+    """End the process after so many seconds of processor time; 0 takes the limit away."""
     if hasattr(signal, "setitimer"):
         signal.setitimer(signal.ITIMER_PROF, seconds)
 
 
 def bound_memory(most: int) -> None:
-    """Refuse the process more memory than some bytes, where the system has such a bound."""
+    """Limit the memory of the process to `most` bytes, where the system can."""
     with suppress(ImportError, ValueError, OSError):
         import resource
 
@@ -25,7 +25,7 @@ def bound_memory(most: int) -> None:
 
 
 def bound_growth(most: int) -> None:
-    """Refuse the process more than some bytes beyond what it has, where that can be told."""
+    """Limit the process to `most` bytes more than it has now, where the system can tell."""
     with suppress(ImportError, OSError, ValueError):
         import resource
 
@@ -35,13 +35,14 @@ def bound_growth(most: int) -> None:
 
 @contextmanager
 def ended_with(descriptor: int) -> Iterator[None]:
-    """Have this process ended, whatever it does, once nobody is at the other end of a pipe.
+    """End this process, whatever it is doing, when the other end of a pipe is closed.
 
-    So a process that computes for another does not outlive it. Nothing may come through the pipe
-    meanwhile: that would end the process, too. Only where the system sends a signal about pipes.
+    A worker process then does not outlive the one that it computes for. Nothing may arrive through
+    the pipe meanwhile: that would end the process too. It has no effect where the system sends no
+    signal about pipes.
 
     Args:
-        descriptor: of a pipe or socket that this process reads from, and no other one does.
+        descriptor: of a pipe or socket that this process alone reads from.
     """
     try:
         import fcntl
@@ -52,16 +53,11 @@ def ended_with(descriptor: int) -> Iterator[None]:
     except (AttributeError, ImportError, OSError):
         yield
         return
-    _end_if_alone(descriptor)
+    other_end = select.poll()
+    other_end.register(descriptor, 0)
+    if other_end.poll(0):  # closed already: no signal will come
+        os.kill(os.getpid(), signal.SIGIO)
     try:
         yield
     finally:
         fcntl.fcntl(descriptor, fcntl.F_SETFL, before)
-
-
-def _end_if_alone(descriptor: int) -> None:
-    """The signal comes when the other end closes, not where it has been closed before."""
-    looked = select.poll()
-    looked.register(descriptor, 0)
-    if looked.poll(0):
-        os.kill(os.getpid(), signal.SIGIO)

@@ -1,9 +1,8 @@
-"""Where what is slow to make is kept on disk, for all processes: compiled equations."""
+"""The cache on disk, shared by all processes: compiled equations and other slow results."""
 
 import os
 import shutil
 import sys
-from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
@@ -17,13 +16,20 @@ _TAG = b"Signature: 8a477f597d28d172789f06886806bc55\n# Made by polhode; safe to
 
 
 def directory() -> Path:
-    """Where the cache lives: POLHODE_CACHE, or else the platform's place for caches."""
-    chosen = os.environ.get("POLHODE_CACHE")
-    return Path(chosen).expanduser() if chosen else _platform_caches() / "polhode"
+    """The directory of the cache: POLHODE_CACHE, or else the platform's place for caches."""
+    if chosen := os.environ.get("POLHODE_CACHE"):
+        return Path(chosen).expanduser()
+    if sys.platform == "win32":
+        caches = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
+    elif sys.platform == "darwin":
+        caches = Path.home() / "Library" / "Caches"
+    else:
+        caches = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    return caches / "polhode"
 
 
 def folder(name: str) -> Path:
-    """A folder of the cache, made if need be, for a library that keeps its own files there.
+    """A folder of the cache, created if needed, for a library that keeps its own files there.
 
     `clear` empties it with the rest.
 
@@ -48,28 +54,17 @@ def folder(name: str) -> Path:
 def clear() -> int:
     """Empty the cache; returns the bytes freed.
 
-    Only folders that polhode tagged as its own are removed, whatever else lies beside them.
+    Only folders that polhode has tagged as its own are removed, and nothing beside them.
     """
     root = directory()
     ours = [tag.parent for tag in root.glob(f"*/{_TAG_NAME}") if _is_ours(tag)]
-    freed = sum(status.st_size for owned in ours for _, status in _files(owned))
+    freed = 0
     for owned in ours:
+        for path in owned.rglob("*"):
+            with suppress(OSError):  # another process may just have removed it
+                freed += path.stat().st_size
         shutil.rmtree(owned, ignore_errors=True)
     return freed
-
-
-def _platform_caches() -> Path:
-    if sys.platform == "win32":
-        return Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
-    if sys.platform == "darwin":
-        return Path.home() / "Library" / "Caches"
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-
-
-def _files(owned: Path) -> Iterator[tuple[Path, os.stat_result]]:
-    for path in owned.rglob("*"):
-        with suppress(OSError):  # another process may just have removed it
-            yield path, path.stat()
 
 
 def _is_ours(tag: Path) -> bool:

@@ -1,4 +1,4 @@
-"""Things that show themselves in a notebook: they only ask; a room above says how."""
+"""Notebook display: objects ask for HTML, and a higher layer installs what renders it."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ _RENDERERS: list[Callable[[object], str]] = []
 
 
 def show_with(renderer: Callable[[object], str]) -> None:
-    """Choose what turns things into HTML where a notebook shows them."""
+    """Install what renders objects as HTML for a notebook."""
     _RENDERERS[:] = [renderer]
 
 
 class Shown:
-    """Something that a notebook shows as HTML, where a renderer was chosen, and else as text."""
+    """Something that a notebook shows as HTML where a renderer is installed, otherwise as text."""
 
     def _repr_html_(self) -> str | None:
         return _RENDERERS[0](self) if _RENDERERS else None

@@ -1,19 +1,26 @@
-"""The one family of errors, and what each means to a shell."""
+"""The one family of errors, their exit codes, and the errors that many modules raise."""
 
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from difflib import get_close_matches
 from enum import IntEnum
+from functools import partial
+from typing import TypeVar
 
 
 class PolhodeError(Exception):
-    """Something polhode was given, or met, that it cannot work with.
+    """Something given to polhode, or met on the way, that it cannot work with.
 
     Prints as "given; expected ...; advice", without the parts that were left empty.
 
     Args:
-        given: what came, naming the quantity or the declaration it came in.
+        given: what was given, with the name of the quantity or declaration.
         expected: what would have been accepted, without the word "expected".
         advice: what to do about it.
-        option: the argument of a command with which it is done, such as "let"; not printed, for
-            only the command line has it.
+        option: the command-line option that does it, such as "let"; only the command line prints
+            it.
     """
 
     def __init__(
@@ -27,16 +34,17 @@ class PolhodeError(Exception):
         super().__init__("; ".join(filter(None, parts)))
 
     def __reduce__(self) -> tuple[object, ...]:
-        # Worker processes send their errors home; Exception alone would forget the keywords.
-        return _rebuilt, (type(self), self.given, self.expected, self.advice, self.option)
+        # Worker processes send back their errors; Exception alone would lose the keywords.
+        words = {"expected": self.expected, "advice": self.advice, "option": self.option}
+        return partial(type(self), **words), (self.given,)
 
 
 class DeclarationError(PolhodeError):
-    """A body, contact, load or system that contradicts itself or is incomplete."""
+    """A body, contact, load or system that is contradictory or incomplete."""
 
 
 class ConstraintError(PolhodeError):
-    """Constraints that contradict one another, or start values that contradict them."""
+    """Constraints that contradict one another, or start values that violate them."""
 
 
 class UnitError(PolhodeError):
@@ -48,7 +56,7 @@ class ParseError(PolhodeError):
 
 
 class NumericError(PolhodeError):
-    """A computation that could not reach the accuracy asked of it."""
+    """A computation that cannot be done, or not to the requested accuracy."""
 
 
 class StoreError(PolhodeError):
@@ -56,7 +64,7 @@ class StoreError(PolhodeError):
 
 
 class DriftWarning(UserWarning):
-    """A motion whose energy balance or closed loops are off by more than rounding explains."""
+    """A motion whose energy balance or closed loops err by more than rounding explains."""
 
 
 class Exit(IntEnum):
@@ -69,15 +77,48 @@ class Exit(IntEnum):
 
 
 def exit_code(error: BaseException) -> int:
-    """The exit code with which a command ended by `error` leaves.
+    """The exit code of a command that `error` has ended.
 
-    A failed check is an answer, not an error, so `Exit.FAILED` is never returned: bad input,
-    what could not be read or decided, and what went wrong unforeseen are all `Exit.REFUSED`.
+    It is never `Exit.FAILED`, since a failed check is an answer and not an error: bad input, what
+    cannot be read or decided, and unforeseen errors are all `Exit.REFUSED`.
     """
     return Exit.INTERRUPTED if isinstance(error, KeyboardInterrupt) else Exit.REFUSED
 
 
-def _rebuilt(
-    kind: type[PolhodeError], given: str, expected: str, advice: str, option: str
-) -> PolhodeError:
-    return kind(given, expected=expected, advice=advice, option=option)
+# -- errors that many modules raise ----------------------------------------------------------------
+
+
+@contextmanager
+def extra(library: str, name: str) -> Iterator[None]:
+    """Wraps the import of an optional library, which the extra `name` of polhode installs.
+
+    Raises:
+        StoreError: where the library is not installed.
+    """
+    try:
+        yield
+    except ImportError as error:
+        raise StoreError(
+            f"{library} is not installed",
+            expected="the extra of polhode that brings it",
+            advice=f"pip install 'polhode[{name}]'",
+        ) from error
+
+
+Known = TypeVar("Known")
+
+
+def look_up(name: str, known: Mapping[str, Known], what: str) -> Known:
+    """The value that a name has in a table.
+
+    Raises:
+        DeclarationError: for an unknown name, with the nearest known ones.
+    """
+    if name in known:
+        return known[name]
+    near = get_close_matches(name, known, n=3, cutoff=0.5)
+    raise DeclarationError(
+        f"{name!r} is no {what}",
+        expected=f"one of {', '.join(known)}" if known else "none, since there are none",
+        advice=f"did you mean {' or '.join(near)}?" if near else "",
+    )

@@ -1,4 +1,4 @@
-"""Files written whole or not at all, and read whole if they are not without end."""
+"""Files written in one step, and read whole up to a limit."""
 
 from __future__ import annotations
 
@@ -9,18 +9,22 @@ from pathlib import Path
 
 from polhode.base._errors import StoreError
 
-_MOST = 64 * 2**20  # bytes that are taken from a pipe or a device
+_MOST = 64 * 2**20  # bytes that are read from a pipe or a device
 
 
 def write_whole(path: Path, content: bytes) -> None:
-    """Write a file in one step: whoever looks sees the old one or the new one.
+    """Write a file in one step: a reader sees the old content or the new, never a part.
 
     Raises:
-        StoreError: where it cannot be written; what was there before is kept.
+        StoreError: where it cannot be written; the old file is kept.
     """
     part = None
     try:
-        _refuse_devices(path)
+        if path.exists() and not (path.is_file() or path.is_dir()):
+            raise StoreError(
+                f"{path} cannot be written (it is a device or a pipe)",
+                expected="the name of a file",
+            )
         descriptor, part = tempfile.mkstemp(suffix=".part", dir=path.parent)
         with os.fdopen(descriptor, "wb") as stream:
             stream.write(content)
@@ -52,16 +56,9 @@ def read_whole(path: Path, expected: str) -> bytes:
             return path.read_bytes()
         with path.open("rb") as stream:
             content = stream.read(_MOST + 1)
-    except (OSError, ValueError) as error:  # the latter of a name that has a null in it
+    except (OSError, ValueError) as error:  # ValueError for a name with a null character
         why = getattr(error, "strerror", None) or error
         raise StoreError(f"{path} cannot be read ({why})", expected=expected) from error
     if len(content) > _MOST:
         raise StoreError(f"{path} cannot be read (there is no end to it)", expected=expected)
     return content
-
-
-def _refuse_devices(path: Path) -> None:
-    if path.exists() and not (path.is_file() or path.is_dir()):
-        raise StoreError(
-            f"{path} cannot be written (it is a device or a pipe)", expected="the name of a file"
-        )

@@ -1,29 +1,29 @@
-"""How a long computation tells how far it is, without knowing who listens."""
+"""Progress of a long computation, reported to whatever listener it is given."""
 
 import sys
 import time
 from typing import Protocol, TextIO
 
 
-class StopRequested(Exception):  # noqa: N818  (no error: what was asked for is done)
-    """Raised by a listener to end a task there and keep what is done."""
+class StopRequested(Exception):  # noqa: N818  (not an error: the user asked for it)
+    """Raised by a listener to end a task early and keep the results so far."""
 
 
 class Progress(Protocol):
     """A listener to one task at a time."""
 
     def begin(self, task: str, total: int | None = None) -> None:
-        """Start a task of `total` steps, or of a number that is not known."""
+        """Start a task of `total` steps; None where the number is unknown."""
 
     def advance(self, steps: int = 1) -> None:
-        """Tell that so many more steps are done; may raise `StopRequested`."""
+        """Report that so many more steps are done; may raise `StopRequested`."""
 
     def finish(self) -> None:
         """End the task."""
 
 
 class SilentProgress:
-    """Listens and shows nothing."""
+    """A listener that shows nothing."""
 
     def begin(self, task: str, total: int | None = None) -> None:
         """Show nothing."""
@@ -39,7 +39,7 @@ class TerminalProgress:
     """One line of a terminal, rewritten as the task advances and wiped when it ends."""
 
     _INTERVAL = 0.1  # seconds between rewrites
-    _SETTLED = 2.0  # seconds after which the pace tells how long it will take
+    _WARM_UP = 2.0  # seconds before the remaining time is estimated
 
     def __init__(self, stream: TextIO) -> None:
         self._stream = stream
@@ -59,7 +59,7 @@ class TerminalProgress:
     def advance(self, steps: int = 1) -> None:
         """Count the steps, and show the count when it is time."""
         if not self._done:
-            self._before = steps  # the first may be what an earlier run had done
+            self._before = steps  # the first may count what an earlier run had done
         self._done += steps
         if time.monotonic() >= self._due:
             self._show()
@@ -74,9 +74,9 @@ class TerminalProgress:
         self._due = time.monotonic() + self._INTERVAL
 
     def _left(self) -> str:
-        """How much longer it will take, once that can be told."""
+        """The estimated time to go, once there is an estimate."""
         passed, done = time.monotonic() - self._began, self._done - self._before
-        if self._total is None or done <= 0 or passed < self._SETTLED:
+        if self._total is None or done <= 0 or passed < self._WARM_UP:
             return ""
         left = passed * max(self._total - self._done, 0) / done
         return f", {left / 60:.0f} min left" if left > 90 else f", {left:.0f} s left"
@@ -87,6 +87,6 @@ class TerminalProgress:
 
 
 def terminal_progress(stream: TextIO | None = None) -> Progress:
-    """Progress on a terminal (standard error unless told); silent where that is not one."""
+    """Progress on a terminal, by default standard error; silent where that is no terminal."""
     chosen = sys.stderr if stream is None else stream
     return TerminalProgress(chosen) if chosen.isatty() else SilentProgress()

@@ -7,10 +7,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Protocol, SupportsFloat, TypeAlias, runtime_checkable
 
-from polhode.base._dimension import PURE, Dimension
 from polhode.base._errors import UnitError
-from polhode.base._unit_text import read_unit
-from polhode.base._units import Unit
+from polhode.base._units import PURE, Dimension, Unit, read_unit
 
 
 @runtime_checkable
@@ -55,7 +53,17 @@ def read_quantity(text: str) -> Quantity:
     """
     match = _NUMBER.match(text)
     assert match is not None  # every part of the pattern is optional
-    number, unit_text = _signed(match), text[match.end() :].strip()
+    if match.end() > _LONGEST:
+        raise UnitError(
+            f"a number of {match.end()} characters", expected=f"one of at most {_LONGEST}"
+        )
+    divisor = Fraction(match["divisor"] or 1)
+    if not (match["factor"] or match["pi"]) or divisor == 0:
+        raise _unreadable(match.string)
+    number = Fraction(match["factor"] or 1) / divisor
+    if match["sign"] in ("-", "−"):
+        number = -number
+    unit_text = text[match.end() :].strip()
     unit = read_unit(unit_text.removeprefix("*")) if unit_text else Unit()
     quantity = Quantity(
         number * unit.coefficient,
@@ -123,33 +131,18 @@ _NUMBER = re.compile(
 )
 
 
-def _signed(match: re.Match[str]) -> Fraction:
-    if match.end() > _LONGEST:
-        raise UnitError(
-            f"a number of {match.end()} characters", expected=f"one of at most {_LONGEST}"
-        )
-    divisor = Fraction(match["divisor"] or 1)
-    if not (match["factor"] or match["pi"]) or divisor == 0:
-        raise _unreadable(match.string)
-    size = Fraction(match["factor"] or 1) / divisor
-    return -size if match["sign"] in ("-", "−") else size
-
-
 def _quantity(value: Value) -> Quantity:
     match value:
         case str():
             return read_quantity(value)
-        case (magnitude, str(unit)):
-            return _scaled(_exact(magnitude), read_unit(unit), value)
+        case (magnitude, str(unit_text)):
+            number, unit = _exact(magnitude), read_unit(unit_text)
+            quantity = Quantity(number * unit.coefficient, unit.pi_power, unit.dimension)
+            return _finite(quantity, value)
         case PintQuantity():
             return _from_pint(value)
         case _:
             return Quantity(_exact(value), 0, None)
-
-
-def _scaled(number: Fraction, unit: Unit, shown: object) -> Quantity:
-    quantity = Quantity(number * unit.coefficient, unit.pi_power, unit.dimension)
-    return _finite(quantity, shown)
 
 
 def _exact(number: Any) -> Fraction:

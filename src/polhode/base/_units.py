@@ -1,9 +1,54 @@
-"""Units of measure, and the table of those that have a name."""
+"""Dimensions, the table of units, and compound units such as ``kg m^2/s``."""
 
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from polhode.base._dimension import LENGTH, MASS, PURE, TIME, Dimension
+from polhode.base._errors import UnitError
+
+
+@dataclass(frozen=True, slots=True)
+class Dimension:
+    """Exponents of mass, length and time; angles have none.
+
+    Prints as the SI unit of that dimension: ``kg m^2/s^2``, and ``1`` for a pure number.
+    """
+
+    mass: Fraction = Fraction(0)
+    length: Fraction = Fraction(0)
+    time: Fraction = Fraction(0)
+
+    def __mul__(self, other: Dimension) -> Dimension:
+        return Dimension(self.mass + other.mass, self.length + other.length, self.time + other.time)
+
+    def __truediv__(self, other: Dimension) -> Dimension:
+        return self * other**-1
+
+    def __pow__(self, exponent: int | Fraction) -> Dimension:
+        return Dimension(self.mass * exponent, self.length * exponent, self.time * exponent)
+
+    def __str__(self) -> str:
+        powers = (("kg", self.mass), ("m", self.length), ("s", self.time))
+        above = [_power(unit, exponent) for unit, exponent in powers if exponent > 0]
+        below = [_power(unit, -exponent) for unit, exponent in powers if exponent < 0]
+        if len(below) > 1:
+            below = [f"({' '.join(below)})"]
+        return "/".join([" ".join(above or ["1"]), *below])
+
+
+def _power(unit: str, exponent: Fraction) -> str:
+    if exponent == 1:
+        return unit
+    return f"{unit}^{exponent}" if exponent.denominator == 1 else f"{unit}^({exponent})"
+
+
+PURE = Dimension()
+MASS = Dimension(mass=Fraction(1))
+LENGTH = Dimension(length=Fraction(1))
+TIME = Dimension(time=Fraction(1))
 
 
 @dataclass(frozen=True, slots=True)
@@ -14,14 +59,14 @@ class Unit:
     pi_power: int = 0
     dimension: Dimension = PURE
 
-    def __mul__(self, other: "Unit") -> "Unit":
+    def __mul__(self, other: Unit) -> Unit:
         return Unit(
             self.coefficient * other.coefficient,
             self.pi_power + other.pi_power,
             self.dimension * other.dimension,
         )
 
-    def __pow__(self, exponent: int) -> "Unit":
+    def __pow__(self, exponent: int) -> Unit:
         return Unit(self.coefficient**exponent, self.pi_power * exponent, self.dimension**exponent)
 
 
@@ -70,3 +115,114 @@ UNITS: dict[str, Unit] = {
     for prefix, factor in {"": Fraction(1), **PREFIXES}.items()
 } | PLAIN
 """Every name, prefixes included."""
+
+
+# -- compound units as people write them -----------------------------------------------------------
+
+
+def read_unit(text: str) -> Unit:
+    """Read a unit: names, perhaps with a whole exponent, joined by ``*``, a space or ``/``.
+
+    Brackets group, as in ``kg/(m s^2)``. ``/`` divides by the next factor only, so ``N/m s`` is
+    ``(N/m) s``. ``Hz`` is one per second, not one turn per second: write ``rev/s`` or ``rpm`` for
+    turning.
+
+    Raises:
+        UnitError: for a name the table does not have, or text that is not a unit.
+    """
+    if len(text) > _LONGEST:
+        raise _malformed(f"{text[:20]}...")
+    return _UnitParser(text).unit()
+
+
+_SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+_TOKEN = re.compile(
+    r"""\s*(?:
+        (?:\^|\*\*)\s*(?P<power>[+-]?\d{1,2})(?!\d)
+      | (?P<superscript>⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]{1,2})
+      | (?P<name>1(?=\s*/)|°|[^\W\d_⁰¹²³⁴⁵⁶⁷⁸⁹]+)
+      | (?P<mark>[*·⋅×/()])
+    )\s*""",
+    re.VERBOSE,
+)
+_LONGEST = 100
+
+
+class _UnitParser:
+    """Recursive descent over the tokens of one unit."""
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+        self._tokens = [*self._scanned(), ("end", "")]
+        self._next = 0
+
+    def unit(self) -> Unit:
+        """The whole text."""
+        unit = self._product()
+        if self._kind != "end":
+            raise _malformed(self._text)
+        return unit
+
+    def _product(self) -> Unit:
+        unit = Unit() if self._symbol == "/" else self._factor()
+        while self._kind != "end" and self._symbol != ")":
+            divides = self._symbol == "/"
+            if self._kind == "mark" and self._symbol != "(":
+                self._next += 1
+            factor = self._factor()
+            unit = unit * factor**-1 if divides else unit * factor
+        return unit
+
+    def _factor(self) -> Unit:
+        if self._symbol == "(":
+            self._take()
+            unit = self._product()
+            if self._symbol != ")":
+                raise _malformed(self._text)
+            self._take()
+            return unit
+        base = self._named()
+        if self._kind not in ("power", "superscript"):
+            return base
+        return base ** int(self._take().translate(_SUPERSCRIPTS))
+
+    def _named(self) -> Unit:
+        if self._kind != "name":
+            raise _malformed(self._text)
+        name = self._take()
+        if name == "1":
+            return Unit()
+        if name not in UNITS:
+            prefixes = " ".join(filter(str.isascii, PREFIXES))
+            raise UnitError(
+                f"the unit {name!r} is not known",
+                expected=f"{' '.join(PREFIXED)}, perhaps prefixed {prefixes}, or {' '.join(PLAIN)}",
+            )
+        return UNITS[name]
+
+    def _scanned(self) -> Iterator[tuple[str, str]]:
+        position = 0
+        while position < len(self._text):
+            match = _TOKEN.match(self._text, position)
+            if match is None or match.lastgroup is None:
+                raise _malformed(self._text)
+            yield match.lastgroup, match[match.lastgroup]
+            position = match.end()
+
+    @property
+    def _kind(self) -> str:
+        return self._tokens[self._next][0]
+
+    @property
+    def _symbol(self) -> str:
+        kind, text = self._tokens[self._next]
+        return text if kind == "mark" else ""
+
+    def _take(self) -> str:
+        text = self._tokens[self._next][1]
+        self._next += 1
+        return text
+
+
+def _malformed(text: str) -> UnitError:
+    return UnitError(f"{text!r} is not a unit", expected="units joined as in 'kg m^2/s'")

@@ -25,8 +25,8 @@ from polhode.claims.latex import write_latex as write_latex
 from polhode.claims.meaning._bindings import Bound as Bound
 from polhode.claims.meaning._meaning import BindingError as BindingError
 from polhode.claims.meaning._relations import BoundRelation as BoundRelation
-from polhode.claims.processes._bounded import check as check
-from polhode.claims.processes._bounded import uncorrected as uncorrected
+from polhode.claims.processes._limited_check import check as check
+from polhode.claims.processes._limited_check import uncorrected as uncorrected
 
 if TYPE_CHECKING:
     from polhode.claims._audit import audit as audit
@@ -35,13 +35,13 @@ if TYPE_CHECKING:
     from polhode.claims.document._report import Judged as Judged
     from polhode.claims.document._report import Report as Report
     from polhode.claims.document._report import tally as tally
-    from polhode.claims.processes._apart import ClaimLimits as ClaimLimits
-    from polhode.claims.processes._apart import audit_apart as audit_apart
+    from polhode.claims.processes._parallel_audit import ClaimLimits as ClaimLimits
+    from polhode.claims.processes._parallel_audit import audit_apart as audit_apart
     from polhode.claims.repair import tidied as tidied
 
 _LATE = {
-    "ClaimLimits": "processes._apart",
-    "audit_apart": "processes._apart",
+    "ClaimLimits": "processes._parallel_audit",
+    "audit_apart": "processes._parallel_audit",
     "audit": "_audit",
     "read_document": "document._read_document",
     "Consequence": "document._report",

@@ -22,10 +22,9 @@ from polhode.lab._files import KINDS, PAGE, built
 from polhode.lab._guard import Limits, RequestGuard
 from polhode.lab._offer import Own, offered
 from polhode.lab._requests import Fields
-from polhode.lab._work import DONE
-from polhode.lab._worker_pool import BrokenError, GoneError, TooLongError, WorkerPool
+from polhode.lab._workers import DONE, BrokenError, GoneError, TooLongError, WorkerPool
 
-_PURPOSES = {  # of the worker that a task is for
+_PURPOSES = {  # by task: of the worker that does it
     "describe": "motion",
     "run": "motion",
     "read": "motion",
@@ -36,7 +35,7 @@ _PURPOSES = {  # of the worker that a task is for
     "check": "claims",
     "export": "files",
 }
-_NOT_PLAIN = re.compile(r"[^A-Za-z0-9._]+")  # in the name of a file
+_UNSAFE = re.compile(r"[^A-Za-z0-9._]+")  # in the name of a file
 _PACKETS = ("run", "read", "follow")  # answered with a packet
 _PAGE = """<!DOCTYPE html>
 <html lang="en">
@@ -64,14 +63,14 @@ def app_of(port: int, own: Own | None = None, limits: Limits | None = None) -> S
         own: a system of the user's own, offered first.
         limits: of one request.
     """
-    bounds = limits or Limits()
-    crew = WorkerPool(own)
+    limits = limits or Limits()
+    pool = WorkerPool(own)
 
     @asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:
-        crew.begin()
+        pool.begin()
         yield
-        await crew.end()
+        await pool.end()
 
     async def page(request: Request) -> Response:
         systems = escape(json.dumps(offered(own)), quote=True)
@@ -85,7 +84,7 @@ def app_of(port: int, own: Own | None = None, limits: Limits | None = None) -> S
         name = request.path_params["task"]
         if name not in _PURPOSES:
             raise HTTPException(404)
-        return await _answer(request, name, crew, bounds)
+        return await _answer(request, name, pool, limits)
 
     return Starlette(
         routes=[
@@ -93,24 +92,24 @@ def app_of(port: int, own: Own | None = None, limits: Limits | None = None) -> S
             *(Route(f"/{name}", file) for name in PAGE),
             Route("/api/{task}", task, methods=["POST"]),
         ],
-        middleware=[Middleware(RequestGuard, port=port, limits=bounds)],
+        middleware=[Middleware(RequestGuard, port=port, limits=limits)],
         exception_handlers={HTTPException: _refused, Exception: _failed},
         lifespan=lifespan,
     )
 
 
-async def _answer(request: Request, task: str, crew: WorkerPool, limits: Limits) -> Response:
+async def _answer(request: Request, task: str, pool: WorkerPool, limits: Limits) -> Response:
     body = await request.body()
     try:
         system = Fields.read(body).text("system")
     except PolhodeError as error:
         return _problem(400, error.given, error.expected, error.advice)
-    purpose = _PURPOSES[task]
-    seconds = _seconds(task, limits)
+    own_limits = dict.fromkeys(_PACKETS, limits.motion) | {"export": limits.file}
+    seconds = own_limits.get(task, limits.thought)
     gone = asyncio.Event()
     watch = asyncio.create_task(_watch(request, gone))
     try:
-        worker = await crew.worker(f"{purpose} {system}")
+        worker = await pool.worker(f"{_PURPOSES[task]} {system}")
         reply = await worker.ask(f"{task}\n".encode() + body, seconds, gone)
     except GoneError:
         return _problem(499, "a request that was called off")
@@ -121,24 +120,18 @@ async def _answer(request: Request, task: str, crew: WorkerPool, limits: Limits)
         return _problem(500, "the process that worked on this ended; a new one was started")
     finally:
         watch.cancel()
-    return _whole(task, body, reply)
-
-
-def _seconds(task: str, limits: Limits) -> float:
-    """How long a task may take."""
-    own = dict.fromkeys(_PACKETS, limits.motion) | {"export": limits.file}
-    return own.get(task, limits.thought)
+    return _response(task, body, reply)
 
 
 async def _watch(request: Request, gone: asyncio.Event) -> None:
-    """Tell when the one who asked leaves."""
+    """Set `gone` when the client disconnects."""
     while not gone.is_set():
         message = await request.receive()
         if message["type"] == "http.disconnect":
             gone.set()
 
 
-def _whole(task: str, body: bytes, reply: bytes) -> Response:
+def _response(task: str, body: bytes, reply: bytes) -> Response:
     kind, content = reply[:1], reply[1:]
     if kind != DONE:
         return Response(content, status_code=422, media_type="application/json")
@@ -148,14 +141,14 @@ def _whole(task: str, body: bytes, reply: bytes) -> Response:
         return Response(content, media_type="application/json")
     asked = Fields.read(body)
     file = KINDS[asked.text("kind")]
-    name = _NOT_PLAIN.sub("-", asked.text("system")).strip("-") or "polhode"
+    name = _UNSAFE.sub("-", asked.text("system")).strip("-") or "polhode"
     headers = {"content-disposition": f'attachment; filename="{name}.{file.ending}"'}
     return Response(content, headers=headers, media_type=file.media)
 
 
 def _problem(status: int, given: str, expected: str = "", advice: str = "") -> JSONResponse:
-    told = {"given": given, "expected": expected, "advice": advice}
-    return JSONResponse(told, status_code=status)
+    problem = {"given": given, "expected": expected, "advice": advice}
+    return JSONResponse(problem, status_code=status)
 
 
 async def _refused(request: Request, error: Any) -> Response:
@@ -163,4 +156,4 @@ async def _refused(request: Request, error: Any) -> Response:
 
 
 async def _failed(request: Request, error: Exception) -> Response:
-    return _problem(500, "something unforeseen in the lab", advice="please report it")
+    return _problem(500, "an unexpected error in the lab", advice="please report it")

@@ -1,4 +1,4 @@
-"""The claims of the problem set about a system, and equations that are typed in, judged."""
+"""Verdicts on the problem set's claims about a system, and on equations typed in."""
 
 from __future__ import annotations
 
@@ -37,20 +37,20 @@ def judged(id: str) -> dict[str, Any]:
     """The verdict on a claim of the problem set.
 
     Raises:
-        ParseError: for an id that it does not have.
+        ParseError: for an unknown id.
     """
     found = audit(_document(), _equations, only=[id]).judged[0]
-    return {"id": id, **_told(found.verdict)}
+    return {"id": id, **_verdict_of(found.verdict)}
 
 
 def answered(question: Question, equations: Equations) -> dict[str, Any]:
     """The verdict on an equation that was typed in.
 
     Raises:
-        ParseError: for a context that is not known.
+        ParseError: for an unknown context.
     """
     verdict = check(question.latex, equations, context=question.context)
-    return {"formula": typeset(question.latex), **_told(verdict)}
+    return {"formula": typeset(question.latex), **_verdict_of(verdict)}
 
 
 def _stated(claim: Claim, part: Part) -> dict[str, Any]:
@@ -71,7 +71,7 @@ def _noted(note: Note) -> dict[str, str]:
     return {"label": note.label, "text": note.text, "formula": formula}
 
 
-def _told(verdict: Verdict) -> dict[str, Any]:
+def _verdict_of(verdict: Verdict) -> dict[str, Any]:
     correction, example = verdict.correction, verdict.counterexample
     return {
         "verdict": verdict.answer.value,

@@ -1,4 +1,4 @@
-"""The sliders of a system: what each is of, its unit, and how far it goes."""
+"""The sliders of a system: the quantity, unit and range of each."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from polhode.derive import Equations
 
 _PLAIN = re.compile(r"\s*([+\-−]?[0-9]*\.?[0-9]+(?:[eE][+-]?[0-9]+)?)\s*([^\d\s*/(+\-][^*(+]*)?")
 _DECADE = 10.0
-_SIGNED = (PURE, PURE / TIME)  # of what may well be negative, where nothing is assumed
-_ANGLES = {"deg": (180.0, 10.0), "rad": (3.0, 0.2)}  # how far they go, and what is a small one
-_USUAL: Mapping[Dimension, float] = {  # where nothing tells how large something is
+_SIGNED = (PURE, PURE / TIME)  # may be negative, unless the symbol is assumed positive
+_ANGLES = {"deg": (180.0, 10.0), "rad": (3.0, 0.2)}  # range, and the size of a small one
+_USUAL: Mapping[Dimension, float] = {  # typical size, where none is given
     PURE: 1.0,
     LENGTH: 0.2,
     MASS: 1.0,
@@ -43,15 +43,15 @@ class Control:
         name: published name.
         symbol: MathML.
         meaning: in words.
-        text: the usual value, as one would type it.
+        text: the default value, as one would type it.
         value: the same in `unit`.
         unit: in which the slider counts.
         size: of that unit, in SI units.
-        si: the SI unit, which the value of a formula is in.
+        si: the SI unit, in which formulas are evaluated.
         low: left end of the slider.
         high: right end.
-        ratio: whether equal steps are equal ratios.
-        extra: whether it is seldom wanted.
+        ratio: whether the scale is logarithmic.
+        extra: whether it is rarely needed, and so folded away.
     """
 
     name: str
@@ -76,12 +76,16 @@ def unit_of(symbol: Symbol, equations: Equations) -> str:
 
 
 def with_usual_numbers(entry: CatalogueEntry, equations: Equations) -> CatalogueEntry:
-    """An entry without numbers, as of a user's own system, with some of the right dimension."""
+    """An entry with default numbers of the right dimension where it has none."""
     known = {parameter.name for parameter in entry.parameters}
-    added = tuple(
-        Parameter(s.published, _UNITS.get(d, ""), _guess(s.published, d), "")
+    units = {
+        s.published: (_UNITS.get(d, ""), _USUAL.get(d, 1.0))
         for s, d in _with_dimensions(equations, equations.parameters)
         if s.published not in known
+    }
+    added = (
+        Parameter(name, unit, f"{size:g} {unit}".strip(), "")
+        for name, (unit, size) in units.items()
     )
     start = dict(entry.start) or {
         s.published: "1 rad" for s in equations.coordinates if equations.dimensions.get(s) == PURE
@@ -101,38 +105,36 @@ def parameters_of(entry: CatalogueEntry, equations: Equations) -> list[Control]:
     values = numbers_of(entry, equations).parameters
     signed = {s for s, d in _with_dimensions(equations, equations.parameters) if d in _SIGNED}
     positive = {p.name for p in entry.parameters} - {s.published for s in signed if not s.positive}
-    return [
-        _parameter(p, value, positive=p.name in positive)
-        for p in entry.parameters
-        if (value := values.get(p.name, _alone(p.default))) is not None
-    ]
+    found: list[Control] = []
+    for p in entry.parameters:
+        value = values.get(p.name)
+        if value is None and _PLAIN.fullmatch(p.default):  # in no equation
+            value = read_quantity(p.default).value
+        if value is not None:
+            symbol = Symbol(p.name.rstrip("_"))
+            is_positive = p.name in positive
+            made = _control(symbol, p.default, p.unit, p.meaning, value, positive=is_positive)
+            found.append(replace(made, name=p.name))
+    return found
 
 
 def start_of(entry: CatalogueEntry, equations: Equations) -> list[Control]:
     """Sliders of coordinates and speeds at the start, those of the usual start first."""
     values = numbers_of(entry, equations).start
     found: list[Control] = []
-    for symbol, dimension in _states(equations):
+    states = (*equations.coordinates, *equations.speeds)
+    for symbol, dimension in _with_dimensions(equations, states):
         name = symbol.published
         text = entry.start.get(name, "0")
         unit = _UNITS.get(dimension, str(dimension))
         if dimension == PURE and "deg" not in text:
             unit = "rad" if name in entry.start else "deg"
         made = _control(symbol, text, unit, "", values.get(name, 0.0), positive=False)
-        found.append(replace(_widened(made, dimension, found), extra=_is_extra(symbol, entry)))
+        is_extra = (
+            name not in entry.start and symbol.kind is SymbolKind.COORDINATE and not symbol.order
+        )
+        found.append(replace(_widened(made, dimension, found), extra=is_extra))
     return sorted(found, key=lambda control: control.name not in entry.start)
-
-
-def _is_extra(symbol: Symbol, entry: CatalogueEntry) -> bool:
-    return (
-        symbol.published not in entry.start
-        and symbol.kind is SymbolKind.COORDINATE
-        and not symbol.order
-    )
-
-
-def _states(equations: Equations) -> Iterator[tuple[Symbol, Dimension]]:
-    yield from _with_dimensions(equations, (*equations.coordinates, *equations.speeds))
 
 
 def _with_dimensions(
@@ -143,22 +145,6 @@ def _with_dimensions(
         yield symbol, base / TIME**symbol.order
 
 
-def _guess(name: str, dimension: Dimension) -> str:
-    size = _USUAL.get(dimension, 1.0)
-    return f"{size:g} {_UNITS.get(dimension, '')}".strip()
-
-
-def _alone(text: str) -> float | None:
-    """The value of a parameter that no equation holds, if it is a number."""
-    return read_quantity(text).value if _PLAIN.fullmatch(text) else None
-
-
-def _parameter(given: Parameter, value: float, *, positive: bool) -> Control:
-    symbol = Symbol(given.name.rstrip("_"))
-    made = _control(symbol, given.default, given.unit, given.meaning, value, positive=positive)
-    return replace(made, name=given.name)
-
-
 def _control(
     symbol: Symbol, text: str, unit: str, meaning: str, value: float, *, positive: bool
 ) -> Control:
@@ -167,7 +153,7 @@ def _control(
     shown = (plain[2] or unit).strip() if plain else unit
     one = read_quantity(f"1 {shown}") if shown else read_quantity("1")
     si = "rad" if shown in _ANGLES else _UNITS.get(one.dimension or PURE, "")
-    scaled = _tidy(value / one.value)
+    scaled = float(f"{value / one.value:.12g}")  # without the rounding error of the change of unit
     low, high, ratio = _range(scaled, shown, positive=positive)
     letter = Expr.generator(symbol).mathml()
     return Control(
@@ -186,11 +172,6 @@ def _control(
     )
 
 
-def _tidy(value: float) -> float:
-    """Without what a change of unit leaves of rounding."""
-    return float(f"{value:.12g}")
-
-
 def _range(value: float, unit: str, *, positive: bool) -> tuple[float, float, bool]:
     if unit in _ANGLES:
         wide, slight = _ANGLES[unit]
@@ -204,9 +185,9 @@ def _range(value: float, unit: str, *, positive: bool) -> tuple[float, float, bo
 
 
 def _widened(control: Control, dimension: Dimension, others: list[Control]) -> Control:
-    """A slider of what is zero goes as far as its kin."""
+    """The slider of a zero value reaches as far as those of the same unit."""
     if control.high > 0:
         return control
-    kin = [other.high for other in others if other.unit == control.unit]
-    size = max(kin, default=0.0) or 2 * _USUAL.get(dimension, 1.0)
+    same_unit = [other.high for other in others if other.unit == control.unit]
+    size = max(same_unit, default=0.0) or 2 * _USUAL.get(dimension, 1.0)
     return replace(control, low=-size, high=size)

@@ -1,27 +1,44 @@
-"""What the page has to know of a system before anything is simulated."""
+"""What the lab shows: of a system its controls, of a motion its picture, plots and files."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
+from pathlib import Path
 from typing import Any
 
 from polhode.algebra import Expr, Symbol
 from polhode.catalogue import about_with
 from polhode.lab._controls import parameters_of, start_of, unit_of
-from polhode.lab._variants import Variant, declared_contact
+from polhode.lab._system_session import Variant, VariantRun, declared_contact
 from polhode.simulate import Trajectory
-from polhode.view import MotionSummary, Scene, account, poses, scene, scenery
+from polhode.view import (
+    MotionSummary,
+    Scene,
+    account,
+    figure_of_run,
+    movie,
+    origin_of,
+    page_of,
+    poses,
+    save_figure,
+    scene,
+    scenery,
+)
 
-_RATE = 30  # poses in a second of what follows a hand
+_POSE_RATE = 30  # poses per second of a picture that follows the hand
+_LONGEST = 6.0  # s of a movie
+_SLOWEST = 0.1  # of the speed of the motion
+_MOVIE_RATE = 12.0  # frames per second of a movie
 _CONTACTS = ("rolling", "smooth", "friction")
 
 
-def described(chosen: Variant, declared: Variant) -> dict[str, Any]:
+def description_of(chosen: Variant, declared: Variant) -> dict[str, Any]:
     """Sliders, contacts and prescribed functions of a system, as plain data.
 
     Args:
-        chosen: the system with the contacts that were asked for.
+        chosen: the system with the requested contacts.
         declared: as it is declared.
     """
     entry, equations = chosen.entry, chosen.equations
@@ -49,18 +66,18 @@ def described(chosen: Variant, declared: Variant) -> dict[str, Any]:
     }
 
 
-def seen(chosen: Variant, run: Trajectory) -> Scene:
-    """What there is to look at."""
+def picture_of(chosen: Variant, run: Trajectory) -> Scene:
+    """The picture of a motion."""
     return scenery(run, title=chosen.entry.title, about=about_with(chosen.entry, chosen.system))
 
 
-def read(chosen: Variant, run: Trajectory) -> MotionSummary:
-    """What there is to read, with the plots of the catalogue that it has."""
+def summary_of(chosen: Variant, run: Trajectory) -> MotionSummary:
+    """The text and plots of a motion, with those plots of the catalogue that it has."""
     return account(run, plots=plots_of(chosen, run), meanings=meanings_of(chosen))
 
 
-def shown(chosen: Variant, run: Trajectory) -> Scene:
-    """All there is to see, for a page of its own."""
+def scene_of(chosen: Variant, run: Trajectory) -> Scene:
+    """Picture, text and plots of a motion, for a page of its own."""
     entry, plots = chosen.entry, plots_of(chosen, run)
     return scene(
         run,
@@ -72,13 +89,13 @@ def shown(chosen: Variant, run: Trajectory) -> Scene:
 
 
 def meanings_of(chosen: Variant) -> dict[str, str]:
-    """What parameters are, by name."""
+    """Meanings of the parameters, by name."""
     return {parameter.name: parameter.meaning for parameter in chosen.entry.parameters}
 
 
-def followed(run: Trajectory) -> dict[str, Any]:
-    """Where the bodies are, and no more, for a picture that follows a hand."""
-    frames = 1 + max(1, round(_RATE * run.duration))
+def poses_of(run: Trajectory) -> dict[str, Any]:
+    """Only the poses of the bodies, for a picture that follows the hand."""
+    frames = 1 + max(1, round(_POSE_RATE * run.duration))
     return {"duration": run.duration, "frames": frames, "poses": poses(run, frames)}
 
 
@@ -93,7 +110,7 @@ def plots_of(chosen: Variant, run: Trajectory) -> Sequence[Sequence[str]]:
     return [group for group in usual if group]
 
 
-def outcome(run: Trajectory) -> list[dict[str, Any]]:
+def speeds_at_ends(run: Trajectory) -> list[dict[str, Any]]:
     """Every speed at the start and at the end."""
     names = [symbol.published for symbol in run.equations.speeds]
     begin, end = run.table(names, 0.0), run.table(names, run.duration)
@@ -105,3 +122,39 @@ def outcome(run: Trajectory) -> list[dict[str, Any]]:
 
 def _letter(name: str) -> str:
     return Expr.generator(Symbol(name)).mathml()
+
+
+# -- files -----------------------------------------------------------------------------------------
+
+
+def exported(kind: str, motion: VariantRun) -> bytes:
+    """The content of a file of a motion.
+
+    Raises:
+        StoreError: where the file cannot be made.
+    """
+    if kind == "page":
+        return page_of(scene_of(motion.variant, motion.run)).encode("utf-8")
+    with tempfile.TemporaryDirectory(prefix="polhode-lab-") as folder:
+        path = Path(folder) / f"motion.{kind}"
+        _WRITERS[kind](motion, path)
+        return path.read_bytes()
+
+
+def _figure(motion: VariantRun, path: Path) -> None:
+    groups = plots_of(motion.variant, motion.run)
+    save_figure(figure_of_run(motion.run, groups), path, origin=origin_of(motion.run))
+
+
+def _movie(motion: VariantRun, path: Path) -> None:
+    whole = scene_of(motion.variant, motion.run)
+    movie(whole, path, speed=max(whole.duration / _LONGEST, _SLOWEST), rate=_MOVIE_RATE)
+
+
+_WRITERS: Mapping[str, Callable[[VariantRun, Path], None]] = {
+    "csv": lambda motion, path: motion.run.to_csv(path),
+    "svg": _figure,
+    "png": _figure,
+    "gif": _movie,
+    "mp4": _movie,
+}

@@ -1,4 +1,4 @@
-"""The files that the lab hands out: those of the page, and what can be taken away."""
+"""The files of the page, and the kinds of files that can be saved."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PAGE: Mapping[str, str] = {
 
 @dataclass(frozen=True)
 class FileKind:
-    """A kind of file: its ending, and what browsers call it."""
+    """A kind of file: its ending and media type."""
 
     ending: str
     media: str

@@ -1,4 +1,4 @@
-"""Who may ask for what: this machine's own pages alone, and little at a time."""
+"""Which requests are accepted: from the lab's own page on this machine, and of limited size."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ _NAMES = ("127.0.0.1", "localhost", "[::1]")
 
 @dataclass(frozen=True)
 class Limits:
-    """How much one request may ask for.
+    """Limits of one request.
 
     Attributes:
         body: bytes.
-        arriving: s in which it must have come.
+        arriving: s within which the body has to arrive.
         motion: s for a simulation.
-        thought: s for a judgement or an analysis.
+        thought: s for checking a claim or an analysis.
         file: s for making one, a movie for instance.
         waiting: requests at a time.
     """
@@ -50,9 +50,9 @@ class RequestGuard:
     """Refuses foreign hosts and origins, large and slow bodies, and crowds.
 
     Args:
-        app: what is guarded.
+        app: that accepted requests are passed to.
         port: that the server listens at.
-        limits: see there.
+        limits: of one request.
     """
 
     def __init__(self, app: ASGIApp, port: int, limits: Limits) -> None:
@@ -64,7 +64,7 @@ class RequestGuard:
         self._inside = 0
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass on what is welcome."""
+        """Pass on a request that is accepted."""
         if scope["type"] == "lifespan":
             await self._app(scope, receive, send)
             return
@@ -91,25 +91,22 @@ class RequestGuard:
         if self._inside >= self._limits.waiting:
             return 503, "too many requests at a time"
         if method == "POST":
-            return self._wrong_body(headers)
-        return None
-
-    def _wrong_body(self, headers: Headers) -> tuple[int, str] | None:
-        if headers.get("content-type", "").split(";")[0].strip().lower() != "application/json":
-            return 415, "a body that is no JSON"
-        length = headers.get("content-length", "0")
-        if not (length.isascii() and length.isdigit()) or int(length[:20]) > self._limits.body:
-            return 413, f"a body of more than {self._limits.body} bytes"
+            if headers.get("content-type", "").split(";")[0].strip().lower() != "application/json":
+                return 415, "a body that is not JSON"
+            length = headers.get("content-length", "0")
+            if not (length.isascii() and length.isdigit()) or int(length[:20]) > self._limits.body:
+                return 413, f"a body of more than {self._limits.body} bytes"
+            return None
         return None
 
     async def _pass(self, scope: Scope, receive: Receive, send: Send) -> None:
-        async def dressed(message: Message) -> None:
+        async def with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
                 message["headers"] = [*message.get("headers", []), *_raw(HEADERS.items())]
             await send(message)
 
         if scope["method"] != "POST":
-            await self._app(scope, receive, dressed)
+            await self._app(scope, receive, with_headers)
             return
         try:
             async with asyncio.timeout(self._limits.arriving):
@@ -120,10 +117,10 @@ class RequestGuard:
         if body is None:
             await _refuse(send, 413, f"a body of more than {self._limits.body} bytes")
             return
-        await self._app(scope, _again(body, receive), dressed)
+        await self._app(scope, _replayed(body, receive), with_headers)
 
     async def _whole(self, receive: Receive) -> bytes | None:
-        """The body; none where it is too large."""
+        """The body; None if it is too large."""
         body = bytearray()
         more = True
         while more:
@@ -135,22 +132,22 @@ class RequestGuard:
         return bytes(body)
 
 
-def _again(body: bytes, receive: Receive) -> Receive:
-    """Hands out a body that has been read, and then what comes after it."""
+def _replayed(body: bytes, receive: Receive) -> Receive:
+    """Give the body again that has been read, and then the messages after it."""
     rest = iter([{"type": "http.request", "body": body, "more_body": False}])
 
-    async def replayed() -> Message:
+    async def next_message() -> Message:
         return next(rest, None) or await receive()
 
-    return replayed
+    return next_message
 
 
 async def _refuse(send: Send, status: int, given: str) -> None:
-    told = {"given": given, "expected": "a request of the lab's own page", "advice": ""}
+    problem = {"given": given, "expected": "a request of the lab's own page", "advice": ""}
     headers = {**HEADERS, "content-type": "application/json", "connection": "close"}
     start = {"type": "http.response.start", "status": status, "headers": _raw(headers.items())}
     await send(start)
-    await send({"type": "http.response.body", "body": json.dumps(told).encode()})
+    await send({"type": "http.response.body", "body": json.dumps(problem).encode()})
 
 
 def _raw(headers: Iterable[tuple[str, str]]) -> list[tuple[bytes, bytes]]:

@@ -1,4 +1,4 @@
-"""The systems on offer: the catalogue's, and one of the user's own as plain data."""
+"""The systems offered: those of the catalogue, and one of the user's own as plain data."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from polhode.model import read_declaration, write_declaration
 
 @dataclass(frozen=True)
 class Own:
-    """A system of the user's own, as workers are sent it: nothing in it runs.
+    """A system of the user's own as workers receive it: data, with no code to run.
 
     Attributes:
         name: what the page calls it.
@@ -25,7 +25,7 @@ class Own:
 
     @classmethod
     def of(cls, entry: CatalogueEntry) -> Own:
-        """What is sent of an entry without usual numbers."""
+        """An entry without default numbers, as data."""
         return cls(entry.name, entry.title, write_declaration(entry.build()))
 
     @property
@@ -38,7 +38,7 @@ def entry_of(name: str, own: Own | None) -> CatalogueEntry:
     """The entry of that name.
 
     Raises:
-        DeclarationError: for a name that is not on offer.
+        DeclarationError: for an unknown name.
     """
     if own is not None and name == own.name:
         return own.entry

@@ -1,4 +1,4 @@
-"""What the page asks for, read from its JSON: of the right shapes and sizes, or refused."""
+"""Requests of the page, read from JSON and refused if types or sizes are wrong."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Row = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class RunRequest:
-    """A motion that is asked for; its values are texts, which only the library's readers read.
+    """A request for a motion; its values stay texts, for the library to read.
 
     Attributes:
         system: its name.
@@ -32,7 +32,7 @@ class RunRequest:
         settings: parameters, prescribed functions and mu, by name.
         start: coordinates and speeds, by name.
         duration: such as 10 s; empty for the usual one.
-        sheet: path of a dragged sheet: time (s) and place (m); empty for none.
+        sheet: path of a dragged sheet, time (s) and place (m) per row; empty if it is not dragged.
     """
 
     system: str
@@ -45,7 +45,7 @@ class RunRequest:
 
 @dataclass(frozen=True)
 class Question:
-    """An equation that is to be judged.
+    """A request to check an equation.
 
     Attributes:
         system: its name.
@@ -78,13 +78,13 @@ class Fields:
                 body.decode("utf-8"), parse_constant=_no_number, object_pairs_hook=_once
             )
         except (ValueError, RecursionError) as error:
-            raise ParseError("a request that is no JSON", expected="a JSON object") from error
+            raise ParseError("a request that is not JSON", expected="a JSON object") from error
         if not isinstance(document, dict):
-            raise ParseError("a request that is no JSON object", expected="a JSON object")
+            raise ParseError("a request that is not a JSON object", expected="a JSON object")
         return cls(document)
 
     def only(self, *names: str) -> Fields:
-        """Itself, if it has no other members."""
+        """These fields, if there are no others than the ones named."""
         for name in self.values:
             if name not in names:
                 raise _wrong(name, f"one of {', '.join(names)}")
@@ -124,10 +124,10 @@ class Fields:
 
 
 def run_request(fields: Fields) -> RunRequest:
-    """The motion that is asked for.
+    """The motion requested.
 
     Raises:
-        ParseError: for a member that is not known, or of the wrong type or size.
+        ParseError: for an unknown member, or one of the wrong type or size.
     """
     return RunRequest(
         fields.text("system"),
@@ -140,10 +140,10 @@ def run_request(fields: Fields) -> RunRequest:
 
 
 def question_of(fields: Fields) -> Question:
-    """The equation that is to be judged.
+    """The equation to be checked.
 
     Raises:
-        ParseError: for a member that is not known, or of the wrong type or size.
+        ParseError: for an unknown member, or one of the wrong type or size.
     """
     fields.only("system", "contact", "latex", "context")
     return Question(
@@ -165,7 +165,7 @@ def _number(name: str, value: object) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise _wrong(name, "numbers")
     if not (isfinite(value) and abs(value) <= _LARGEST):
-        raise _wrong(name, f"numbers not beyond {_LARGEST:g}")
+        raise _wrong(name, f"numbers of size up to {_LARGEST:g}")
     return float(value)
 
 
@@ -177,7 +177,7 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _no_number(text: str) -> NoReturn:
-    raise ValueError(f"{text} is no number of JSON")
+    raise ValueError(f"{text} is not a number in JSON")
 
 
 def _wrong(name: str, expected: str) -> ParseError:

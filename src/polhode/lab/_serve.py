@@ -14,7 +14,7 @@ from polhode.lab._offer import Own
 HOST = "127.0.0.1"
 PORT = 8650
 _MOST = 64  # connections at a time
-_GRACE = 1  # s for requests at hand, once it is to end
+_GRACE = 1  # s for running requests to finish once it is asked to end
 
 
 def serve(own: Own | None = None, *, port: int | None = None, browser: bool = True) -> None:
@@ -27,7 +27,7 @@ def serve(own: Own | None = None, *, port: int | None = None, browser: bool = Tr
 
     Raises:
         DeclarationError: where the packages that the lab needs are not installed.
-        StoreError: where the port is taken.
+        StoreError: if the port is taken.
     """
     try:
         import uvicorn
@@ -54,7 +54,7 @@ def serve(own: Own | None = None, *, port: int | None = None, browser: bool = Tr
             timeout_graceful_shutdown=_GRACE,
         )
         server = uvicorn.Server(settings)
-        # That requests are given up once it is to end is what was asked for.
+        # Requests that are dropped because the server is asked to end are not errors.
         logging.getLogger("uvicorn.error").addFilter(lambda record: not server.should_exit)
         with suppress(KeyboardInterrupt):  # how one ends it
             server.run(sockets=[listener])

@@ -1,4 +1,4 @@
-"""The tasks of a worker, done with what it keeps of the systems it was asked about."""
+"""The tasks of a worker, which keeps what it has derived and compiled of every system."""
 
 from __future__ import annotations
 
@@ -10,22 +10,27 @@ from typing import Any
 from polhode.base import Progress
 from polhode.lab._claims import answered, claims_about, judged
 from polhode.lab._controls import with_usual_numbers
-from polhode.lab._describe import described, followed, outcome, read, seen
-from polhode.lab._exports import exported
+from polhode.lab._describe import (
+    description_of,
+    exported,
+    picture_of,
+    poses_of,
+    speeds_at_ends,
+    summary_of,
+)
 from polhode.lab._files import KINDS
-from polhode.lab._formulas import invariants_of
 from polhode.lab._offer import Own, entry_of
-from polhode.lab._packet import packet
 from polhode.lab._requests import CONTACTS, Fields, question_of, run_request
-from polhode.lab._standing import SteadyFamily, families_of
-from polhode.lab._system_session import SystemSession
-from polhode.lab._variants import variant
+from polhode.lab._steady import SteadyFamily, families_of, invariants_of
+from polhode.lab._system_session import SystemSession, VariantRun, variant
+from polhode.view import plain
 
-_WISH = ("system", "contact", "settings", "start", "duration", "sheet")
+_WORD = 4  # bytes of a number (float32) in a packet, and of the length of its JSON, little-endian
+_RUN_FIELDS = ("system", "contact", "settings", "start", "duration", "sheet")
 
 
 class TaskHandler:
-    """Everything a worker knows how to do.
+    """Everything a worker can do.
 
     Args:
         own: a system of the user's own.
@@ -35,7 +40,7 @@ class TaskHandler:
     def __init__(self, own: Own | None, progress: Progress) -> None:
         self._own = own
         self._progress = progress
-        self._desks: dict[str, SystemSession] = {}
+        self._sessions: dict[str, SystemSession] = {}
         self._families: dict[tuple[str, str], list[SteadyFamily]] = {}
         self._invariants: dict[tuple[str, str], list[dict[str, Any]]] = {}
 
@@ -43,7 +48,7 @@ class TaskHandler:
         """The reply to a request: a JSON document, a packet with numbers, or a file.
 
         Raises:
-            PolhodeError: for a request that cannot be met.
+            PolhodeError: for an invalid request.
         """
         return self._tasks[task](Fields.read(body))
 
@@ -61,43 +66,44 @@ class TaskHandler:
             "export": self._export,
         }
 
-    def _desk(self, name: str) -> SystemSession:
-        if name not in self._desks:
+    def _session(self, name: str) -> SystemSession:
+        if name not in self._sessions:
             entry = entry_of(name, self._own)
             bare = variant(entry, "")
-            self._desks[name] = SystemSession(with_usual_numbers(entry, bare.equations))
-        return self._desks[name]
+            self._sessions[name] = SystemSession(with_usual_numbers(entry, bare.equations))
+        return self._sessions[name]
+
+    def _motion(self, fields: Fields) -> VariantRun:
+        request = run_request(fields.only(*_RUN_FIELDS))
+        return self._session(request.system).simulate(request, self._progress)
 
     def _describe(self, fields: Fields) -> bytes:
         fields.only("system", "contact")
-        desk = self._desk(fields.text("system"))
-        chosen = desk.variant(fields.one_of("contact", CONTACTS))
-        return _json(described(chosen, desk.variant("")))
+        session = self._session(fields.text("system"))
+        chosen = session.variant(fields.one_of("contact", CONTACTS))
+        return _json(description_of(chosen, session.variant("")))
 
     def _run(self, fields: Fields) -> bytes:
-        wish = run_request(fields.only(*_WISH))
-        played = self._desk(wish.system).play(wish, self._progress)
-        return packet(seen(played.variant, played.run))
+        motion = self._motion(fields)
+        return packet(picture_of(motion.variant, motion.run))
 
     def _read(self, fields: Fields) -> bytes:
-        wish = run_request(fields.only(*_WISH))
-        played = self._desk(wish.system).play(wish, self._progress)
-        account = read(played.variant, played.run)
-        return packet({"account": account, "outcome": outcome(played.run)})
+        motion = self._motion(fields)
+        account = summary_of(motion.variant, motion.run)
+        return packet({"account": account, "outcome": speeds_at_ends(motion.run)})
 
     def _follow(self, fields: Fields) -> bytes:
-        wish = run_request(fields.only(*_WISH))
-        return packet(followed(self._desk(wish.system).play(wish, self._progress).run))
+        return packet(poses_of(self._motion(fields).run))
 
     def _standing(self, fields: Fields) -> bytes:
-        wish = run_request(fields.only(*_WISH))
-        desk = self._desk(wish.system)
-        chosen = desk.variant(wish.contact)
-        key = (wish.system, wish.contact)
+        request = run_request(fields.only(*_RUN_FIELDS))
+        session = self._session(request.system)
+        chosen = session.variant(request.contact)
+        key = (request.system, request.contact)
         if key not in self._families:
             self._families[key] = families_of(chosen.equations, chosen.system)
             self._invariants[key] = invariants_of(chosen.equations)
-        numbers = desk.numbers(wish)
+        numbers = session.numbers(request)
         state = {**numbers.parameters, **numbers.start}
         return _json(
             {
@@ -114,15 +120,35 @@ class TaskHandler:
 
     def _check(self, fields: Fields) -> bytes:
         question = question_of(fields)
-        equations = self._desk(question.system).variant(question.contact).equations
+        equations = self._session(question.system).variant(question.contact).equations
         return _json(answered(question, equations))
 
     def _export(self, fields: Fields) -> bytes:
-        fields.only(*_WISH, "kind")
+        fields.only(*_RUN_FIELDS, "kind")
         kind = fields.one_of("kind", tuple(KINDS))
-        wish = run_request(fields)
-        return exported(kind, self._desk(wish.system).play(wish, self._progress))
+        request = run_request(fields)
+        return exported(kind, self._session(request.system).simulate(request, self._progress))
 
 
 def _json(document: Mapping[str, Any]) -> bytes:
     return json.dumps(document, ensure_ascii=False, allow_nan=False).encode("utf-8")
+
+
+# -- packets ---------------------------------------------------------------------------------------
+
+
+def packet(document: Any) -> bytes:
+    """The length of the JSON, the JSON, and the numbers of all its arrays one after the other.
+
+    An array becomes {"shape": [...], "float32": [begin, end]}, its range among the numbers.
+    """
+    numbers = bytearray()
+
+    def placed(more: bytes) -> list[int]:
+        begin = len(numbers) // _WORD
+        numbers.extend(more)
+        return [begin, len(numbers) // _WORD]
+
+    text = json.dumps(plain(document, placed), ensure_ascii=False, allow_nan=False).encode("utf-8")
+    text += b" " * (-len(text) % _WORD)
+    return len(text).to_bytes(_WORD, "little") + text + numbers

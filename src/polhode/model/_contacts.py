@@ -1,4 +1,4 @@
-"""Contacts of a body with a support: rolling, frictionless, sliding with friction."""
+"""Contacts of a body with a support: rolling, frictionless, with dry friction, and their phases."""
 
 from __future__ import annotations
 
@@ -7,12 +7,24 @@ from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Self
+from typing import Any, Self
 
-from polhode.algebra import ZERO, Expr, ExprLike, Vector, coordinate, exp, is_positive, speed
+from polhode.algebra import (
+    ZERO,
+    Expr,
+    ExprLike,
+    Symbol,
+    SymbolKind,
+    Vector,
+    as_symbol,
+    coordinate,
+    exp,
+    is_positive,
+    speed,
+)
 from polhode.base import DeclarationError
 from polhode.model._body import Body
-from polhode.model._checks import not_negative, of_type, positive
+from polhode.model._declared import not_negative, of_type, positive
 from polhode.model._element import Element, Friction, Places, Restraint
 from polhode.model._supports import Plane
 from polhode.model._surface import Surface
@@ -32,8 +44,8 @@ class Contact(Element):
         on: the support.
         name: what to call the contact; contact, with the tag of the body, by default.
         force: letter of the reaction's components: F_x, F_y, F_z.
-        restitution: part of the energy of compression that a shock gives back, as its square
-            root: 0 for none, 1 for all of it (Stronge's coefficient).
+        restitution: square root of the share of the energy of compression that an impact gives
+            back, from 0 to 1 (Stronge's coefficient).
     """
 
     body: Body
@@ -138,7 +150,7 @@ class Contact(Element):
         return (self.restraint(self.on.normal, places), *self.couples())
 
     def couples(self) -> tuple[Restraint, ...]:
-        """What a face on the support holds besides: the body's attitude."""
+        """The couples by which a face on the support holds the body's attitude."""
         if not self._surface().is_face:
             return ()
         body, axes = self.body, self.on.axes
@@ -171,7 +183,7 @@ class Coulomb(Contact):
         mu: coefficient of kinetic friction.
         mu_static: of the largest friction force at rest; that of kinetic friction by default.
         viscous: rise of the coefficient with the slip speed, s/m.
-        stribeck: slip speed over which friction falls from static to kinetic, m/s; at once by
+        stribeck: slip speed over which friction falls from static to kinetic, m/s; zero by
             default.
     """
 
@@ -213,12 +225,12 @@ class Coulomb(Contact):
 
         Args:
             slip: speed, m/s.
-            slowness: exp(−slip/stribeck), what is left of the static friction.
+            slowness: exp(−slip/stribeck), the share of the excess static friction that is left.
         """
         return self.mu + self.viscous * slip + (self.mu_static - self.mu) * slowness
 
     def slowness(self, slip: Expr) -> Expr:
-        """Part of the difference of static and kinetic friction that is felt at a slip speed."""
+        """Share of the excess of static over kinetic friction that is left at a slip speed."""
         return ZERO if self.stribeck is None else exp(-slip / self.stribeck)
 
     def directions(self) -> tuple[tuple[str, Vector], tuple[str, Vector]]:
@@ -241,3 +253,150 @@ def restitution_of(value: ExprLike, contact: str) -> Expr:
 
 def _described(support: object) -> str:
     return "nothing" if support is None else f"a {type(support).__name__}"
+
+
+# -- the phases of a contact, and the element that stands for it in each ---------------------------
+
+
+@dataclass(frozen=True)
+class Phase:
+    """What a contact is doing, on its support or on the table beyond the edge."""
+
+    kind: str
+    is_beyond: bool = False
+
+    @property
+    def value(self) -> str:
+        """In words."""
+        return f"{self.kind} on the table" if self.is_beyond else self.kind
+
+    @property
+    def rolls(self) -> bool:
+        """Whether the point of contact moves with the support."""
+        return self.kind == "rolling"
+
+    @property
+    def slides(self) -> bool:
+        """Whether friction opposes a slip."""
+        return self.kind == "sliding"
+
+    @property
+    def flies(self) -> bool:
+        """Whether the body is off the support."""
+        return self.kind == "flight"
+
+    def beyond(self) -> Phase:
+        """The same beyond the edge."""
+        return Phase(self.kind, is_beyond=True)
+
+
+ROLLING, SLIDING = Phase("rolling"), Phase("sliding")
+FRICTIONLESS, FLIGHT = Phase("frictionless"), Phase("flight")
+
+
+@dataclass(frozen=True)
+class Apart(Element):
+    """A body above the support that it touches in other phases.
+
+    Its centre of mass has the coordinates it has in contact, and its height besides.
+    """
+
+    contact: Contact
+
+    @property
+    def name(self) -> str:  # type: ignore[override]
+        return self.contact.name
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        return self.contact.bodies
+
+    @property
+    def height(self) -> Symbol:
+        """Coordinate: height of the centre of mass above the support's origin, m."""
+        normal, tag = self.contact.on.normal, self.contact.body.tag
+        plain = normal if normal in "xyz" else f"x_{normal}"
+        return as_symbol(coordinate(plain + tag))
+
+    @property
+    def rise(self) -> Symbol:
+        """Speed: rate of the height, m/s."""
+        return as_symbol(speed(f"v_{self.contact.on.normal}{self.contact.body.tag}"))
+
+    def rates(self) -> Mapping[Expr, Expr]:
+        rise = Expr.generator(self.rise)
+        return {**self.contact.rates(), Expr.generator(self.height): rise}
+
+    def centre(self, places: Places) -> Mapping[Body, Vector]:
+        contact = self.contact
+        place = contact.on.up * Expr.generator(self.height)
+        for label, x in zip(contact.on.tangents, contact.rates(), strict=True):
+            place = place + contact.on.axes[label] * x
+        return {contact.body: place}
+
+    def restraints(self, places: Places) -> tuple[Restraint, ...]:
+        return self.contact.couples()
+
+    def assumed_positive(self) -> tuple[Expr, ...]:
+        return self.contact.assumed_positive()
+
+
+class Sliding(Contact):
+    """A contact that slides in a direction given by symbols instead of by its slip velocity.
+
+    At the instant at which slipping begins the slip velocity has no direction yet, and near it
+    the direction is known far better than from rounded velocities.
+    """
+
+    law: Coulomb
+
+    def __init__(self, law: Coulomb) -> None:
+        super().__init__(
+            law.body, on=law.on, name=law.name, force=law.force, restitution=law.restitution
+        )
+        object.__setattr__(self, "law", law)
+
+    @property
+    def direction(self) -> tuple[Symbol, Symbol]:
+        """Components of the unit vector along the slip velocity."""
+        first, second = (
+            Symbol(f"e_{label}_{self.spelled}", SymbolKind.SPEED) for label in self.on.tangents
+        )
+        return first, second
+
+    @property
+    def slip_speed(self) -> Symbol:
+        """Magnitude of the slip velocity, m/s."""
+        return Symbol(f"v_slip_{self.spelled}", SymbolKind.SPEED)
+
+    @property
+    def slowness(self) -> Symbol:
+        """Share of the excess static friction that Stribeck's law leaves."""
+        return Symbol(f"slowness_{self.spelled}", SymbolKind.SPEED)
+
+    def friction(self, places: Places) -> tuple[Friction, ...]:
+        first, second = (Expr.generator(symbol) for symbol in self.direction)
+        excess = ZERO if self.law.stribeck is None else Expr.generator(self.slowness)
+        coefficient = self.law.coefficient(Expr.generator(self.slip_speed), excess)
+        normal = self.restraint(self.on.normal, places)
+        return (Friction(normal, coefficient, self.law.directions(), (first, second)),)
+
+
+def phases(contact: Contact) -> Mapping[Phase, Element]:
+    """The element that stands for a contact in each phase it can be in, sticking ones first."""
+    found = _touching(contact)
+    if contact.on.beyond is not None:
+        there = _touching(contact.on_support(contact.on.beyond))
+        found |= {phase.beyond(): element for phase, element in there.items()}
+    return {**found, FLIGHT: Apart(contact)}
+
+
+def _touching(contact: Contact) -> dict[Phase, Element]:
+    if isinstance(contact, Coulomb):
+        bare: Any = {"on": contact.on, "name": contact.name, "force": contact.force}
+        return {
+            ROLLING: Rolling(contact.body, **bare),
+            SLIDING: Sliding(contact),
+            FRICTIONLESS: Smooth(contact.body, **bare),
+        }
+    return {ROLLING if isinstance(contact, Rolling) else FRICTIONLESS: contact}

@@ -1,65 +1,39 @@
-"""Systems as documents, so that what was computed can be derived again from the file alone."""
+"""Systems as JSON documents, from which all equations can be derived again."""
 
 from __future__ import annotations
 
+import ast
 import inspect
+import textwrap
 from collections.abc import Mapping
 from dataclasses import fields
 from functools import cache
-from types import UnionType
+from types import CodeType, UnionType
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
 from polhode.algebra import SHAPES, Expr, Vector
-from polhode.base import Codec, ShapeRecord
-from polhode.model import _contacts, _joints, _loads, _phases, _pivots, _spin, _supports, _surface
-from polhode.model._body import Body, BodyPoint
+from polhode.base import Codec, ShapeRecord, StoreError, digest
+from polhode.model._body import Body
+from polhode.model._declared import Declared, is_own, registered
 from polhode.model._frame import Frame
+from polhode.model._joints import Pivot, Weld
 from polhode.model._system import System
 
-_DECLARED = (
-    BodyPoint,
-    _contacts.Coulomb,
-    _contacts.Rolling,
-    _contacts.Smooth,
-    _joints.Guide,
-    _joints.Hinge,
-    _joints.Motor,
-    _joints.Universal,
-    _loads.Damper,
-    _loads.Force,
-    _loads.Gravity,
-    _loads.Spring,
-    _loads.Torque,
-    _phases.Apart,
-    _pivots.Hold,
-    _pivots.Pivot,
-    _pivots.Weld,
-    _spin.About,
-    _spin.Components,
-    _spin.Free,
-    _spin.Relative,
-    _spin.WithAxes,
-    _supports.Plane,
-    _supports.Sheet,
-    _supports.Turntable,
-    _surface.Ellipsoidal,
-    _surface.Face,
-    _surface.Rim,
-    _surface.Round,
-)
+_SOURCE = "source of its class"
 
 
 def write_declaration(system: System) -> str:
-    """A system as a JSON document, the same one for the same declaration.
+    """A system as a JSON document, always the same for equal declarations.
 
     Raises:
-        StoreError: for a system with parts of classes that are not polhode's own.
+        StoreError: for a system with parts that are no dataclasses, or hold other values than
+            expressions, vectors, text, whole numbers, and parts of declarations.
     """
     return _codec().write(system)
 
 
 def read_declaration(text: str) -> System:
-    """The system that a document declares, made and checked as if it were declared anew.
+    """The system that a document declares, made and checked as if declared anew.
 
     Nothing in the document is run.
 
@@ -69,19 +43,57 @@ def read_declaration(text: str) -> System:
     return _codec().read(text, System)
 
 
-@cache
 def _codec() -> Codec:
-    own = (
+    special = (
         ShapeRecord("Frame", (Frame,), _fields, _frame),
         ShapeRecord("vector", (Vector,), _vector_apart, _vector),
         ShapeRecord("Body", (Body,), _fields, _body),
         ShapeRecord("System", (System,), _fields, _system),
     )
-    return Codec((*SHAPES, *own, *(_shape(kind) for kind in _DECLARED)))
+    others = (kind for kind in registered() if kind not in (Body, Frame, System))
+    return Codec((*SHAPES, *special, *map(_record, others)))
 
 
-def _shape(kind: type) -> ShapeRecord:
-    return ShapeRecord(kind.__name__, (kind,), _fields, lambda **given: _declared(kind, given))
+def _record(kind: type[Declared]) -> ShapeRecord:
+    """How objects of a class are written; a user's class with its source, which may change."""
+    if is_own(kind):
+        return ShapeRecord(kind.__name__, (kind,), _fields, lambda **given: _declared(kind, given))
+
+    def apart(value: Any) -> dict[str, Any]:
+        return {**_fields(value), _SOURCE: source_digest(kind)}
+
+    def together(**given: Any) -> Any:
+        if given.pop(_SOURCE, None) != source_digest(kind):
+            raise StoreError(
+                f"a {kind.__name__}, whose class has changed since this was written",
+                expected="the class as it was: with another one, the motion would be another",
+                advice=f"define {kind.__name__} as it was, or compute the motion again",
+            )
+        return _declared(kind, given)
+
+    return ShapeRecord(kind.__name__, (kind,), apart, together)
+
+
+def source_digest(kind: type) -> str:
+    """A digest of what a class does, whatever its comments and docstrings say.
+
+    Where there is no source, as for a class defined in a notebook, it is that of the compiled
+    methods, which also depends on the version of Python.
+    """
+    try:
+        tree = ast.parse(textwrap.dedent(inspect.getsource(kind)))
+    except (OSError, TypeError, SyntaxError):
+        methods = (vars(kind)[name] for name in sorted(vars(kind)))
+        return digest("\n".join(_compiled(m.__code__) for m in methods if inspect.isfunction(m)))
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ClassDef | ast.FunctionDef) and ast.get_docstring(node) is not None:
+            node.body = node.body[1:] or [ast.Pass()]
+    return digest(ast.unparse(tree))
+
+
+def _compiled(code: CodeType) -> str:
+    constants = (_compiled(c) if isinstance(c, CodeType) else repr(c) for c in code.co_consts)
+    return " ".join((code.co_name, code.co_code.hex(), *code.co_names, *constants))
 
 
 def _fields(value: Any) -> dict[str, Any]:
@@ -89,7 +101,7 @@ def _fields(value: Any) -> dict[str, Any]:
 
 
 def _declared(kind: type, given: Mapping[str, Any]) -> Any:
-    """An object by its constructor, refused unless that gives the fields that were asked for."""
+    """An object made by its constructor; refused unless its fields are those given."""
     words = {**given, "only": " ".join(given["only"])} if "only" in given else given
     known = _words(kind)
     return _confirmed(kind(**{name: words[name] for name in words if name in known}), given)
@@ -97,8 +109,8 @@ def _declared(kind: type, given: Mapping[str, Any]) -> Any:
 
 @cache
 def _words(kind: type[Any]) -> frozenset[str]:
-    """What its constructor can be told by name; a weld passes on what a pivot can."""
-    kinds = (kind, _pivots.Pivot) if kind is _pivots.Weld else (kind,)
+    """Parameters of its constructor by name; a weld passes on those of a pivot."""
+    kinds = (kind, Pivot) if kind is Weld else (kind,)
     return frozenset(name for one in kinds for name in inspect.signature(one).parameters)
 
 
@@ -130,7 +142,7 @@ def _frame(**given: Any) -> Frame:
     if len(set(frame.labels)) != 3 or len(frame.labels) != 3 or len(frame.turned) != 3:
         raise ValueError("a frame without three directions")
     if len(frame.axis) != 3 or sum(part * part for part in frame.axis) != 1:
-        raise ValueError("a frame turned about no direction")
+        raise ValueError("a frame turned about something other than a unit vector")
     return frame
 
 

@@ -1,39 +1,73 @@
-"""Declarations as they are read: line by line as text, in a notebook as a table."""
+"""What all declarations share: how they print, and the checks of what they are given."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import fields
+from collections.abc import Iterable, Iterator
+from dataclasses import fields, is_dataclass
+from inspect import isabstract
 from typing import Any
 
-from polhode.base import Shown
+from polhode.algebra import Expr, ExprLike, Symbol, SymbolKind, Vector, is_positive, variables
+from polhode.base import DeclarationError, NumericError, Shown
 
 
-class FieldwiseRepr(Shown):
-    """A dataclass that prints its fields on lines of their own."""
+class Declared(Shown):
+    """A part of a declaration: a frozen dataclass that prints its fields and can be saved.
+
+    Every subclass is registered under its name, so that a load or a surface that a user defines
+    is written to documents, and read from them, like one of polhode's own.
+
+    Raises:
+        DeclarationError: for a subclass with the name of one of polhode's own.
+    """
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        known = _REGISTERED.get(cls.__name__)
+        if known is not None and is_own(known) and not is_own(cls):
+            raise DeclarationError(
+                f"a class {cls.__name__!r}, derived from {cls.__base__.__name__}",  # type: ignore[union-attr]
+                expected="a name that polhode does not use itself",
+                advice="choose another name, by which saved files can tell the two apart",
+            )
+        _REGISTERED[cls.__name__] = cls
 
     @property
     def brief(self) -> str:
         """What it is called within another declaration."""
-        return " ".join([type(self).__name__, *map(repr, self._called)])
+        name = getattr(self, "name", "")
+        return f"{type(self).__name__} {name!r}" if name else type(self).__name__
 
     @property
     def parts(self) -> Iterator[tuple[str, object]]:
-        """Its fields by name, but for its own name and those that are left empty."""
+        """Its fields by name, except its own name and those left empty."""
         named: Any = self
         for field in fields(named):
             value = getattr(self, field.name)
             if field.name != "name" and value not in (None, "", ()):
                 yield field.name.replace("_", " "), value
 
-    @property
-    def _called(self) -> list[str]:
-        return [name] if (name := getattr(self, "name", "")) else []
-
     def __str__(self) -> str:
-        told = [(name, brief(value)) for name, value in self.parts]
-        width = max((len(name) for name, _ in told), default=0)
-        return "\n".join([self.brief, *(f"  {name:{width}}  {text}" for name, text in told)])
+        parts = [(name, brief(value)) for name, value in self.parts]
+        width = max((len(name) for name, _ in parts), default=0)
+        return "\n".join([self.brief, *(f"  {name:{width}}  {text}" for name, text in parts)])
+
+
+_REGISTERED: dict[str, type[Declared]] = {}
+
+
+def registered() -> tuple[type[Declared], ...]:
+    """The concrete classes of declarations, with the latest definitions of the user's own."""
+    return tuple(
+        kind
+        for kind in _REGISTERED.values()
+        if is_dataclass(kind) and not isabstract(kind) and not kind.__name__.startswith("_")
+    )
+
+
+def is_own(kind: type) -> bool:
+    """Whether a class is polhode's and not a user's."""
+    return kind.__module__.partition(".")[0] == __name__.partition(".")[0]
 
 
 def brief(value: object) -> str:
@@ -41,3 +75,103 @@ def brief(value: object) -> str:
     if isinstance(value, tuple):
         return ", ".join(map(brief, value))
     return str(getattr(value, "brief", value))
+
+
+# -- checks, whose messages name the quantity that they are about ----------------------------------
+
+
+def quantity(value: ExprLike, what: str) -> Expr:
+    """The expression that a value stands for.
+
+    Raises `DeclarationError` with the name of the quantity, for NaN or anything but a number.
+    """
+    try:
+        return Expr.of(value)
+    except NumericError as error:
+        raise DeclarationError(
+            f"{what}: {error.given}", expected=error.expected, advice=error.advice
+        ) from error
+
+
+def positive(value: ExprLike, what: str) -> Expr:
+    """The same for a quantity that must be positive."""
+    expression = quantity(value, what)
+    if expression.is_zero or is_negative(expression):
+        raise DeclarationError(f"{what}: {expression}", expected="a positive value")
+    return expression
+
+
+def not_negative(value: ExprLike, what: str) -> Expr:
+    """The same for a quantity that must not be negative."""
+    expression = quantity(value, what)
+    if is_negative(expression):
+        raise DeclarationError(f"{what}: {expression}", expected="zero or more")
+    return expression
+
+
+def constant(expression: Expr, what: str) -> Expr:
+    """An expression of parameters alone."""
+    varying = sorted(s.published for s in expression.symbols() if is_varying(s))
+    if varying:
+        raise DeclarationError(
+            f"{what}: {expression}, which varies with {', '.join(varying)}",
+            expected="a constant: bodies are rigid and keep their mass",
+        )
+    return expression
+
+
+def is_varying(symbol: Symbol) -> bool:
+    """Whether it changes as time goes on."""
+    return symbol.kind.varies or symbol.kind is SymbolKind.TIME
+
+
+def without_rates(expressions: Iterable[Expr], what: str) -> None:
+    """Refuse speeds and rates of coordinates in a position or an angle."""
+    found = (s for s in variables(expressions) if _is_rate(s))
+    if rates := sorted(s.published for s in found):
+        raise DeclarationError(
+            f"{what}, which depends on {', '.join(rates)}",
+            expected="an expression of coordinates, parameters and time",
+            advice="a speed may stand in a load, or in the rate of a Motor or a Turntable",
+        )
+
+
+def without_coordinates(expressions: Iterable[Expr], what: str, advice: str) -> None:
+    """Refuse coordinates and speeds in what must be prescribed."""
+    found = (
+        s for s in variables(expressions) if s.kind in (SymbolKind.COORDINATE, SymbolKind.SPEED)
+    )
+    if names := sorted(s.published for s in found):
+        raise DeclarationError(
+            f"{what}, which depends on {', '.join(names)}",
+            expected="an expression of parameters and time",
+            advice=advice,
+        )
+
+
+def _is_rate(symbol: Symbol) -> bool:
+    return symbol.kind is SymbolKind.SPEED or (
+        symbol.kind is SymbolKind.COORDINATE and symbol.order > 0
+    )
+
+
+def unit_vector(vector: Vector, what: str) -> Vector:
+    """A vector of length one."""
+    if vector.dot(vector) != 1:
+        raise DeclarationError(
+            f"{what}: ({', '.join(map(str, vector.components))})",
+            expected="a unit vector",
+            advice="divide it by its length",
+        )
+    return vector
+
+
+def of_type(value: object, kind: type, what: str, advice: str) -> None:
+    """Refuse a part of a declaration that is of another type."""
+    if not isinstance(value, kind):
+        raise DeclarationError(f"{what}: {value!r}", expected=f"a {kind.__name__}", advice=advice)
+
+
+def is_negative(expression: Expr) -> bool:
+    """Whether it is seen to be negative, as a number or from the signs of its symbols."""
+    return is_positive(-expression)

@@ -6,10 +6,10 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from polhode.algebra import Expr, Vector
+from polhode.algebra import Expr, Vector, coordinate, speed
 from polhode.base import DeclarationError
 from polhode.model._body import Body
-from polhode.model._declared import FieldwiseRepr
+from polhode.model._declared import Declared
 
 #: Position of the centre of mass of every body placed so far, from the origin of the root frame.
 Places = Mapping[Body, Vector]
@@ -48,7 +48,7 @@ class Restraint:
 
     @property
     def is_in_parts(self) -> bool:
-        """Whether the place at which it holds is told in named parts."""
+        """Whether its arm is written with named parts."""
         return self.arm is not None and any(c.ring.has_parts for c in self.arm.components)
 
 
@@ -69,7 +69,7 @@ class Friction:
     slip: tuple[Expr, Expr] | None = None
 
 
-class Element(FieldwiseRepr, ABC):
+class Element(Declared, ABC):
     """A contact or a joint."""
 
     name: str
@@ -100,7 +100,7 @@ class Element(FieldwiseRepr, ABC):
         return ()
 
     def assumed_positive(self) -> tuple[Expr, ...]:
-        """Expressions whose sign had to be taken as positive."""
+        """Expressions whose sign is assumed to be positive."""
         return ()
 
 
@@ -111,3 +111,29 @@ def require_two(name: str, body: Body, other: Body) -> None:
             f"{name!r}, which joins body {body.name!r} to itself",
             expected="another body, or none for the ground",
         )
+
+
+# -- free flight -----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Flight(Element):
+    """Free motion of the centre of mass, by components along the root frame."""
+
+    body: Body
+    name: str = "flight"
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        return (self.body,)
+
+    def rates(self) -> Mapping[Expr, Expr]:
+        tag = self.body.tag
+        labels = self.body.axes.root.labels
+        return {coordinate(f"{label}{tag}"): speed(f"v_{label}{tag}") for label in labels}
+
+    def centre(self, places: Places) -> Mapping[Body, Vector]:
+        return {self.body: Vector(tuple(self.rates()), self.body.axes.root)}
+
+    def restraints(self, places: Places) -> tuple[Restraint, ...]:
+        return ()

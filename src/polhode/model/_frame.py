@@ -23,10 +23,10 @@ from polhode.algebra import (
     zero_vector,
 )
 from polhode.base import DeclarationError, Shown
-from polhode.model._checks import without_rates
+from polhode.model._declared import without_rates
 
 IDENTITY = Matrix.diagonal([1, 1, 1])
-_FREE = (SymbolKind.COORDINATE, SymbolKind.SPEED)  # what the motion decides on
+_FREE = (SymbolKind.COORDINATE, SymbolKind.SPEED)  # not prescribed
 
 
 @dataclass(frozen=True)

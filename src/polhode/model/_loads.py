@@ -1,4 +1,4 @@
-"""Loads: forces and couples that act whatever the supports do."""
+"""Loads: applied forces and couples."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, ExprLike, Vector
 from polhode.model._body import Body, BodyPoint
-from polhode.model._checks import (
+from polhode.model._declared import (
+    Declared,
     not_negative,
     of_type,
     quantity,
@@ -16,7 +17,6 @@ from polhode.model._checks import (
     without_coordinates,
     without_rates,
 )
-from polhode.model._declared import FieldwiseRepr
 from polhode.model._element import Places
 from polhode.model._frame import Frame
 
@@ -58,20 +58,45 @@ class Push:
     velocity: Vector
 
 
-class Load(FieldwiseRepr, ABC):
-    """A load; conservative where it has a potential."""
+@dataclass(frozen=True)
+class TwoPointLink:
+    """A load that is drawn between two points, as a "spring" or a "damper".
+
+    An end is a point of a body, or a place from the origin, m.
+    """
+
+    kind: str
+    start: BodyPoint | Vector
+    end: BodyPoint | Vector
+
+
+class Load(Declared, ABC):
+    """A load: forces and couples on bodies; conservative if it has a potential.
+
+    A load of your own is a frozen dataclass derived from this class. Its fields, one of which is
+    `name`, are bodies, points of bodies, vectors, expressions and text; it has to give `bodies`
+    and `actions`, and may give `potential`. It can then be derived, simulated, drawn and saved like
+    polhode's own.
+    """
 
     name: str
 
     @property
     def bodies(self) -> tuple[Body, ...]:
-        """The bodies it names."""
+        """The bodies named in its fields."""
         return ()
 
     def actions(
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
     ) -> tuple[Action, ...]:
-        """What it does to the bodies."""
+        """The forces (N) and couples (N m) on bodies.
+
+        Args:
+            bodies: all bodies of the system.
+            places: position of the centre of mass of every body, from the origin, m.
+            velocities: velocity of the centre of mass (m/s) and angular velocity (rad/s) of
+                every body, in inertial space.
+        """
         return ()
 
     def potential(self, bodies: tuple[Body, ...], places: Places) -> Expr | None:
@@ -79,8 +104,13 @@ class Load(FieldwiseRepr, ABC):
         return None
 
     def on_places(self, places: Places, velocities: Velocities) -> tuple[Push, ...]:
-        """What it does to places that are no points of bodies."""
+        """The forces on places that are not points of bodies, such as the fixed end of a spring."""
         return ()
+
+    @property
+    def link(self) -> TwoPointLink | None:
+        """How it is drawn between two points; None for arrows alone."""
+        return None
 
 
 @dataclass(frozen=True, init=False)
@@ -102,7 +132,8 @@ class Gravity(Load):
         if up is not None:
             what = f"the direction up of {name!r}"
             unit_vector(up, what)
-            without_coordinates(_at_rest(up).components, what, _NO_POTENTIAL)
+            at_rest = up.express(up.triad.root) if isinstance(up.triad, Frame) else up
+            without_coordinates(at_rest.components, what, _NO_POTENTIAL)
         for field, value in (("g", strength), ("up", up), ("name", name)):
             object.__setattr__(self, field, value)
 
@@ -215,6 +246,10 @@ class Spring(Load):
     def bodies(self) -> tuple[Body, ...]:
         return _bodies(self.start, self.end)
 
+    @property
+    def link(self) -> TwoPointLink:
+        return TwoPointLink("spring", self.start, self.end)
+
     def on_places(self, places: Places, velocities: Velocities) -> tuple[Push, ...]:
         return _pushes(self.end, self.actions((), places, velocities))
 
@@ -225,11 +260,10 @@ class Spring(Load):
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
     ) -> tuple[Action, ...]:
         between = self._stretch(places)
-        tension = self.stiffness if not self.length else self._tension(between)
-        return _pair(self.start, self.end, between * -tension)
-
-    def _tension(self, between: Vector) -> Expr:
-        return self.stiffness * (1 - self.length / between.norm())
+        rate = self.stiffness  # tension over distance, N/m
+        if self.length:
+            rate = rate * (1 - self.length / between.norm())
+        return _pair(self.start, self.end, between * -rate)
 
     def potential(self, bodies: tuple[Body, ...], places: Places) -> Expr:
         between = self._stretch(places)
@@ -278,6 +312,10 @@ class Damper(Load):
         relative = _velocity(self.start, velocities) - _velocity(self.end, velocities)
         return _pair(self.start, self.end, relative * -self.damping)
 
+    @property
+    def link(self) -> TwoPointLink:
+        return TwoPointLink("damper", self.start, self.end)
+
     def on_places(self, places: Places, velocities: Velocities) -> tuple[Push, ...]:
         return _pushes(self.end, self.actions((), places, velocities))
 
@@ -315,10 +353,5 @@ def _pair(start: BodyPoint, end: BodyPoint | Vector, force: Vector) -> tuple[Act
 
 
 def _pushes(end: BodyPoint | Vector, actions: tuple[Action, ...]) -> tuple[Push, ...]:
-    """What the first of two opposite forces is answered by, at a place."""
+    """The opposite of the first force, where the other end is a place."""
     return () if isinstance(end, BodyPoint) else (Push(-actions[0].force, end.dt()),)
-
-
-def _at_rest(vector: Vector) -> Vector:
-    """Resolved along the root frame."""
-    return vector.express(vector.triad.root) if isinstance(vector.triad, Frame) else vector

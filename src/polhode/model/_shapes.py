@@ -1,4 +1,4 @@
-"""Bodies whose inertia follows from their shape, unless another is given as `inertia=`."""
+"""Bodies with the inertia of their shape, unless `inertia=` gives another."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def ellipsoid(
 def rod(
     name: str, *, mass: ExprLike, length: ExprLike, axes: Frame, axis: str = "x", **more: Any
 ) -> Body:
-    """A thin uniform rod along `axis`: m l²/12 across it, nothing about it."""
+    """A thin uniform rod along `axis`: m l²/12 across it, zero about it."""
     across = Expr.of(mass) * Expr.of(length) ** 2 / 12
     moments = [Expr.of(0) if i == axes.position(axis) else across for i in range(3)]
     return Body(name, mass=mass, axes=axes, **{"inertia": moments, **more})

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 from polhode.algebra import Expr, Vector, coordinate, solve, speed
 from polhode.base import DeclarationError
-from polhode.model._declared import FieldwiseRepr
+from polhode.model._declared import Declared
 from polhode.model._frame import Frame
 
 
-class Spin(FieldwiseRepr, ABC):
+class Spin(Declared, ABC):
     """Chooses the rotational speeds of a body."""
 
     @abstractmethod
@@ -113,7 +113,7 @@ class Relative(Spin):
 class Components(Spin):
     """The speeds are the components of the angular velocity along the body's axes.
 
-    The three coordinates that turn the axes follow from them, but where the chart is singular.
+    The rates of the three angles that turn the axes follow, except where the angles are singular.
 
     Args:
         angles: names of the three angles in the axes' rotations.

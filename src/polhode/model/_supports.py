@@ -7,13 +7,12 @@ from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, ExprLike, Vector
 from polhode.base import DeclarationError
-from polhode.model._checks import quantity
-from polhode.model._declared import FieldwiseRepr
+from polhode.model._declared import Declared, quantity
 from polhode.model._frame import Frame
 
 
 @dataclass(frozen=True, init=False)
-class Plane(FieldwiseRepr):
+class Plane(Declared):
     """A plane at rest in a frame, through the frame's origin.
 
     Args:
@@ -68,7 +67,7 @@ class Plane(FieldwiseRepr):
         return None
 
     def reserve(self, point: Vector) -> Expr:
-        """How far a place, given from the origin, is on this side of the edge, m."""
+        """Distance of a point, given from the origin, on this side of the edge, m."""
         return ZERO
 
     def velocity(self, point: Vector) -> Vector:
@@ -102,7 +101,7 @@ class Turntable(Plane):
 
 @dataclass(frozen=True, init=False)
 class Sheet(Plane):
-    """A plane that is moved about in itself: a sheet of paper that is pulled and turned.
+    """A plane that moves within itself, such as a sheet of paper that is pulled and turned.
 
     Args:
         axes: the frame it moves in.

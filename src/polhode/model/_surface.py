@@ -6,15 +6,28 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 from polhode.algebra import ZERO, Expr, Vector, named, principal_root
-from polhode.model._checks import constant, not_negative, positive, quantity
-from polhode.model._declared import FieldwiseRepr
+from polhode.model._declared import Declared, constant, not_negative, positive, quantity
 from polhode.model._frame import Frame
 
 #: Terms of a squared length beyond which what follows from its root is too long to be written out.
 _LONG = 10
 
 
-class Surface(FieldwiseRepr, ABC):
+@dataclass(frozen=True)
+class Profile:
+    """What a body of revolution looks like: its outline, turned about one of the body's axes.
+
+    Attributes:
+        axis: label of the axis.
+        outline: height along the axis, from the centre of mass, and radius of points in the order
+            in which they go down on the outside, m; closed if the last point is the first.
+    """
+
+    axis: str
+    outline: tuple[tuple[Expr, Expr], ...]
+
+
+class Surface(Declared, ABC):
     """A convex surface fixed to a body's axes, or symmetric about the axis it spins on."""
 
     @property
@@ -26,12 +39,17 @@ class Surface(FieldwiseRepr, ABC):
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
         """From the centre of mass to the point that touches a plane with this unit normal, m."""
 
+    @property
+    def profile(self) -> Profile | None:
+        """What a body with it looks like; None for the uniform body of the same inertia."""
+        return None
+
     @abstractmethod
     def is_symmetric(self, axes: Frame, axis: int) -> bool:
         """Whether it looks the same however it is turned about this one of the axes."""
 
     def assumed_positive(self, axes: Frame, normal: Vector) -> tuple[Expr, ...]:
-        """Expressions whose sign had to be taken as positive."""
+        """Expressions whose sign is assumed to be positive."""
         return ()
 
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Protocol, TypeVar
 
-from polhode.algebra import Expr, Symbol, as_symbol
-from polhode.base import DeclarationError, Shown
+from polhode.algebra import Expr, ExprLike, Symbol, as_symbol
+from polhode.base import DeclarationError, Shown, look_up
 from polhode.model._body import Body
-from polhode.model._element import Element
-from polhode.model._flight import Flight
+from polhode.model._contacts import Contact, Coulomb
+from polhode.model._element import Element, Flight
 from polhode.model._frame import Frame
 from polhode.model._loads import Load
+from polhode.model._supports import Sheet
 
 Part = Body | Element | Load
 
@@ -40,13 +40,20 @@ class System(Shown):
         bodies = _bodies(parts)
         elements = tuple(part for part in parts if isinstance(part, Element))
         loads = tuple(part for part in parts if isinstance(part, Load))
-        _refuse_strangers(parts)
+        _refuse_other_types(parts)
         if not bodies:
             raise DeclarationError("a system without a body", expected="at least one Body")
-        _refuse_twins("body", [body.name for body in bodies])
-        _refuse_twins("contact or joint", [element.name for element in elements])
-        _refuse_twins("load", [load.name for load in loads])
-        _root(bodies)
+        _refuse_same_names("body", [body.name for body in bodies])
+        _refuse_same_names("contact or joint", [element.name for element in elements])
+        _refuse_same_names("load", [load.name for load in loads])
+        roots = {body.axes.root for body in bodies}
+        if len(roots) > 1:
+            names = ", ".join(sorted(frame.name for frame in roots))
+            raise DeclarationError(
+                f"bodies whose axes start from different frames: {names}",
+                expected="frames turned out of one root",
+                advice="build all axes from the same Frame",
+            )
         kept = tuple(as_symbol(speed) for speed in independent)
         values = {
             "bodies": bodies,
@@ -70,15 +77,16 @@ class System(Shown):
 
     def body(self, name: str) -> Body:
         """The body with this name."""
-        return _named(name, self.bodies, "body")
+        return look_up(name, {body.name: body for body in self.bodies}, "body of the system")
 
     def element(self, name: str) -> Element:
         """The contact or joint with this name."""
-        return _named(name, self.elements, "contact or joint")
+        known = {element.name: element for element in self.elements}
+        return look_up(name, known, "contact or joint of the system")
 
     def load(self, name: str) -> Load:
         """The load with this name."""
-        return _named(name, self.loads, "load")
+        return look_up(name, {load.name: load for load in self.loads}, "load of the system")
 
     def flights(self, placed: Iterable[Body]) -> tuple[Flight, ...]:
         """Free motion for the bodies that nothing places."""
@@ -86,23 +94,8 @@ class System(Shown):
         return tuple(Flight(b, f"flight{b.tag}") for b in self.bodies if b not in known)
 
 
-class _Named(Protocol):
-    @property
-    def name(self) -> str: ...
-
-
-Found = TypeVar("Found", bound=_Named)
-
-
-def _named(name: str, things: Iterable[Found], what: str) -> Found:
-    known = {thing.name: thing for thing in things}
-    if name not in known:
-        names = ", ".join(known) or f"none: the system has no {what}"
-        raise DeclarationError(f"{what} {name!r}", expected=f"one of {names}")
-    return known[name]
-
-
 def _bodies(parts: Iterable[Part]) -> tuple[Body, ...]:
+    """The bodies of a system, and those that its contacts, joints and loads name."""
     found: dict[Body, None] = {}
     for part in parts:
         if isinstance(part, Body):
@@ -113,17 +106,17 @@ def _bodies(parts: Iterable[Part]) -> tuple[Body, ...]:
     return tuple(found)
 
 
-def _refuse_strangers(parts: Iterable[object]) -> None:
+def _refuse_other_types(parts: Iterable[object]) -> None:
     for part in parts:
         if not isinstance(part, Body | Element | Load):
             raise DeclarationError(
                 f"a {type(part).__name__} in a system",
                 expected="bodies, contacts, joints and loads",
-                advice="a support belongs into a contact: Rolling(body, on=Plane(lab))",
+                advice="a support belongs in a contact: Rolling(body, on=Plane(lab))",
             )
 
 
-def _refuse_twins(what: str, names: list[str]) -> None:
+def _refuse_same_names(what: str, names: list[str]) -> None:
     for name in names:
         if names.count(name) > 1:
             raise DeclarationError(
@@ -133,12 +126,59 @@ def _refuse_twins(what: str, names: list[str]) -> None:
             )
 
 
-def _root(bodies: Iterable[Body]) -> None:
-    roots = {body.axes.root for body in bodies}
-    if len(roots) > 1:
-        names = ", ".join(sorted(frame.name for frame in roots))
+# -- the same system with one thing changed --------------------------------------------------------
+
+
+def with_elements(system: System, elements: dict[str, Element]) -> System:
+    """The same system with other contacts or joints under some of the names."""
+    changed = [elements.get(element.name, element) for element in system.elements]
+    kept = [Expr.generator(symbol) for symbol in system.independent]
+    return System(*system.bodies, *changed, *system.loads, name=system.name, independent=kept)
+
+
+def with_friction(system: System, mu: ExprLike, mu_static: ExprLike | None = None) -> System:
+    """The same system with Coulomb friction at every contact.
+
+    Raises:
+        DeclarationError: for a system without a contact, and for impossible coefficients.
+    """
+    contacts = [element for element in system.elements if isinstance(element, Contact)]
+    if not contacts:
         raise DeclarationError(
-            f"bodies whose axes start from different frames: {names}",
-            expected="frames turned out of one root",
-            advice="build all axes from the same Frame",
+            f"friction for {system.name!r}, in which nothing touches a support",
+            expected="a system with a contact",
+            advice="leave out mu, or declare a contact",
         )
+    return with_elements(system, {c.name: _rough(c, mu, mu_static) for c in contacts})
+
+
+def _rough(contact: Contact, mu: ExprLike, mu_static: ExprLike | None) -> Coulomb:
+    return Coulomb(
+        contact.body,
+        on=contact.on,
+        mu=mu,
+        mu_static=mu_static,
+        name=contact.name,
+        force=contact.force,
+        restitution=contact.restitution,
+    )
+
+
+def with_edge(system: System, edge: ExprLike) -> System:
+    """The same system with every sheet ending at an edge (m); beyond lies a table at rest.
+
+    Raises:
+        DeclarationError: for a system without a sheet.
+    """
+    contacts = [
+        element
+        for element in system.elements
+        if isinstance(element, Contact) and isinstance(element.on, Sheet)
+    ]
+    if not contacts:
+        raise DeclarationError(
+            f"an edge for {system.name!r}, in which nothing lies on a sheet",
+            expected="a system with a contact on a Sheet",
+        )
+    cut = {c.name: c.on_support(c.on.ending(edge)) for c in contacts if isinstance(c.on, Sheet)}
+    return with_elements(system, dict(cut))

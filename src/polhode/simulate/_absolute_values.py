@@ -17,24 +17,24 @@ import numpy as np
 from polhode.algebra import ZERO, Expr, SquareRoot, Symbol, SymbolKind
 from polhode.base import DeclarationError, NumericError
 from polhode.derive import Guard
-from polhode.simulate._dynamics import CLOCK, Dynamics, EquationsOfMotion, sign_symbol
+from polhode.simulate._dynamics import CLOCK, Dynamics, sign_symbol
 from polhode.simulate._segment import TrajectoryPiece, values_of
+from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._crossing import first_fall
 from polhode.simulate.integrate._flow import Flow
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
-from polhode.simulate.integrate._stepping import Array
 
 PASSES = "passes"
 """The kind of a guard that ends a side."""
 
-_ALIKE = 1e-9  # relative difference of rates on both sides that is rounding
-_BEYOND = 1e-9  # of the largest value so far: how far beyond zero there is reason to look
+_ALIKE = 1e-9  # relative difference of rates on both sides that counts as rounding
+_BEYOND = 1e-9  # of the largest value so far: further beyond zero, a crossing is looked for
 _MOST = 50_000  # changes of side in one motion
-_MOST_HURRIED = 32  # the same, one soon after the other
-_RESIDUAL = 1e-9  # of the largest value on a stretch: what may be left of zero where it begins
-_HURRIED = 1e-6  # of the longest time between two of them
-_FAR = 2.0  # times as far as the first end of a side: steps that long lose its digits
-_INSTANT = 64  # steps of rounding of the time
+_MOST_HURRIED = 32  # of them in quick succession
+_RESIDUAL = 1e-9  # of the largest value on a piece: how far from zero it may begin
+_HURRIED = 1e-6  # of the longest time between two of them: quick succession
+_FAR = 2.0  # times the way to the end of a side: longer steps lose digits of it
+_INSTANT = 64  # units in the last place of the time
 _NEARER = 1.5  # how far to go instead
 
 Sides = Mapping[SquareRoot, int]
@@ -43,7 +43,7 @@ Values = Callable[[Array], Array]
 
 @dataclass(frozen=True)
 class SideChange(Guard):
-    """Where the side on which an absolute value is ends.
+    """A guard: it falls where the argument of an absolute value reaches zero, or leaves it.
 
     Attributes:
         root: the absolute value.
@@ -54,8 +54,8 @@ class SideChange(Guard):
     leaves: int = 0
 
 
-def passages_of(dynamics: Dynamics) -> tuple[SideChange, ...]:
-    """What ends the sides that equations hold on."""
+def guards_of_sides(dynamics: Dynamics) -> tuple[SideChange, ...]:
+    """The guards of the sides on which equations hold."""
     found = list[SideChange]()
     for root, side in dynamics.sides.items():
         if side:
@@ -100,7 +100,7 @@ class Here:
 def sides_at(
     dynamics: Dynamics, here: Here, kept: Sides | None = None, passed: SquareRoot | None = None
 ) -> dict[SquareRoot, int]:
-    """The side of every absolute value from an instant on.
+    """The sides of all absolute values from an instant on.
 
     Args:
         dynamics: of which no sides are known.
@@ -112,22 +112,22 @@ def sides_at(
     """
     known = {} if kept is None else {r: side for r, side in kept.items() if r != passed}
     open_ = [] if passed is None else [passed]
-    sides = _closed(dynamics, here, known, open_)
+    sides = _sides_away_from_zero(dynamics, here, known, open_)
     for _ in range(2 * len(open_) + 2):
         before = dict(sides)
         for root in open_:
             if root in sides:
-                chosen = {**sides, root: _followed(dynamics, here, sides, root)}
-                sides = _closed(dynamics, here, chosen, open_)
+                chosen = {**sides, root: _next_side(dynamics, here, sides, root)}
+                sides = _sides_away_from_zero(dynamics, here, chosen, open_)
         if sides == before:
             return sides
     raise _undetermined(open_[0], here)
 
 
-def _closed(
+def _sides_away_from_zero(
     dynamics: Dynamics, here: Here, known: Sides, open_: list[SquareRoot]
 ) -> dict[SquareRoot, int]:
-    """Sides of all absolute values; those that are neither known nor away from zero stay open."""
+    """Sides of all absolute values; roots whose argument is zero are added to `open_`."""
     sides: dict[SquareRoot, int] = {}
     while roots := dynamics.on(sides).undecided:
         root = roots[0]
@@ -154,7 +154,7 @@ def smooth_at(
     """
     here = Here(dict(zip(dynamics.states, state, strict=True)), list(parameters.values()), 0.0)
     zero = list[SquareRoot]()
-    sides = _closed(dynamics, here, {}, zero)
+    sides = _sides_away_from_zero(dynamics, here, {}, zero)
     if zero:
         raise NumericError(
             f"small departures from a state at which {_named(zero[0])} is zero",
@@ -165,15 +165,15 @@ def smooth_at(
 
 
 def sides_in_order(dynamics: Dynamics, values: Iterable[int]) -> dict[SquareRoot, int]:
-    """Sides of which only the values were kept, in the order in which they were found."""
+    """Sides from their values alone, in the order in which they were found."""
     sides: dict[SquareRoot, int] = {}
     for value in values:
         sides[dynamics.on(sides).undecided[0]] = value
     return sides
 
 
-def _followed(dynamics: Dynamics, here: Here, sides: Sides, root: SquareRoot) -> int:
-    """The side that follows where an argument is zero; 0 where it stays there."""
+def _next_side(dynamics: Dynamics, here: Here, sides: Sides, root: SquareRoot) -> int:
+    """The side that follows where an argument is zero; 0 if it stays zero (Filippov's sliding)."""
     above, below = (dynamics.on({**sides, root: side}) for side in (1, -1))
     _refuse_jump(above, below, here, root)
     rate = above.on_side(root.plain or ZERO)
@@ -204,13 +204,22 @@ def _alike(one: Dynamics, other: Dynamics, here: Here, expressions: Sequence[Exp
 
 
 def _refuse_jump(above: Dynamics, below: Dynamics, here: Here, root: SquareRoot) -> None:
-    """Refuse velocities that jump: what would make them jump is an impulse that nobody gave."""
+    """Refuse positions and velocities that jump: that would take an impulse, which is not given."""
     equations = above.equations
     own = [*equations.kinematics.values(), *equations.dependent.values()]
     own += [entry for row in equations.mass.rows for entry in row]
-    own += _places_and_velocities(equations)
-    feeling = [e for e in own if _is_driven(e) or above.on_side(e) != below.on_side(e)]
-    if feeling and not _alike(above, below, here, feeling):
+    motion = getattr(equations, "kinetics", None)
+    if motion is not None:  # positions and velocities of all bodies
+        velocities = (vector for pair in motion.velocities.values() for vector in pair)
+        vectors = (*motion.places.values(), *velocities)
+        own += [component for vector in vectors for component in vector.components]
+
+    def may_jump(expression: Expr) -> bool:
+        driven = any(symbol.kind is SymbolKind.FUNCTION for symbol in expression.symbols())
+        return driven or above.on_side(expression) != below.on_side(expression)
+
+    suspects = [expression for expression in own if may_jump(expression)]
+    if suspects and not _alike(above, below, here, suspects):
         raise NumericError(
             f"a place or velocity that jumps where {_named(root)} is zero, at t = {_told(here)} s",
             expected="positions and prescribed motions without corners",
@@ -218,32 +227,19 @@ def _refuse_jump(above: Dynamics, below: Dynamics, here: Here, root: SquareRoot)
         )
 
 
-def _places_and_velocities(equations: EquationsOfMotion) -> list[Expr]:
-    """Of all bodies, where the equations know of bodies."""
-    motion = getattr(equations, "kinetics", None)
-    if motion is None:
-        return []
-    velocities = (vector for pair in motion.velocities.values() for vector in pair)
-    return [c for vector in (*motion.places.values(), *velocities) for c in vector.components]
-
-
-def _is_driven(expression: Expr) -> bool:
-    return any(symbol.kind is SymbolKind.FUNCTION for symbol in expression.symbols())
-
-
 # -- along a motion --------------------------------------------------------------------------------
 
 
 def overshoots(
-    dynamics: Dynamics, passages: Sequence[SideChange], flow: Flow, constants: Array
+    dynamics: Dynamics, side_guards: Sequence[SideChange], flow: Flow, constants: Array
 ) -> Callable[[float, Sequence[float]], bool]:
-    """Whether a state of the core is beyond one of these, so that there is reason for a look.
+    """Whether a state of the core is beyond the end of a side, so that it is time to look for it.
 
-    What follows there is of no use, and may run away.
+    Beyond, the equations do not hold, and their solution may grow without limit.
     """
     core = flow.core.symbols
     arguments = (*flow.states, *flow.parameters, CLOCK)
-    programs = [dynamics.program([p.positive], arguments) for p in passages]
+    programs = [dynamics.program([p.positive], arguments) for p in side_guards]
     outside = set(range(len(core), len(flow.states)))
     functions = [p.function() for p in programs if not p.reads & outside]
     rest = [0.0] * len(outside)
@@ -264,32 +260,32 @@ def overshoots(
     return over
 
 
-def first_passage(
-    dynamics: Dynamics, passages: Sequence[SideChange], part: TrajectoryPiece
+def first_side_change(
+    dynamics: Dynamics, side_guards: Sequence[SideChange], piece: TrajectoryPiece
 ) -> tuple[TrajectoryPiece, SideChange | None]:
-    """A part up to the first end of a side, and which that is."""
-    if not passages:
-        return part, None
-    expressions = [passage.positive for passage in passages]
+    """A piece up to the first end of a side, and which that is."""
+    if not side_guards:
+        return piece, None
+    expressions = [change.positive for change in side_guards]
 
     def values(times: Array) -> Array:
-        return values_of(dynamics, part, expressions, times)
+        return values_of(dynamics, piece, expressions, times)
 
-    fall = first_fall(from_zero(values, part.solution.steps), part.solution.steps)
+    fall = first_fall(from_zero(values, piece.solution.steps), piece.solution.steps)
     if fall is None:
-        return part, None
-    return replace(part, end=fall.time), passages[fall.guard]
+        return piece, None
+    return replace(piece, end=fall.time), side_guards[fall.guard]
 
 
 def from_zero(values: Values, knots: Array, first: int = 0) -> Values:
-    """Values along a stretch, moved up by what they are below zero where it begins.
+    """Values along a piece, raised by as much as they are below zero at its beginning.
 
     A side begins where its argument is zero, to the rounding of the time: a little before or after.
 
     Args:
         values: at some times or places, shape (functions, times).
-        knots: of the stretch.
-        first: of the functions to be moved; those before stay as they are.
+        knots: of the piece.
+        first: of the functions to be raised; those before it are left as they are.
     """
     there = values(knots)
     largest = np.max(np.abs(there), axis=1, initial=0.0)
@@ -302,10 +298,11 @@ def from_zero(values: Values, knots: Array, first: int = 0) -> Values:
 
 
 def nearer(steps: Any, end: Any, numbers: NumberType = DOUBLES) -> Any | None:
-    """How far to integrate again where steps went far beyond what ends a side; None if not.
+    """How far to integrate again where a step went far beyond the end of a side; None if not.
 
-    The digits of a long step are those of its end. What ends within the rounding of the time, as
-    it does where two sides end together, is left as it is: nothing is known over so short a time.
+    A long step is only as precise as its size at its end. A piece that ends within the rounding of
+    the time, as where two sides end together, is left as it is: over so short a time nothing can
+    be resolved.
     """
     begin, wanted = steps[0], end - steps[0]
     if wanted <= _INSTANT * numbers.spacing(begin) or steps[-1] - begin <= _FAR * wanted:
@@ -313,28 +310,28 @@ def nearer(steps: Any, end: Any, numbers: NumberType = DOUBLES) -> Any | None:
     return begin + _NEARER * wanted
 
 
-def beyond(
-    dynamics: Dynamics, here: Here, sides: Sides, passage: SideChange
+def sides_after(
+    dynamics: Dynamics, here: Here, sides: Sides, change: SideChange
 ) -> dict[SquareRoot, int]:
     """The sides that follow where one ends; `dynamics` without any.
 
     Raises:
         NumericError: where none follows, or more than one.
     """
-    if passage.leaves:
-        return sides_at(dynamics, here, {**sides, passage.root: passage.leaves})
-    return sides_at(dynamics, here, sides, passage.root)
+    if change.leaves:
+        return sides_at(dynamics, here, {**sides, change.root: change.leaves})
+    return sides_at(dynamics, here, sides, change.root)
 
 
-def told_change(passage: SideChange, after: Sides) -> str:
-    """What an event at the end of a side is called."""
-    if passage.leaves:
+def name_of_change(change: SideChange, after: Sides) -> str:
+    """The kind of the event at the end of a side."""
+    if change.leaves:
         return "leaves zero"
-    return "changes sign" if after.get(passage.root, 1) else "stays zero"
+    return "changes sign" if after.get(change.root, 1) else "stays zero"
 
 
 class SideChangeCount:
-    """Watches how often sides end in one motion."""
+    """Counts the changes of side in one motion."""
 
     def __init__(self) -> None:
         self._count = 0
@@ -342,11 +339,11 @@ class SideChangeCount:
         self._longest = 0.0
         self._last = 0.0
 
-    def count(self, time: float, passage: SideChange) -> None:
-        """One more.
+    def count(self, time: float, change: SideChange) -> None:
+        """Count one more.
 
         Raises:
-            NumericError: where they do not come to an end.
+            NumericError: where they accumulate.
         """
         passed, self._last = float(time) - self._last, float(time)
         self._count += 1
@@ -354,7 +351,7 @@ class SideChangeCount:
         self._hurried = self._hurried + 1 if passed <= _HURRIED * self._longest else 0
         if self._hurried >= _MOST_HURRIED or self._count > _MOST:
             raise NumericError(
-                f"{_named(passage.root)} changes sign without end near t = {float(time):.9g} s",
+                f"{_named(change.root)} changes sign without end near t = {float(time):.9g} s",
                 expected="a motion that settles on one side of where it is zero, or stays there",
                 advice="end the motion before; ph.Coulomb follows dry friction at a contact",
             )
@@ -374,3 +371,61 @@ def _named(root: SquareRoot) -> str:
 
 def _told(here: Here) -> str:
     return f"{float(here.time):.9g}"
+
+
+# -- lengths of vectors that vanish on the way -----------------------------------------------------
+#
+# Along a straight line |v| = √(v_x² + v_y²) is a multiple of |t − t₀|, and a Taylor series about an
+# earlier instant continues it as a multiple of t₀ − t: friction along v/|v| would drive the motion.
+# Steps that see the branch point of the root are shorter than the way to it, so that within one
+# step a length changes little. A length that falls to almost nothing within a step has vanished
+# unnoticed.
+
+_PLACES = np.linspace(0.0, 1.0, 9)  # of a step, at which radicands are evaluated
+_SMALL = 0.05  # of the largest radicand within a step: below, its minimum is searched for
+_NOTHING = 1e-6  # of the same: below, the length has vanished within the step
+_NARROWED = 60  # times by a third
+
+
+def refuse_vanishing(dynamics: Dynamics, piece: TrajectoryPiece) -> None:
+    """Refuse a piece on which a length vanishes.
+
+    Raises:
+        NumericError: with the length and the time.
+    """
+    roots = dynamics.lengths
+    if not roots or not piece.end > piece.begin:
+        return
+    steps = piece.solution.steps
+    knots = np.append(steps[steps < piece.end], piece.end)
+    times = knots[:-1, None] + np.diff(knots)[:, None] * _PLACES
+    inside = replace(piece)  # a copy: the states kept for readers of the motion stay
+
+    def radicands(times: Array) -> Array:
+        found = values_of(dynamics, inside, [root.radicand for root in roots], times.ravel())
+        return found.reshape(len(roots), *times.shape)
+
+    values = radicands(times)
+    largest, least = values.max(axis=2), values.min(axis=2)
+    for k, step in zip(*np.nonzero(least < _SMALL * largest), strict=True):
+        when = _lowest(radicands, int(k), times[step], values[k, step])
+        if radicands(np.array([when]))[k, 0] < _NOTHING * largest[k, step]:
+            raise NumericError(
+                f"sqrt({roots[k].radicand}) vanishes at t = {when:.9g} s, and has no direction "
+                "there",
+                expected="a length that stays positive: what follows is not determined",
+                advice="start elsewhere, or give the line that the motion keeps to one "
+                "coordinate: an absolute value is followed through zero; declare dry friction as "
+                "ph.Coulomb",
+            )
+
+
+def _lowest(functions: Callable[[Array], Array], k: int, times: Array, values: Array) -> float:
+    """Where one of some functions is least within a step, near the least of its values."""
+    place = int(np.argmin(values))
+    left, right = times[max(place - 1, 0)], times[min(place + 1, len(times) - 1)]
+    for _ in range(_NARROWED):
+        third = (right - left) / 3
+        first, second = functions(np.array([left + third, right - third]))[k]
+        left, right = (left, right - third) if first < second else (left + third, right)
+    return float((left + right) / 2)

@@ -1,4 +1,4 @@
-"""How far a computed motion strays from what must stay as it is."""
+"""Drift of conserved quantities: energy less work done, closed loops, and invariants."""
 
 from __future__ import annotations
 
@@ -12,11 +12,10 @@ from polhode.algebra import Expr
 from polhode.base import Shown
 from polhode.simulate._dynamics import WORK
 from polhode.simulate._segment import Segment
-from polhode.simulate.integrate._ascending import ascending
-from polhode.simulate.integrate._stepping import Array
+from polhode.simulate.integrate._arrays import Array, ascending
 
-_MOST_CHECKED = 20_000  # instants of a segment that are looked at
-_FEW = 64  # the same, where it is only asked whether the motion can be believed
+_MOST_CHECKED = 20_000  # instants of a segment
+_FEW = 64  # the same, to tell whether the motion can be relied on
 
 
 @dataclass(frozen=True)
@@ -50,17 +49,23 @@ def drift_of(segments: Sequence[Segment], invariants: Mapping[str, Expr], sample
     The energy is compared with the work done from the start through all contact modes.
     """
     looks = [_Look(segment, _instants(segment, samples)) for segment in segments]
+    found = {}
+    for name, invariant in invariants.items():
+        values = np.concatenate([look.values([invariant])[0] for look in looks])
+        sizes = [np.sum(np.abs(look.values(_terms(invariant))), axis=0) for look in looks]
+        scale = max(float(np.max(size, initial=0.0)) for size in sizes)
+        found[name] = _relative(np.max(np.abs(values - values[0])), scale)
     return Drift(
         energy=_energy(looks),
         constraint=max(look.gap() for look in looks),
-        invariants={name: _constancy(e, looks) for name, e in invariants.items()},
+        invariants=found,
     )
 
 
 def imbalance_of(segments: Sequence[Segment]) -> dict[str, float]:
-    """What must balance, by name, over the size of what it is the difference of; at few instants.
+    """Imbalance of energy and closed loops, relative to the size of their terms; at few instants.
 
-    What has once gone out of balance stays so.
+    A few are enough: what has once gone out of balance stays so.
     """
     looks = [_Look(segment, _instants(segment, segment.steps[:0], _FEW)) for segment in segments]
     found = {"the energy balance": _energy(looks)}
@@ -102,26 +107,15 @@ class _Look:
 
 
 def _energy(looks: Sequence[_Look]) -> float:
-    found = [_energies(look) for look in looks]
+    found = []
+    for look in looks:
+        equations = look.segment.dynamics.equations
+        potential_energy = equations.energy.subs(dict.fromkeys(equations.speeds, 0))
+        found.append(look.values([equations.energy, potential_energy, Expr.generator(WORK)]))
     total, potential, work = (np.concatenate(part) for part in zip(*found, strict=True))
     done = work - work[0]
     scale = np.max(np.abs(total - potential) + np.abs(potential) + np.abs(done))
     return _relative(np.max(np.abs(total - total[0] - done)), scale)
-
-
-def _energies(look: _Look) -> tuple[Array, Array, Array]:
-    """Energy, potential energy and work done."""
-    equations = look.segment.dynamics.equations
-    at_rest = equations.energy.subs(dict.fromkeys(equations.speeds, 0))
-    total, potential, work = look.values([equations.energy, at_rest, Expr.generator(WORK)])
-    return total, potential, work
-
-
-def _constancy(invariant: Expr, looks: Sequence[_Look]) -> float:
-    values = np.concatenate([look.values([invariant])[0] for look in looks])
-    sizes = [np.sum(np.abs(look.values(_terms(invariant))), axis=0) for look in looks]
-    scale = max(float(np.max(size, initial=0.0)) for size in sizes)
-    return _relative(np.max(np.abs(values - values[0])), scale)
 
 
 def _terms(expression: Expr) -> list[Expr]:

@@ -1,12 +1,13 @@
-"""What every symbol of a system means in numbers, once the prescribed motions are known."""
+"""The equations of one contact mode, ready to be evaluated and integrated."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+import weakref
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
-from typing import Any, Protocol
+from typing import Any, Generic, Protocol, TypeVar
 
 from polhode.algebra import (
     ONE,
@@ -27,7 +28,6 @@ from polhode.algebra import (
     with_roots,
 )
 from polhode.base import DeclarationError, NumericError
-from polhode.simulate._memory import Memory
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 
 
@@ -70,11 +70,41 @@ CLOCK = time.symbol or Symbol("t", SymbolKind.TIME)
 #: Stands for the work done by everything that is not in the potential, J.
 WORK = Symbol("work done", SymbolKind.COORDINATE)
 
+Made = TypeVar("Made")
+
+_MOST = 2048  # results kept for one object
+
+
+class Memory(Generic[Made]):
+    """Results, kept for as long as the object lives that they were worked out from.
+
+    The object is known by its identity; results must not refer to it, or it would never be freed.
+    """
+
+    def __init__(self) -> None:
+        self._of: dict[int, dict[Hashable, Made]] = {}
+
+    def recall(self, owner: object, asked: Hashable, make: Callable[[], Made]) -> Made:
+        """The result if it is kept already; else that of `make`, which is then kept."""
+        place = id(owner)
+        if place not in self._of:
+            self._of[place] = {}
+            weakref.finalize(owner, self._of.pop, place, None)
+        results = self._of[place]
+        found = results.get(asked)
+        if found is None:
+            found = make()
+            if len(results) >= _MOST:
+                results.clear()
+            results[asked] = found
+        return found
+
+
 _programs: Memory[Program] = Memory()
 
 
 def sign_symbol(root: SquareRoot) -> Symbol:
-    """Stands for the sign that keeps the argument of an absolute value at zero, from -1 to 1."""
+    """Stands for the sign, from -1 to 1, that keeps the argument of an absolute value at zero."""
     return Symbol(f"sign of {root.plain}", SymbolKind.SPEED)
 
 
@@ -98,10 +128,10 @@ class Dynamics:
         equations: exact equations of motion.
         prescribed: every prescribed function as an expression of time.
         idle: parameters of the declaration that dropped out of the equations but have values.
-        carried: quantities that are integrated although they follow from the others, with their
-            rates: near zero they would drown in the rounding of what they follow from.
+        auxiliary: quantities that are integrated although they follow from the state, with their
+            rates: near zero they would drown in its rounding.
         meanings: what other symbols of the equations stand for.
-        lifted: coordinates and speeds of other modes that follow from those of this one.
+        lifted: coordinates and speeds of other modes, in terms of those of this one.
         sides: of absolute values: 1 or -1 where their arguments are positive or negative, 0 where
             they are held at zero.
     """
@@ -109,20 +139,20 @@ class Dynamics:
     equations: EquationsOfMotion
     prescribed: Mapping[Symbol, Expr]
     idle: tuple[Symbol, ...] = ()
-    carried: Mapping[Symbol, Expr] = field(default_factory=dict)
+    auxiliary: Mapping[Symbol, Expr] = field(default_factory=dict)
     meanings: Mapping[Symbol, Expr] = field(default_factory=dict)
     lifted: Mapping[Symbol, Expr] = field(default_factory=dict)
     sides: Mapping[SquareRoot, int] = field(default_factory=dict)
 
     @cached_property
     def states(self) -> tuple[Symbol, ...]:
-        """Coordinates, independent speeds, and what is carried besides."""
-        return (*self.equations.coordinates, *self.equations.speeds, *self.carried)
+        """Coordinates, independent speeds, and auxiliary states."""
+        return (*self.equations.coordinates, *self.equations.speeds, *self.auxiliary)
 
     @cached_property
-    def without_carried(self) -> Dynamics:
+    def without_auxiliary(self) -> Dynamics:
         """The same equations on coordinates and speeds alone, for modes in which nothing slides."""
-        return replace(self, carried={}, meanings={})
+        return replace(self, auxiliary={}, meanings={})
 
     @cached_property
     def parameters(self) -> tuple[Symbol, ...]:
@@ -132,7 +162,7 @@ class Dynamics:
 
     @cached_property
     def arguments(self) -> tuple[Symbol, ...]:
-        """What numbers are given for: states, parameters, time."""
+        """States, parameters, time: the arguments of compiled functions."""
         return (*self.states, *self.parameters, CLOCK)
 
     @cached_property
@@ -142,14 +172,15 @@ class Dynamics:
         own = (*equations.coordinates, *equations.speeds)
         return (
             *(Expr.generator(symbol.derivative()) for symbol in own),
-            *self.carried.values(),
+            *self.auxiliary.values(),
         )
 
     @cached_property
     def accelerations(self) -> LinearSolve:
         """The accelerations, as the solution of mass · accelerations = forcing.
 
-        What is held at zero adds an equation, and what its sign would have to be as an unknown.
+        An argument of an absolute value that is held at zero adds an equation, and its sign an
+        unknown.
         """
         unknowns = tuple(speed.derivative() for speed in self.equations.speeds)
         mass = Matrix(tuple(tuple(map(self.on_side, row)) for row in self.equations.mass.rows))
@@ -167,7 +198,7 @@ class Dynamics:
         return LinearSolve((*unknowns, *signs), Matrix((*above, *below)), right)
 
     def _held_still(self, root: SquareRoot) -> tuple[Row, Expr]:
-        """What keeps the argument of an absolute value at zero: of the accelerations, and rest."""
+        """What keeps an argument at zero: a row for the accelerations, and the rest."""
         argument = self.on_side(root.plain or ZERO)
         for _ in range(2):
             row = tuple(argument.diff(speed) for speed in self.equations.speeds)
@@ -182,7 +213,7 @@ class Dynamics:
         )
 
     def _rate(self, symbol: Symbol) -> Expr:
-        """Rate of a symbol at no acceleration."""
+        """Rate of a symbol if all accelerations are zero."""
         if symbol in self.equations.speeds or not symbol.kind.varies:
             return ONE if symbol == CLOCK else ZERO
         rate = symbol.derivative()
@@ -191,7 +222,7 @@ class Dynamics:
     # -- absolute values ------------------------------------------------------------------------
 
     def on(self, sides: Mapping[SquareRoot, int]) -> Dynamics:
-        """The same equations on given sides of where arguments of absolute values vanish."""
+        """The same equations with given sides of absolute values, made once."""
         key = tuple(sides.items())
         if key not in self._faces:
             self._faces[key] = replace(self, sides=sides) if sides else self
@@ -202,11 +233,11 @@ class Dynamics:
         return {}
 
     def on_side(self, expression: Expr) -> Expr:
-        """An expression with the absolute values of which the sides are known put in."""
+        """An expression with |x| replaced by x or -x wherever the side is known."""
         return self._put_in(expression) if self.sides else expression
 
     def _put_in(self, expression: Expr) -> Expr:
-        """Roots are the same only in the same symbols: those of the independent speeds."""
+        """Roots are recognised only if written in the independent speeds."""
         if not any(map(_varies, roots_in([expression]))):
             return expression
         return with_roots(expression.subs(self._rates_by_speeds), self._images)
@@ -240,7 +271,7 @@ class Dynamics:
         equations = self.equations
         entries = (entry for row in equations.mass.rows for entry in row)
         relations = (*equations.kinematics.values(), *equations.dependent.values())
-        driven = (*self.prescribed.values(), *self.carried.values())
+        driven = (*self.prescribed.values(), *self.auxiliary.values())
         own = (*entries, *equations.forcing, equations.power, *relations, *driven)
         return tuple(root for root in roots_in(map(self._put_in, own)) if _varies(root))
 
@@ -250,10 +281,7 @@ class Dynamics:
         arguments: tuple[Symbol, ...],
         turned: Mapping[Symbol, Symbol] = MappingProxyType({}),
     ) -> Program:
-        """Steps that compute expressions in any symbol of the system.
-
-        The same ones are written only once for the same equations.
-        """
+        """A program that computes expressions in any symbol of the system; written only once."""
         wanted = tuple(map(self.on_side, expressions))
         key = (wanted, arguments, tuple(turned.items()), self._meant)
         return _programs.recall(
@@ -264,7 +292,7 @@ class Dynamics:
 
     @cached_property
     def _meant(self) -> tuple[Any, ...]:
-        """What, besides the equations, says what symbols stand for."""
+        """What symbols stand for, besides the equations: part of the key of programs."""
         own = (self.prescribed, self.meanings, self.sides)
         return tuple(tuple(table.items()) for table in own)
 
@@ -275,10 +303,7 @@ class Dynamics:
         turned: Mapping[Symbol, Symbol] = MappingProxyType({}),
         numbers: NumberType = DOUBLES,
     ) -> Compiled:
-        """Expressions as a function of NumPy arrays: of the `arguments`, or of others.
-
-        The same one is made only once.
-        """
+        """Expressions as a function of NumPy arrays of `arguments`, or of others; made once."""
         key = (tuple(expressions), arguments or self.arguments, tuple(turned.items()), numbers)
         if key not in self._made:
             wanted, given, *_ = key
@@ -290,7 +315,7 @@ class Dynamics:
         return {}
 
     def meaning(self, symbol: Symbol) -> Expr | None:
-        """What a symbol that is neither state, parameter nor acceleration stands for."""
+        """What a symbol stands for that is neither state, parameter nor acceleration."""
         meaning = self._meaning(symbol)
         return None if meaning is None else self.on_side(meaning)
 
@@ -321,3 +346,41 @@ class Dynamics:
             )
         meaning = self.meaning(lower)
         return meaning.dt() if meaning is not None else None
+
+
+# -- what can be read from a motion, by published name ---------------------------------------------
+
+_MOVING = (SymbolKind.COORDINATE, SymbolKind.SPEED)
+
+
+def moving(dynamics: Dynamics) -> dict[str, Expr]:
+    """Coordinates, speeds and rates by published name, those of other modes included."""
+    equations = dynamics.equations
+    own = (*equations.coordinates, *equations.speeds, *equations.kinematics, *equations.dependent)
+    lifted = {s.published: value for s, value in dynamics.lifted.items() if s.kind in _MOVING}
+    return {symbol.published: Expr.generator(symbol) for symbol in own} | lifted
+
+
+def readable(dynamics: Dynamics, invariants: Mapping[str, Expr]) -> dict[str, Expr]:
+    """Quantities of one contact mode, by published name."""
+    equations = dynamics.equations
+    rates = (*equations.speeds, *equations.kinematics, *equations.dependent)
+    moving = (*equations.coordinates, *rates, *(rate.derivative() for rate in rates))
+    auxiliary = (symbol for symbol in dynamics.auxiliary if symbol != WORK)
+    symbols = (CLOCK, *moving, *auxiliary, *dynamics.parameters, *equations.functions)
+    powers = getattr(equations, "powers", {})
+    return {
+        **{symbol.published: Expr.generator(symbol) for symbol in symbols},
+        **{f"power_{name}": power for name, power in powers.items()},
+        **equations.components,
+        "energy": equations.energy,
+        "power": equations.power,
+        "work": Expr.generator(WORK),
+        **{symbol.published: value for symbol, value in dynamics.lifted.items()},
+        **invariants,
+    }
+
+
+def quantity_names(equations: EquationsOfMotion, lifted: Mapping[Symbol, Expr]) -> set[str]:
+    """The names of all quantities that can be read in a contact mode."""
+    return set(readable(Dynamics(equations, {}, lifted=lifted), {}))

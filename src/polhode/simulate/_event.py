@@ -1,15 +1,25 @@
-"""What happens along a motion at an instant."""
+"""Events of a motion: changes of contact mode, and zero crossings that were asked for."""
 
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Protocol
+from itertools import pairwise
+from typing import Any, NamedTuple, Protocol
 
+import numpy as np
+
+from polhode.algebra import Expr
 from polhode.simulate._segment import Segment
+from polhode.simulate.integrate._arrays import Array
+from polhode.simulate.integrate._crossing import roots
 from polhode.simulate.integrate._stop_criteria import Stop
+
+_THERE = 1e-9  # of a segment: so near its end counts as at its end
+_INSTANT = 64  # units in the last place of the time: shorter segments have no crossings
+_BESIDE = 1e-6  # of a step: where the sign is looked at beside an end
 
 
 @dataclass(frozen=True)
@@ -96,16 +106,86 @@ def events_of(motion: SegmentedMotion) -> tuple[Event, ...]:
 def placed(events: Iterable[Event], segments: Sequence[Segment]) -> tuple[Event, ...]:
     """Events of a motion, each between the segments that meet at it."""
     begins = [segment.begin for segment in segments]
-    return tuple(_placed(event, segments, begins) for event in events)
+    found = []
+    for event in events:
+        first, last = bisect_left(begins, event.time), bisect_right(begins, event.time)
+        near = segments[max(first - 1, 0) : last]
+        left = entered = None
+        if event.before is not None:
+            left = next((s for s in near if s.mode == event.before), near[0])
+        if event.after is not None:
+            entered = next((s for s in reversed(near) if s.mode == event.after), near[-1])
+        found.append(replace(event, _left=left, _entered=entered))
+    return tuple(found)
 
 
-def _placed(event: Event, segments: Sequence[Segment], begins: list[float]) -> Event:
-    first, last = bisect_left(begins, event.time), bisect_right(begins, event.time)
-    near = segments[max(first - 1, 0) : last]
-    left = next((s for s in near if s.mode == event.before), near[0])
-    entered = next((s for s in reversed(near) if s.mode == event.after), near[-1])
-    return replace(
-        event,
-        _left=None if event.before is None else left,
-        _entered=None if event.after is None else entered,
+# -- events that were asked for: expressions that pass through zero --------------------------------
+
+
+class EventCrossing(NamedTuple):
+    """Where an expression passes through zero.
+
+    Attributes:
+        time: s.
+        segment: which of them it is in.
+        begins: whether the segment begins there.
+    """
+
+    time: float
+    segment: int
+    begins: bool
+
+
+def requested_events(segments: Sequence[Segment], wanted: Mapping[str, Expr]) -> list[Event]:
+    """An event wherever one of some expressions passes through zero along a motion."""
+    return [
+        Event(time, name, segments[k].mode, segments[k].mode, segments[k], segments[k])
+        for name, expression in wanted.items()
+        for time, k, _ in zero_crossings(segments, expression)
+    ]
+
+
+def zero_crossings(segments: Sequence[Segment], expression: Expr) -> Iterator[EventCrossing]:
+    """When an expression passes through zero along a motion.
+
+    Where an absolute value changes its side the motion goes on, in another segment: an expression
+    that is zero there, as the argument itself is, must be counted once, not twice or never.
+    """
+    lasting = [k for k, s in enumerate(segments) if s.end - s.begin > _INSTANT * np.spacing(s.end)]
+    before = dict(pairwise(lasting))
+    seams = {  # where only the side of an absolute value changes
+        (i, k)
+        for i, k in before.items()
+        if segments[i].mode == segments[k].mode and segments[i].dynamics is not segments[k].dynamics
+    }
+    begun, ended = {k for _, k in seams}, {i for i, _ in seams}
+    for i, k in seams:
+        if _changes(segments[i], segments[k], expression):
+            yield EventCrossing(segments[k].begin, k, begins=True)
+    for k in lasting:
+        begin, end = segments[k].begin, segments[k].end
+        near = _THERE * (end - begin)
+        for time in _inside(segments[k], expression):
+            early, late = time <= begin + near, time >= end - near
+            if not ((early and k in begun) or (late and k in ended)):
+                yield EventCrossing(time, k, begins=False)
+
+
+def _changes(before: Segment, after: Segment, expression: Expr) -> bool:
+    """Whether an expression changes its sign from one segment to the next."""
+    earlier, later = before.steps, after.steps
+    sides = (
+        (before, earlier[-1] - _BESIDE * (earlier[-1] - earlier[-2])),
+        (after, later[0] + _BESIDE * (later[1] - later[0])),
     )
+    one, other = (s.values([Expr.of(expression)], np.array([t]))[0, 0] for s, t in sides)
+    return bool(one * other < 0)
+
+
+def _inside(segment: Segment, expression: Expr) -> list[float]:
+    """When an expression passes through zero within a segment."""
+
+    def values(times: Array) -> Array:
+        return segment.values([Expr.of(expression)], times)
+
+    return roots(values, segment.steps)

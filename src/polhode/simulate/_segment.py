@@ -1,4 +1,4 @@
-"""A stretch of a motion in one contact mode."""
+"""Pieces of a trajectory, and the segments that they make up: one for every contact mode."""
 
 from __future__ import annotations
 
@@ -10,13 +10,10 @@ import numpy as np
 
 from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError
-from polhode.simulate._dynamics import CLOCK, Dynamics
-from polhode.simulate._readable import moving
-from polhode.simulate.integrate._ascending import ascending, occurring
+from polhode.simulate._dynamics import CLOCK, Dynamics, moving
+from polhode.simulate.integrate._arrays import Array, ascending, occurring, rows
 from polhode.simulate.integrate._driver import SegmentSolution
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
-from polhode.simulate.integrate._rows import rows
-from polhode.simulate.integrate._stepping import Array
 
 _RECENT = 4  # sets of times whose states are remembered
 _FEW = 10_000  # times in one of them, at most
@@ -24,7 +21,10 @@ _FEW = 10_000  # times in one of them, at most
 
 @dataclass(frozen=True)
 class TrajectoryPiece:
-    """A stretch that was integrated in one go, with the constants of that stretch."""
+    """A piece of a trajectory that was integrated in one go, with the constants that hold on it.
+
+    It may end before its solution does: where an event has been found on it.
+    """
 
     begin: float
     end: float
@@ -32,7 +32,7 @@ class TrajectoryPiece:
     constants: Array = field(repr=False)
 
     def states(self, times: Array) -> Array:
-        """States, shape (states, times); kept, as many things are read at the same times."""
+        """States, shape (states, times); kept, since much is read at the same times."""
         if len(times) > _FEW:
             return self.solution.at(times)
         key = tuple(times.tolist()) if times.dtype == object else times.tobytes()
@@ -56,7 +56,7 @@ class TrajectoryPiece:
 
 @dataclass(frozen=True)
 class Segment:
-    """A stretch of time in one contact mode.
+    """A part of a trajectory within one contact mode.
 
     Attributes:
         mode: its name.
@@ -109,7 +109,7 @@ class Segment:
 def values_of(
     dynamics: Dynamics, part: TrajectoryPiece, expressions: Sequence[Expr], times: Array
 ) -> Array:
-    """Values of expressions within a part, shape (expressions, times)."""
+    """Values of expressions within a piece, shape (expressions, times)."""
     solution = part.solution
     arguments = (*solution.symbols, *dynamics.parameters, CLOCK)
     numbers = solution.numbers
@@ -118,18 +118,14 @@ def values_of(
         with np.errstate(all="ignore"):
             values = function(*part.states(times), *part.constants, times)
     except ArithmeticError as error:
-        raise _undefined(times) from error
+        raise NumericError(
+            f"a quantity without a finite value between {float(times[0]):g} s and "
+            f"{float(times[-1]):g} s",
+            expected="one that is defined at every requested time",
+            advice="ask for it at other times",
+        ) from error
     found: Array = rows(values, len(times), numbers.dtype)
     return found
-
-
-def _undefined(times: Array) -> NumericError:
-    return NumericError(
-        f"a quantity without a finite value between {float(times[0]):g} s and "
-        f"{float(times[-1]):g} s",
-        expected="one that is defined at every instant that is asked for",
-        advice="ask for it at other times",
-    )
 
 
 def state_at(part: TrajectoryPiece, time: float) -> dict[Symbol, float]:

@@ -2,21 +2,248 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
+from functools import lru_cache
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
-from polhode.algebra import Expr
-from polhode.base import Progress
-from polhode.derive import Automaton
+from polhode.algebra import Expr, read_value
+from polhode.base import (
+    TIME,
+    DeclarationError,
+    NumericError,
+    Progress,
+    SilentProgress,
+    UnitError,
+)
+from polhode.derive import Automaton, automaton
 from polhode.model import System
-from polhode.simulate._drift_warning import warn_of
+from polhode.simulate._as_declared import AsDeclared
 from polhode.simulate._dynamics import EquationsOfMotion
-from polhode.simulate._experiment import NEAR_FLAT, SAMPLES, Experiment
+from polhode.simulate._event import Event, events_of, placed, requested_events
 from polhode.simulate._names import Name
+from polhode.simulate._task import MotionResult, Prepared, Task, timed
 from polhode.simulate._trajectory import Trajectory
-from polhode.simulate.integrate._number_types import Precision
+from polhode.simulate._validity import doubt_about, pulling_contacts, refuse_lost_side, warn_of
+from polhode.simulate._values import given_values
+from polhode.simulate.integrate._arrays import Array
+from polhode.simulate.integrate._integrators import chosen
+from polhode.simulate.integrate._number_types import DOUBLES, Precision, numbers_for
+from polhode.simulate.precise._wanted import Wanted
+
+
+def prepared(subject: System | Automaton | EquationsOfMotion, task: Task) -> Prepared:
+    """What does not depend on the numbers, done once for all motions of a subject.
+
+    Raises:
+        DeclarationError: for what has no equations of motion.
+    """
+    if isinstance(subject, System):
+        subject = _modes(_ByIdentity(subject))
+    if isinstance(subject, Automaton):
+        if subject.contacts:  # imported only here: without contacts it is not needed
+            from polhode.simulate.contact._through_modes import ThroughModes, can_be_followed
+
+            if can_be_followed(subject):
+                return ThroughModes(subject, task)
+        with timed(task, "derive"):
+            subject = subject.together.equations
+    if not hasattr(subject, "kinematics"):
+        raise DeclarationError(
+            f"a motion of {subject!r}",
+            expected="a System, its automaton, or equations derived from it",
+            advice="put bodies, contacts and loads together in a System(...) first",
+        )
+    return AsDeclared(subject, task)
+
+
+class _ByIdentity:
+    """A key of a cache that equals another only if it stands for the very same object."""
+
+    def __init__(self, system: System) -> None:
+        self.system = system
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _ByIdentity) and self.system is other.system
+
+    def __hash__(self) -> int:
+        return id(self.system)
+
+
+@lru_cache(maxsize=8)
+def _modes(key: _ByIdentity) -> Automaton:
+    """The modes of a system, derived once however often it is simulated."""
+    return automaton(key.system)
+
+
+SAMPLES = 1001
+_LONGEST = 1e18  # s; the age of the universe is less
+#: Sine of the tilt at which a disk counts as lying flat.
+NEAR_FLAT = 1e-3
+
+
+class Experiment:
+    """Motions of one system over one duration, one after the other; compiled in the first run.
+
+    The prescribed motions, and which parameters are given, are those of the first run. Not to be
+    shared by threads: a compiled integrator holds the state of its motion.
+
+    Args:
+        subject: a declaration, its automaton, or equations derived from it.
+        duration: s.
+        until: events that end the motion once they happen.
+        tolerance, forcing, invariants, events, samples, near_flat, precision: as in `simulate`.
+
+    Raises:
+        NumericError: for impossible samples or an impossible tolerance.
+        UnitError: for a duration that cannot be read.
+    """
+
+    def __init__(
+        self,
+        subject: System | Automaton | EquationsOfMotion,
+        duration: Any,
+        *,
+        tolerance: float | None = None,
+        forcing: Mapping[Name, Any] | None = None,
+        invariants: Mapping[str, Expr] | None = None,
+        events: Mapping[str, Expr] | None = None,
+        samples: int | ArrayLike = SAMPLES,
+        near_flat: float = NEAR_FLAT,
+        until: Collection[str] = (),
+        precision: Precision = None,
+    ) -> None:
+        self.subject = subject
+        given = read_value("duration", duration).in_dimension(TIME)
+        self.duration = _duration(given.rounded())
+        self._times = _samples(samples, self.duration)
+        self._wanted = Wanted(numbers_for(precision), given, samples, events or {})
+        self._invariants = invariants or {}
+        self._events = events or {}
+        self._integrator = chosen()
+        self._prepared: Prepared | None = None
+        if tolerance is not None and not 0 < tolerance < 1:
+            raise NumericError(f"a tolerance of {tolerance}", expected="one between 0 and 1")
+        self._plan = Task(
+            given={},
+            start={},
+            forcing=forcing or {},
+            end=self.duration,
+            integrator=self._integrator,
+            tolerance=tolerance,
+            near_flat=near_flat,
+            seconds={},
+            until=frozenset(until),
+        )
+
+    def prepare(self, parameters: Mapping[Name, Any]) -> None:
+        """Do what does not depend on numbers; otherwise the first run does it.
+
+        Args:
+            parameters: those that will be given.
+
+        Raises:
+            DeclarationError: for a prescribed motion that is missing or impossible.
+            NumericError: for one that is not smooth, or contacts whose forces are undetermined.
+        """
+        self._ready(replace(self._plan, given=parameters, seconds={}))
+
+    def run(
+        self,
+        parameters: Mapping[Name, Any],
+        start: Mapping[Name, Any],
+        progress: Progress | None = None,
+    ) -> Trajectory:
+        """One motion, as `simulate` gives it; its `doubt` says if it cannot be relied on.
+
+        Raises:
+            ConstraintError, DeclarationError, NumericError, UnitError: as `simulate`.
+        """
+        given, begun = given_values(parameters), given_values(start)
+        task = replace(self._plan, given=given, start=begun, seconds={})
+        with _shown(progress or SilentProgress()) as shown:
+            motion = self._ready(task).follow(task, shown)
+            run = self._trajectory(motion, task)
+            if self._wanted.numbers is DOUBLES:
+                run = _with(run, requested_events(run.segments, self._events))
+            else:
+                from polhode.simulate.precise._precisely import precisely  # mpmath is heavy
+
+                with timed(task, "integrate"):
+                    run = precisely(run, motion, task, self._wanted, shown)
+            return replace(run, doubt=doubt_about(run, task.tolerance))
+
+    def _ready(self, task: Task) -> Prepared:
+        if self._prepared is None:
+            self._prepared = prepared(self.subject, task)
+        return self._prepared
+
+    def _trajectory(self, motion: MotionResult, task: Task) -> Trajectory:
+        end = motion.segments[-1].end
+        for segment in motion.segments:
+            motion.drive.confirm(segment.steps)
+        trajectory = Trajectory(
+            system=getattr(self.subject, "system", self.subject),
+            segments=motion.segments,
+            parameters=motion.parameters,
+            duration=end,
+            t=self._times[self._times <= end],
+            mode=motion.ending,
+            events=events_of(motion),
+            assumed=motion.assumed,
+            seconds=task.seconds,
+            integrator=task.integrator.name,
+            invariants=self._invariants,
+            resolution=motion.drive.resolution,
+        )
+        if motion.unguarded:
+            refuse_lost_side(trajectory)
+            mode = trajectory.mode
+            pulls = pulling_contacts(trajectory)
+            events = [Event(t, f"{name} pulls", mode, mode) for t, name in pulls]
+            trajectory = _with(trajectory, placed(events, trajectory.segments))
+        return trajectory
+
+
+def _with(trajectory: Trajectory, events: Iterable[Event]) -> Trajectory:
+    """The same motion with further events between its start and its end."""
+    start, *between, end = trajectory.events
+    between = sorted([*between, *events], key=lambda event: event.time)
+    return replace(trajectory, events=(start, *between, end))
+
+
+def _duration(duration: float) -> float:
+    if duration <= 0:
+        raise UnitError(f"a duration of {duration:g} s", expected="a positive one")
+    if duration > _LONGEST:
+        raise UnitError(f"a duration of {duration:g} s", expected=f"at most {_LONGEST:g} s")
+    return duration
+
+
+def _samples(samples: int | ArrayLike, duration: float) -> Array:
+    if isinstance(samples, int):
+        if samples < 2:
+            raise NumericError(f"{samples} samples", expected="at least two")
+        return np.linspace(0.0, duration, samples)
+    times = np.asarray(samples, dtype=float)
+    if times.ndim != 1 or not np.all((times >= 0) & (times <= duration)):
+        raise NumericError(
+            f"sample times {times!r}", expected=f"a list of times from 0 to {duration:g} s"
+        )
+    return times
+
+
+@contextmanager
+def _shown(progress: Progress) -> Iterator[Progress]:
+    progress.begin("integrating")
+    try:
+        yield progress
+    finally:
+        progress.finish()
 
 
 def simulate(
@@ -36,16 +263,16 @@ def simulate(
 ) -> Trajectory:
     """Integrate the motion of a system to rounding, through all its contact modes.
 
-    Contacts of a declaration stick, slip, open and close as their forces demand, and every change
-    is found to rounding. Equations, on the other hand, are those of one contact mode: they are
-    kept to, and a contact that would have to pull is an event.
+    The contacts of a declaration stick, slip, open and close as their forces demand, and every
+    change is found to rounding. Equations, in contrast, describe one contact mode: contacts are
+    kept as they are, and where one would have to pull is an event.
 
-    Absolute values in loads, |x| and x/|x|, are followed from one side of zero to the other: where
-    x passes zero is an event. Where forces drive it back to zero from both sides, as dry friction
-    does a slip that has come to rest, it stays zero for as long as they do.
+    Absolute values in loads, |x| and x/|x|, are followed from one side of zero to the other; where
+    x passes through zero is an event. If forces drive x back to zero from both sides, as dry
+    friction does with a slip that has come to rest, it stays zero for as long as they do.
 
-    A motion whose energy balance or closed loops are off by more than rounding explains says so by
-    a `DriftWarning` and in its `doubt`.
+    If the energy balance or a closed loop is off by more than rounding explains, a `DriftWarning`
+    is given, and `doubt` of the trajectory says so.
 
     Names may be symbols or published names; values are SI numbers, texts with a unit, or exact
     expressions.
@@ -53,29 +280,29 @@ def simulate(
     Args:
         subject: a declaration, its automaton, or equations derived from it.
         parameters: the value of every parameter.
-        start: coordinates, speeds, rates of coordinates and dependent speeds in any mixture that
-            does not contradict itself. What they leave open starts at zero and is listed in
-            `assumed`; coordinates that close a loop are solved for.
+        start: coordinates, speeds, rates of coordinates and dependent speeds in any consistent
+            combination. What they leave open starts at zero and is listed in `assumed`;
+            coordinates that close a loop are solved for.
         duration: s.
         tolerance: relative, of one step; by default the best that the integrator holds.
         forcing: every prescribed function: an expression of time, a Python function of the time
-            in seconds, or samples read with `sampled` or `read_sheet`. What a function does for
-            less than a 2000th of the duration may be missed, see `approximated`.
-        invariants: expressions to be watched for drift, by name.
-        events: expressions whose passing through zero is recorded, by name.
+            in seconds, or samples read with `sampled` or `read_sheet`. Features of a function
+            shorter than a 2000th of the duration may be missed, see `approximated`.
+        invariants: expressions whose drift is monitored, by name.
+        events: expressions whose zero crossings are recorded as events, by name.
         samples: number of equally spaced sample times, or the times, s.
-        near_flat: value of the sine of the tilt of a disk, for instance, at which it counts as
-            lying flat: the point of contact is not defined beyond, and the motion ends there.
+        near_flat: value, for instance of the sine of the tilt of a disk, at which it counts as
+            lying flat: beyond, the point of contact is not defined, so the motion ends there.
         precision: double, extended (the machine's long doubles), quadruple, or a number of
-            decimal digits. Values are then taken exactly as they are written: "0.1 m" is a
-            tenth, the float 0.1 its binary value.
-        progress: told of every step.
+            decimal digits. Beyond double precision, values are taken exactly as written:
+            "0.1 m" is a tenth, the float 0.1 its binary value.
+        progress: notified of every step.
 
     Raises:
         ConstraintError: for start values that contradict each other or the constraints.
-        DeclarationError: for names that are not known, and values that are missing or impossible.
-        NumericError: where the motion is not defined or cannot be continued, or where it is wrong
-            beyond doubt, as its drift tells.
+        DeclarationError: for unknown names, and values that are missing or impossible.
+        NumericError: where the motion is not defined or cannot be continued, or where its drift
+            shows that it is wrong.
         UnitError: for a value that cannot be read or has the wrong dimension.
     """
     experiment = Experiment(

@@ -1,23 +1,129 @@
-"""Start values: any sufficient set is taken, the rest is solved for or starts at zero."""
+"""Start values: whatever is given is completed; the rest is solved for or starts at zero."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from math import pi
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from polhode.algebra import Expr, Symbol, SymbolKind
 from polhode.base import ConstraintError, NumericError
 from polhode.simulate._absolute_values import Here, sides_at
-from polhode.simulate._closures import close
-from polhode.simulate._dynamics import Dynamics
+from polhode.simulate._dynamics import CLOCK, Dynamics
 from polhode.simulate._names import Name, by_name
 from polhode.simulate._values import Numbers, read_values
+from polhode.simulate.integrate._arrays import Array
 
-Array = NDArray[np.float64]
+# -- closed loops: coordinates that are not given are solved for -----------------------------------
+
+
+_CLOSED = 1e-9  # residual over the largest slope, below which a loop counts as closed
+_GUESSES = 40
+_STEPS = 60
+
+
+def close(
+    dynamics: Dynamics, given: Numbers, parameters: Numbers
+) -> tuple[dict[Symbol, float], dict[str, float]]:
+    """All coordinates at the start, and which of them had to be assumed.
+
+    Without closed loops, coordinates that are not given start at zero. With them they are solved
+    for by Newton's method, from zero and then from guesses spread over a turn.
+
+    Raises:
+        ConstraintError: where no configuration with the given coordinates closes the loops.
+    """
+    coordinates = dynamics.equations.coordinates
+    free = tuple(q for q in coordinates if q not in given)
+    if not dynamics.equations.closures:
+        return (
+            {q: given.get(q, 0.0) for q in coordinates},
+            {q.published: 0.0 for q in free},
+        )
+    loop = _Loop(dynamics, given, free, parameters)
+    found = loop.closed()
+    values = {**given, **dict(zip(free, (float(x) for x in found), strict=True))}
+    chosen = len(free) > loop.rank(found)
+    assumed = {q.published: values[q] for q in free} if chosen else {}
+    return {q: values[q] for q in coordinates}, assumed
+
+
+class _Loop:
+    """The closures as functions of the free coordinates."""
+
+    def __init__(
+        self, dynamics: Dynamics, given: Numbers, free: tuple[Symbol, ...], parameters: Numbers
+    ) -> None:
+        self._closures = dynamics.equations.closures
+        self._free = free
+        self._given = given
+        slopes = [closure.diff(q) for closure in self._closures for q in free]
+        self._residual = _of_free(dynamics, self._closures, given, free, parameters)
+        self._slopes = _of_free(dynamics, slopes, given, free, parameters)
+
+    def closed(self) -> Array:
+        """Free coordinates that close the loops."""
+        tried = []
+        for guess in self._guesses():
+            tried.append(self._newton(guess))
+            if self._misfit(tried[-1]) <= _CLOSED:
+                return tried[-1]
+        residual = np.abs(self._residual(min(tried, key=self._misfit)))
+        worst = self._closures[int(np.argmax(residual))]
+        names = ", ".join(f"{q.published} = {v:g}" for q, v in self._given.items())
+        raise ConstraintError(
+            f"no configuration with {names or 'these lengths'} closes the loop {worst} = 0",
+            expected=f"a residual of zero, not {np.max(residual):.3g} m at best",
+            advice="leave out the coordinates that the loop determines, or change the lengths",
+        )
+
+    def rank(self, place: Array) -> int:
+        """How many coordinates the loops determine there."""
+        return int(np.linalg.matrix_rank(self._jacobian(place))) if self._free else 0
+
+    def _misfit(self, place: Array) -> float:
+        slopes = np.max(np.abs(self._jacobian(place)), initial=0.0) if self._free else 1.0
+        return float(np.max(np.abs(self._residual(place))) / (slopes or 1.0))
+
+    def _jacobian(self, place: Array) -> Array:
+        return np.reshape(self._slopes(place), (len(self._closures), len(self._free)))
+
+    def _newton(self, place: Array) -> Array:
+        """Damped Gauss-Newton steps of least length."""
+        for _ in range(_STEPS if self._free else 0):
+            residual = self._residual(place)
+            step = np.linalg.lstsq(self._jacobian(place), -residual, rcond=1e-12)[0]
+            size, now = 1.0, np.linalg.norm(residual)
+            while size > 1e-3 and np.linalg.norm(self._residual(place + size * step)) >= now:
+                size /= 2
+            if size <= 1e-3:
+                break
+            place = place + size * step
+        return place
+
+    def _guesses(self) -> Iterator[Array]:
+        """Zero, then points that fill the cube of one turn evenly (Weyl's sequence)."""
+        primes = np.array([p for p in range(2, 400) if all(p % d for d in range(2, p))])
+        slopes = np.sqrt(primes[: len(self._free)]) % 1.0
+        for k in range(_GUESSES if self._free else 1):
+            yield 2 * pi * ((k * slopes + 0.5) % 1.0 - 0.5)
+
+
+def _of_free(
+    dynamics: Dynamics,
+    expressions: Sequence[Expr],
+    given: Numbers,
+    free: tuple[Symbol, ...],
+    parameters: Numbers,
+) -> Callable[[Array], Array]:
+    arguments = (*free, *given, *parameters, CLOCK)
+    function = dynamics.program(expressions, arguments).function()
+    known = (*given.values(), *parameters.values(), 0.0)
+    return lambda place: np.array(function(*(float(x) for x in place), *known), dtype=float)
+
 
 _AGREE = 1e-9  # relative difference of start values that are taken to agree
 _INDEPENDENT = 1e-12  # relative size below which a pivot is rounding
@@ -29,7 +135,7 @@ class Start:
 
     Attributes:
         state: values of all states, SI.
-        assumed: names and values of what had to be assumed.
+        assumed: names and values of what was not given and had to be assumed.
     """
 
     state: Array
@@ -43,7 +149,7 @@ def read_start(dynamics: Dynamics, given: Mapping[Name, Any], parameters: Number
 
     Raises:
         ConstraintError: for values that contradict each other or the constraints.
-        DeclarationError: for a name that is not known.
+        DeclarationError: for an unknown name.
         NumericError: where the equations of motion have no finite solution.
         UnitError: for a value that cannot be read or has the wrong dimension.
     """
@@ -60,16 +166,12 @@ def read_start(dynamics: Dynamics, given: Mapping[Name, Any], parameters: Number
     state = [configuration[q] for q in equations.coordinates]
     state += [speeds.get(u, 0.0) for u in equations.speeds]
     start = Start(np.array(state), assumed)
-    _check(_settled(dynamics, start, parameters), start, parameters)
+    if dynamics.undecided:
+        known = dict(zip(dynamics.states, start.state, strict=True))
+        here = Here(known, list(parameters.values()), 0.0)
+        dynamics = dynamics.on(sides_at(dynamics, here))
+    _check(dynamics, start, parameters)
     return start
-
-
-def _settled(dynamics: Dynamics, start: Start, parameters: Numbers) -> Dynamics:
-    """The equations on the sides of absolute values that the motion starts on."""
-    if not dynamics.undecided:
-        return dynamics
-    state = dict(zip(dynamics.states, start.state, strict=True))
-    return dynamics.on(sides_at(dynamics, Here(state, list(parameters.values()), 0.0)))
 
 
 class _Relations:
@@ -97,7 +199,14 @@ class _Relations:
         self._constant = at(np.zeros(len(self._unknowns)))
         columns = [at(unit) - self._constant for unit in np.eye(len(self._unknowns))]
         self._matrix = np.reshape(columns, (len(self._unknowns), len(self._given))).T
-        self._check_finite()
+        finite = np.isfinite(self._constant) & np.isfinite(self._matrix).all(axis=1)
+        for symbol, good in zip(self._given, finite, strict=True):
+            if not good:
+                raise NumericError(
+                    f"{symbol.published} is not defined at the start",
+                    expected="coordinates where the kinematic relations are regular",
+                    advice="start away from the singular position (such as theta = 0)",
+                )
 
     def solution(self) -> dict[Symbol, float]:
         """Independent speeds that the given values fix, with the others at rest."""
@@ -106,7 +215,17 @@ class _Relations:
         right = np.array(list(self._given.values()))[rows] - self._constant[rows]
         found = np.zeros(len(self._unknowns))
         found[pivots] = np.linalg.solve(matrix, right)
-        self._check_agreement(rows, found)
+        implied = self._constant + self._matrix @ found
+        scale = np.abs(self._constant) + np.abs(self._matrix) @ np.abs(found)
+        for i, (symbol, value) in enumerate(self._given.items()):
+            if abs(value - implied[i]) > _AGREE * max(scale[i], abs(value)):
+                names = ", ".join(s.published for k, s in enumerate(self._given) if k in rows)
+                cause = f"which follows from {names}" if names else "as the constraints demand"
+                raise ConstraintError(
+                    f"{symbol.published} = {value:g} at the start contradicts the constraints",
+                    expected=f"{float(implied[i]):.12g}, {cause}",
+                    advice=f"leave {symbol.published} out, or change the others",
+                )
         return {self._unknowns[j]: float(found[j]) for j in pivots}
 
     def _independent(self) -> tuple[list[int], list[int]]:
@@ -122,34 +241,6 @@ class _Relations:
             rows.append(i)
             pivots.append(j)
         return rows, pivots
-
-    def _check_agreement(self, rows: list[int], speeds: Array) -> None:
-        implied = self._constant + self._matrix @ speeds
-        scale = np.abs(self._constant) + np.abs(self._matrix) @ np.abs(speeds)
-        for i, (symbol, value) in enumerate(self._given.items()):
-            if abs(value - implied[i]) > _AGREE * max(scale[i], abs(value)):
-                raise self._contradiction(symbol, value, float(implied[i]), rows)
-
-    def _contradiction(
-        self, symbol: Symbol, value: float, implied: float, rows: list[int]
-    ) -> ConstraintError:
-        names = [s.published for i, s in enumerate(self._given) if i in rows]
-        cause = f"which follows from {', '.join(names)}" if names else "as the constraints demand"
-        return ConstraintError(
-            f"{symbol.published} = {value:g} at the start contradicts the constraints",
-            expected=f"{implied:.12g}, {cause}",
-            advice=f"leave {symbol.published} out, or change the others",
-        )
-
-    def _check_finite(self) -> None:
-        finite = np.isfinite(self._constant) & np.isfinite(self._matrix).all(axis=1)
-        for symbol, good in zip(self._given, finite, strict=True):
-            if not good:
-                raise NumericError(
-                    f"{symbol.published} is not defined at the start",
-                    expected="coordinates where the kinematic relations are regular",
-                    advice="start away from the singular position (such as theta = 0)",
-                )
 
 
 def _check(dynamics: Dynamics, start: Start, parameters: Numbers) -> None:
@@ -174,12 +265,8 @@ def _check(dynamics: Dynamics, start: Start, parameters: Numbers) -> None:
             expected="a start away from singular positions",
             advice="give every angle, and none where the axes coincide (such as theta = 0)",
         )
-    _check_mass_matrix(dynamics, point)
-
-
-def _check_mass_matrix(dynamics: Dynamics, point: Sequence[float]) -> None:
-    matrix = dynamics.equations.mass
-    if matrix != matrix.T:
+    matrix = equations.mass
+    if matrix != matrix.T:  # sliding friction makes it so
         return
     entries = _evaluated(dynamics, [e for row in matrix.rows for e in row], point)
     if np.any(np.linalg.eigvalsh(np.reshape(entries, matrix.shape)) <= 0):

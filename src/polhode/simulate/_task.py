@@ -1,4 +1,4 @@
-"""What is asked of a motion, and what came of it."""
+"""What a simulation is asked to do, and what it gives."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ AS_DECLARED = "as declared"
 
 @dataclass(frozen=True)
 class Task:
-    """What is asked for: numbers, a start, and how to go on from it."""
+    """A simulation to run: numbers, a start, and how to integrate from it."""
 
     given: Mapping[Name, Any]
     start: Mapping[Name, Any]
@@ -40,7 +40,7 @@ class Task:
 
 @dataclass(frozen=True)
 class InitialState:
-    """The start as it was read, and the equations in which it was."""
+    """The start as it was read, and the equations in which it was read."""
 
     dynamics: Dynamics
     start: Start
@@ -48,26 +48,26 @@ class InitialState:
 
 @dataclass(frozen=True)
 class Guarded:
-    """What follows a motion through its contact modes.
+    """The contact modes that a motion was followed through.
 
     Attributes:
-        machine: the modes, with numbers.
+        hybrid: the modes, with numbers.
         apart: contacts that start at a given height.
     """
 
-    machine: HybridSystem
+    hybrid: HybridSystem
     apart: frozenset[int]
 
 
 @dataclass(frozen=True)
 class MotionResult:
-    """What came of it.
+    """A motion that was integrated.
 
     Attributes:
-        unguarded: whether the contacts were taken as declared, and not looked after.
+        unguarded: whether the contacts were kept as declared, without events of theirs.
         begun: how the start was read.
         drive: the prescribed motions.
-        guarded: what looks after the contacts, where they are looked after.
+        guarded: the contact modes, unless contacts were kept as declared.
     """
 
     segments: tuple[Segment, ...]
@@ -88,7 +88,7 @@ class Prepared(Protocol):
         """The motion from its start to its end.
 
         Args:
-            task: what is asked for; only values and start may differ from what was prepared for.
+            task: only its values and start may differ from those it was prepared for.
         """
         ...
 

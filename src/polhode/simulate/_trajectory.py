@@ -25,15 +25,14 @@ from polhode.base import (
 from polhode.derive import Equations
 from polhode.model import write_declaration
 from polhode.simulate._drift import Drift, drift_of
-from polhode.simulate._dynamics import Dynamics, EquationsOfMotion
+from polhode.simulate._dynamics import Dynamics, EquationsOfMotion, readable
 from polhode.simulate._event import Event, placed
-from polhode.simulate._readable import readable
 from polhode.simulate._segment import Segment, TrajectoryPiece
 from polhode.simulate.files._archive import Archive, ChebyshevPiece, Sampled, series_of
 from polhode.simulate.files._details import Details, label
 from polhode.simulate.files._store import write_archive
 from polhode.simulate.files._tables import to_pandas, to_xarray, write_csv
-from polhode.simulate.integrate._ascending import occurring
+from polhode.simulate.integrate._arrays import occurring
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._stepping import Array
 

@@ -1,21 +1,28 @@
-"""Whether a motion stayed where its equations hold, and its contacts only pushed."""
+"""Whether a computed motion can be relied on.
+
+It has to stay where its equations hold, its contacts may only push, and its energy has to balance.
+"""
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator
+from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from polhode.algebra import Expr
-from polhode.base import NumericError
+from polhode.base import DriftWarning, NumericError
 from polhode.model import Contact
+from polhode.simulate._drift import imbalance_of
 
 if TYPE_CHECKING:
     from polhode.simulate._trajectory import Trajectory
 
-#: How finely a motion is looked at between its ends: no finer than parts remember their states for.
-_LOOKS = 10_000
+
+#: Instants at which a motion is checked: no more than those whose states its pieces keep.
+_CHECKS = 10_000
 
 
 def refuse_lost_side(trajectory: Trajectory) -> None:
@@ -46,7 +53,69 @@ def pulling_contacts(trajectory: Trajectory) -> Iterator[tuple[float, str]]:
 
 
 def _first_fall(trajectory: Trajectory, quantity: Expr | str) -> float | None:
-    times = np.linspace(0.0, trajectory.duration, _LOOKS)
+    times = np.linspace(0.0, trajectory.duration, _CHECKS)
     values = np.broadcast_to(trajectory.evaluate(quantity, times), times.shape)
     fallen = np.flatnonzero(~(values > 0))
     return float(times[fallen[0]]) if fallen.size else None
+
+
+# -- whether energy and closed loops balance to rounding -------------------------------------------
+#
+# One step of an integrator leaves the energy off by a few roundings (or by its tolerance, if that
+# is larger); over many steps these add up at worst in proportion to their number. Near a singular
+# position, such as a disk about to lie flat, terms that nearly cancel lose further digits. A larger
+# imbalance is not rounding: a force jumps unnoticed, or does work that was not counted.
+
+_LOST = 1e7  # roundings that cancellation may cost
+_PER_STEP = 100.0  # roundings that a step may cost
+_WRONG = 1e-3  # of the energy or the lengths: a larger imbalance is an error, not a warning
+_TIGHTEST = {"scipy": 1e-13}  # smallest relative tolerance of an integrator, if not rounding
+
+
+def doubt_about(run: Trajectory, tolerance: float | None) -> str:
+    """Why a motion cannot be relied on; empty if it can.
+
+    Args:
+        tolerance: of its steps, if one was requested.
+
+    Raises:
+        NumericError: for a motion that is certainly wrong.
+    """
+    numbers = run.segments[0].numbers
+    rounding = 2.0 ** (1 - numbers.bits)
+    tightest = max(rounding, _TIGHTEST.get(run.integrator, 0.0)) if rounding > 1e-17 else rounding
+    step = max(rounding, tolerance or 0.0, tightest)
+    steps = sum(len(segment.steps) for segment in run.segments)
+    allowed = _LOST * rounding + _PER_STEP * step * steps
+    for what, size in imbalance_of(run.segments).items():
+        if not isfinite(size) or size <= allowed:
+            continue
+        reason = f"{what} is off by {size:.1e} of its scale, where rounding explains {allowed:.0e}"
+        if size > max(_WRONG, allowed):
+            raise NumericError(
+                f"a motion that is wrong: {reason}",
+                expected="a motion that keeps its balance",
+                advice="a load that jumps, or whose power is not that of its force, does this; "
+                "if there is none, please report it",
+            )
+        return reason
+    return ""
+
+
+def refuse_doubt(run: Trajectory) -> None:
+    """Refuse a motion that cannot be relied on.
+
+    Raises:
+        NumericError: with the reason.
+    """
+    if run.doubt:
+        raise NumericError(
+            f"a motion that cannot be relied on: {run.doubt}",
+            expected="one that keeps its balance to rounding",
+        )
+
+
+def warn_of(run: Trajectory) -> None:
+    """Warn of a motion that cannot be relied on."""
+    if run.doubt:
+        warnings.warn(f"this motion cannot be relied on: {run.doubt}", DriftWarning, stacklevel=3)

@@ -1,9 +1,10 @@
-"""What differs from one member of an ensemble to the next, and what does not."""
+"""The values of an ensemble: common to all members, or one per member."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from numbers import Integral
 from typing import Any, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
@@ -15,12 +16,41 @@ from polhode.base import DeclarationError, read_quantity
 Array: TypeAlias = NDArray[np.float64]
 Name: TypeAlias = str | Symbol | Expr
 
+_MOST = 1_000_000_000  # members of one study
 
-def several(names: Sequence[Name] | Name, what: str) -> tuple[Name, ...]:
-    """Some names, or one alone.
+
+def whole(value: Any, what: str, least: int = 1) -> int:
+    """A whole number that counts something.
 
     Raises:
-        DeclarationError: for none at all.
+        DeclarationError: for anything else.
+    """
+    counts = isinstance(value, Integral) and not isinstance(value, bool)
+    if not counts or not least <= value <= _MOST:
+        raise DeclarationError(
+            f"{value!r} {what}", expected=f"a whole number from {least} to {_MOST}"
+        )
+    return int(value)
+
+
+def random_seed(seed: int | None) -> int:
+    """A given seed, or a new one.
+
+    Raises:
+        DeclarationError: for a seed that is not a whole number, zero or more.
+    """
+    if seed is None:
+        return int(np.random.SeedSequence().entropy) % 2**62  # type: ignore[arg-type]
+    if not isinstance(seed, int | np.integer) or seed < 0:
+        raise DeclarationError(f"the seed {seed!r}", expected="a whole number, zero or more")
+    return int(seed)
+
+
+def several(names: Sequence[Name] | Name, what: str) -> tuple[Name, ...]:
+    """Some names, given as a sequence or as one name.
+
+    Raises:
+        DeclarationError: for an empty sequence.
     """
     found = (names,) if isinstance(names, Name) else tuple(names)
     if not found:
@@ -30,10 +60,10 @@ def several(names: Sequence[Name] | Name, what: str) -> tuple[Name, ...]:
 
 @runtime_checkable
 class Distribution(Protocol):
-    """What values are drawn from; a frozen distribution of scipy.stats is one."""
+    """What random values are drawn from, such as a frozen distribution of scipy.stats."""
 
     def rvs(self, *, size: int, random_state: np.random.Generator) -> Any:
-        """That many values."""
+        """As many values as `size`."""
         ...
 
 
@@ -50,7 +80,7 @@ class Column:
     unit: str = ""
 
     def value(self, member: int) -> Any:
-        """As `simulate` takes it."""
+        """The value of one member, as `simulate` takes it."""
         value = self.values[member].item()
         return (value, self.unit) if self.unit else value
 
@@ -93,7 +123,7 @@ class Members:
         return Members(count, _rows(self.parameters, rows), _rows(self.start, rows))
 
     def si_columns(self) -> dict[str, Array] | None:
-        """SI values of what differs, by name; None where they are texts."""
+        """SI values of the columns, by name; None if some are texts."""
         columns = self.columns
         if any(column.values.dtype.kind == "U" for column in columns.values()):
             return None
@@ -101,12 +131,12 @@ class Members:
 
     @property
     def has_expressions(self) -> bool:
-        """Whether a value that is common to all may depend on what differs."""
+        """Whether a common value may depend on those that differ."""
         return any(isinstance(v, Expr) for v in (*self.parameters.values(), *self.start.values()))
 
     @property
     def columns(self) -> dict[str, Column]:
-        """What differs, by name."""
+        """The values that differ, by name."""
         both = {**self.parameters, **self.start}
         return {name: value for name, value in both.items() if isinstance(value, Column)}
 
@@ -125,7 +155,7 @@ def members_of(
     """Members from arrays, distributions and single values.
 
     Raises:
-        DeclarationError: where it is not clear how many members there are.
+        DeclarationError: unless arrays and count agree on the number of members.
     """
     given = (published_names(parameters), published_names(start))
     size = _count([*given[0].items(), *given[1].items()], count)
@@ -134,14 +164,14 @@ def members_of(
 
 
 def published_names(values: Mapping[Name, Any]) -> dict[str, Any]:
-    """Values under the published names of what they are values of."""
+    """Values by the published names of their quantities."""
     return {k if isinstance(k, str) else as_symbol(k).published: v for k, v in values.items()}
 
 
 def drawn(name: str, distribution: Distribution, count: int, seed: int) -> Array:
     """Values from a distribution.
 
-    They depend on the seed and the name alone, not on what else is drawn.
+    They depend on the seed and the name alone, not on other random values.
     """
     generator = np.random.default_rng([seed, *name.encode()])
     return np.asarray(distribution.rvs(size=count, random_state=generator), dtype=float)
@@ -157,7 +187,7 @@ def split_unit(value: Any) -> tuple[Any, str]:
 
 
 def is_many(value: Any) -> bool:
-    """Whether these are the values of several members."""
+    """Whether these are values of several members."""
     return isinstance(value, list | range) or (isinstance(value, np.ndarray) and value.ndim > 0)
 
 
@@ -168,13 +198,13 @@ def _count(given: Iterable[tuple[str, Any]], count: int | None) -> int:
         return int(size)
     if not sizes:
         raise DeclarationError(
-            "an ensemble of nobody knows how many members",
+            "an ensemble whose number of members is not given",
             expected="an array of values, or count=",
             advice="add count=1000, for instance",
         )
-    told = ", ".join(f"{n}: {length}" for n, length in lengths.items())
+    given_lengths = ", ".join(f"{n}: {length}" for n, length in lengths.items())
     raise DeclarationError(
-        f"arrays and a count that do not agree ({told or 'none'}; count: {count})",
+        f"arrays and a count that do not agree ({given_lengths or 'none'}; count: {count})",
         expected="one length for all of them, at least one",
     )
 

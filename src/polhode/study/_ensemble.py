@@ -1,4 +1,4 @@
-"""Many motions of one system, with numbers and starts that differ."""
+"""Many motions of one system, with different parameters and start values."""
 
 from __future__ import annotations
 
@@ -10,22 +10,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polhode.algebra import Expr
-from polhode.base import DeclarationError, Progress, Shown, SilentProgress, look_up
-from polhode.study._columns import Array, Column, Members, Name, members_of
-from polhode.study._counts import whole
-from polhode.study._ensemble_runner import EnsembleSpec, ResultChunk, Subject, options_of
-from polhode.study._extremes import Quantity
+from polhode.base import Progress, Shown, SilentProgress, extra, look_up
+from polhode.study._columns import Array, Column, Name, members_of, random_seed, whole
+from polhode.study._compute import in_shares
+from polhode.study._ensemble_runner import EnsembleSpec, Reason, Subject, options_of
 from polhode.study._grid import start_name
-from polhode.study._output import Output
+from polhode.study._output import Output, Quantity
 from polhode.study._outputs import outputs_of
-from polhode.study._reasons import Reason
 from polhode.study._refused import refuse_mistakes
-from polhode.study._workers import shared_out
 
 if TYPE_CHECKING:
     import xarray
 
-#: What is kept unless something else is asked for.
+#: The default outputs.
 USUAL = ("mode",)
 
 
@@ -36,12 +33,12 @@ class Ensemble(Shown):
     Attributes:
         values: by output, shape (members, *shape of the output); not-a-number, and -1 for codes,
             of members without a result.
-        labels: of outputs that are codes: what each stands for.
-        reason: a `Reason` per member, 0 for those that were followed to their end.
-        failures: why members failed, in words; of the first thousand.
+        labels: meanings of the codes, for outputs that are codes.
+        reason: a `Reason` per member, 0 for those simulated to their end.
+        failures: why members failed, in words, for the first thousand.
         numbers: parameters and start values that differ, shape (members,), as given; those of
             the name of an output are called `..._start`.
-        seed: of what was drawn.
+        seed: of the random values.
     """
 
     values: Mapping[str, Array]
@@ -61,14 +58,14 @@ class Ensemble(Shown):
         """One output, or parameter or start value that differs, of all members.
 
         Raises:
-            DeclarationError: for a name that is none.
+            DeclarationError: for an unknown name.
         """
         known = {**{n: column.values for n, column in self.numbers.items()}, **self.values}
         return look_up(name, known, "output of this ensemble")
 
     @property
     def done(self) -> NDArray[np.bool_]:
-        """Which members were followed to their end, shape (members,)."""
+        """Which members were simulated to their end, shape (members,)."""
         return np.asarray(self.reason == Reason.DONE)
 
     @property
@@ -77,10 +74,10 @@ class Ensemble(Shown):
         return int(np.sum(~self.done))
 
     def named(self, name: str) -> list[str]:
-        """An output that is a code, in words; "" where there is none.
+        """An output that is a code, in words; "" where there is no result.
 
         Raises:
-            DeclarationError: for an output that is no code.
+            DeclarationError: for an output that is not a code.
         """
         words = look_up(name, self.labels, "output of this ensemble that is a code")
         return [words[int(code)] if code >= 0 else "" for code in self.values[name].ravel()]
@@ -91,9 +88,22 @@ class Ensemble(Shown):
         Raises:
             StoreError: where xarray is not installed.
         """
-        from polhode.study._datasets import dataset_of
-
-        return dataset_of(self)
+        with extra("xarray", "study"):
+            import xarray
+        columns = {
+            name: (
+                ("member", *(f"{name}_{axis}" for axis in range(values.ndim - 1))),
+                values,
+                {"labels": list(self.labels[name])} if name in self.labels else {},
+            )
+            for name, values in self.values.items()
+        }
+        numbers = {
+            name: ("member", column.values, {"units": column.unit} if column.unit else {})
+            for name, column in self.numbers.items()
+        }
+        reason = {"reason": ("member", self.reason)}
+        return xarray.Dataset({**columns, **reason}, coords=numbers, attrs={"seed": self.seed})
 
 
 def ensemble(
@@ -113,10 +123,10 @@ def ensemble(
     events: Mapping[str, Expr] | None = None,
     progress: Progress | None = None,
 ) -> Ensemble:
-    """Follow many motions, through their contact modes, and keep the chosen outputs of each.
+    """Simulate many motions, through their contact modes, and keep chosen outputs of each.
 
-    The answers are those of `simulate` for the same numbers. A member that fails is recorded with
-    its reason and does not stop the rest.
+    The results are those of `simulate` for the same numbers. A member that fails is recorded with
+    the reason, and the others go on.
 
     Args:
         subject: a declaration, its automaton, or equations derived from it.
@@ -127,51 +137,40 @@ def ensemble(
         duration: s.
         outputs: what is kept, by name. A quantity alone stands for its value at the end, "mode"
             for the mode at the end.
-        count: number of members, where no array tells.
-        seed: of what is drawn; a new one where none is given. Every quantity has its own random
-            numbers, which depend on the seed and its name alone.
+        count: number of members, unless an array gives it.
+        seed: of random values; by default a new one. Every quantity has its own random numbers,
+            which depend on the seed and its name alone.
         workers: processes that share the work.
-        until: events that end a motion once they happen, such as "slips"; what comes after is
-            not computed.
+        until: events that end a motion, such as "slips".
         forcing, tolerance, near_flat, events: as in `simulate`.
         progress: told of every member.
 
     Raises:
-        DeclarationError: for members or outputs that are not clear.
-        NumericError: for a tolerance that cannot be.
+        DeclarationError: for ambiguous members or outputs.
+        NumericError: for an invalid tolerance.
         UnitError: for a duration that cannot be read.
     """
-    chosen = np.random.SeedSequence().entropy % 2**62 if seed is None else seed  # type: ignore[operator]
+    drawn_with = random_seed(seed)
     known = None if count is None else whole(count, "members")
-    members = members_of(parameters, start, known, _seed(chosen))
+    members = members_of(parameters, start, known, drawn_with)
     options = options_of(
         forcing=forcing, tolerance=tolerance, near_flat=near_flat, until=until, events=events
     )
-    order = EnsembleSpec(subject, duration, outputs_of(outputs), options)
-    refuse_mistakes(order, members.parameters, members.start)
+    spec = EnsembleSpec(subject, duration, outputs_of(outputs), options)
+    refuse_mistakes(spec, members.parameters, members.start)
     whole(workers, "workers")
     shown = progress or SilentProgress()
     shown.begin("members", members.count)
     try:
-        block = shared_out(order, members, workers, shown.advance)
+        results = in_shares(spec, members, workers, shown.advance)
     finally:
         shown.finish()
-    return _told(order, members, block, chosen)
-
-
-def _seed(seed: Any) -> int:
-    if not isinstance(seed, int | np.integer) or seed < 0:
-        raise DeclarationError(f"the seed {seed!r}", expected="a whole number, zero or more")
-    return int(seed)
-
-
-def _told(order: EnsembleSpec, members: Members, block: ResultChunk, seed: int) -> Ensemble:
-    labels = {name: output.labels(order.legend) for name, output in order.outputs.items()}
+    labels = {name: output.labels(spec.legend) for name, output in spec.outputs.items()}
     return Ensemble(
-        values=block.values,
+        values=results.values,
         labels={name: words for name, words in labels.items() if words},
-        reason=block.reason,
-        failures=block.told,
-        numbers={start_name(n, order.outputs): c for n, c in members.columns.items()},
-        seed=seed,
+        reason=results.reason,
+        failures=results.failures,
+        numbers={start_name(n, spec.outputs): c for n, c in members.columns.items()},
+        seed=drawn_with,
     )

@@ -1,38 +1,82 @@
-"""Some members of an ensemble, followed one after the other."""
+"""Members of an ensemble, simulated side by side where possible and else one after another."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from enum import IntEnum
 from functools import cached_property
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.base import DeclarationError, PolhodeError
+from polhode.base import (
+    ConstraintError,
+    DeclarationError,
+    NumericError,
+    ParseError,
+    PolhodeError,
+    StoreError,
+    UnitError,
+)
 from polhode.derive import Automaton, Equations, automaton, derive
 from polhode.model import System
 from polhode.simulate import NEAR_FLAT, Experiment, refuse_doubt
 from polhode.simulate.batch import Plan, SingleModeBatch, abreast
 from polhode.study._columns import Array, Members
-from polhode.study._event_outputs import OF_EVENTS
-from polhode.study._motions import Motions
-from polhode.study._output import CodeTable, Quick, legend_of
-from polhode.study._outputs import Outputs
-from polhode.study._reasons import Reason, reason_of, told
+from polhode.study._output import CodeTable, Motions, Quick, legend_of
+from polhode.study._outputs import OF_EVENTS, Outputs
 
-_FEW = 8  # members that are followed one by one before lanes for them are compiled
-MOST_TOLD = 1000
-"""Failures of a block that are kept in words; of further ones the code alone."""
+_FEW = 8  # members that are simulated one by one, as compiling a batch for them does not pay
+MOST_FAILURES = 1000
+"""Failures per chunk that are kept in words; of further ones only the code."""
 
 Subject: TypeAlias = System | Automaton | Equations
 Tick: TypeAlias = Callable[[int], None]
 
 
+class Reason(IntEnum):
+    """Why a member has no result, as stores keep it.
+
+    DONE: it has one; it was simulated to its end, which may come early, as for a disk falling flat.
+    """
+
+    DONE = 0
+    DECLARATION = 1
+    CONSTRAINT = 2
+    UNIT = 3
+    PARSE = 4
+    NUMERIC = 5
+    STORE = 6
+    UNFORESEEN = 7
+    NOT_YET = -1
+
+
+_REASONS: dict[type[Exception], Reason] = {
+    DeclarationError: Reason.DECLARATION,
+    ConstraintError: Reason.CONSTRAINT,
+    UnitError: Reason.UNIT,
+    ParseError: Reason.PARSE,
+    NumericError: Reason.NUMERIC,
+    StoreError: Reason.STORE,
+}
+
+
+def reason_of(error: Exception) -> Reason:
+    """The code of an error."""
+    return _REASONS.get(type(error), Reason.UNFORESEEN)
+
+
+def in_words(error: Exception) -> str:
+    """An error in words."""
+    known = type(error) in _REASONS
+    return str(error) if known else f"{type(error).__name__}: {error}"
+
+
 @dataclass(frozen=True)
 class EnsembleSpec:
-    """What is asked of every member.
+    """What is simulated and kept for every member.
 
     Attributes:
         subject: the system, its automaton, or equations derived from it.
@@ -49,15 +93,16 @@ class EnsembleSpec:
     def __post_init__(self) -> None:
         if not isinstance(self.subject, System | Automaton | Equations):
             raise DeclarationError(
-                f"{self.subject!r} to be followed"[:200],
+                f"{self.subject!r} to be simulated"[:200],
                 expected="a System, its automaton, or equations derived from it",
             )
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Worker processes derive again: declarations are small, equations are not.
-        kept = isinstance(self.subject, Equations)
+        in_one_mode = isinstance(self.subject, Equations)
         system = self.subject if isinstance(self.subject, System) else self.subject.system
-        return _received, (system, kept, self.duration, dict(self.outputs), dict(self.options))
+        given = (system, in_one_mode, self.duration, dict(self.outputs), dict(self.options))
+        return _derived_again, given
 
     @cached_property
     def derived(self) -> Automaton | Equations:
@@ -70,135 +115,137 @@ class EnsembleSpec:
         return legend_of(self.derived, tuple(self.options.get("events") or ()))
 
     def experiment(self) -> Experiment:
-        """The system, set up to be run."""
+        """The system, ready to be simulated."""
         return Experiment(self.derived, self.duration, samples=2, **self.options)
 
 
 def options_of(**given: Any) -> dict[str, Any]:
-    """Options of `simulate` that are given; one event alone stands for itself."""
+    """The options of `simulate` that are given; `until` may be a single event."""
     until = given.get("until")
     named = {**given, "until": (until,) if isinstance(until, str) else until}
     return {name: value for name, value in named.items() if value is not None}
 
 
-def _received(
-    system: System, kept: bool, duration: Any, outputs: Outputs, options: Mapping[str, Any]
+def _derived_again(
+    system: System, in_one_mode: bool, duration: Any, outputs: Outputs, options: Mapping[str, Any]
 ) -> EnsembleSpec:
-    return EnsembleSpec(derive(system) if kept else system, duration, outputs, options)
+    return EnsembleSpec(derive(system) if in_one_mode else system, duration, outputs, options)
 
 
 @dataclass(frozen=True)
 class ResultChunk:
-    """What came of some members.
+    """Results of some members.
 
     Attributes:
         values: by output, shape (members, *shape of the output); not-a-number, and -1 for codes,
             where there is no result.
         reason: a `Reason` per member.
-        told: why members failed, in words, by their place.
+        failures: why members failed, in words, by their index.
     """
 
     values: Mapping[str, Array]
     reason: NDArray[np.int8]
-    told: Mapping[int, str]
+    failures: Mapping[int, str]
 
     @classmethod
-    def empty(cls, order: EnsembleSpec, count: int) -> ResultChunk:
-        """Of members none of which has been followed yet."""
+    def empty(cls, spec: EnsembleSpec, count: int) -> ResultChunk:
+        """Results of members none of which has been simulated yet."""
         values = {
-            name: np.full((count, *output.shape), -1.0 if output.labels(order.legend) else np.nan)
-            for name, output in order.outputs.items()
+            name: np.full((count, *output.shape), -1.0 if output.labels(spec.legend) else np.nan)
+            for name, output in spec.outputs.items()
         }
         return cls(values, np.full(count, Reason.NOT_YET, dtype=np.int8), {})
 
     def put(self, rows: NDArray[np.intp], part: ResultChunk) -> ResultChunk:
-        """The block with the results of some of its members put in their places."""
+        """These results with those of some of the members filled in."""
         for name, values in part.values.items():
             self.values[name][rows] = values
         self.reason[rows] = part.reason
-        words = {int(rows[i]): text for i, text in part.told.items()}
-        kept = dict(sorted({**self.told, **words}.items())[:MOST_TOLD])
+        words = {int(rows[i]): text for i, text in part.failures.items()}
+        kept = dict(sorted({**self.failures, **words}.items())[:MOST_FAILURES])
         return ResultChunk(self.values, self.reason, kept)
 
 
 class EnsembleRunner:
-    """Follows members, compiled for the first of them. Not to be shared by threads."""
+    """Simulates members, compiled for the first of them. Not to be shared by threads."""
 
-    def __init__(self, order: EnsembleSpec) -> None:
-        self._order = order
-        self._experiment = order.experiment()
-        self._together = BatchRunner(order)
+    def __init__(self, spec: EnsembleSpec) -> None:
+        self._spec = spec
+        self._experiment = spec.experiment()
+        self._batch = BatchRunner(spec)
 
     def follow(self, members: Members, tick: Tick) -> ResultChunk:
-        """Follow many members at once as far as that goes, and the others by themselves.
+        """Simulate members in a batch as far as that is possible, and the others one by one.
 
         Args:
-            tick: told the number of members that are done.
+            tick: called with the number of members that are done.
         """
-        block = ResultChunk.empty(self._order, members.count)
-        alone = self._together.follow(members, block, tick)
-        return block.put(alone, self._one_by_one(members.rows(alone), tick))
+        results = ResultChunk.empty(self._spec, members.count)
+        alone = self._batch.follow(members, results, tick)
+        return results.put(alone, self._one_by_one(members.rows(alone), tick))
 
     def _one_by_one(self, members: Members, tick: Tick) -> ResultChunk:
-        """One that fails does not stop the rest."""
-        order, experiment = self._order, self._experiment
-        block = ResultChunk.empty(order, members.count)
+        """A member that fails does not stop the rest."""
+        spec, experiment = self._spec, self._experiment
+        results = ResultChunk.empty(spec, members.count)
         words: dict[int, str] = {}
         for i in range(members.count):
             try:
                 run = experiment.run(members.parameters_of(i), members.start_of(i))
                 refuse_doubt(run)
-                found = {name: o.of(run, order.legend) for name, o in order.outputs.items()}
-            except Exception as error:  # whatever it is, it is this member's alone
-                block.reason[i] = reason_of(error)
-                if len(words) < MOST_TOLD:
-                    words[i] = told(error)
+                found = {name: o.of(run, spec.legend) for name, o in spec.outputs.items()}
+            except Exception as error:  # of whatever kind: it concerns this member alone
+                results.reason[i] = reason_of(error)
+                if len(words) < MOST_FAILURES:
+                    words[i] = in_words(error)
             else:
-                block.reason[i] = Reason.DONE
+                results.reason[i] = Reason.DONE
                 for name, values in found.items():
-                    block.values[name][i] = values
+                    results.values[name][i] = values
             tick(1)
-        return ResultChunk(block.values, block.reason, words)
+        return ResultChunk(results.values, results.reason, words)
 
 
 class BatchRunner:
     """Members integrated side by side, where outputs and numbers allow it."""
 
-    def __init__(self, order: EnsembleSpec) -> None:
-        self._order = order
-        quick = {n: o for n, o in order.outputs.items() if isinstance(o, Quick)}
-        self._outputs = quick if len(quick) == len(order.outputs) else {}
+    def __init__(self, spec: EnsembleSpec) -> None:
+        self._spec = spec
+        quick = {n: o for n, o in spec.outputs.items() if isinstance(o, Quick)}
+        self._outputs = quick if len(quick) == len(spec.outputs) else {}
         self._mode: SingleModeBatch | None = None
-        self._tried = False
+        self._is_prepared = False
 
-    def follow(self, members: Members, block: ResultChunk, tick: Tick) -> NDArray[np.intp]:
-        """Put results of members into a block; returns those that are left."""
-        everybody = np.arange(members.count)
+    def follow(self, members: Members, results: ResultChunk, tick: Tick) -> NDArray[np.intp]:
+        """Fill in the results of members; returns the rows of those that are left."""
+        all_rows = np.arange(members.count)
         columns = members.si_columns()
         if not self._outputs or columns is None or members.count < _FEW:
-            return everybody
-        if not self._tried:
-            self._mode, self._tried = self._prepared(members), True
+            return all_rows
+        if not self._is_prepared:
+            self._mode, self._is_prepared = self._prepared(members), True
         if self._mode is None:
-            return everybody
-        times = self._times()
-        flights = self._mode.follow(members.count, columns, times, members.start_of)
-        motions = Motions(flights.seen)
+            return all_rows
+        end = self._spec.experiment().duration
+        asked = {t for output in self._outputs.values() for t in output.sample_times if 0 < t < end}
+        times = np.array([0.0, *sorted(asked), end])
+        batch = self._mode.follow(members.count, columns, times, members.start_of)
+        motions = Motions(batch.seen)
         for name, output in self._outputs.items():
-            values = output.of_many(motions, self._order.legend)
-            block.values[name][flights.kept] = values[flights.kept]
-        block.reason[flights.kept] = Reason.DONE
-        tick(int(np.sum(flights.kept)))
-        return everybody[~flights.kept]
+            values = output.of_many(motions, self._spec.legend)
+            results.values[name][batch.kept] = values[batch.kept]
+        results.reason[batch.kept] = Reason.DONE
+        tick(int(np.sum(batch.kept)))
+        return all_rows[~batch.kept]
 
     def _prepared(self, members: Members) -> SingleModeBatch | None:
-        order, options = self._order, dict(self._order.options)
+        spec, options = self._spec, dict(self._spec.options)
         if options.get("events") or members.has_expressions:
             return None
         plan = Plan(
             parameters=members.parameters_of(0),
             start=members.start_of(0),
-            duration=order.experiment().duration,
+            duration=spec.experiment().duration,
             forcing=options.get("forcing") or {},
             tolerance=options.get("tolerance"),
             near_flat=options.get("near_flat", NEAR_FLAT),
@@ -206,18 +253,8 @@ class BatchRunner:
             quantities=[q for output in self._outputs.values() for q in output.reads],
         )
         try:
-            mode = abreast(order.derived, plan)
+            mode = abreast(spec.derived, plan)
         except PolhodeError:
-            return None  # it is told member by member
+            return None  # the error is reported member by member
         events = any(isinstance(output, OF_EVENTS) for output in self._outputs.values())
         return None if mode is not None and mode.keeps_to_one_mode and events else mode
-
-    def _times(self) -> Array:
-        """Start, times of series, and end, s."""
-        end = self._order.experiment().duration
-        asked = {t for output in self._outputs.values() for t in output.looks if 0 < t < end}
-        return np.array([0.0, *sorted(asked), end])
-
-
-def _nobody(count: int) -> None:
-    """Is told nothing."""

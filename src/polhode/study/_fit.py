@@ -1,4 +1,4 @@
-"""Parameters and starts that make a motion agree with a measured one."""
+"""Fits of parameters and start values to a measured motion."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from polhode.base import DeclarationError, NumericError, Shown
 from polhode.simulate import Experiment
 from polhode.study._columns import Array, Name, published_names, several
 from polhode.study._ensemble_runner import Subject
-from polhode.study._sensitivity import Varied
+from polhode.study._sensitivity import VariedMotion
 
 _TOLERANCE = 1e-12  # relative, of the last step
 
@@ -29,7 +29,7 @@ class Fit(Shown):
         residuals: measured less fitted, by quantity, shape (times,).
         scatter: standard deviation of the residuals over that of the measurements; where this was
             not given, over one, and the uncertainties are scaled by it.
-        evaluations: motions that it took.
+        evaluations: number of motions simulated.
     """
 
     values: Mapping[str, float]
@@ -81,7 +81,9 @@ def fit(
     numbers = (published_names(parameters), published_names(start))
     weights = np.array([[1 / (deviation or {}).get(name, 1.0)] for name in data])
     experiment = Experiment(subject, float(when[-1]), samples=2, forcing=forcing)
-    problem = _Problem(Varied(experiment, names, list(data)), names, numbers, when, data, weights)
+    problem = _Problem(
+        VariedMotion(experiment, names, list(data)), names, numbers, when, data, weights
+    )
     return problem.solved(scaled=deviation is None)
 
 
@@ -103,7 +105,7 @@ def _check(times: Array, data: Mapping[str, Array]) -> None:
 class _Problem:
     """Residuals and their derivatives, of values in units of their first guess."""
 
-    varied: Varied
+    varied: VariedMotion
     names: list[str]
     numbers: tuple[dict[str, Any], dict[str, Any]]
     times: Array
@@ -173,15 +175,15 @@ class _Problem:
         return self._last[1], self._last[2]
 
     @property
-    def _there(self) -> NDArray[np.bool_]:
+    def _is_measured(self) -> NDArray[np.bool_]:
         return np.asarray(np.isfinite(np.array(list(self.data.values()))))
 
     def _residual(self, values: Array) -> Array:
         fitted, _ = self._at(values)
-        apart = (fitted - np.array(list(self.data.values()))) * self.weights
-        return np.asarray(apart[self._there])
+        residual = (fitted - np.array(list(self.data.values()))) * self.weights
+        return np.asarray(residual[self._is_measured])
 
     def _slopes(self, values: Array) -> Array:
         _, slopes = self._at(values)
         weighted = slopes * self.weights[:, :, None]
-        return np.asarray(np.moveaxis(weighted, 1, 2)[self._there])
+        return np.asarray(np.moveaxis(weighted, 1, 2)[self._is_measured])

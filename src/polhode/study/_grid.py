@@ -1,4 +1,4 @@
-"""The axes of a sweep, and the members of every chunk of it."""
+"""The axes of a sweep, and the members of each of its chunks."""
 
 from __future__ import annotations
 
@@ -20,13 +20,14 @@ from polhode.study._columns import (
     is_many,
     published_names,
     split_unit,
+    whole,
 )
-from polhode.study._counts import whole
 
 SAMPLE = "sample"
-"""The axis of everything that is drawn."""
+"""The axis of random values."""
 
-_LEAST_IN_CHUNK, _MOST_IN_CHUNK = 64, 1024  # few fill no lanes; many are lost to a kill
+_LEAST_IN_CHUNK = 64  # members: fewer do not fill a batch
+_MOST_IN_CHUNK = 1024  # members that are lost if the sweep is killed
 _CHUNKS = 64
 
 
@@ -36,8 +37,8 @@ class Grid:
 
     Attributes:
         columns: values of every quantity that differs, by published name.
-        called: what these values are called in results.
-        axis: the axis of each: its own, or that of the samples.
+        called: names of these values in results.
+        axis: name of the axis of each: its own, or that of the samples.
         chunk: members of a chunk along every axis.
     """
 
@@ -68,11 +69,11 @@ class Grid:
         return tuple(ceil(n / c) for n, c in zip(self.shape, self.chunk, strict=True))
 
     def places(self) -> list[tuple[int, ...]]:
-        """Where the chunks are in the grid of chunks, in order."""
+        """Indices of all chunks in the grid of chunks, in order."""
         return list(product(*(range(n) for n in self.chunks)))
 
     def region(self, place: tuple[int, ...]) -> tuple[slice, ...]:
-        """What a chunk covers."""
+        """The part of the grid that a chunk covers."""
         ends = zip(place, self.chunk, self.shape, strict=True)
         return tuple(slice(p * c, min((p + 1) * c, n)) for p, c, n in ends)
 
@@ -82,8 +83,8 @@ class Grid:
         """The members of a chunk, in the order of its elements.
 
         Args:
-            parameters: of all; those that an axis stands for may be missing.
-            start: likewise; an axis that is no parameter is a start value.
+            parameters: their common values; axes replace them.
+            start: likewise; an axis that is not a parameter is a start value.
         """
         rows = np.meshgrid(*(np.arange(r.start, r.stop) for r in self.region(place)), indexing="ij")
         along = dict(zip(self.axes, (row.ravel() for row in rows), strict=True))
@@ -105,11 +106,11 @@ def grid_of(
     """The grid over arrays and distributions.
 
     Args:
-        samples: how many values are drawn from distributions.
-        chunk: members of a chunk, about.
+        samples: number of values drawn from distributions.
+        chunk: approximate number of members of a chunk.
 
     Raises:
-        DeclarationError: for an axis that is neither, or has no values.
+        DeclarationError: for an axis that is neither, or is empty.
     """
     given = published_names(axes)
     columns = {name: _column(name, value, samples, seed) for name, value in given.items()}
@@ -146,7 +147,7 @@ def _column(name: str, value: Any, samples: int | None, seed: int) -> Column:
 
 
 def _chunk(shape: tuple[int, ...], wanted: int | None) -> tuple[int, ...]:
-    """As nearly cubic as the axes allow."""
+    """Lengths of a chunk along the axes, as equal as the axes allow."""
     usual = min(max(prod(shape) // _CHUNKS, _LEAST_IN_CHUNK), _MOST_IN_CHUNK)
     left = wanted or usual
     found = dict[int, int]()
@@ -158,7 +159,7 @@ def _chunk(shape: tuple[int, ...], wanted: int | None) -> tuple[int, ...]:
 
 
 def start_name(name: str, outputs: Collection[str]) -> str:
-    """What given values are called beside outputs: one of the same name is the value at the end."""
+    """The name of given values in results: an output of the same name is the value at the end."""
     return f"{name}_start" if name in outputs else name
 
 

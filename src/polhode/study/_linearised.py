@@ -1,8 +1,8 @@
-"""Small departures from a steady motion, at numbers: what grows, what dies out, how fast."""
+"""Linear equations of small departures from a steady motion, at numbers, and their eigenvalues."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
@@ -18,11 +18,93 @@ from polhode.model import System
 from polhode.simulate import Dynamics, idle_parameters, read_parameters, read_start, smooth_at
 from polhode.simulate.batch import Dual, duals
 from polhode.study._columns import Array, Name
-from polhode.study._neutral import Neutral, elsewhere, steady_near
 
-_ZERO = 1e-11  # of the largest derivative, at states that are nothing special
-_STEADY = 1e-9  # of the largest rate that there could be
-_GENERIC, _ASIDE, _SEED = 2, 1e-2, 20071982  # states near by, and how far off
+_ZERO = 1e-11  # relative size below which a derivative at a generic state is zero
+_STEADY = 1e-9  # relative size below which a rate is zero
+_GENERIC, _ASIDE, _ASIDE_SEED = 2, 1e-2, 20071982  # number of generic states near by, and distance
+
+_CHANGE = 1e-3  # relative change of the parameters
+_ROUNDING = 1e-9  # relative size below which a singular value at changed parameters is rounding
+_STEPS = 25  # of Newton's method
+_SEED = 20071955
+
+
+# -- exponents that are zero for all parameters ----------------------------------------------------
+#
+# They belong to departures along a family of steady motions. The size of an exponent does not show
+# whether it is zero by structure or just passes through zero; one that is zero at slightly changed
+# parameters as well is zero by structure.
+
+
+def elsewhere(values: Array) -> Array:
+    """Values near by, each changed at random by about a thousandth."""
+    random = np.random.default_rng(_SEED)
+    shares = random.uniform(0.5, 1, len(values)) * random.choice([-1, 1], len(values))
+    return np.asarray(values * (1 + _CHANGE * shares))
+
+
+def steady_near(state: Array, residual: Callable[[Array], tuple[Array, Array]]) -> Array:
+    """The steady state nearest to a state, by Newton's method.
+
+    Args:
+        state: where to begin.
+        residual: gives, at a state, what vanishes for steady motions, and its derivatives.
+
+    Raises `NumericError` where there is none near by.
+    """
+    found = np.array(state)
+    for _ in range(_STEPS):
+        left, slopes = residual(found)
+        scale = np.max(np.abs(slopes), initial=0.0) * max(1.0, np.max(np.abs(found)))
+        if not np.all(np.isfinite(left)) or not np.all(np.isfinite(slopes)):
+            break
+        if np.max(np.abs(left), initial=0.0) <= _ROUNDING**1.5 * scale:
+            return found
+        # Steps along directions of small singular values would lead far away: they are left out.
+        found = found - np.linalg.lstsq(slopes, left, rcond=_CHANGE**2)[0]
+    raise NumericError(
+        "no steady motion near this one at other parameters",
+        expected="one of a family, on which the exponents that are always zero can be counted",
+        advice="look at all eigenvalues",
+    )
+
+
+@dataclass(frozen=True)
+class Neutral:
+    """How many exponents of a matrix are zero by structure.
+
+    Attributes:
+        chain: numbers of independent departures that stay constant, that grow linearly in time
+            towards these, that grow as its square, and so on.
+    """
+
+    chain: tuple[int, ...]
+
+    @classmethod
+    def of(cls, generic: Array) -> Neutral:
+        """Count them on a matrix with no accidental zeros."""
+        return cls(tuple(_falling(generic)))
+
+    def removed(self, matrix: Array) -> Array:
+        """The matrix without the departures that were counted."""
+        for count in self.chain:
+            *_, directions = np.linalg.svd(matrix)
+            rest = directions[: len(matrix) - count]
+            matrix = rest @ matrix @ rest.T
+        return matrix
+
+
+def _falling(matrix: Array) -> Iterator[int]:
+    while len(matrix):
+        _, sizes, directions = np.linalg.svd(matrix)
+        kept = int(np.sum(sizes > _ROUNDING * max(sizes[0], np.finfo(float).tiny)))
+        if kept == len(matrix):
+            return
+        yield len(matrix) - kept
+        matrix = directions[:kept] @ matrix @ directions[:kept].T
+
+
+# -- the linear equations --------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -32,7 +114,7 @@ class Linearised(Shown):
     Attributes:
         states: names of the coordinates that matter and are free, and of the independent speeds.
         matrix: shape (states, states); SI.
-        nearby: the same matrix at a steady motion near by for slightly other parameters; none
+        nearby: the same matrix at a steady motion near by for slightly different parameters; None
             where no such motion was found. What is zero there too is zero by structure.
     """
 
@@ -42,12 +124,12 @@ class Linearised(Shown):
 
     @cached_property
     def eigenvalues(self) -> NDArray[np.complex128]:
-        """Growth rates and angular frequencies, 1/s; what grows fastest comes first."""
+        """Growth rates and angular frequencies, 1/s, in order of decreasing growth rate."""
         return _exponents(self.matrix)
 
     @property
     def neutral(self) -> int:
-        """How many eigenvalues are zero whatever the parameters are.
+        """How many eigenvalues are zero for all values of the parameters.
 
         They belong to departures along the family of steady motions, such as another speed of
         a wheel that runs straight.
@@ -58,7 +140,7 @@ class Linearised(Shown):
 
     @cached_property
     def exponents(self) -> NDArray[np.complex128]:
-        """The eigenvalues less those that are zero whatever the parameters are, in the same order.
+        """The eigenvalues without those that are zero for all parameters, in the same order.
 
         The rest decides on stability: where the largest real part changes sign, so does stability,
         also where the eigenvalue that changes sign passes through zero.
@@ -89,8 +171,8 @@ def linearise(
 ) -> Linearised:
     """The linear equations of small departures from a steady motion.
 
-    Derivatives are exact: every step of the compiled equations carries them along. Coordinates
-    that nothing depends on are left out, and those that closed loops tie to the others.
+    Derivatives are exact, by automatic differentiation of the compiled equations. Coordinates that
+    nothing depends on are left out, and so are those that closed loops tie to the others.
 
     Args:
         subject: a declaration, or equations derived from it; one contact mode.
@@ -99,7 +181,7 @@ def linearise(
 
     Raises:
         ConstraintError: for values that contradict each other or the constraints.
-        DeclarationError: for names that are not known, and for supports moved in a given way.
+        DeclarationError: for unknown names, and for supports whose motion is prescribed.
         NumericError: for a motion that is not steady, or where the equations are not smooth.
         UnitError: for a value that cannot be read.
     """
@@ -111,7 +193,15 @@ def linearise(
     given = np.array([numbers[s] for s in dynamics.parameters])
     kept = _essential(dynamics, state, given)
     values, slopes = _with_slopes(dynamics, state, given)
-    _refuse_unsteady(dynamics, kept, values, slopes, state)
+    largest = np.max(np.abs(slopes)) * max(1.0, np.max(np.abs(state)))
+    for i in kept:
+        if abs(values[i]) > _STEADY * largest:
+            name = dynamics.states[i].derivative().published
+            raise NumericError(
+                f"a motion that is not steady: {name} = {values[i]:g}",
+                expected="constant speeds, and constant coordinates unless nothing depends on them",
+                advice="choose a steady state; simulate shows where this one goes",
+            )
     loops = _Loops(dynamics, kept, slopes[len(state) :])
     states = tuple(dynamics.states[i].published for i in loops.free)
     nearby = _nearby(dynamics, kept, loops.free, state, elsewhere(given))
@@ -119,7 +209,7 @@ def linearise(
 
 
 def _with_slopes(dynamics: Dynamics, state: Array, parameters: Array) -> tuple[Array, Array]:
-    """Rates of all states, then what closes the loops; and their derivatives by the states."""
+    """Rates of all states and closure conditions of loops, and their derivatives by the states."""
     wanted = (*dynamics.rates, *dynamics.equations.closures)
     function = _function(dynamics.program(wanted, dynamics.arguments))
     units = np.eye(len(state))
@@ -158,29 +248,30 @@ def _function(program: Program) -> Compiled:
 
 
 def _essential(dynamics: Dynamics, state: Array, parameters: Array) -> list[int]:
-    """The states less the coordinates that nothing kept depends on.
+    """The states without the coordinates that nothing depends on.
 
-    At one state a derivative may vanish although the coordinate matters, as that of gravity's
-    moment does where a spring balances it: all of them are looked at.
+    At a single state a derivative may vanish although the coordinate matters, as for the moment of
+    gravity balanced by a spring: so several states are looked at.
     """
     size, coordinates = len(state), len(dynamics.equations.coordinates)
     tables = [_with_slopes(dynamics, state, parameters)[1], *_generic(dynamics, state, parameters)]
     kept = list(range(size))
     while True:
         rows = [*kept, *range(size, len(tables[0]))]
-        idle = {j for j in kept if j < coordinates and all(_is_idle(t, rows, j) for t in tables)}
+        idle = {
+            j
+            for j in kept
+            if j < coordinates
+            and all(np.all(np.abs(t[rows, j]) <= _ZERO * np.max(np.abs(t))) for t in tables)
+        }
         if not idle:
             return kept
         kept = [j for j in kept if j not in idle]
 
 
-def _is_idle(slopes: Array, rows: Sequence[int], column: int) -> bool:
-    return bool(np.all(np.abs(slopes[rows, column]) <= _ZERO * np.max(np.abs(slopes))))
-
-
 def _generic(dynamics: Dynamics, state: Array, parameters: Array) -> Iterator[Array]:
     """Derivatives at states near by, which are not steady."""
-    random = np.random.default_rng(_SEED)
+    random = np.random.default_rng(_ASIDE_SEED)
     for _ in range(_GENERIC):
         aside = state + _ASIDE * random.uniform(-1, 1, len(state)) * np.maximum(1, np.abs(state))
         with suppress(ArithmeticError, ValueError), np.errstate(all="ignore"):
@@ -189,22 +280,8 @@ def _generic(dynamics: Dynamics, state: Array, parameters: Array) -> Iterator[Ar
                 yield slopes
 
 
-def _refuse_unsteady(
-    dynamics: Dynamics, kept: Sequence[int], values: Array, slopes: Array, state: Array
-) -> None:
-    largest = np.max(np.abs(slopes)) * max(1.0, np.max(np.abs(state)))
-    for i in kept:
-        if abs(values[i]) > _STEADY * largest:
-            name = dynamics.states[i].derivative().published
-            raise NumericError(
-                f"a motion that is not steady: {name} = {values[i]:g}",
-                expected="speeds, and coordinates on which anything depends, that stay as they are",
-                advice="choose the state so that it does; simulate tells where it goes",
-            )
-
-
 class _Loops:
-    """Which of the kept states closed loops tie to the others, and how.
+    """The kept states that closed loops tie to the others.
 
     Attributes:
         free: the states that are not tied.
@@ -213,8 +290,14 @@ class _Loops:
 
     def __init__(self, dynamics: Dynamics, kept: Sequence[int], closures: Array) -> None:
         independent = {s.published for s in dynamics.equations.speeds}
-        order = sorted(kept, key=lambda i: dynamics.states[i].derivative().published in independent)
-        tied = _pivots(closures, order)
+        candidates = sorted(
+            kept, key=lambda i: dynamics.states[i].derivative().published in independent
+        )
+        tied: list[int] = []
+        for j in candidates:  # tied if its column is independent of those before it
+            if len(tied) < len(closures):
+                rank = np.linalg.matrix_rank(closures[:, [*tied, j]], tol=_ZERO)
+                tied += [j] if rank > len(tied) else []
         self.free = [i for i in kept if i not in tied]
         self.tied = np.array([[float(i == j) for j in self.free] for i in kept])
         if tied:
@@ -224,15 +307,5 @@ class _Loops:
         self._kept = kept
 
     def reduced(self, slopes: Array) -> Array:
-        """Derivatives of the rates of the free states by these alone."""
+        """Derivatives of the rates of the free states by the free states."""
         return np.asarray(slopes[np.ix_(self.free, self._kept)] @ self.tied)
-
-
-def _pivots(rows: Array, columns: Sequence[int]) -> list[int]:
-    """Columns that are independent of those before them."""
-    found: list[int] = []
-    for j in columns:
-        if len(found) < len(rows):
-            rank = np.linalg.matrix_rank(rows[:, [*found, j]], tol=_ZERO)
-            found += [j] if rank > len(found) else []
-    return found

@@ -1,26 +1,96 @@
-"""What is refused before anybody is followed: mistakes that all members share."""
+"""Mistakes that concern all members of an ensemble, refused before any is simulated."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import chain, product
 from typing import Any
 
 from polhode.algebra import Expr, Symbol, SymbolKind
-from polhode.base import NumericError, look_up
+from polhode.base import TIME, DeclarationError, Dimension, NumericError, look_up, to_si
 from polhode.derive import Automaton, Equations
 from polhode.model import Contact
 from polhode.simulate import constants, quantity_names, refuse_missing, slip_symbols
-from polhode.study._columns import published_names
+from polhode.study._columns import Column, published_names
 from polhode.study._ensemble_runner import EnsembleSpec
-from polhode.study._event_outputs import EventCount, EventTime
-from polhode.study._refused_values import refuse_values
+from polhode.study._outputs import EventCount, EventTime
+
+# -- values ----------------------------------------------------------------------------------------
+
+
+def refuse_values(
+    modes: Iterable[Equations], parameters: Mapping[str, Any], start: Mapping[str, Any]
+) -> None:
+    """Refuse values that are wrong for every member: impossible, or of another dimension.
+
+    Args:
+        modes: in which the quantities are known.
+        parameters: a `Column` where members differ, else the one value of all.
+        start: likewise.
+
+    Raises:
+        DeclarationError: for a common parameter that has to be positive and is not, or one that is
+            an expression of unknown quantities.
+        UnitError: for a unit of another dimension, or a common value that cannot be read.
+    """
+    known, positive = dict[str, Dimension](), set[str]()
+    for equations in modes:
+        known |= dict(_dimensions(equations))
+        positive |= {s.published for s in equations.parameters if s.positive}
+    for name, value in {**parameters, **start}.items():
+        for one in _to_check(value):
+            number = to_si(one, known[name], name) if name in known else 1.0
+            if name in positive and number <= 0 and not isinstance(value, Column):
+                raise DeclarationError(
+                    f"{name} = {number:g} for every member",
+                    expected="a positive value, as it was declared",
+                    advice=f"check the sign of {name}",
+                )
+    _refuse_unknown(parameters, ())
+    _refuse_unknown(start, parameters)
+
+
+def _dimensions(equations: Equations) -> Iterator[tuple[str, Dimension]]:
+    """Of parameters, coordinates, speeds and rates, as far as they are known."""
+    own = (*equations.coordinates, *equations.speeds)
+    moving = (*own, *equations.kinematics, *equations.dependent)
+    for symbol in (*equations.parameters, *moving):
+        base = equations.dimensions.get(symbol.base())
+        if base is not None:
+            yield symbol.published, base / TIME**symbol.order
+
+
+def _to_check(value: Any) -> Iterator[Any]:
+    """What is to be read: every different text, one number with the unit, or the common value."""
+    match value:
+        case Column() if value.values.dtype.kind == "U":
+            yield from sorted(set(value.values.tolist()))
+        case Column() if value.unit:
+            yield (1.0, value.unit)
+        case Expr() | Column():
+            return
+        case _:
+            yield value
+
+
+def _refuse_unknown(values: Mapping[str, Any], known: Collection[str]) -> None:
+    """Refuse expressions of quantities that have no value."""
+    for name, value in values.items():
+        for symbol in constants([value]) if isinstance(value, Expr) else ():
+            if symbol.published not in known:
+                raise DeclarationError(
+                    f"{name} = {value}, and no value for {symbol.published}",
+                    expected="a number, or an expression of parameters for a start value",
+                )
+
+
+# -- everything that members share -----------------------------------------------------------------
 
 
 def refuse_mistakes(
-    order: EnsembleSpec, parameters: Mapping[str, Any], start: Mapping[str, Any]
+    spec: EnsembleSpec, parameters: Mapping[str, Any], start: Mapping[str, Any]
 ) -> None:
-    """Refuse what cannot be asked of any member.
+    """Refuse what no member can be simulated with.
 
     Args:
         parameters: a `Column` where members differ, else the one value of all.
@@ -28,37 +98,51 @@ def refuse_mistakes(
 
     Raises:
         DeclarationError: for names that are not known, and parameters without a value.
-        NumericError: for a limit of flatness that is no sine, or a motion of a support that is
-            not smooth.
+        NumericError: for a `near_flat` that is not the sine of a small angle, or a support whose
+            motion is not smooth.
         UnitError: for a unit of another dimension, or a common value that cannot be read.
     """
-    _refuse_names(order, parameters, start)
-    refuse_values(_modes(order.derived), parameters, start)
-    _refuse_quantities(order)
-    _refuse_events(order)
-    _refuse_options(order)
-    order.experiment().prepare(dict[Any, Any](parameters))
-
-
-def _refuse_names(order: EnsembleSpec, parameters: Collection[str], start: Collection[str]) -> None:
-    """Names that no member can have a value for, and parameters that none has one for."""
-    known = parameter_names(order)
-    moving = dict.fromkeys(start_names(order))
+    known = parameter_names(spec)
+    moving = dict.fromkeys(start_names(spec))
     for name in parameters:
         look_up(name, dict.fromkeys(sorted(known)), "parameter of this system")
     for name in start:
         look_up(name, moving, "coordinate or speed of this system")
-    missing = [s.published for s in order.derived.parameters if s.published not in parameters]
+    missing = [s.published for s in spec.derived.parameters if s.published not in parameters]
     refuse_missing(missing)
+    refuse_values(_modes(spec.derived), parameters, start)
+    _refuse_quantities(spec)
+    kinds = dict.fromkeys(spec.legend.kinds)
+    until = spec.options.get("until") or ()
+    for kind in (until,) if isinstance(until, str) else until:
+        look_up(kind, kinds, "event of this system")
+    contacts = (e for e in spec.derived.system.elements if isinstance(e, Contact))
+    pulls = {f"{contact.name} pulls": None for contact in contacts}
+    for output in spec.outputs.values():
+        if isinstance(output, EventTime | EventCount):
+            look_up(output.kind, kinds | pulls, "event of this system")
+    functions = dict.fromkeys(s.published for s in spec.derived.functions)
+    for name in published_names(spec.options.get("forcing") or {}):
+        look_up(name, functions, "prescribed function of this system")
+    flat = spec.options.get("near_flat", 0.5)
+    if not 0 < flat < 1:
+        raise NumericError(f"near_flat = {flat}", expected="the sine of a small angle")
+    spec.experiment().prepare(dict[Any, Any](parameters))
 
 
-def _refuse_quantities(order: EnsembleSpec) -> None:
-    """Outputs of quantities that no contact mode has."""
-    asked = [getattr(output, "quantity", None) for output in order.outputs.values()]
+def _refuse_quantities(spec: EnsembleSpec) -> None:
+    """Refuse outputs of quantities that no contact mode has."""
+    asked = [getattr(output, "quantity", None) for output in spec.outputs.values()]
     wanted = {quantity for quantity in asked if isinstance(quantity, str)}
-    known = dict.fromkeys(sorted(parameter_names(order)))
-    _refuse_constants([*asked, *(order.options.get("events") or {}).values()], known)
-    for names in _quantities(order.derived):
+    known = dict.fromkeys(sorted(parameter_names(spec)))
+    expressions = (
+        Expr.of(q)
+        for q in [*asked, *(spec.options.get("events") or {}).values()]
+        if isinstance(q, Expr | Symbol)
+    )
+    for symbol in constants(expressions):
+        look_up(symbol.published, known, "parameter of this system")
+    for names in _quantities(spec.derived):
         known |= dict.fromkeys(sorted(names))
         if wanted <= known.keys():
             return
@@ -66,14 +150,8 @@ def _refuse_quantities(order: EnsembleSpec) -> None:
         look_up(quantity, known, "quantity of this system")
 
 
-def _refuse_constants(asked: Collection[Any], known: Mapping[str, Any]) -> None:
-    """Expressions of parameters that the system does not have."""
-    for symbol in constants(Expr.of(q) for q in asked if isinstance(q, Expr | Symbol)):
-        look_up(symbol.published, known, "parameter of this system")
-
-
 def _quantities(derived: Automaton | Equations) -> Iterator[set[str]]:
-    """Names that can be read, mode after mode: most are known in the first."""
+    """Names of quantities, mode by mode, as most are known in the first."""
     if isinstance(derived, Equations):
         yield quantity_names(derived, {})
         return
@@ -83,43 +161,21 @@ def _quantities(derived: Automaton | Equations) -> Iterator[set[str]]:
         yield quantity_names(mode.equations, mode.lifted)
 
 
-def _refuse_events(order: EnsembleSpec) -> None:
-    """Events that cannot happen to any member."""
-    kinds = dict.fromkeys(order.legend.kinds)
-    until = order.options.get("until") or ()
-    for kind in (until,) if isinstance(until, str) else until:
-        look_up(kind, kinds, "event of this system")
-    pulls = {f"{name} pulls": None for name in _contacts(order)}
-    for output in order.outputs.values():
-        if isinstance(output, EventTime | EventCount):
-            look_up(output.kind, kinds | pulls, "event of this system")
-
-
-def _refuse_options(order: EnsembleSpec) -> None:
-    """Motions of supports that the system does not have; a limit of flatness that is none."""
-    known = dict.fromkeys(s.published for s in order.derived.functions)
-    for name in published_names(order.options.get("forcing") or {}):
-        look_up(name, known, "prescribed function of this system")
-    flat = order.options.get("near_flat", 0.5)
-    if not 0 < flat < 1:
-        raise NumericError(f"near_flat = {flat}", expected="the sine of a small angle")
-
-
-def parameter_names(order: EnsembleSpec) -> set[str]:
-    """Names that are parameters and not start values."""
-    derived = order.derived
+def parameter_names(spec: EnsembleSpec) -> set[str]:
+    """Names of the parameters, including those of masses and prescribed motions."""
+    derived = spec.derived
     bodies = derived.system.bodies
     parts = [e for body in bodies for e in (body.mass, *sum(body.inertia.rows, ()))]
-    motions = [m for m in (order.options.get("forcing") or {}).values() if isinstance(m, Expr)]
+    motions = [m for m in (spec.options.get("forcing") or {}).values() if isinstance(m, Expr)]
     used = (
         s for part in (*parts, *motions) for s in part.symbols() if s.kind is SymbolKind.PARAMETER
     )
     return {s.published for s in (*derived.parameters, *used) if s.name != "pi"}
 
 
-def start_names(order: EnsembleSpec) -> Iterator[str]:
-    """Coordinates, speeds and rates of any contact mode."""
-    derived = order.derived
+def start_names(spec: EnsembleSpec) -> Iterator[str]:
+    """Names of the coordinates, speeds and rates of any contact mode."""
+    derived = spec.derived
     for equations in _modes(derived):
         own = (*equations.coordinates, *equations.speeds)
         for symbol in (*own, *equations.kinematics, *equations.dependent):
@@ -131,7 +187,3 @@ def _modes(derived: Automaton | Equations) -> Iterator[Equations]:
         yield from (derived.together.equations, derived.apart.equations)
     else:
         yield derived
-
-
-def _contacts(order: EnsembleSpec) -> list[str]:
-    return [e.name for e in order.derived.system.elements if isinstance(e, Contact)]

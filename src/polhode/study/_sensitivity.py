@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -14,9 +14,71 @@ from polhode.base import NumericError, Shown, look_up
 from polhode.simulate import Dynamics, Event, Experiment, Trajectory, refuse_doubt
 from polhode.simulate.batch import ConstantInterval, VariationalEquations
 from polhode.study._columns import Array, Name, published_names, several
-from polhode.study._differences import Slope, slope
 from polhode.study._ensemble_runner import Subject
-from polhode.study._extremes import Quantity
+from polhode.study._output import Quantity
+
+# Where modes change, derivatives are differences of motions, extrapolated to zero difference:
+# C. J. F. Ridders, Advances in Engineering Software 4 (1982) 75.
+_FIRST = 1e-3  # first difference, relative to what is varied
+_FINER = 4  # each further difference is smaller by this factor
+_DIFFERENCES = 6
+_ENOUGH = 1e-10  # relative error
+
+
+class Slope(NamedTuple):
+    """A derivative and its uncertainty."""
+
+    value: Array
+    error: Array
+
+
+def slope(values: Callable[[float], Array | None], middle: Array, size: float) -> Slope | None:
+    """The derivative of values, element by element, by extrapolated differences.
+
+    Args:
+        values: as a function of the difference; None where they cannot be compared.
+        middle: values for zero difference.
+        size: that differences are relative to.
+
+    Returns:
+        None where no values can be compared, however small the difference. Where the derivative
+        jumps, the mean of both sides with half the jump as its error.
+    """
+    best: Slope | None = None
+    # Central differences of ever higher order, and differences between the one-sided ones, which do
+    # not vanish where the derivative jumps.
+    rising, folded = list[Array](), list[Array]()
+    for number in range(_DIFFERENCES):
+        step = _FIRST * size / _FINER**number
+        ahead, behind = values(step), values(-step)
+        if ahead is None or behind is None:
+            rising, folded = [], []
+            continue
+        rising = _extrapolated((ahead - behind) / (2 * step), rising, 2)
+        folded = _extrapolated((ahead - 2 * middle + behind) / (2 * step), folded, 1)
+        if len(rising) == 1:
+            best = best or Slope(rising[0], np.full_like(rising[0], np.inf))
+            continue
+        error = np.abs(rising[-1] - rising[-2]) + np.abs(folded[-1])
+        best = _better(best, Slope(rising[-1], error))
+        if np.all(best.error <= _ENOUGH * np.abs(best.value)):
+            break
+    return best
+
+
+def _extrapolated(finest: Array, coarser: list[Array], first: int) -> list[Array]:
+    """Remove ever more powers of the step, of which the first is given, from the error."""
+    found = [finest]
+    for number, coarse in enumerate(coarser):
+        found.append(found[-1] + (found[-1] - coarse) / (_FINER ** (2 * number + first) - 1))
+    return found
+
+
+def _better(one: Slope | None, other: Slope) -> Slope:
+    if one is None:
+        return other
+    surer = other.error < one.error
+    return Slope(np.where(surer, other.value, one.value), np.where(surer, other.error, one.error))
 
 
 @dataclass(frozen=True)
@@ -27,8 +89,8 @@ class Sensitivities(Shown):
         times: s.
         values: by quantity, shape (times,).
         derivatives: by quantity, and by what it is differentiated by, shape (times,).
-        errors: what they are uncertain by, likewise: nothing but rounding, told as 0, for motions
-            in one contact mode.
+        errors: their uncertainties, likewise; 0, which stands for rounding alone, for motions in
+            one contact mode.
     """
 
     times: Array
@@ -52,9 +114,9 @@ def sensitivities(
 
     Derivatives by a start value hold all other coordinates and independent speeds at the start,
     and the parameters; those by a parameter hold the start. Within one contact mode they obey the
-    variational equations. Where a contact slides or changes its mode, and where a support jerks,
-    they are extrapolated differences of motions to which the same happens in the same order; at
-    the instant of a switch they jump, and their error tells so.
+    variational equations. Where a contact slides or changes its mode, and where a support's
+    velocity jumps, they are extrapolated differences of motions with the same sequence of events;
+    at the instant of a switch they jump, and their error shows it.
 
     Args:
         subject: a declaration, its automaton, or equations derived from it.
@@ -68,29 +130,29 @@ def sensitivities(
 
     Raises:
         DeclarationError: for a name that is no quantity, parameter or state.
-        NumericError: where the motion ends before, or the least change alters what happens to it.
+        NumericError: where the motion ends earlier, or the smallest change alters its events.
     """
     experiment = Experiment(subject, duration, samples=2, forcing=forcing)
     when = np.asarray([experiment.duration] if times is None else times, dtype=float)
     names = list(published_names(dict.fromkeys(several(by, "to differentiate by"), 0)))
     quantities = several(of, "to differentiate")
-    varied = Varied(experiment, names, quantities)
+    varied = VariedMotion(experiment, names, quantities)
     found = varied.along(published_names(parameters), published_names(start), when)
-    told = [_told(quantity) for quantity in quantities]
+    labels = [_name(quantity) for quantity in quantities]
     by_quantity = [
-        {q: dict(zip(names, rows, strict=True)) for q, rows in zip(told, table, strict=True)}
+        {q: dict(zip(names, rows, strict=True)) for q, rows in zip(labels, table, strict=True)}
         for table in (found.slopes, found.errors)
     ]
-    return Sensitivities(when, dict(zip(told, found.values, strict=True)), *by_quantity)
+    return Sensitivities(when, dict(zip(labels, found.values, strict=True)), *by_quantity)
 
 
-class Along(NamedTuple):
-    """Quantities along a motion.
+class MotionDerivatives(NamedTuple):
+    """Quantities along a motion and their derivatives.
 
     Attributes:
         values: shape (quantities, times).
         slopes: their derivatives, shape (quantities, by, times).
-        errors: what those are uncertain by, shaped alike.
+        errors: of the derivatives, of the same shape.
     """
 
     values: Array
@@ -98,8 +160,8 @@ class Along(NamedTuple):
     errors: Array
 
 
-class Varied:
-    """A system whose motions are wanted with their derivatives; compiled for the first of them."""
+class VariedMotion:
+    """A system simulated together with derivatives of its motions; compiled for the first."""
 
     def __init__(self, experiment: Experiment, by: Sequence[str], of: Sequence[Quantity]) -> None:
         self._experiment = experiment
@@ -107,30 +169,46 @@ class Varied:
         self._of = of
         self._tangents: VariationalEquations | None = None
 
-    def along(self, parameters: Mapping[Any, Any], start: Mapping[Any, Any], times: Array) -> Along:
-        """One motion: by the variational equations, or by differences where modes change."""
+    def along(
+        self, parameters: Mapping[Any, Any], start: Mapping[Any, Any], times: Array
+    ) -> MotionDerivatives:
+        """One motion, by the variational equations, or by differences where modes change."""
         run = self._experiment.run({**parameters}, {**start})
         refuse_doubt(run)
-        _refuse_end(run, float(np.max(times)))
-        dynamics = run.segments[0].dynamics.without_carried
+        end = float(np.max(times))
+        if run.duration < end:
+            raise NumericError(
+                f"derivatives up to {end:g} s of a motion that ends at t = {run.duration:.6g} s",
+                expected="times within the motion",
+                advice="ask for earlier ones",
+            )
+        dynamics = run.segments[0].dynamics.without_auxiliary
         known = {s.published: s for s in (*dynamics.parameters, *dynamics.states)}
         by = [look_up(name, known, "parameter or state at the start") for name in self._by]
-        if _switches(run, float(np.max(times))):
+        slides = any(symbol.published.startswith("slip_") for symbol in run.dynamics.auxiliary)
+        if slides or any(0 < event.time <= end for event in _dividing_events(run)):
             return self._differenced(run, times)
         if self._tangents is None:
             of = [_expression(run, quantity) for quantity in self._of]
             self._tangents = VariationalEquations(dynamics, by, of)
-        begin = np.array(list(_begin(run, dynamics).values()))
-        values, slopes = self._tangents.follow(begin, list(_stretches(run)), times)
-        return Along(values, slopes, np.zeros_like(slopes))
+        begin = np.array(list(_initial_states(run, dynamics).values()))
+        # The intervals of the run itself: the coefficients of a sampled support's motion change
+        # from knot to knot.
+        intervals = [
+            ConstantInterval(part.begin, part.end, part.constants)
+            for segment in run.segments
+            for part in segment.parts
+        ]
+        values, slopes = self._tangents.follow(begin, intervals, times)
+        return MotionDerivatives(values, slopes, np.zeros_like(slopes))
 
-    def _differenced(self, run: Trajectory, times: Array) -> Along:
-        """Motions to which the same happens in the same order are known to rounding throughout."""
-        dynamics = run.segments[0].dynamics.without_carried
-        start: dict[Any, Any] = {s.published: x for s, x in _begin(run, dynamics).items()}
+    def _differenced(self, run: Trajectory, times: Array) -> MotionDerivatives:
+        """By differences: motions with the same sequence of events depend smoothly on the start."""
+        dynamics = run.segments[0].dynamics.without_auxiliary
+        start: dict[Any, Any] = {s.published: x for s, x in _initial_states(run, dynamics).items()}
         middle = self._read(run, times)
         found = [self._slope(run, middle, start, name, times) for name in self._by]
-        return Along(
+        return MotionDerivatives(
             middle,
             np.stack([one.value for one in found], axis=1),
             np.stack([one.error for one in found], axis=1),
@@ -147,7 +225,8 @@ class Varied:
             numbers = given | moved if name in given else given
             begin = start if name in given else start | moved
             other = self._experiment.run(numbers, begin)
-            return self._read(other, times) if _course(other) == _course(run) else None
+            is_alike = _event_sequence(other) == _event_sequence(run)
+            return self._read(other, times) if is_alike else None
 
         found = slope(values, middle, abs(value) or 1.0)
         if found is None:
@@ -162,44 +241,22 @@ class Varied:
         return np.array([run.evaluate(quantity, times) for quantity in self._of])
 
 
-def _stretches(run: Trajectory) -> Iterator[ConstantInterval]:
-    """As the motion was followed: sampled supports have other coefficients from knot to knot."""
-    for segment in run.segments:
-        for part in segment.parts:
-            yield ConstantInterval(part.begin, part.end, part.constants)
-
-
-def _begin(run: Trajectory, dynamics: Dynamics) -> dict[Symbol, float]:
-    """States at the start."""
+def _initial_states(run: Trajectory, dynamics: Dynamics) -> dict[Symbol, float]:
+    """Values of the states at the start."""
     states = [Expr.generator(symbol) for symbol in dynamics.states]
     values = run.segments[0].values(states, np.zeros(1))[:, 0]
     return dict(zip(dynamics.states, values.tolist(), strict=True))
 
 
-def _switches(run: Trajectory, end: float) -> bool:
-    """Whether a contact slides, or changes its mode, or a support jerks, up to a time."""
-    slides = any(symbol.published.startswith("slip_") for symbol in run.dynamics.carried)
-    return slides or any(0 < event.time <= end for event in _felt(run))
+def _event_sequence(run: Trajectory) -> list[tuple[str, str | None]]:
+    """Kinds of the events that divide the motion, and the modes after them."""
+    return [(event.kind, event.after) for event in _dividing_events(run)]
 
 
-def _course(run: Trajectory) -> list[tuple[str, str | None]]:
-    """What happens, in order."""
-    return [(event.kind, event.after) for event in _felt(run)]
-
-
-def _felt(run: Trajectory) -> list[Event]:
+def _dividing_events(run: Trajectory) -> list[Event]:
     """Events that change the equations or the speeds."""
     inside = (event for event in run.events if event.after is not None)
     return [event for event in inside if event.divides]
-
-
-def _refuse_end(run: Trajectory, end: float) -> None:
-    if run.duration < end:
-        raise NumericError(
-            f"derivatives up to {end:g} s of a motion that ends at t = {run.duration:.6g} s",
-            expected="times within the motion",
-            advice="ask for earlier ones",
-        )
 
 
 def _expression(run: Trajectory, quantity: Quantity) -> Expr:
@@ -208,7 +265,7 @@ def _expression(run: Trajectory, quantity: Quantity) -> Expr:
     return Expr.generator(quantity) if isinstance(quantity, Symbol) else quantity
 
 
-def _told(quantity: Quantity) -> str:
+def _name(quantity: Quantity) -> str:
     if isinstance(quantity, str):
         return quantity
     return as_symbol(quantity).published if isinstance(quantity, Symbol) else str(quantity)

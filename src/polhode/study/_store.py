@@ -1,33 +1,34 @@
-"""Results of a sweep on disk: Zarr chunks, each whole or not there.
+"""Results of a sweep on disk: Zarr chunks, each complete or absent.
 
-What a chunk holds is written first, and that it is done last: whatever stops the work in between,
-a chunk that is not marked is computed again. The marks are read before anything is written.
+The data of a chunk are written first, its mark last: wherever the work is stopped, a chunk without
+a mark is computed again. The marks are read before anything is written.
 """
 
 from __future__ import annotations
 
 import json
+import signal
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from shutil import rmtree
+from signal import SIGINT, SIGTERM
+from threading import current_thread, main_thread
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.base import SCHEMA, PolhodeError, StoreError, write_whole
-from polhode.study import _libraries
-from polhode.study._ensemble_runner import ResultChunk
+from polhode.base import SCHEMA, PolhodeError, StoreError, extra, write_whole
+from polhode.study._ensemble_runner import Reason, ResultChunk
 from polhode.study._grid import Grid
-from polhode.study._libraries import zarr
 from polhode.study._output import CodeTable
 from polhode.study._outputs import Outputs
-from polhode.study._reasons import Reason
 
 if TYPE_CHECKING:
     import xarray
+
 
 ATTRIBUTE = "polhode"
 DONE, REASON = "done", "reason"
@@ -47,18 +48,18 @@ class Store:
 
     @property
     def origin(self) -> Mapping[str, Any]:
-        """What it was made with."""
+        """Everything that the results depend on."""
         with intact(self.path):
             return dict(self.group.attrs[ATTRIBUTE])
 
     @property
     def done(self) -> NDArray[np.bool_]:
-        """Which chunks are done, shaped like the grid of chunks."""
+        """Which chunks are complete, shape of the grid of chunks."""
         with intact(self.path):
             return np.asarray(self.group[DONE][...]).astype(bool)
 
     def failed(self) -> int:
-        """How many members that were followed have no result; read chunk by chunk."""
+        """Number of members that failed; read chunk by chunk."""
         with intact(self.path):
             reason = self.group[REASON]
             return sum(
@@ -66,24 +67,24 @@ class Store:
                 for place in np.argwhere(self.done)
             )
 
-    def write(self, grid: Grid, place: tuple[int, ...], block: ResultChunk) -> None:
-        """Keep a chunk, and then that it is done.
+    def write(self, grid: Grid, place: tuple[int, ...], results: ResultChunk) -> None:
+        """Write a chunk, and then its mark.
 
         Raises:
             StoreError: where it cannot be written.
         """
         region = grid.region(place)
         shape = tuple(r.stop - r.start for r in region)
-        with intact(self.path), written(self.path):
-            for name, values in block.values.items():
+        with intact(self.path), written(self.path), _uninterrupted():
+            for name, values in results.values.items():
                 self.group[name][region] = values.reshape(*shape, *values.shape[1:])
-            self.group[REASON][region] = block.reason.reshape(shape)
-            if block.told:
-                write_whole(self._words(place), json.dumps(_words(block)).encode())
+            self.group[REASON][region] = results.reason.reshape(shape)
+            if results.failures:
+                write_whole(self._words(place), json.dumps(_words(results)).encode())
             self.group[DONE][place] = 1
 
     def failures(self, place: tuple[int, ...]) -> dict[int, str]:
-        """Why members of a chunk failed, in words, by their place in it."""
+        """Why members of a chunk failed, in words, by their index in it."""
         path = self._words(place)
         if not path.exists():
             return {}
@@ -91,31 +92,31 @@ class Store:
             return {int(i): text for i, text in json.loads(path.read_text()).items()}
 
     def _words(self, place: tuple[int, ...]) -> Path:
-        # Within an array: a group would take them for members of it.
+        # In the folder of an array: Zarr takes files in that of a group for members of the group.
         return self.path / REASON / f"words.{'.'.join(map(str, place))}.json"
 
 
-def _words(block: ResultChunk) -> dict[str, str]:
-    return {str(i): text for i, text in block.told.items()}
+def _words(results: ResultChunk) -> dict[str, str]:
+    return {str(i): text for i, text in results.failures.items()}
 
 
 def created(
     path: Path, origin: Mapping[str, Any], grid: Grid, outputs: Outputs, legend: CodeTable
 ) -> Store:
-    """A store with nothing in it yet.
+    """A new, empty store.
 
     Raises:
-        StoreError: where it cannot be written, or something is there already.
+        StoreError: where it cannot be written, or exists already.
     """
     if path.exists() and (not path.is_dir() or any(path.iterdir())):
         raise StoreError(
-            f"{path} is there already",
+            f"{path} exists already",
             expected="a name that is still free, or the store of the same sweep to go on with",
             advice="choose another name, or go on with resume=True",
             option="resume",
         )
-    with written(path), _whole_or_gone(path):
-        group = zarr().create_group(path, zarr_format=3)
+    with written(path), _whole_or_gone(path), _uninterrupted():
+        group = _zarr().create_group(path, zarr_format=3)
         for name, column in grid.columns.items():
             group.create_array(
                 grid.called[name],
@@ -157,20 +158,20 @@ def created(
 
 
 def open_store(path: Path, mode: str = "r") -> Store:
-    """A store that is there.
+    """An existing store.
 
     Raises:
         StoreError: where there is none, or one of another schema.
     """
     if not path.exists():
-        raise StoreError(f"{path} is not there", expected="a store that a sweep wrote")
-    library = zarr()
+        raise StoreError(f"{path} does not exist", expected="a store that a sweep wrote")
+    library = _zarr()
     try:
         group = library.open_group(path, mode=mode, zarr_format=3)
         schema = group.attrs[ATTRIBUTE]["schema"]
-    except Exception as error:  # its library raises what it likes
+    except Exception as error:  # the library raises anything
         raise StoreError(
-            f"{path} is no store of a sweep ({type(error).__name__})",
+            f"{path} is not a store of a sweep ({type(error).__name__})",
             expected="a folder that polhode sweep wrote",
         ) from error
     if schema != SCHEMA:
@@ -183,23 +184,53 @@ def open_store(path: Path, mode: str = "r") -> Store:
 
 
 def dataset(path: Path) -> xarray.Dataset:
-    """A store as a data set that reads what it needs when it needs it.
+    """A store as a data set that is read lazily.
 
     Raises:
         StoreError: where there is none, or xarray is not installed.
     """
-    store, library = open_store(path), _libraries.xarray()
+    with extra("xarray", "study"):
+        import xarray
+    store = open_store(path)
     with intact(path):
-        found: xarray.Dataset = library.open_zarr(
+        found: xarray.Dataset = xarray.open_zarr(
             path, consolidated=False, chunks=None, mask_and_scale=False
         )
         axes = store.origin["axes"]
         return found.set_coords([axis["coordinate"] for axis in axes.values()])
 
 
+def _zarr() -> Any:
+    with extra("zarr", "study"):
+        import zarr
+    return zarr
+
+
+@contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Let Ctrl-C and SIGTERM wait for the end of this block, if they are handled in Python.
+
+    Zarr writes in a thread of its own; an exception in this one would abandon it half way.
+    """
+    if current_thread() is not main_thread():
+        yield
+        return
+    caught: list[int] = []
+    handlers = {n: h for n in (SIGINT, SIGTERM) if callable(h := signal.getsignal(n))}
+    for number in handlers:
+        signal.signal(number, lambda number, frame: caught.append(number))
+    try:
+        yield
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+        if caught:
+            signal.raise_signal(caught[0])
+
+
 @contextmanager
 def _whole_or_gone(path: Path) -> Iterator[None]:
-    """Leave nothing of a store that could not be begun: it would be in the way of the next."""
+    """Remove a store that could not be completed, which would be in the way of the next attempt."""
     try:
         yield
     except BaseException:
@@ -209,16 +240,16 @@ def _whole_or_gone(path: Path) -> Iterator[None]:
 
 @contextmanager
 def intact(path: Path) -> Iterator[None]:
-    """Around everything that only a store that was damaged makes fail.
+    """For code that fails only if the store is damaged.
 
     Raises:
-        StoreError: where it fails.
+        StoreError: if it fails.
     """
     try:
         yield
     except PolhodeError:
         raise
-    except Exception as error:  # of a damaged file the libraries that read it raise what they like
+    except Exception as error:  # libraries raise anything for damaged files
         raise StoreError(
             f"{path} is damaged ({type(error).__name__}: {error})"[:300],
             expected="a store as polhode sweep wrote it",
@@ -228,7 +259,7 @@ def intact(path: Path) -> Iterator[None]:
 
 @contextmanager
 def written(path: Path) -> Iterator[None]:
-    """Around everything that writes a store.
+    """For code that writes a store.
 
     Raises:
         StoreError: where it cannot be written.

@@ -1,10 +1,10 @@
-"""Motions over a grid of numbers and starts, kept on disk as they come."""
+"""Motions over a grid of parameters and start values, stored on disk as they are computed."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,14 +23,12 @@ from polhode.base import (
 from polhode.derive import Equations
 from polhode.model import System, write_declaration
 from polhode.simulate import Pieces
-from polhode.study._cluster import Compute, on_cluster, one_after_the_other, processes, scheduler
-from polhode.study._columns import Name, published_names
-from polhode.study._counts import whole
+from polhode.study._columns import Name, published_names, random_seed, whole
+from polhode.study._compute import Compute, in_processes, on_cluster, one_after_the_other, scheduler
 from polhode.study._ensemble import USUAL
 from polhode.study._ensemble_runner import EnsembleSpec, Subject, options_of
-from polhode.study._extremes import Quantity
 from polhode.study._grid import SAMPLE, Grid, grid_of, split_axes
-from polhode.study._output import Output
+from polhode.study._output import Output, Quantity
 from polhode.study._outputs import outputs_of
 from polhode.study._refused import parameter_names, refuse_mistakes
 from polhode.study._store import Store, created, dataset, intact, open_store
@@ -61,38 +59,38 @@ def sweep(
     until: Sequence[str] | None = None,
     progress: Progress | None = None,
 ) -> xarray.Dataset:
-    """Follow a motion for every combination of some values, and keep chosen outputs on disk.
+    """Simulate every combination of some values, and keep chosen outputs on disk.
 
-    Memory holds a few chunks at a time, whatever the size of the whole. Chunks are written whole
-    or not at all; a sweep that was stopped, in whatever way, goes on with `resume` and ends with
-    the same bits as one that was not.
+    Memory holds a few chunks at a time, whatever the size of the sweep. Chunks are written whole
+    or not at all; a sweep that was stopped, by whatever means, can be resumed, and its results
+    are bit for bit those of one that was not stopped.
 
     Args:
         subject: a declaration, its automaton, or equations derived from it.
-        axes: for every quantity that differs its values, as an array, or `(array, "deg")`, or a
-            distribution of scipy.stats. Arrays span a grid; what is drawn goes along one further
-            axis, `sample`. A name that is no parameter is a start value.
+        axes: values of every quantity that differs, as an array, `(array, "deg")`, or a
+            distribution of scipy.stats. Arrays span a grid; random values share one further axis,
+            `sample`. A name that is not a parameter is a start value.
         parameters: the one value of every other parameter.
         start: the one value of other start values.
         duration: s.
         out: folder to write the store to.
         outputs: as of `ensemble`.
-        samples: how many values are drawn from distributions.
-        seed: of what is drawn; a new one where none is given.
-        chunk: members of a chunk, about.
-        resume: go on with the store that is there; where there is none, begin it.
+        samples: number of values drawn from distributions.
+        seed: of random values; by default a new one.
+        chunk: approximate number of members of a chunk.
+        resume: go on with the store at `out`, if there is one.
         workers: processes of this machine that share the work.
-        client: of a Dask cluster that is to do it.
+        client: of a Dask cluster that is to compute it.
         address: of the scheduler of such a cluster.
         until: as of `ensemble`.
         forcing, tolerance, near_flat: as in `simulate`.
         progress: told of every member.
 
     Returns:
-        The store, opened: arrays over the axes that are read from disk when they are needed.
+        The store, opened: arrays over the axes, read from disk when they are needed.
 
     Raises:
-        DeclarationError: for axes or outputs that are not clear.
+        DeclarationError: for ambiguous axes or outputs.
         StoreError: where the store cannot be written or is another sweep's, or no scheduler
             answers.
         UnitError: for a duration that cannot be read.
@@ -101,22 +99,22 @@ def sweep(
     begun = _begun(path) if resume else None
     drawn = _seed(seed, begun)
     options = options_of(forcing=forcing, tolerance=tolerance, near_flat=near_flat, until=until)
-    order = EnsembleSpec(subject, duration, outputs_of(outputs), options)
-    grid = grid_of(axes, samples, drawn, chunk, order.outputs)
-    order.experiment()  # refuses what cannot be asked of any member
+    spec = EnsembleSpec(subject, duration, outputs_of(outputs), options)
+    grid = grid_of(axes, samples, drawn, chunk, spec.outputs)
+    spec.experiment()  # refuses options that no member can have
     fixed = (published_names(parameters), published_names(start))
-    own, others = split_axes(list(grid.columns), parameter_names(order))
+    own, others = split_axes(list(grid.columns), parameter_names(spec))
     constants = {**fixed[0], **dict.fromkeys(own)}
     columns = grid.columns
     refuse_mistakes(
-        order,
+        spec,
         {**fixed[0], **{name: columns[name] for name in own}},
         {**fixed[1], **{name: columns[name] for name in others}},
     )
-    origin = _origin(order, grid, fixed, drawn)
+    origin = _origin(spec, grid, fixed, drawn)
     with _computing(whole(workers, "workers"), client, address) as compute:
         if begun is None:
-            store = created(path, origin, grid, order.outputs, order.legend)
+            store = created(path, origin, grid, spec.outputs, spec.legend)
         else:
             _refuse_other(begun, origin)
             store = begun
@@ -127,9 +125,12 @@ def sweep(
             )
         left = [place for place in grid.places() if not done[place]]
         chunks = ((place, grid.members(place, constants, fixed[1])) for place in left)
-        with _shown(progress, store, grid) as tick:
-            for place, block in compute(tick)(order, chunks):
-                store.write(grid, place, block)
+        with (
+            _shown(progress, store, grid) as tick,
+            closing(compute(tick)(spec, chunks)) as computed,
+        ):
+            for place, results in computed:
+                store.write(grid, place, results)
     return dataset(path)
 
 
@@ -141,18 +142,14 @@ def _seed(seed: int | None, begun: Store | None) -> int:
     if seed is None and begun is not None:
         with intact(begun.path):
             return int(begun.origin["seed"] or 0)
-    if seed is None:
-        return int(np.random.SeedSequence().entropy) % 2**62  # type: ignore[arg-type]
-    if seed < 0:
-        raise DeclarationError(f"the seed {seed}", expected="a whole number, zero or more")
-    return seed
+    return random_seed(seed)
 
 
 @contextmanager
 def _computing(
     workers: int, client: Any, address: str
 ) -> Iterator[Callable[[Callable[[int], None]], Compute]]:
-    """Where the work is done."""
+    """Where the chunks are computed."""
     if client is not None:
         if not hasattr(client, "submit"):
             raise DeclarationError(f"the client {client!r}", expected="a dask.distributed.Client")
@@ -161,15 +158,14 @@ def _computing(
         with scheduler(address) as there:
             yield partial(on_cluster, there)
     elif workers > 1:
-        with processes(workers) as here:
-            yield partial(on_cluster, here)
+        yield partial(in_processes, workers)
     else:
         yield one_after_the_other
 
 
 @contextmanager
 def _shown(progress: Progress | None, store: Store, grid: Grid) -> Iterator[Callable[[int], None]]:
-    """Counts members; an interrupt is told what is kept."""
+    """Count members; a note on an interrupt says how much is kept."""
     shown = progress or SilentProgress()
     total = int(np.prod(grid.chunks))
     shown.begin("members", grid.size)
@@ -184,14 +180,14 @@ def _shown(progress: Progress | None, store: Store, grid: Grid) -> Iterator[Call
         shown.finish()
 
 
-# -- what it was made with -------------------------------------------------------------------------
+# -- origin of the results -------------------------------------------------------------------------
 
 
 def _origin(
-    order: EnsembleSpec, grid: Grid, fixed: tuple[Mapping[str, Any], Mapping[str, Any]], seed: int
+    spec: EnsembleSpec, grid: Grid, fixed: tuple[Mapping[str, Any], Mapping[str, Any]], seed: int
 ) -> dict[str, Any]:
-    """Everything that the results depend on, as JSON."""
-    system = order.subject if isinstance(order.subject, System) else order.subject.system
+    """Everything the results depend on, as JSON."""
+    system = spec.subject if isinstance(spec.subject, System) else spec.subject.system
     found = provenance(seed if SAMPLE in grid.axes else None)
     for name in ("zarr", "xarray"):
         found["versions"][name] = installed_version(name)
@@ -208,13 +204,13 @@ def _origin(
         **found,
         "system": system.name,
         "declaration": json.loads(write_declaration(system)),
-        "kept_to_one_mode": isinstance(order.subject, Equations),
+        "kept_to_one_mode": isinstance(spec.subject, Equations),
         "parameters": {name: _plain(value) for name, value in fixed[0].items()},
         "start": {name: _plain(value) for name, value in fixed[1].items()},
-        "duration": _plain(order.duration),
-        "options": {name: _plain(value) for name, value in order.options.items()},
+        "duration": _plain(spec.duration),
+        "options": {name: _plain(value) for name, value in spec.options.items()},
         "axes": axes,
-        "outputs": {name: _plain(output) for name, output in order.outputs.items()},
+        "outputs": {name: _plain(output) for name, output in spec.outputs.items()},
         "batch": {"chunk": list(grid.chunk), "shape": list(grid.shape)},
     }
 
@@ -250,7 +246,7 @@ def _plain(value: Any) -> Any:
 
 
 def _refuse_other(store: Store, origin: Mapping[str, Any]) -> None:
-    """Refuse to go on with a store that was made with something else."""
+    """Refuse to resume a store whose sweep differs."""
     before = store.origin
     different = [key for key in origin if json.dumps(before.get(key)) != json.dumps(origin[key])]
     if not different:
@@ -258,8 +254,8 @@ def _refuse_other(store: Store, origin: Mapping[str, Any]) -> None:
     expected = "the same sweep with the same versions, so that the results fit together"
     if different == ["versions"]:
         old, new = before["versions"], origin["versions"]
-        told = [f"{n} {old.get(n)} (now {new[n]})" for n in new if old.get(n) != new[n]]
-        given = f"{store.path} was made with {', '.join(told)}"
+        changed = [f"{n} {old.get(n)} (now {new[n]})" for n in new if old.get(n) != new[n]]
+        given = f"{store.path} was made with {', '.join(changed)}"
     else:
         given = f"{store.path} is of a sweep with other {', '.join(different)}"
     raise StoreError(given, expected=expected, advice="choose another name for this sweep")

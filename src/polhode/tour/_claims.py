@@ -1,22 +1,42 @@
-"""The problem set's claims judged, in a process of their own beside the work on the systems."""
+"""The claims of the problem set: judged in a process of their own, and as the pages show them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from concurrent.futures import Future, ProcessPoolExecutor
-from contextlib import contextmanager
+import re
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
-from multiprocessing import get_context
+from functools import partial
+from itertools import chain, groupby
 
 import polhode as ph
+from polhode.base import NumericError, Tell, Worker, WorkerEndedError
 from polhode.catalogue import CATALOGUE, document_of
-from polhode.claims import Judged, Note, audit
-from polhode.derive import Equations
-from polhode.view import Judgement
+from polhode.claims import Note, audit
+from polhode.view import Judgement, Markup, tag, typeset
+
+_KINDS = {"holds": "good", "fails": "bad"}
+_WORDS = {
+    "holds": "holds",
+    "ambiguous": "ambiguous",
+    "approximate": "approximately",
+    "definition": "definition",
+    "fails": "fails",
+    "unread": "not read",
+}
+_COUNTED = {
+    "holds": ("holds", "hold"),
+    "ambiguous": ("is ambiguous", "are ambiguous"),
+    "approximate": ("holds approximately", "hold approximately"),
+    "definition": ("defines", "define"),
+    "fails": ("fails as printed", "fail as printed"),
+    "unread": ("could not be read", "could not be read"),
+}
 
 
 @dataclass(frozen=True)
-class Told:
+class JudgedClaim:
     """A claim and its verdict, as text.
 
     Attributes:
@@ -57,34 +77,121 @@ class Told:
 
 
 @contextmanager
-def judging(only: Iterable[str]) -> Iterator[Future[tuple[Told, ...]]]:
-    """The verdicts to come, on claims with some ids or on all of them."""
-    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as workers:
-        yield workers.submit(judged, tuple(only))
+def judging(only: Iterable[str]) -> Iterator[Callable[[], tuple[JudgedClaim, ...]]]:
+    """The verdicts on claims with some ids, or on all of them, from a process that judges them
+    within this block. To call for them waits until all are there.
+
+    Raises:
+        NumericError: where that process ends before.
+    """
+    with closing(Worker[None, tuple[JudgedClaim, ...]](partial(_judging, tuple(only)))) as worker:
+
+        def verdicts() -> tuple[JudgedClaim, ...]:
+            try:
+                return worker.ask(None)
+            except WorkerEndedError:
+                raise NumericError(
+                    "a worker process that ended while it judged the claims",
+                    expected="enough memory for it",
+                    advice="judge fewer of them with only",
+                ) from None
+
+        yield verdicts
 
 
-def judged(only: tuple[str, ...]) -> tuple[Told, ...]:
+def _judging(
+    only: tuple[str, ...],
+) -> Callable[[None, Tell[tuple[JudgedClaim, ...]]], tuple[JudgedClaim, ...]]:
+    """In the worker, which judges as soon as it begins, and is asked later."""
+    verdicts = judged(only)
+    return lambda question, tell: verdicts
+
+
+def judged(only: tuple[str, ...]) -> tuple[JudgedClaim, ...]:
     """Judge the claims of the problem set with these ids, or all of them; part by part."""
-    report = audit(document_of(None), _equations, only=only)
-    return tuple(_told(judged, part.title) for part, found in report.by_part() for judged in found)
-
-
-def _equations(system: str) -> Equations:
-    return ph.derive(CATALOGUE[system].build())
-
-
-def _told(judged: Judged, part: str) -> Told:
-    claim, verdict = judged.claim, judged.verdict
-    return Told(
-        id=claim.id,
-        system=judged.system,
-        stated=claim.printed,
-        is_formula=bool(claim.latex),
-        answer=verdict.answer.value,
-        reason=verdict.reason,
-        correction=verdict.correction.latex if verdict.correction is not None else "",
-        judgement=Judgement.on(judged),
-        notes=(*claim.notes, *(Note("note", note) for note in verdict.notes)),
-        part=part,
-        convention=judged.convention,
+    report = audit(document_of(None), lambda name: ph.derive(CATALOGUE[name].build()), only=only)
+    return tuple(
+        JudgedClaim(
+            id=found.claim.id,
+            system=found.system,
+            stated=found.claim.printed,
+            is_formula=bool(found.claim.latex),
+            answer=found.verdict.answer.value,
+            reason=found.verdict.reason,
+            correction=found.verdict.correction.latex if found.verdict.correction else "",
+            judgement=Judgement.on(found),
+            notes=(*found.claim.notes, *(Note("note", note) for note in found.verdict.notes)),
+            part=part.title,
+            convention=found.convention,
+        )
+        for part, claims in report.by_part()
+        for found in claims
     )
+
+
+# --- on the pages ---
+
+
+def verdicts(claims: Sequence[JudgedClaim]) -> Markup:
+    """All claims about a problem with what came of them; nothing where there are none."""
+    if not claims:
+        return Markup()
+    return tag(
+        "section",
+        tag("h2", "What the text claims"),
+        tag("p", counted(claims), ". Each was judged against the equations derived here."),
+        *chain.from_iterable(_part(found) for _, found in groupby(claims, lambda c: c.place)),
+        id="claims",
+    )
+
+
+def _part(claims: Iterable[JudgedClaim]) -> Iterator[Markup]:
+    """The claims of a part of the text under its heading and its convention."""
+    first, *others = claims
+    if first.part:
+        yield tag("h3", first.part)
+    if first.convention:
+        yield tag("p", first.convention, class_="convention")
+    for claim in (first, *others):
+        yield tag(
+            "article",
+            tag("span", f"({claim.id})" if claim.id.isdigit() else claim.id, class_="id"),
+            tag("span", _WORDS[claim.answer], class_=_KINDS.get(claim.answer, "so-so")),
+            tag("div", *_said(claim), class_="said"),
+            class_="claim",
+        )
+
+
+def _said(claim: JudgedClaim) -> Iterator[Markup]:
+    """A claim, how it was read, and what holds in its place."""
+    if claim.is_formula:
+        yield tag("div", formula(claim.stated), class_="stated", tabindex="0")
+    else:
+        # What stands behind an underscore is lowered, as in ω_3 and ω_(1,2,3).
+        pieces = re.split(r"_(\w+|\([^()]*\))", claim.stated)
+        yield tag("div", *(tag("sub", piece) if i % 2 else piece for i, piece in enumerate(pieces)))
+    for note in claim.notes:
+        text = formula(note.text) if note.is_formula else tag("span", note.text)
+        label = tag("span", note.label, class_="label")
+        yield tag("div", label, " ", text, class_="note", tabindex="0")
+    if claim.correction:
+        correction = formula(claim.correction)
+        yield tag("div", "should read ", correction, class_="should", tabindex="0")
+    if claim.answer != "holds" and claim.reason:
+        yield tag("p", claim.reason, class_="reason")
+
+
+def formula(latex: str) -> Markup:
+    """LaTeX as MathML; as it is where it cannot be read."""
+    return typeset(latex) or tag("code", latex)
+
+
+def counted(claims: Iterable[JudgedClaim]) -> str:
+    """How many got each verdict, in words."""
+    found = Counter(claim.answer for claim in claims)
+    parts = [
+        f"{found[answer]} {one if found[answer] == 1 else many}"
+        for answer, (one, many) in _COUNTED.items()
+        if found[answer]
+    ]
+    return f"{found.total()} claims: {', '.join(parts)}"

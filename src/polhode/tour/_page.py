@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 
 from polhode.base import installed_version, provenance
-from polhode.tour._claims import Told
-from polhode.tour._html import Markup, joined, tag
+from polhode.tour._claims import JudgedClaim, counted, verdicts
 from polhode.tour._sections import picture, problem_of, section, summary
-from polhode.tour._verdicts import counted, verdicts
 from polhode.tour._work import Worked
-from polhode.view import math_fonts
+from polhode.view import Markup, document, json_element, math_fonts, tag
 
 FIGURES = "figures"
 CARD = (480, 300)
@@ -34,7 +31,7 @@ class Problem:
 
     name: str
     systems: tuple[Worked, ...]
-    claims: tuple[Told, ...]
+    claims: tuple[JudgedClaim, ...]
 
     @property
     def title(self) -> str:
@@ -42,14 +39,14 @@ class Problem:
         return self.systems[0].entry.title
 
 
-def problems(all_worked: Iterable[Worked], claims: Iterable[Told]) -> tuple[Problem, ...]:
+def problems(all_worked: Iterable[Worked], claims: Iterable[JudgedClaim]) -> tuple[Problem, ...]:
     """Systems and claims sorted by problem."""
     found: dict[str, list[Worked]] = {}
     for worked in all_worked:
         found.setdefault(problem_of(worked), []).append(worked)
-    told = tuple(claims)
+    judged = tuple(claims)
     return tuple(
-        Problem(name, tuple(systems), tuple(c for c in told if c.problem == name))
+        Problem(name, tuple(systems), tuple(c for c in judged if c.problem == name))
         for name, systems in found.items()
     )
 
@@ -60,17 +57,34 @@ def front_page(all_problems: Sequence[Problem]) -> str:
     everything = [worked for problem in all_problems for worked in problem.systems]
     body = (
         tag("header", tag("h1", _TITLE), *_opening(all_problems)),
-        tag("main", cards, *_closing_table(everything)),
+        tag(
+            "main",
+            cards,
+            tag("h2", "All checks"),
+            summary(everything),
+            tag(
+                "p",
+                "Drifts are the largest along the default run: of the energy, relative to its "
+                "size; and of the position of the centre of mass from where the velocities that "
+                "the constraints allow would have taken it.",
+            ),
+        ),
         tag("footer", *_closing(everything)),
     )
-    return _document(f"polhode: {_TITLE.lower()}", body)
+    return _page(f"polhode: {_TITLE.lower()}", body)
 
 
 def problem_page(problem: Problem, all_problems: Sequence[Problem]) -> str:
     """The page of one problem."""
     first, *variants = problem.systems
+    links = (
+        tag("span", other.title, aria_current="page")
+        if other.name == problem.name
+        else tag("a", other.title, href=f"{other.name}.html")
+        for other in all_problems
+    )
     body = (
-        tag("nav", *_links(problem, all_problems), aria_label="problems"),
+        tag("nav", tag("a", "All problems", href="index.html"), *links, aria_label="problems"),
         tag(
             "main",
             _section(first, 1),
@@ -79,27 +93,15 @@ def problem_page(problem: Problem, all_problems: Sequence[Problem]) -> str:
         ),
         tag("footer", *_closing(problem.systems)),
     )
-    return _document(f"{problem.title} · polhode", body)
+    return _page(f"{problem.title} · polhode", body)
 
 
-def _document(title: str, body: Iterable[Markup]) -> str:
-    head = tag(
-        "head",
-        tag("meta", charset="utf-8"),
-        tag("meta", name="viewport", content="width=device-width, initial-scale=1"),
-        tag("meta", name="color-scheme", content="light dark"),
-        tag("title", title),
-        tag("link", rel="icon", href="data:,"),
-        tag("style", Markup(_style())),
-    )
-    return f"<!DOCTYPE html>\n{tag('html', head, tag('body', *body), lang='en')}\n"
+def _page(title: str, body: Iterable[Markup]) -> str:
+    own = files("polhode.tour").joinpath("style.css").read_text("utf-8")
+    return document(title, f"{math_fonts()}\n{own}", *body)
 
 
-def _style() -> str:
-    return f"{math_fonts()}\n{files('polhode.tour').joinpath('style.css').read_text('utf-8')}"
-
-
-def _opening(all_problems: Sequence[Problem]) -> Iterable[Markup]:
+def _opening(all_problems: Sequence[Problem]) -> Iterator[Markup]:
     yield tag(
         "p",
         "Each system is declared once: its bodies, what touches or holds them, what pulls. "
@@ -110,47 +112,21 @@ def _opening(all_problems: Sequence[Problem]) -> Iterable[Markup]:
     claims = [claim for problem in all_problems for claim in problem.claims]
     if claims:
         yield tag(
-            "p", "The text they come from was held to account as well: ", counted(claims), "."
+            "p",
+            "The claims of the text they come from were checked as well: ",
+            counted(claims),
+            ".",
         )
 
 
 def _card(problem: Problem) -> Markup:
-    width, height = CARD
-    image = tag(
-        "img",
-        src=f"{FIGURES}/{problem.name}-card.png",
-        alt="",
-        width=str(width),
-        height=str(height),
-    )
-    words = tag("p", _first_sentence(problem.systems[0].entry.about))
-    return tag(
-        "a", image, tag("h2", problem.title), words, class_="card", href=f"{problem.name}.html"
-    )
-
-
-def _first_sentence(text: str) -> str:
-    return text.partition(". ")[0].rstrip(".") + "."
-
-
-def _closing_table(everything: Sequence[Worked]) -> Iterable[Markup]:
-    yield tag("h2", "All checks")
-    yield summary(everything)
-    yield tag(
-        "p",
-        "Drifts are the largest along the default run: of the energy, relative to its size; "
-        "and of the place of the centre of mass from where the velocities that the "
-        "constraints allow would have taken it.",
-    )
-
-
-def _links(problem: Problem, all_problems: Sequence[Problem]) -> Iterable[Markup]:
-    yield tag("a", "All problems", href="index.html")
-    for other in all_problems:
-        if other.name == problem.name:
-            yield tag("span", other.title, aria_current="page")
-        else:
-            yield tag("a", other.title, href=f"{other.name}.html")
+    width, height = map(str, CARD)
+    source = f"{FIGURES}/{problem.name}-card.png"
+    image = tag("img", src=source, alt="", width=width, height=height)
+    first_sentence = problem.systems[0].entry.about.partition(". ")[0].rstrip(".")
+    words = tag("p", f"{first_sentence}.")
+    address = f"{problem.name}.html"
+    return tag("a", image, tag("h2", problem.title), words, class_="card", href=address)
 
 
 def _section(worked: Worked, level: int) -> Markup:
@@ -169,11 +145,10 @@ def _closing(everything: Sequence[Worked]) -> tuple[Markup, ...]:
                 "duration": worked.run.duration,
                 "integrator": worked.run.integrator,
             }
-            for worked in everything
+            for worked in sorted(everything, key=lambda worked: worked.entry.name)
         },
     }
-    text = json.dumps(made_with, sort_keys=True).replace("<", "\\u003c")
     return (
-        tag("p", joined(["Written by ", tag("code", "polhode tour"), f", version {version}."])),
-        tag("script", Markup(text), type="application/json", id="made-with"),
+        tag("p", "Written by ", tag("code", "polhode tour"), f", version {version}."),
+        json_element("made-with", made_with),
     )

@@ -52,13 +52,13 @@ def pictures_of(entry: CatalogueEntry) -> tuple[Picture, ...]:
     seconds = _SHOWN.get(entry.name)
     opening = "The run." if seconds is None else f"The first {seconds:g} s of the run."
     return (
-        Picture("run", opening, lambda run: figure_of_run(_first(run, seconds), entry.plots)),
+        Picture("run", opening, lambda run: figure_of_run(_beginning(run, seconds), entry.plots)),
         *_SPECIAL.get(entry.name, ()),
         Picture("energy", _ENERGY, lambda run: _energy_account(run, seconds)),
     )
 
 
-def _first(run: Trajectory, seconds: float | None) -> Trajectory:
+def _beginning(run: Trajectory, seconds: float | None) -> Trajectory:
     """The beginning of a run, or all of it."""
     if seconds is None:
         return run
@@ -69,13 +69,15 @@ def _first(run: Trajectory, seconds: float | None) -> Trajectory:
 def _energy_account(run: Trajectory, seconds: float | None) -> Figure:
     figure = new_figure(4.1)
     upper, lower = figure.subplots(2, 1)
-    energies(_first(run, seconds), ax=upper)
+    energies(_beginning(run, seconds), ax=upper)
     energy_drift(run, ax=lower)
     figure.align_ylabels([upper, lower])
     return figure
 
 
-def _one(draw: Callable[..., object], height: float, *what: str) -> Callable[[Trajectory], Figure]:
+def _one_panel(
+    draw: Callable[..., object], height: float, *what: str
+) -> Callable[[Trajectory], Figure]:
     """A figure of one panel, its height in inches."""
 
     @house_style()
@@ -94,9 +96,9 @@ _ENERGY = (
 _FRICTION = Picture(
     "friction",
     "The coefficient of friction that rolling without slipping takes.",
-    _one(friction_needed, 1.9),
+    _one_panel(friction_needed, 1.9),
 )
-_PHASE: dict[str, Any] = {"name": "phase", "draw": _one(phase_portrait, 3.0, "theta")}
+_PHASE: dict[str, Any] = {"name": "phase", "draw": _one_panel(phase_portrait, 3.0, "theta")}
 
 _SPECIAL: dict[str, tuple[Picture, ...]] = {
     "spinning-coin": (
@@ -104,7 +106,7 @@ _SPECIAL: dict[str, tuple[Picture, ...]] = {
             "path",
             "From above: without friction the centre stays where it is, and the point of contact "
             "runs about under it.",
-            _one(floor_path, 3.5),
+            _one_panel(floor_path, 3.5),
         ),
         Picture(**_PHASE, caption="The tilt swings for ever between the same two limits."),
     ),
@@ -112,19 +114,21 @@ _SPECIAL: dict[str, tuple[Picture, ...]] = {
         Picture(
             "path",
             "From above: spinning fast and leaning a little, the disk rolls round a circle.",
-            _one(floor_path, 3.5),
+            _one_panel(floor_path, 3.5),
         ),
         Picture(**_PHASE, caption="The lean nods about that of steady rolling."),
         Picture(
             "friction",
             "The coefficient of friction that rolling takes, over the first second.",
-            lambda run: _one(friction_needed, 1.9)(_first(run, 1.0)),
+            lambda run: _one_panel(friction_needed, 1.9)(_beginning(run, 1.0)),
         ),
     ),
     "marble-on-turntable": (
-        Picture("path", "Seen from the laboratory: a circle.", _one(floor_path, 3.5)),
+        Picture("path", "Seen from the laboratory: a circle.", _one_panel(floor_path, 3.5)),
         Picture(
-            "trace", "The same seen by one who turns with the table.", _one(support_trace, 3.5)
+            "trace",
+            "The same seen by one who turns with the table.",
+            _one_panel(support_trace, 3.5),
         ),
         _FRICTION,
     ),
@@ -132,9 +136,9 @@ _SPECIAL: dict[str, tuple[Picture, ...]] = {
         Picture(
             "path",
             "Seen from above, up the slope being up: the circle drifts sideways, not down.",
-            _one(floor_path, 1.9),
+            _one_panel(floor_path, 1.9),
         ),
-        Picture("trace", "The trace left on the turning table.", _one(support_trace, 3.5)),
+        Picture("trace", "The trace left on the turning table.", _one_panel(support_trace, 3.5)),
         _FRICTION,
     ),
     "gyrocompass": (Picture(**_PHASE, caption="The axle swings about the north like a pendulum."),),
@@ -144,12 +148,14 @@ _SPECIAL: dict[str, tuple[Picture, ...]] = {
             "polhodes",
             "The angular velocity on the inertia ellipsoid. The run's own polhode (bold) hugs the "
             "separatrix (dashed), which passes through the middle axis: hence the flips.",
-            _one(polhodes, 3.0),
+            _one_panel(polhodes, 3.0),
         ),
     ),
     "ball-on-paper": (
-        Picture("path", "The ball's path over the table.", _one(floor_path, 1.7)),
-        Picture("trace", "The trace it leaves on the moving paper.", _one(support_trace, 1.7)),
+        Picture("path", "The ball's path over the table.", _one_panel(floor_path, 1.7)),
+        Picture(
+            "trace", "The trace it leaves on the moving paper.", _one_panel(support_trace, 1.7)
+        ),
         _FRICTION,
     ),
     "gyroscope": (
@@ -157,26 +163,28 @@ _SPECIAL: dict[str, tuple[Picture, ...]] = {
             "sphere",
             "Where the axle points: released from rest, it falls, swerves and comes to rest again "
             "in cusps, between the two dashed circles.",
-            _one(nutation, 3.8),
+            _one_panel(nutation, 3.8),
         ),
         Picture(**_PHASE, caption="One nod of the axle."),
-        Picture("reactions", "The range of the pivot's force.", _one(reaction_ranges, 1.7)),
+        Picture("reactions", "The range of the pivot's force.", _one_panel(reaction_ranges, 1.7)),
     ),
     "gyroscope/upright": (
-        Picture("reactions", "The range of the pivot's force.", _one(reaction_ranges, 1.7)),
+        Picture("reactions", "The range of the pivot's force.", _one_panel(reaction_ranges, 1.7)),
     ),
     "gyroscope/held": (
         Picture(
             "reactions",
             "Forces of pivot and hand. Rings mark what Newton's laws leave open; shown is the "
             "choice with the smallest sum of squares.",
-            _one(reaction_ranges, 2.6),
+            _one_panel(reaction_ranges, 2.6),
         ),
     ),
     "gyroscope/vertical-plane": (
         Picture(**_PHASE, caption="The fall through the lowest point and up the other side."),
         Picture(
-            "reactions", "The range of the forces of pivot and guide.", _one(reaction_ranges, 2.0)
+            "reactions",
+            "The range of the forces of pivot and guide.",
+            _one_panel(reaction_ranges, 2.0),
         ),
     ),
 }

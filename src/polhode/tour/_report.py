@@ -8,9 +8,8 @@ from itertools import chain, groupby
 from pathlib import Path
 from textwrap import shorten, wrap
 
-from polhode.tour._claims import Told
-from polhode.tour._numerals import power_of_ten
-from polhode.tour._verdicts import counted
+from polhode.tour._claims import JudgedClaim, counted
+from polhode.tour._formulas import power_of_ten
 from polhode.tour._work import Worked
 
 
@@ -69,7 +68,7 @@ class TourReport:
 
     page: Path
     rows: tuple[Row, ...]
-    claims: tuple[Told, ...] = ()
+    claims: tuple[JudgedClaim, ...] = ()
 
     @property
     def all_hold(self) -> bool:
@@ -79,12 +78,20 @@ class TourReport:
     def table(self) -> str:
         """The rows under their header, aligned."""
         lines = [HEADER, *(row.cells for row in self.rows)]
-        widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
-        return "\n".join(_aligned(cells, widths) for cells in lines)
+        first, *widths = (max(map(len, column)) for column in zip(*lines, strict=True))
+        return "\n".join(
+            "  ".join(
+                [
+                    f"{name:<{first}}",
+                    *(f"{cell:>{width}}" for cell, width in zip(cells, widths, strict=True)),
+                ]
+            )
+            for name, *cells in lines
+        )
 
     def audit_table(self) -> str:
-        """How the claims about each problem fared, then those that fail, with corrections."""
-        grouped: dict[str, list[Told]] = {}
+        """Verdicts on the claims about each problem, then those that fail, with corrections."""
+        grouped: dict[str, list[JudgedClaim]] = {}
         for claim in self.claims:
             grouped.setdefault(claim.problem, []).append(claim)
         width = max(map(len, grouped), default=0)
@@ -105,7 +112,7 @@ def _heading(part: str, convention: str) -> Iterator[str]:
     yield from wrap(convention, _WIDEST, initial_indent="  ", subsequent_indent="  ")
 
 
-def _failure(claim: Told) -> Iterator[str]:
+def _failure(claim: JudgedClaim) -> Iterator[str]:
     said = f"holds as  {claim.correction}" if claim.correction else claim.reason
     yield f"{claim.id:>5}  fails; {shorten(said, _WIDEST, placeholder=' …')}"
     if claim.notes:
@@ -135,8 +142,3 @@ def text_of(worked: Worked) -> str:
     checks = (f"  {marks[check.passed]} {check.name}: {check.found}" for check in worked.checks)
     title = f"{entry.title} ({entry.name})"
     return "\n".join([title, "─" * len(title), str(worked.equations), "Checks", *checks, ""])
-
-
-def _aligned(cells: tuple[str, ...], widths: list[int]) -> str:
-    first, *others = (f"{cell:>{width}}" for cell, width in zip(cells, widths, strict=True))
-    return "  ".join([f"{first.strip():<{widths[0]}}", *others])

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+import inspect
+from collections.abc import Callable, Iterable, Iterator
+from types import FunctionType
 
+from polhode import catalogue
 from polhode.algebra import Expr, Symbol, symbol, time
-from polhode.catalogue import Parameter
-from polhode.tour._declaration import source_of
-from polhode.tour._formulas import equation, inline, listed, with_formulas
-from polhode.tour._html import Markup, joined, raised, table, tag
-from polhode.tour._numerals import power_of_ten, scientific
+from polhode.tour._formulas import equation, listed, power_of_ten, raised, scientific, with_formulas
 from polhode.tour._work import Drawing, Worked
+from polhode.view import Markup, inline, joined, table, tag
 
 _IDEALS = {
     "Rolling": "rolls on it without slipping; it gives whatever friction that takes.",
@@ -29,36 +29,33 @@ ZERO = Expr.constant(0)
 def section(worked: Worked, figures: Markup, level: int) -> Markup:
     """All of one system, under a heading of its level (1 for that of the page)."""
     entry = worked.entry
+    declaration = tag("pre", tag("code", source_of(entry.build)), tabindex="0")
+    parts: dict[str, Iterable[Markup]] = {
+        "In motion": [player(worked)],
+        "Declaration": [declaration],
+        "Assumptions": _assumptions(worked),
+        "Coordinates and speeds": _kinematics(worked),
+        "Equations of motion": (equation(row, ZERO) for row in worked.equations.motion),
+        "Reactions": _reactions(worked),
+        "Energy": _energy(worked),
+        "Conserved": _conserved(worked),
+        "The default run": [_numbers(worked), figures],
+        "Checks": [_checks(worked)],
+    }
+    # Each part under a heading, but for those that are empty.
+    shown = {title: joined(content) for title, content in parts.items()}
     return tag(
         "section",
         tag(f"h{level}", entry.title),
         tag("p", tag("code", f"polhode run {entry.name}", class_="command")),
         tag("p", with_formulas(entry.about)),
-        *_headed(_parts(worked, figures), level + 1),
+        *(
+            joined([tag(f"h{level + 1}", title, class_="part"), content])
+            for title, content in shown.items()
+            if content
+        ),
         id=anchor(worked),
     )
-
-
-def _parts(worked: Worked, figures: Markup) -> Iterator[tuple[str, Iterable[Markup]]]:
-    yield "In motion", [player(worked)]
-    yield "Declaration", [tag("pre", tag("code", source_of(worked.entry.build)), tabindex="0")]
-    yield "Assumptions", _assumptions(worked)
-    yield "Coordinates and speeds", _kinematics(worked)
-    yield "Equations of motion", (equation(row, ZERO) for row in worked.equations.motion)
-    yield "Reactions", _reactions(worked)
-    yield "Energy", _energy(worked)
-    yield "Conserved", _conserved(worked)
-    yield "The default run", [_numbers(worked), figures]
-    yield "Checks", [_checks(worked)]
-
-
-def _headed(parts: Iterable[tuple[str, Iterable[Markup]]], level: int) -> Iterator[Markup]:
-    """Each part under a heading, but for those that are empty."""
-    for title, content in parts:
-        shown = joined(content)
-        if shown:
-            yield tag(f"h{level}", title, class_="part")
-            yield shown
 
 
 def anchor(worked: Worked) -> str:
@@ -92,7 +89,9 @@ def player(worked: Worked) -> Markup:
 
 def picture(worked: Worked, drawing: Drawing, folder: str) -> Markup:
     """A figure with its caption; a page in the dark shows its dark twin."""
-    width, height = _size(drawing.svg)
+    # Width and height in the units of the drawing.
+    box = drawing.svg.partition('viewBox="')[2].partition('"')[0].split()
+    width, height = (f"{float(side):.0f}" for side in box[2:4])
     image = tag(
         "img",
         src=f"{folder}/{drawing.name}.svg",
@@ -109,24 +108,18 @@ def picture(worked: Worked, drawing: Drawing, folder: str) -> Markup:
     return tag("figure", tag("picture", dark, image), tag("figcaption", drawing.caption))
 
 
-def _size(svg: str) -> tuple[str, str]:
-    """Width and height in the units of the drawing."""
-    box = svg.partition('viewBox="')[2].partition('"')[0].split()
-    return f"{float(box[2]):.0f}", f"{float(box[3]):.0f}"
-
-
 def _assumptions(worked: Worked) -> Iterator[Markup]:
     system, equations = worked.equations.system, worked.equations
-    told: list[Markup] = [
+    items: list[Markup] = [
         tag("li", tag("em", element.name), f": the {element.bodies[0].name} {ideal}")
         for element in system.elements
         for ideal in [_IDEALS[type(element).__name__]]
     ]
-    told += [
+    items += [
         tag("li", inline(positive), " is taken to be positive.")
         for positive in equations.assumed_positive
     ]
-    yield tag("ul", tag("li", "All bodies are rigid."), *told)
+    yield tag("ul", tag("li", "All bodies are rigid."), *items)
 
 
 def _kinematics(worked: Worked) -> Iterator[Markup]:
@@ -139,9 +132,9 @@ def _kinematics(worked: Worked) -> Iterator[Markup]:
         listed(equations.speeds),
         ".",
     )
-    told = {s: e for s, e in equations.kinematics.items() if s not in equations.speeds}
-    told |= equations.dependent
-    yield from (equation(Expr.generator(s), e) for s, e in told.items())
+    rates = {s: e for s, e in equations.kinematics.items() if s not in equations.speeds}
+    rates |= equations.dependent
+    yield from (equation(Expr.generator(s), e) for s, e in rates.items())
 
 
 def _reactions(worked: Worked) -> Iterator[Markup]:
@@ -154,7 +147,7 @@ def _reactions(worked: Worked) -> Iterator[Markup]:
         names = equations.undetermined
         yield tag(
             "p",
-            "Newton’s laws leave open ",
+            "Newton’s laws do not determine ",
             listed(map(Symbol, names)),
             ". The choice with the smallest sum of squares, of forces and then of couples, is",
         )
@@ -162,7 +155,7 @@ def _reactions(worked: Worked) -> Iterator[Markup]:
 
 
 def _assigned(values: dict[str, Expr]) -> Iterator[Markup]:
-    """What each component is; those that stay open as themselves are left out."""
+    """The value of each component; those left undetermined are omitted."""
     named = ((Expr.generator(Symbol(name)), value) for name, value in values.items())
     return (equation(name, value) for name, value in named if value != name)
 
@@ -176,7 +169,7 @@ def _energy(worked: Worked) -> Iterator[Markup]:
         yield tag("p", "Supports or motors do work at the rate")
         yield equation(symbol("P"), equations.power)
     else:
-        yield tag("p", "Nothing does work but what the potential accounts for.")
+        yield tag("p", "Only the forces of the potential do work.")
 
 
 def _conserved(worked: Worked) -> Iterator[Markup]:
@@ -194,9 +187,11 @@ def _numbers(worked: Worked) -> Markup:
     known = run.quantities
     rows: list[tuple[str, ...]] = []
     for parameter in entry.parameters:
-        name = parameter.name
-        meaning, value = _raised(parameter.meaning), _value(parameter, run.parameters)
-        rows.append((inline(known.get(name, symbol(name))), meaning, value))
+        name, value = parameter.name, parameter.default
+        if "*" in value and name in run.parameters:  # it follows from other parameters
+            value = f"{run.parameters[name]:.3g} {parameter.unit}"
+        letter = inline(known.get(name, symbol(name)))
+        rows.append((letter, _raised(parameter.meaning), _raised(value)))
     rows += [
         (inline(known[name]), "at the start", _raised(value)) for name, value in entry.start.items()
     ]
@@ -207,14 +202,7 @@ def _numbers(worked: Worked) -> Markup:
     rows.append((inline(time), "duration", entry.duration))
     resting = [known[name] for name in run.assumed]
     also = (tag("p", "All else starts at zero."),) if resting else ()
-    return joined([table(("symbol", "meaning", "value"), rows, class_="values"), *also])
-
-
-def _value(parameter: Parameter, values: Mapping[str, float]) -> Markup:
-    """The default as it is written, or its value where it follows from other parameters."""
-    if "*" not in parameter.default or parameter.name not in values:
-        return _raised(parameter.default)
-    return _raised(f"{values[parameter.name]:.3g} {parameter.unit}")
+    return joined([_wide(("symbol", "meaning", "value"), rows, "values"), *also])
 
 
 def _raised(text: str) -> Markup:
@@ -224,15 +212,20 @@ def _raised(text: str) -> Markup:
 
 def _checks(worked: Worked) -> Markup:
     rows = (
-        (check.name, check.how, _verdict(check.passed), raised(check.found))
+        (
+            check.name,
+            check.how,
+            _mark("holds" if check.passed else "fails", check.passed),
+            raised(check.found),
+        )
         for check in worked.checks
     )
     header = ("check", "what is compared", "verdict", "difference")
-    return table(header, rows, class_="checks")
+    return _wide(header, rows, "checks")
 
 
-def _verdict(passed: bool) -> Markup:
-    return tag("span", "holds", class_="good") if passed else tag("span", "fails", class_="bad")
+def _mark(words: str, passed: bool) -> Markup:
+    return tag("span", words, class_="good" if passed else "bad")
 
 
 def summary(all_worked: Iterable[Worked]) -> Markup:
@@ -242,17 +235,29 @@ def summary(all_worked: Iterable[Worked]) -> Markup:
             tag("a", worked.entry.title, href=f"{problem_of(worked)}.html#{anchor(worked)}"),
             str(len(worked.equations.motion)),
             str(len(worked.equations.components)),
-            _passed(worked),
+            _mark(f"{worked.passed} of {len(worked.checks)}", worked.passed == len(worked.checks)),
             raised(power_of_ten(worked.run.drift.energy)),
             raised(power_of_ten(worked.constraint_drift, "m")),
         )
         for worked in all_worked
     )
     header = ("system", "equations", "reactions", "checks", "energy drift", "constraint drift")
-    return table(header, rows, class_="numbers")
+    return _wide(header, rows, "numbers")
 
 
-def _passed(worked: Worked) -> Markup:
-    all_hold = worked.passed == len(worked.checks)
-    kind = "good" if all_hold else "bad"
-    return tag("span", f"{worked.passed} of {len(worked.checks)}", class_=kind)
+def _wide(header: Iterable[str], rows: Iterable[Iterable[str]], kind: str) -> Markup:
+    """A table that scrolls sideways by itself where it is too wide."""
+    return tag("div", table(header, rows, class_=kind), class_="wide")
+
+
+def source_of(build: Callable[[], object]) -> str:
+    """Source of a function and of the catalogue's own functions it calls, callers last."""
+    needed = list(dict.fromkeys(reversed(list(_reached(build)))))
+    return "\n\n".join(inspect.getsource(function).rstrip() for function in needed)
+
+
+def _reached(function: object) -> Iterator[FunctionType]:
+    if isinstance(function, FunctionType) and function.__module__.startswith(catalogue.__name__):
+        yield function
+        for name in function.__code__.co_names:
+            yield from _reached(function.__globals__.get(name))

@@ -1,4 +1,4 @@
-"""Working through the whole catalogue, and the site of it."""
+"""The whole catalogue worked through, and written as a site."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from pathlib import Path
 
 from polhode.base import Progress, StoreError, write_whole
 from polhode.catalogue import CATALOGUE
-from polhode.tour._claims import Told, judging
+from polhode.tour._claims import judging
 from polhode.tour._page import CARD, FIGURES, Problem, front_page, problem_page, problems
 from polhode.tour._report import TourReport, row_of, text_of
 from polhode.tour._sections import stem
-from polhode.tour._work import Drawing, Worked, work_through
-from polhode.view import page_of, still, telling_time
+from polhode.tour._work import work_through
+from polhode.view import clearest_time, page_of, still
 from polhode.view.figures import for_dark_pages
 
 
@@ -38,60 +38,47 @@ def write_tour(
         StoreError: where a page cannot be written.
     """
     all_worked = []
-    _make(directory / FIGURES)
+    try:
+        (directory / FIGURES).mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise StoreError(
+            f"the folder {directory / FIGURES} cannot be made ({error.strerror})",
+            expected="a place where a folder can be made",
+        ) from error
     progress.begin("tour", len(CATALOGUE) + 1)
     try:
-        with judging(only) as claims:
+        with judging(only) as judged:
             for entry in CATALOGUE.values():
-                all_worked.append(work_through(entry))
-                _write_figures(directory, all_worked[-1])
-                tell(text_of(all_worked[-1]))
+                worked = work_through(entry)
+                all_worked.append(worked)
+                for drawing in worked.drawings:
+                    file = directory / FIGURES / f"{drawing.name}.svg"
+                    write_whole(file, drawing.svg.encode())
+                    dark = file.with_name(f"{drawing.name}-dark.svg")
+                    write_whole(dark, for_dark_pages(drawing.svg).encode())
+                tell(text_of(worked))
                 progress.advance()
-            told = claims.result()
-            found = problems(all_worked, told)
+            verdicts = judged()
             progress.advance()
     finally:
         progress.finish()
-    return TourReport(_written(directory, found), tuple(map(row_of, all_worked)), told)
+    page = _write_pages(directory, problems(all_worked, verdicts))
+    return TourReport(page, tuple(map(row_of, all_worked)), verdicts)
 
 
-def _write_figures(directory: Path, worked: Worked) -> None:
-    for drawing in worked.drawings:
-        for name, svg in ((drawing.name, drawing.svg), _dark(drawing)):
-            write_whole(directory / FIGURES / f"{name}.svg", svg.encode())
-
-
-def _dark(drawing: Drawing) -> tuple[str, str]:
-    return f"{drawing.name}-dark", for_dark_pages(drawing.svg)
-
-
-def _written(directory: Path, found: Sequence[Problem]) -> Path:
-    for problem in found:
+def _write_pages(directory: Path, all_problems: Sequence[Problem]) -> Path:
+    for problem in all_problems:
         shown = problem.systems[0].scene
         card = directory / FIGURES / f"{problem.name}-card.png"
-        still(shown, card, time=telling_time(shown), size=CARD)
+        still(shown, card, time=clearest_time(shown), size=CARD)
         for worked in problem.systems:
-            _write_motion(directory, worked, problem.claims)
-        text = problem_page(problem, found)
-        write_whole(directory / f"{problem.name}.html", text.encode())
-    target = directory / "index.html"
-    write_whole(target, front_page(found).encode())
-    return target
-
-
-def _write_motion(directory: Path, worked: Worked, claims: Iterable[Told]) -> None:
-    """The page of a system in three dimensions, with the verdicts on what is claimed of it."""
-    name = worked.entry.name
-    own = tuple(claim.judgement for claim in claims if claim.system == name)
-    text = page_of(replace(worked.scene, judgements=own))
-    write_whole(directory / f"{stem(name)}-3d.html", text.encode())
-
-
-def _make(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise StoreError(
-            f"the folder {folder} cannot be made ({error.strerror})",
-            expected="a place where a folder can be made",
-        ) from error
+            # The page in three dimensions, with the verdicts on what is claimed of the system.
+            name = worked.entry.name
+            own = tuple(claim.judgement for claim in problem.claims if claim.system == name)
+            player = page_of(replace(worked.scene, judgements=own))
+            write_whole(directory / f"{stem(name)}-3d.html", player.encode())
+        page = problem_page(problem, all_problems)
+        write_whole(directory / f"{problem.name}.html", page.encode())
+    front = directory / "index.html"
+    write_whole(front, front_page(all_problems).encode())
+    return front

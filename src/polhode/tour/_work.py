@@ -11,9 +11,7 @@ from polhode.analyse import Invariant, Invariants, invariants
 from polhode.catalogue import CatalogueEntry, numbers_of
 from polhode.derive import Equations
 from polhode.simulate import Trajectory, simulate
-from polhode.tour import _balance as balance
-from polhode.tour._checks import Check, decided, measured
-from polhode.tour._formulations import appell, is_conservative, is_holonomic, lagrange
+from polhode.tour._checks import Check, displacement_balance, exact_checks, numeric_checks
 from polhode.tour._pictures import pictures_of
 from polhode.view import Scene, scene
 from polhode.view.figures import origin_of, svg_of
@@ -73,7 +71,7 @@ def work_through(entry: CatalogueEntry) -> Worked:
     equations = ph.derive(entry.build())
     conserved = invariants(equations)
     run = default_run(entry, equations, conserved)
-    travel = balance.travel(run, equations)
+    travel = displacement_balance(run, equations)
     checks = (*exact_checks(equations), *numeric_checks(run, equations, travel))
     drawings = tuple(_drawings(entry, run))
     shown = scene(
@@ -90,7 +88,7 @@ def work_through(entry: CatalogueEntry) -> Worked:
 def default_run(
     entry: CatalogueEntry, equations: Equations, conserved: Iterable[Invariant] = ()
 ) -> Trajectory:
-    """The run of the catalogue's default numbers, with an eye on what it should conserve."""
+    """The run of the catalogue's default numbers, with the drift of its integrals."""
     numbers = numbers_of(entry, equations)
     return simulate(
         equations,
@@ -100,64 +98,6 @@ def default_run(
         forcing={**numbers.forcing},
         invariants={invariant.name: invariant.expression for invariant in conserved},
     )
-
-
-def exact_checks(equations: Equations) -> Iterator[Check]:
-    """Checks that the algebra decides."""
-    yield decided(
-        "Power balance",
-        "dE/dt along the motion is the power of supports, motors and drives",
-        [equations.rate(equations.energy) - equations.on_shell(equations.power)],
-    )
-    yield decided(
-        "Constraints",
-        "every held or touching point moves with what holds it",
-        equations.slips.values(),
-    )
-    if is_conservative(equations) and is_holonomic(equations):
-        yield decided(
-            "Lagrange's equations",
-            "formed anew from T − V alone, they hold on the derived motion",
-            lagrange(equations),
-        )
-    elif is_conservative(equations):
-        yield decided(
-            "Gibbs–Appell equations",
-            "formed anew from the energy of acceleration alone, they are the derived ones",
-            appell(equations),
-        )
-
-
-def numeric_checks(
-    run: Trajectory, equations: Equations, travel: balance.MomentumBalance
-) -> Iterator[Check]:
-    """Checks of the computed motion, each a defect relative to the size of what is compared."""
-    yield measured(
-        "Energy of the run",
-        "energy against its start and the work done",
-        run.drift.energy,
-    )
-    yield measured(
-        "Constraints of the run",
-        "distance covered against the integral of the velocity the constraints leave",
-        travel.relative,
-    )
-    yield measured(
-        "Momentum of the run",
-        "momentum gained against the impulse of loads and derived reactions",
-        balance.momentum(run, equations).relative,
-    )
-    yield measured(
-        "Angular momentum of the run",
-        "gain about the centre of mass against the integral of the torques",
-        balance.spin(run, equations).relative,
-    )
-    if run.drift.invariants:
-        yield measured(
-            "Conserved quantities of the run",
-            "each integral against its value at the start",
-            max(run.drift.invariants.values()),
-        )
 
 
 def _drawings(entry: CatalogueEntry, run: Trajectory) -> Iterator[Drawing]:

@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from polhode.claims import Answer, Verdict
-from polhode.view._typeset import typeset
+from polhode.view._mathml import typeset
 
 if TYPE_CHECKING:
-    from polhode.claims import Judged, Note
+    from polhode.claims import Judged
 
 
 @dataclass(frozen=True)
@@ -51,24 +51,24 @@ class Judgement:
 
     @classmethod
     def of(cls, latex: str, verdict: Verdict) -> Judgement:
-        """What `polhode.check` said of an equation."""
-        put_right = typeset(verdict.correction.latex) if verdict.correction else ""
+        """From the verdict of `polhode.check` on an equation."""
+        correction = typeset(verdict.correction.latex) if verdict.correction else ""
         notes = tuple(NoteShown("note", note) for note in verdict.notes)
-        return cls(latex, verdict.answer.value, verdict.reason, typeset(latex), put_right, notes)
+        return cls(latex, verdict.answer.value, verdict.reason, typeset(latex), correction, notes)
 
     @classmethod
     def on(cls, judged: Judged) -> Judgement:
-        """What `polhode.audit` said of a claim of a document."""
+        """From the verdict of `polhode.audit` on a claim of a document."""
         claim, verdict = judged.claim, judged.verdict
-        said = cls.of(claim.latex, verdict)
+        judgement = cls.of(claim.latex, verdict)
+        notes = (
+            NoteShown(note.label, note.text, typeset(note.text) if note.is_formula else "")
+            for note in claim.notes
+        )
         return replace(
-            said,
+            judgement,
             claim=f"({claim.id}) {claim.printed}",
             reason="" if verdict.answer is Answer.HOLDS else verdict.reason,
-            notes=(*map(_shown, claim.notes), *said.notes),
+            notes=(*notes, *judgement.notes),
             convention=judged.convention,
         )
-
-
-def _shown(note: Note) -> NoteShown:
-    return NoteShown(note.label, note.text, typeset(note.text) if note.is_formula else "")

@@ -1,30 +1,66 @@
-"""Formulas as MathML in pieces, between which a line may break."""
+"""Formulas as MathML: of expressions, in pieces between which a line may break, and of LaTeX."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from functools import lru_cache
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from difflib import SequenceMatcher
+from functools import cache, lru_cache
+from importlib.resources import files
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
-from polhode.algebra import Expr
-from polhode.view._scene import Formula
-from polhode.view._spacing import set_fractions_apart, set_functions_apart
+from polhode.algebra import Expr, mathml
+from polhode.view._html import Markup
 
-_NAMESPACE = ' xmlns="http://www.w3.org/1998/Math/MathML"'
+_NAMESPACE = "{http://www.w3.org/1998/Math/MathML}"
+_FUNCTIONS = ("sin", "cos", "tan", "exp", "sinh", "cosh", "tanh")
+_ROWS = ("math", "mrow", "msqrt", "mstyle", "mtd")  # whose pieces stand side by side
+_LEAVES = ("mi", "mn", "mo", "mtext")
 _SIGNS = ("+", "−", "-")
 _RELATIONS = ("=", ">")
-_REMEMBERED = 512  # formulas: a system is looked at again and again
+_CACHED = 512  # formulas: a system is looked at again and again
 _LONGEST = 2500  # letters of a formula that is still printed
+_LONGEST_LATEX = 1500  # characters of LaTeX that is still typeset
+_LONG = 36  # letters, figures and signs in a bracket or fraction that may be broken
+# What the source of a formula has besides it: dollar signs, tags, labels, line ends and numbers.
+_MARKS = re.compile(r"\$+|\\(?:tag|label)\*?\s*\{[^{}]*\}|\\n(?![A-Za-z])")
+_NUMBER = re.compile(r"(?:\\q?quad)?\s*(?:\(\d+\)|\\text\s*\{\s*\(\d+\)\s*\})\s*$")
 
 
-@lru_cache(_REMEMBERED)
-def symbol(expression: Expr) -> str:
-    """One formula that does not break."""
-    return expression.mathml().replace(_NAMESPACE, "")
+@cache
+def math_fonts() -> str:
+    """The style that names the fonts of formulas, `--polhode-math`, on one line."""
+    text = files("polhode.view").joinpath("math.css").read_text("utf-8")
+    return " ".join(re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL).split())
 
 
-@lru_cache(_REMEMBERED)
+@dataclass(frozen=True)
+class Formula:
+    """A formula in pieces of MathML, between which a line may break.
+
+    Attributes:
+        name: heading; empty for none.
+        pieces: MathML.
+        spoken: the same on one line of text.
+    """
+
+    name: str
+    pieces: tuple[str, ...]
+    spoken: str
+
+
+# --- expressions ---
+
+
+@lru_cache(_CACHED)
+def inline(expression: Expr) -> Markup:
+    """A formula within text, which does not break."""
+    return _written(_tree(expression.mathml()))
+
+
+@lru_cache(_CACHED)
 def equation(name: str, left: Expr, right: Expr) -> Formula:
     """left = right, which may break before every sign between two terms."""
     return _relation(name, left, "=", right)
@@ -39,49 +75,153 @@ def alone(expression: Expr) -> Formula:
     """An expression by itself, which may break likewise."""
     spoken = expression.pretty()
     if len(spoken) > _LONGEST:
-        return Formula("", (), f"… ({len(spoken):,} characters: too long to be read here)")
-    return Formula("", tuple(_written(piece) for piece in _pieces(_row(expression))), spoken)
+        return Formula("", (), f"… ({len(spoken):,} characters: too long to show)")
+    return Formula("", tuple(_pieces(_row(expression))), spoken)
+
+
+def opened_equation(left: Expr, right: Expr) -> tuple[Markup, ...]:
+    """Pieces of left = right, which may break within long brackets and fractions as well."""
+    row = [*_row(left), leaf("mo", "=", form="infix"), *_row(right)]
+    return tuple(_pieces(list(_opened(row))))
 
 
 def _relation(name: str, left: Expr, sign: str, right: Expr) -> Formula:
     spoken = f"{left.pretty()} {sign} {right.pretty()}"
     if len(spoken) > _LONGEST:
-        told = f"{left.pretty()} {sign} … ({len(spoken):,} characters: too long to be read here)"
-        return Formula(name, (), told)
-    row = [*_row(left), _leaf("mo", sign), *_row(right)]
-    return Formula(name, tuple(_written(piece) for piece in _pieces(row)), spoken)
+        cut = f"{left.pretty()} {sign} … ({len(spoken):,} characters: too long to show)"
+        return Formula(name, (), cut)
+    row = [*_row(left), leaf("mo", sign), *_row(right)]
+    return Formula(name, tuple(_pieces(row)), spoken)
 
 
 def _row(expression: Expr) -> list[Element]:
-    root = ElementTree.fromstring(symbol(expression))
-    set_functions_apart(root)
-    set_fractions_apart(root)
+    root = _tree(expression.mathml())
     return list(root[0]) if len(root) == 1 and root[0].tag == "mrow" else list(root)
 
 
-def _pieces(row: Sequence[Element]) -> Iterator[list[Element]]:
+def _pieces(row: Sequence[Element]) -> Iterator[Markup]:
     """A row cut before what relates its sides and before every sign between two terms."""
     piece: list[Element] = []
     for element in row:
         is_sign = element.tag == "mo" and element.text in _SIGNS
-        opens = not piece or (piece[-1].tag == "mo" and piece[-1].text in ("(", *_RELATIONS))
+        opens = not piece or (piece[-1].tag == "mo" and piece[-1].text in ("(", "[", *_RELATIONS))
         if element.text in _RELATIONS or (is_sign and not opens):
-            yield piece
-            piece = [_leaf("mo", element.text or "", form="infix")]
+            yield math(piece, displaystyle="true")
+            # Infix: a sign that begins a line would else be set as that of a negative number.
+            piece = [leaf("mo", element.text or "", form="infix")]
         else:
             piece.append(element)
-    yield piece
+    yield math(piece, displaystyle="true")
 
 
-def _written(elements: Sequence[Element]) -> str:
-    inner = "".join(
-        ElementTree.tostring(element, encoding="unicode", short_empty_elements=False)
-        for element in elements
-    )
-    return f'<math displaystyle="true"><mrow>{inner}</mrow></math>'
+def _opened(row: Iterable[Element]) -> Iterator[Element]:
+    """Long brackets as their contents, and long fractions as a factor and a bracket."""
+    for element in row:
+        if element.tag == "mrow" and _length(element) > _LONG:
+            yield from _opened(element)
+        elif element.tag == "mfrac" and _length(element[0]) > _LONG:
+            above, below = element
+            factor = Element("mfrac")
+            factor.extend([leaf("mn", "1"), below])
+            yield factor
+            yield leaf("mo", "(", fence="true", form="prefix")
+            yield from _opened(above if above.tag == "mrow" else [above])
+            yield leaf("mo", ")", fence="true", form="postfix")
+        else:
+            yield element
 
 
-def _leaf(kind: str, text: str, **attributes: str) -> Element:
+def _length(element: Element) -> int:
+    return sum(not len(part) for part in element.iter())
+
+
+# --- LaTeX ---
+
+
+def typeset(latex: str) -> Markup:
+    """MathML, without dollar signs and numbers; empty where it cannot be had."""
+    root = _read(latex)
+    return Markup() if root is None else _written(root)
+
+
+def typeset_change(before: str, after: str) -> tuple[Markup, Markup]:
+    """Two formulas as MathML; what one has and the other has not is in the class `changed`."""
+    first, second = _read(before), _read(after)
+    if first is None or second is None:
+        return typeset(before), typeset(after)
+    old, new = ([e for e in root.iter() if e.tag in _LEAVES] for root in (first, second))
+    before_texts, after_texts = ([e.text or "" for e in leaves] for leaves in (old, new))
+    matcher = SequenceMatcher(None, before_texts, after_texts, autojunk=False)
+    for kind, i, j, k, n in matcher.get_opcodes():
+        if kind != "equal":
+            for element in (*old[i:j], *new[k:n]):
+                element.set("class", "changed")
+    return _written(first), _written(second)
+
+
+def _read(latex: str) -> Element | None:
+    bare = _NUMBER.sub("", _MARKS.sub(" ", latex).strip()).strip()
+    if not bare or len(bare) > _LONGEST_LATEX:
+        return None
+    try:
+        return _tree(mathml(bare))
+    except Exception:  # whatever the converter meets in LaTeX of any kind
+        return None
+
+
+# --- elements ---
+
+
+def math(elements: Iterable[Element], **attributes: str) -> Markup:
+    """A formula of elements side by side."""
+    root, row = Element("math", attributes), Element("mrow")
+    row.extend(elements)
+    root.append(row)
+    return _written(root)
+
+
+def leaf(kind: str, text: str, **attributes: str) -> Element:
+    """A letter, number or sign."""
     element = Element(kind, attributes)
     element.text = text
     return element
+
+
+def _written(root: Element) -> Markup:
+    return Markup(ElementTree.tostring(root, encoding="unicode", short_empty_elements=False))
+
+
+def _tree(text: str) -> Element:
+    """MathML as a tree, with the thin spaces that browsers do not set by themselves."""
+    root = ElementTree.fromstring(text)
+    for element in root.iter():
+        element.tag = element.tag.removeprefix(_NAMESPACE)
+    for row in [*root.iter("math"), *root.iter("mrow")]:
+        _set_functions_apart(row)
+    for row in root.iter():
+        for i in reversed(range(1, len(row))):
+            # The bars of two fractions would else be drawn as one.
+            if row.tag in _ROWS and row[i].tag == row[i - 1].tag == "mfrac":
+                row.insert(i, _thin_space())
+    return root
+
+
+def _set_functions_apart(row: Element) -> None:
+    """A thin space around the names of functions, as in 2 sin θ, but not as in sin(a + b)."""
+    for i in reversed(range(len(row))):
+        name = row[i][0] if row[i].tag == "msup" else row[i]  # sin, or sin² and the like
+        if name.tag != "mi" or name.text not in _FUNCTIONS:
+            continue
+        if i + 1 < len(row) and not _is_sign_or_bracket(row[i + 1]):
+            row.insert(i + 1, _thin_space())
+        if i and row[i - 1].tag != "mo":
+            row.insert(i, _thin_space())
+
+
+def _is_sign_or_bracket(element: Element) -> bool:
+    first = element[0] if element.tag == "mrow" and len(element) else element
+    return first.tag == "mo"
+
+
+def _thin_space() -> Element:
+    return Element("mspace", width="0.17em")

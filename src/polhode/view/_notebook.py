@@ -1,112 +1,353 @@
-"""What a notebook shows of systems, equations, steady motions and motions: HTML, no extension."""
+"""What a notebook shows of declarations, derived results and motions: HTML, with no extension."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from functools import singledispatch
-from html import escape
 
 import numpy as np
 
-from polhode.algebra import Expr, Symbol
+from polhode.algebra import Expr, Matrix, Symbol, Vector
 from polhode.analyse import (
+    Branch,
+    ClosedForm,
     Condition,
+    ContactForces,
+    Fictitious,
+    Invariant,
     Invariants,
+    LinearIntegrals,
     Stability,
     SteadyMotion,
+    SteadyValues,
     Truth,
     stability,
 )
 from polhode.base import NumericError
-from polhode.derive import Equations, lettered
-from polhode.model import Body, System
-from polhode.simulate import Trajectory
-from polhode.study import Ensemble
-from polhode.view._markup import folded, framed, rows, table
-from polhode.view._mathml import equation, positive, symbol
+from polhode.derive import Automaton, Equations, Reaction, lettered
+from polhode.model import Declared, Frame, System, brief
+from polhode.simulate import Drift, Trajectory
+from polhode.study import Ensemble, Fit, Linearised, Sensitivities
+from polhode.view._html import Markup, joined, table, tag
+from polhode.view._mathml import Formula, alone, equation, inline, math_fonts, positive, typeset
 from polhode.view._page import page_of
 from polhode.view._scene import Scene
 from polhode.view._scene_build import scene
 
+_STYLE = (
+    ".polhode{max-width:60em;overflow-x:auto}"
+    ".polhode math{font-size:1.1em;font-family:var(--polhode-math)}"
+    ".polhode .row{margin:.45em 0 .45em 1.2em;line-height:1.9}"
+    ".polhode table{border-collapse:collapse;margin:.3em 0}"
+    ".polhode table td,.polhode table th{text-align:left;vertical-align:baseline;"
+    "padding:.15em .8em .15em 0}"
+    ".polhode summary{cursor:pointer;font-weight:600}"
+    ".polhode table caption{text-align:left;white-space:nowrap;font-weight:600;"
+    "padding:.2em 0}"
+)
 _ZERO = Expr.of(0)
 _TALL = 640  # pixels of the picture of a motion with its plots
-_FAILURES = 10  # that are told
 _WIDE = "min(100%, 72rem)"
+_FAILURES = 10  # that are listed
 
 
 @singledispatch
 def html_of(thing: object) -> str:
     """A declaration or result as HTML that stands by itself; other things as text."""
-    return f"<pre>{escape(str(thing))}</pre>"
+    return tag("pre", str(thing))
+
+
+# --- pieces ---
+
+
+def _framed(*inner: str) -> Markup:
+    """A block with the style of all of them."""
+    style = tag("style", Markup(math_fonts() + _STYLE))
+    return tag("div", style, *inner, class_="polhode")
+
+
+def _formula(formula: Formula) -> Markup:
+    """Its pieces; as text where it is too long to be set."""
+    return joined(map(Markup, formula.pieces), " ") or joined([formula.spoken])
+
+
+def _rows(formulas: Iterable[Formula]) -> Markup:
+    """Formulas, each on a line of its own."""
+    return joined(tag("div", _formula(f), class_="row") for f in formulas)
+
+
+def _folded(title: str, content: Markup) -> Markup:
+    """What is seen once it is unfolded; nothing where there is no content."""
+    if not content:
+        return content
+    return tag("details", tag("summary", title), content)
+
+
+def _where(words: str, conditions: Iterable[Condition]) -> Markup:
+    """The conditions that are still open, under some words; nothing where there are none."""
+    formulas = [positive(c.expression) for c in conditions if c.truth is Truth.OPEN]
+    return joined([tag("p", words), _rows(formulas)]) if formulas else Markup()
+
+
+def _undetermined(names: Iterable[str]) -> Markup:
+    listed = ", ".join(names)
+    return tag("p", f"Not determined: {listed}") if listed else Markup()
+
+
+def _vector(caption: str, vector: Vector) -> Markup:
+    frame = vector.triad
+    labels = frame.labels if isinstance(frame, Frame) else ("1", "2", "3")
+    along = f" along {frame.name}" if isinstance(frame, Frame) else ""
+    values = map(_formula, map(alone, vector.components))
+    return table(("", ""), zip(labels, values, strict=True), caption=f"{caption}{along}")
+
+
+def _on_a_line(latex: str, otherwise: str) -> Markup:
+    """A formula on a line of its own, or text where it is too long to be set."""
+    return tag("div", typeset(latex) or otherwise, class_="row")
+
+
+def _number(value: float) -> str:
+    return format(float(value), ".6g")
+
+
+# --- declarations ---
 
 
 @html_of.register
 def _(thing: System) -> str:
-    bodies = table("bodies", ("", "mass", "inertia"), map(_body, thing.bodies))
-    parts = [(escape(e.name), type(e).__name__) for e in thing.elements]
-    parts += [(escape(load.name), type(load).__name__) for load in thing.loads]
-    others = table("what acts on them", ("", ""), parts) if parts else ""
-    return framed(f"<strong>{escape(thing.name)}</strong>{bodies}{others}")
+    bodies = []
+    for body in thing.bodies:
+        inertia = body.inertia.rows
+        off = any(inertia[i][j] for i in range(3) for j in range(3) if i != j)
+        entries = [e for row in inertia for e in row] if off else [inertia[i][i] for i in range(3)]
+        bodies.append((body.name, inline(body.mass), joined(map(inline, entries), ", ")))
+    shown = table(("", "mass", "inertia"), bodies, caption="bodies")
+    parts = [(element.name, type(element).__name__) for element in thing.elements]
+    parts += [(load.name, type(load).__name__) for load in thing.loads]
+    others = table(("", ""), parts, caption="what acts on them") if parts else ""
+    return _framed(tag("strong", thing.name), shown, others)
+
+
+@html_of.register
+def _(thing: Declared) -> str:
+    name = str(getattr(thing, "name", ""))
+    caption = f"{type(thing).__name__} {name}".strip()
+    parts = [(field, _part(value)) for field, value in thing.parts]
+    return _framed(table(("", ""), parts, caption=caption))
+
+
+@html_of.register
+def _(thing: Frame) -> str:
+    """The turns that lead to it from the laboratory, the first one first."""
+    steps = []
+    for frame in reversed(thing.lineage[:-1]):
+        # The direction turned about: its label where it is one of the parent's.
+        labels = frame.parent.labels if frame.parent else frame.labels
+        along = [label for label, part in zip(labels, frame.axis, strict=True) if part == 1]
+        steps.append((str(frame), _part(frame.angle), along[0] if along else _listed(frame.axis)))
+    title = tag("strong", f"Frame {thing}")
+    if not steps:
+        return _framed(title)
+    turns = table(("", "turned by, rad", "about"), steps)
+    return _framed(title, tag("p", f"out of {thing.root}"), turns)
+
+
+@singledispatch
+def _part(value: object) -> str:
+    """A part of a declaration within a table."""
+    return brief(value)
+
+
+@_part.register
+def _(value: Expr) -> str:
+    return _formula(alone(value))
+
+
+@_part.register
+def _(value: tuple) -> str:  # type: ignore[type-arg]
+    return joined(map(_part, value), ", ")
+
+
+@_part.register
+def _(value: Vector) -> str:
+    return joined([_listed(value.components), f" along {value.triad}"])
+
+
+@_part.register
+def _(value: Matrix) -> str:
+    return joined(map(_listed, value.rows), "; ")
+
+
+def _listed(entries: Iterable[Expr]) -> Markup:
+    return joined(["(", joined(map(inline, entries), ", "), ")"])
+
+
+# --- expressions ---
+
+
+@html_of.register
+def _(thing: Expr) -> str:
+    return _framed(_rows([alone(thing)]))
+
+
+@html_of.register
+def _(thing: Matrix) -> str:
+    return _framed(_on_a_line(thing.latex(), str(thing)))
+
+
+@html_of.register
+def _(thing: Vector) -> str:
+    return _framed(_vector("", thing))
+
+
+# --- equations and what they say of forces ---
 
 
 @html_of.register
 def _(thing: Equations) -> str:
     rates = {s: e for s, e in thing.kinematics.items() if s not in thing.speeds}
-    told = {n: value for n, value in thing.components.items() if n not in thing.undetermined}
-    values, legend = lettered(thing, (*thing.motion, *rates.values(), *told.values()))
+    determined = {n: value for n, value in thing.components.items() if n not in thing.undetermined}
+    values, legend = lettered(thing, (*thing.motion, *rates.values(), *determined.values()))
     letters = iter(values)
     motion = [equation("", next(letters), _ZERO) for _ in thing.motion]
     kinematics = [equation("", Expr.generator(s), next(letters)) for s in rates]
-    reactions = [equation("", Expr.generator(Symbol(name)), next(letters)) for name in told]
-    shown = f"<strong>Equations of motion of {escape(thing.system.name)}</strong>{rows(motion)}"
-    shown += folded("with", kinematics) + folded("reactions", reactions)
-    if thing.undetermined:
-        shown += f"<p>Not determined: {escape(', '.join(thing.undetermined))}</p>"
-    shown += "".join(f"<p>{escape(line)}</p>" for line in legend)
-    return framed(shown)
+    reactions = [equation("", Expr.generator(Symbol(n)), next(letters)) for n in determined]
+    return _framed(
+        tag("strong", f"Equations of motion of {thing.system.name}"),
+        _rows(motion),
+        _folded("with", _rows(kinematics)),
+        _folded("reactions", _rows(reactions)),
+        _undetermined(thing.undetermined),
+        *(tag("p", line) for line in legend),
+    )
+
+
+@html_of.register
+def _(thing: Reaction) -> str:
+    couple = "" if thing.couple.is_zero else _vector("couple, N m", thing.couple)
+    return _framed(
+        tag("strong", f"What {thing.name} does to {thing.body.name}"),
+        _vector("force, N", thing.force),
+        couple,
+        _undetermined(thing.undetermined),
+    )
+
+
+@html_of.register
+def _(thing: ContactForces) -> str:
+    named: Mapping[str, Expr] = {"normal": thing.normal, "tangential": thing.tangential}
+    return _framed(table(("", ""), [(name, _formula(alone(e))) for name, e in named.items()]))
+
+
+@html_of.register
+def _(thing: Fictitious) -> str:
+    named = {
+        "centrifugal": thing.centrifugal,
+        "Coriolis": thing.coriolis,
+        "Euler": thing.euler,
+        "of the origin": thing.coordinate,
+    }
+    shown = [_vector(name, vector) for name, vector in named.items() if not vector.is_zero]
+    return _framed(*(shown or [tag("p", "None: the frame is at rest.")]))
+
+
+@html_of.register
+def _(thing: Automaton) -> str:
+    """The modes that are known already; nothing is derived to be shown."""
+    contacts = [(c.name, type(c).__name__, c.body.name) for c in thing.contacts]
+    return _framed(
+        tag("strong", f"Contact modes of {thing.system.name}"),
+        table(("", "", "of"), contacts, caption="contacts") if contacts else "",
+        tag("p", f"modes: {'; '.join(thing.names)}"),
+        *(
+            _folded(f"{mode.name} lasts while", _rows(positive(g.positive) for g in mode.guards))
+            for mode in thing.known
+        ),
+    )
+
+
+# --- steady motions, integrals and closed forms ---
 
 
 @html_of.register
 def _(thing: SteadyMotion) -> str:
-    name = escape(thing.reduced.equations.system.name)
-    held = [equation("", condition, _ZERO) for condition in thing.conditions]
-    shown = f"<strong>Steady motion of {name}</strong>{rows(held)}"
-    if not held:
-        shown += "<p>Every state.</p>"
+    shown = [tag("strong", f"Steady motion of {thing.reduced.equations.system.name}")]
+    conditions = _rows(equation("", condition, _ZERO) for condition in thing.conditions)
+    shown.append(conditions or tag("p", "Every state."))
     for branch in thing.branches:
-        shown += rows([equation("", branch.quantity, branch.value)])
-        shown += _where("exists where", branch.exists)
-    try:
-        return framed(shown + _told(stability(thing)))
-    except NumericError:  # a family on which the coordinates are singular
-        return framed(shown)
+        shown.append(_rows([equation("", branch.quantity, branch.value)]))
+        shown.append(_where("exists where", branch.exists))
+    with suppress(NumericError):  # of a family on which the coordinates are singular
+        shown.append(_stability(stability(thing)))
+    return _framed(*shown)
 
 
 @html_of.register
 def _(thing: Stability) -> str:
-    return framed(_told(thing))
+    return _framed(_stability(thing))
+
+
+def _stability(found: Stability) -> Markup:
+    return _where("stable when", found.conditions) or tag("p", str(found))
+
+
+@html_of.register
+def _(thing: Branch) -> str:
+    value = _rows([equation("", thing.quantity, thing.value)])
+    return _framed(value, _where("exists where", thing.exists))
+
+
+@html_of.register
+def _(thing: Condition) -> str:
+    if thing.truth is not Truth.OPEN:
+        return _framed(tag("p", thing.truth.value))
+    return _framed(_rows([positive(thing.expression)]))
+
+
+@html_of.register
+def _(thing: SteadyValues) -> str:
+    found = ", ".join(map(_number, thing.values)) or "none that is real"
+    name = inline(Expr.generator(thing.quantity))
+    return _framed(tag("p", name, f" = {found}"), tag("p", f"of at most {thing.degree}"))
 
 
 @html_of.register
 def _(thing: Invariants) -> str:
-    found = [
-        f"<p>{escape(i.meaning)}</p>"
-        f"{rows([equation('', Expr.generator(Symbol(i.name)), i.expression)])}"
-        for i in thing
-    ]
-    beyond = f"<pre>{escape(str(thing.linear))}</pre>" if thing.linear else ""
-    limits = f"<p>Searched: {escape(thing.ansatz)}. Nothing outside it is excluded.</p>"
-    return framed("<strong>Invariants</strong>" + "".join(found) + beyond + limits)
+    beyond = tag("pre", str(thing.linear)) if thing.linear else ""
+    limits = tag("p", f"Searched: {thing.ansatz}. Nothing outside it is excluded.")
+    return _framed(tag("strong", "Invariants"), *map(_invariant, thing), beyond, limits)
 
 
 @html_of.register
-def _(thing: Ensemble) -> str:
-    outputs = [(escape(name), _spread(thing, name)) for name in thing.values]
-    title = f"{len(thing)} members, {thing.failed} failed"
-    why = [f"<p>member {k}: {escape(v)}</p>" for k, v in list(thing.failures.items())[:_FAILURES]]
-    folded = f"<details><summary>why</summary>{''.join(why)}</details>" if why else ""
-    return framed(table(title, ("output", "of all members"), outputs) + folded)
+def _(thing: Invariant) -> str:
+    return _framed(_invariant(thing))
+
+
+def _invariant(found: Invariant) -> Markup:
+    value = equation("", Expr.generator(Symbol(found.name)), found.expression)
+    return joined([tag("p", found.meaning), _rows([value])])
+
+
+@html_of.register
+def _(thing: LinearIntegrals) -> str:
+    slopes = [
+        (inline(Expr.generator(speed)), _formula(alone(slope)))
+        for speed, slope in zip(thing.speeds, thing.slopes, strict=True)
+    ]
+    angle = inline(Expr.generator(thing.angle))
+    caption = joined(["derivatives by ", angle, " along every motion"])
+    return _framed(table(("of", ""), slopes, caption=caption))
+
+
+@html_of.register
+def _(thing: ClosedForm) -> str:
+    return _framed(tag("p", str(thing)), _on_a_line(thing.latex(), thing.latex()))
+
+
+# --- motions and studies of many ---
 
 
 @html_of.register
@@ -121,37 +362,75 @@ def _(thing: Scene) -> str:
 
 def _played(shown: Scene) -> str:
     """A page in a frame of its own, which can neither reach the notebook nor any network."""
-    inner = page_of(shown).replace("&", "&amp;").replace("'", "&#39;")
-    title = escape(f"{shown.title}, played", quote=True)
-    return (
-        f"<iframe title=\"{title}\" sandbox='allow-scripts' srcdoc='{inner}' "
-        f"style='width:{_WIDE};height:{_TALL}px;border:0'></iframe>"
+    return tag(
+        "iframe",
+        title=f"{shown.title}, played",
+        sandbox="allow-scripts",
+        srcdoc=page_of(shown),
+        style=f"width:{_WIDE};height:{_TALL}px;border:0",
     )
 
 
-def _body(body: Body) -> tuple[str, ...]:
-    inertia = body.inertia.rows
-    off = any(inertia[i][j] for i in range(3) for j in range(3) if i != j)
-    entries = [e for row in inertia for e in row] if off else [inertia[i][i] for i in range(3)]
-    return escape(body.name), symbol(body.mass), ", ".join(map(symbol, entries))
+@html_of.register
+def _(thing: Drift) -> str:
+    drifts = [("energy − work done", _number(thing.energy), "against the energy scale")]
+    if thing.constraint:  # zero where nothing closes
+        drifts.append(("closed loops", _number(thing.constraint), "m, largest gap"))
+    drifts += [
+        (name, _number(value), "against its largest term")
+        for name, value in thing.invariants.items()
+    ]
+    return _framed(table(("", "", ""), drifts, caption="largest drift along the motion"))
 
 
-def _told(found: Stability) -> str:
-    return _where("stable when", found.conditions) or f"<p>{escape(str(found))}</p>"
-
-
-def _where(words: str, conditions: Iterable[Condition]) -> str:
-    """Conditions of which something is left to ask."""
-    formulas = [positive(c.expression) for c in conditions if c.truth is Truth.OPEN]
-    return f"<p>{words}</p>{rows(formulas)}" if formulas else ""
+@html_of.register
+def _(thing: Ensemble) -> str:
+    outputs = [(name, _spread(thing, name)) for name in thing.values]
+    caption = f"{len(thing)} members, {thing.failed} failed"
+    failures = list(thing.failures.items())[:_FAILURES]
+    why = joined(tag("p", f"member {k}: {reason}") for k, reason in failures)
+    shown = table(("output", "of all members"), outputs, caption=caption)
+    return _framed(shown, _folded("why", why))
 
 
 def _spread(found: Ensemble, name: str) -> str:
     """How often each word comes; or the least and the largest number."""
     if name in found.labels:
         words = Counter(filter(None, found.named(name)))
-        return escape(", ".join(f"{word}: {count}" for word, count in words.most_common()))
+        return ", ".join(f"{word}: {count}" for word, count in words.most_common())
     values = found.values[name][found.done]
     if not values.size or not np.any(np.isfinite(values)):
         return "none"
     return f"from {np.nanmin(values):.6g} to {np.nanmax(values):.6g}"
+
+
+@html_of.register
+def _(thing: Linearised) -> str:
+    matrix = [
+        (name, *map(_number, row)) for name, row in zip(thing.states, thing.matrix, strict=True)
+    ]
+    shown = table(("rate of", *thing.states), matrix, caption="small departures, SI units")
+    rates = ", ".join(f"{rate.real:.4g} {rate.imag:+.4g}i" for rate in thing.eigenvalues)
+    return _framed(shown, tag("p", f"they go as exp(λt), λ = {rates} per second"))
+
+
+@html_of.register
+def _(thing: Fit) -> str:
+    values = [
+        (name, _number(value), f"± {thing.uncertainties[name]:.2g}")
+        for name, value in thing.values.items()
+    ]
+    caption = f"best fit, SI units, after {thing.evaluations} motions"
+    shown = table(("", "", ""), values, caption=caption)
+    return _framed(shown, tag("p", f"scatter {thing.scatter:.4g}"))
+
+
+@html_of.register
+def _(thing: Sensitivities) -> str:
+    values = [
+        (quantity, name, _number(float(values[-1])))
+        for quantity, by in thing.derivatives.items()
+        for name, values in by.items()
+    ]
+    caption = f"derivatives at {float(thing.times[-1]):g} s, SI units"
+    return _framed(table(("of", "by", ""), values, caption=caption))

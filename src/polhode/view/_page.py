@@ -2,50 +2,28 @@
 
 from __future__ import annotations
 
-import json
 from base64 import b64encode
 from collections.abc import Iterable, Mapping
 from functools import cache
 from hashlib import sha256
-from html import escape
 from importlib.resources import files
 from pathlib import Path
 
 from polhode.base import StoreError, write_whole
 from polhode.simulate import Trajectory
+from polhode.view._html import Markup, document, json_element, tag
 from polhode.view._judgement import Judgement
-from polhode.view._markup import math_fonts
+from polhode.view._mathml import math_fonts
 from polhode.view._quantities import Groups
 from polhode.view._scene import Scene
 from polhode.view._scene_build import scene
 
 _FRONT_END = "built"  # folder beside this file that the package's build fills
 
-_PAGE = """<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src '{digest}'; \
-style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<meta name="generator" content="polhode">
-<title>{title}</title>
-<link rel="icon" href="data:,">
-<style>{style}</style>
-</head>
-<body>
-<noscript><p>This page plays a motion, and needs its script to be allowed to run.</p></noscript>
-<script type="application/json" id="scene">{scene}</script>
-<script>{script}</script>
-<!--
-The script contains these works:
-
-{licences}
--->
-</body>
-</html>
-"""
+_ALLOWED = (
+    "default-src 'none'; script-src 'sha256-{digest}'; style-src 'unsafe-inline'; "
+    "img-src data: blob:; base-uri 'none'; form-action 'none'"
+)
 
 
 def page(
@@ -86,22 +64,19 @@ def page(
 
 def page_of(shown: Scene) -> str:
     """A scene as the text of a page."""
-    data = json.dumps(shown.as_json(), ensure_ascii=False, allow_nan=False)
     script = _built("page.js")
     digest = b64encode(sha256(script.encode("utf-8")).digest()).decode("ascii")
-    return _PAGE.format(
-        digest=f"sha256-{digest}",
-        title=escape(shown.title),
-        style=f"{math_fonts()}{_built('page.css')}",
-        scene=_inert(data),
-        script=script,
-        licences=_built("LICENSES.txt").replace("--", "- -"),
+    policy = _ALLOWED.format(digest=digest)
+    licences = _built("LICENSES.txt").replace("--", "- -")  # which would end the comment
+    return document(
+        shown.title,
+        math_fonts() + _built("page.css"),
+        tag("noscript", tag("p", "This page plays a motion; allow its script to run.")),
+        json_element("scene", shown.as_json()),
+        tag("script", Markup(script)),
+        Markup(f"<!--\nThe script contains these works:\n\n{licences}\n-->"),
+        head=[tag("meta", http_equiv="Content-Security-Policy", content=policy)],
     )
-
-
-def _inert(data: str) -> str:
-    """JSON that nothing in it can end the element of."""
-    return data.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 
 @cache
@@ -110,7 +85,7 @@ def _built(name: str) -> str:
         return files("polhode.view").joinpath(_FRONT_END, name).read_text("utf-8").strip()
     except OSError as error:
         raise StoreError(
-            f"the front end of pages is not there ({name})",
+            f"{name}, a part of the front end of pages, is missing",
             expected="a package whose front end was built when it was installed",
             advice="install polhode again; from a checkout, run python build_frontend.py",
         ) from error

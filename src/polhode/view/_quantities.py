@@ -1,4 +1,4 @@
-"""What quantities of a motion are called in print, and the units they are shown in."""
+"""Quantities of a motion: their names in print, and the units they are shown in."""
 
 from __future__ import annotations
 
@@ -60,6 +60,7 @@ _PREFIXES = (
     (1e-12, 1e-12, "p"),
 )
 _TURN = 2 * np.pi
+_DISPARATE = 25.0  # ratio of sizes that do not share an axis
 _FINE = 4001  # instants that a smooth curve is drawn through, at least
 
 
@@ -96,7 +97,7 @@ def label(symbol: str, scale: Scale) -> str:
 
 
 def grouped(wanted: Groups) -> list[list[str]]:
-    """What is to share a panel, as published names: groups, or names by themselves."""
+    """The quantities of each panel, by their published names, from groups and single names."""
     several = [wanted] if isinstance(wanted, str) else wanted
     groups = [
         [one] if isinstance(one, str) or not isinstance(one, Sequence) else list(one)
@@ -106,7 +107,7 @@ def grouped(wanted: Groups) -> list[list[str]]:
 
 
 def published(name: Named) -> str:
-    """The published name of a quantity that is given by it, or as a symbol of the system."""
+    """The published name of a quantity, given as a name or as a symbol of the system."""
     symbol = name.symbol if isinstance(name, Expr) else name
     return symbol.published if isinstance(symbol, Symbol) else str(symbol or name)
 
@@ -128,7 +129,12 @@ def quantity(run: Trajectory, named: Named) -> PlottedQuantity:
         )
     expression = run.quantities[name]
     symbol = expression.symbol or Symbol(name)
-    dimension = _dimension(run, name, expression)
+    modes = [equations for equations in modes_of(run) if name in equations.components]
+    if modes:  # a reaction
+        couples = [line.name for line in modes[0].lines if line.restraint.is_couple]
+        dimension = ENERGY if name in couples else FORCE
+    else:
+        dimension = dimension_of(expression, equations_of(run).dimensions) or PURE
     angle = dimension == PURE and is_angle(equations_of(run), symbol)
     return PlottedQuantity(name, math(Expr.generator(symbol)), si_unit(dimension, angle=angle))
 
@@ -162,11 +168,11 @@ def common_unit(quantities: Sequence[PlottedQuantity]) -> str:
     """
     units = dict.fromkeys(q.unit for q in quantities)
     if not units:
-        raise DeclarationError("a plot of nothing", expected="names of quantities")
+        raise DeclarationError("no quantities to plot", expected="names of quantities")
     if len(units) > 1:
         named = ", ".join(f"{q.name} in {q.unit or 'no unit'}" for q in quantities)
         raise UnitError(
-            f"{named} on one axis",
+            f"{named} cannot share an axis",
             expected="quantities of one unit",
             advice="give each a panel of its own",
         )
@@ -174,7 +180,7 @@ def common_unit(quantities: Sequence[PlottedQuantity]) -> str:
 
 
 def scale_for(unit: str, largest: float) -> Scale:
-    """A unit in which the largest value is neither tiny nor huge."""
+    """The unit in which the largest value is neither tiny nor huge."""
     if unit == "rad":
         return Scale("turns", 1 / _TURN) if largest > 5 * _TURN else Scale("deg", 360 / _TURN)
     if not unit or unit.startswith("kg"):
@@ -187,21 +193,48 @@ def scale_for(unit: str, largest: float) -> Scale:
     return Scale(unit, 1.0)
 
 
+def everything(run: Trajectory) -> list[list[str]]:
+    """Coordinates, speeds and reactions."""
+    equations = run.equations
+    groups = [
+        [s.published for s in equations.coordinates],
+        [s.published for s in equations.speeds],
+        list(run.reactions),
+    ]
+    return [group for group in groups if group]
+
+
+def panels(run: Trajectory, names: Sequence[str]) -> list[list[str]]:
+    """A group of names split into what can share an axis: one unit, sizes that compare."""
+    found: list[list[tuple[str, str, float]]] = []
+    for name in names:
+        unit, size = quantity(run, name).unit, largest(run.evaluate(name, instants(run)))
+        for group in found:
+            sizes = [other for _, _, other in group if other]
+            comparable = not size or all(1 / _DISPARATE < size / s < _DISPARATE for s in sizes)
+            if comparable and unit == group[0][1]:
+                group.append((name, unit, size))
+                break
+        else:
+            found.append([(name, unit, size)])
+    return [[name for name, _, _ in group] for group in found]
+
+
 def instants(run: Trajectory) -> Array:
-    """Times to draw curves through: the samples, or finer ones over the same stretch, s.
+    """Times to draw curves through: the samples, or finer ones over the same interval, s.
 
     Raises:
         NumericError: for a motion that does not last.
     """
-    refuse_an_instant(run)
+    require_duration(run)
     if len(run.t) >= _FINE:
         return run.t
     fine: Array = np.linspace(run.t[0], run.t[-1], _FINE)
     return fine
 
 
-def refuse_an_instant(run: Trajectory) -> None:
-    """Refuse a motion that ends as it begins, such as that of a disk that lies flat.
+def require_duration(run: Trajectory) -> None:
+    """Refuse a motion of no duration, such as that of a disk that already lies flat.
 
     Raises:
         NumericError: for a motion that does not last.
@@ -209,22 +242,13 @@ def refuse_an_instant(run: Trajectory) -> None:
     if run.duration <= 0:
         kinds = [event.kind for event in run.events[1:-1]]
         raise NumericError(
-            f"a motion of {run.equations.system.name} that ends as it begins"
-            f" ({', '.join(kinds) or 'at once'})",
-            expected="one that lasts, to be drawn",
-            advice="start elsewhere",
+            f"the motion of {run.equations.system.name} ends at its start"
+            f" ({', '.join(kinds) or 'no event'})",
+            expected="a motion of some duration, to be drawn",
+            advice="start from another state",
         )
 
 
 def largest(*values: Array) -> float:
     """Largest size among all values."""
     return float(max((np.max(np.abs(v), initial=0.0) for v in values), default=0.0))
-
-
-def _dimension(run: Trajectory, name: str, expression: Expr) -> Dimension:
-    """Known for a reaction from what it is, and otherwise from the expression."""
-    for equations in modes_of(run):
-        if name in equations.components:
-            couples = [line.name for line in equations.lines if line.restraint.is_couple]
-            return ENERGY if name in couples else FORCE
-    return dimension_of(expression, equations_of(run).dimensions) or PURE

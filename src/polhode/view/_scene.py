@@ -1,4 +1,4 @@
-"""The scene: one plain structure that says all there is to see of a motion.
+"""The scene: one plain structure with everything that there is to see of a motion.
 
 The page, the notebook and the maker of stills all draw a `Scene` and nothing else. Lengths are in
 metres, times in seconds, vectors along the directions of the root frame; attitudes are unit
@@ -12,12 +12,14 @@ from __future__ import annotations
 import base64
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
+from math import hypot
 from typing import Any
 
 import numpy as np
 
 from polhode.base import Shown
 from polhode.view._judgement import Judgement
+from polhode.view._mathml import Formula
 from polhode.view._quantities import Array
 
 Triple = tuple[float, float, float]
@@ -50,7 +52,8 @@ class BodyShape:
 
     Attributes:
         kind: ball (radius), ellipsoid (three half-axes), disk, hoop or wheel (radius, height),
-            rod (length, radius), box (three sides), racquet (length, width, thickness).
+            rod (length, radius), box (three sides), racquet (length, width, thickness), or
+            revolution (height along the axis and radius of every point of the outline).
         size: the lengths named, m.
         axis: unit vector along the body's axes: of symmetry, or the long one.
         across: unit vector along the body's axes, perpendicular to it.
@@ -62,6 +65,14 @@ class BodyShape:
     axis: Triple = (0.0, 0.0, 1.0)
     across: Triple = (1.0, 0.0, 0.0)
     centre: Triple = (0.0, 0.0, 0.0)
+
+    @property
+    def reach(self) -> float:
+        """Distance from the centre of mass to the farthest point, m."""
+        if self.kind == "revolution":
+            return max(map(hypot, self.size[::2], self.size[1::2]))
+        halves = {"box": 0.87, "rod": 0.5, "racquet": 0.6}
+        return max(self.size) * halves.get(self.kind, 1.0) + hypot(*self.centre)
 
 
 @dataclass(frozen=True)
@@ -79,6 +90,11 @@ class SceneBody:
     shape: BodyShape
     pose: Pose
     arms: tuple[Triple, ...]
+
+    @property
+    def reach(self) -> float:
+        """Distance from the centre of mass to the farthest point, joints included, m."""
+        return max([self.shape.reach, *(float(np.linalg.norm(arm)) for arm in self.arms)])
 
 
 @dataclass(frozen=True)
@@ -204,21 +220,6 @@ class Panel:
 
 
 @dataclass(frozen=True)
-class Formula:
-    """A formula in pieces of MathML, between which a line may break.
-
-    Attributes:
-        name: heading; empty for none.
-        pieces: MathML.
-        spoken: the same on one line of text.
-    """
-
-    name: str
-    pieces: tuple[str, ...]
-    spoken: str
-
-
-@dataclass(frozen=True)
 class SceneNumber:
     """A named number.
 
@@ -274,9 +275,9 @@ class Scene(Shown):
         bodies, joints, links, supports, arrows, traces, panels: what is drawn.
         motion, reactions: the equations.
         parameters, start: numbers it was made with.
-        evidence: how far what must stay constant has drifted, relative.
+        evidence: relative drift of conserved quantities.
         happenings: events.
-        doubt: what speaks against the motion; empty where nothing does.
+        doubt: why the motion may be wrong; empty where nothing suggests it.
         judgements: verdicts on claims.
         origin: schema, versions, declaration and seed.
     """
@@ -323,19 +324,19 @@ def in_base64(numbers: bytes) -> str:
     return base64.b64encode(numbers).decode("ascii")
 
 
-def plain(value: Any, told: Callable[[bytes], object] = in_base64) -> Any:
+def plain(value: Any, encode: Callable[[bytes], object] = in_base64) -> Any:
     """A part of a scene as plain data.
 
     Args:
         value: the part.
-        told: what stands for the numbers of an array, which come as little-endian float32.
+        encode: gives what stands for the numbers of an array, which come as little-endian float32.
     """
     if is_dataclass(value):
-        return {f.name: plain(getattr(value, f.name), told) for f in fields(value)}
+        return {f.name: plain(getattr(value, f.name), encode) for f in fields(value)}
     if isinstance(value, np.ndarray):
-        return {"shape": list(value.shape), "float32": told(value.astype("<f4").tobytes())}
+        return {"shape": list(value.shape), "float32": encode(value.astype("<f4").tobytes())}
     if isinstance(value, tuple | list):
-        return [plain(item, told) for item in value]
+        return [plain(item, encode) for item in value]
     if isinstance(value, Mapping):
-        return {str(key): plain(item, told) for key, item in value.items()}
+        return {str(key): plain(item, encode) for key, item in value.items()}
     return value

@@ -13,43 +13,43 @@ from polhode.model import Frame
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array
 
-#: What is wanted in one contact mode; None where it means nothing there.
-Wanted = Callable[[Equations], Sequence[Expr] | None]
+#: Expressions in the equations of one contact mode; None where they mean nothing there.
+InMode = Callable[[Equations], Sequence[Expr] | None]
 
 _STILL = 1e-9  # relative spread below which an array counts as constant
 
 
-def along(run: Trajectory, wanted: Wanted, count: int, t: Array) -> Array:
+def along(run: Trajectory, in_mode: InMode, count: int, t: Array) -> Array:
     """Expressions of every contact mode along the motion, shape (instants, count).
 
-    Not a number in modes in which they mean nothing.
+    NaN in modes in which they mean nothing.
     """
     begins = np.array([segment.begin for segment in run.segments])
     which = np.clip(np.searchsorted(begins, t, "right") - 1, 0, None)
     found = np.full((count, len(t)), np.nan)
     for i in np.unique(which):
         segment, here = run.segments[i], which == i
-        expressions = wanted(cast(Equations, segment.dynamics.equations))
+        expressions = in_mode(cast(Equations, segment.dynamics.equations))
         if expressions is not None:
             found[:, here] = segment.values(expressions, t[here])
     return found.T
 
 
-def vectors(run: Trajectory, wanted: Callable[[Equations], Vector | None], t: Array) -> Array:
+def vectors(run: Trajectory, in_mode: Callable[[Equations], Vector | None], t: Array) -> Array:
     """A vector along the directions of the root frame, shape (instants, 3)."""
 
     def components(equations: Equations) -> Sequence[Expr] | None:
-        vector = wanted(equations)
+        vector = in_mode(equations)
         return None if vector is None else vector.express(equations.system.root).components
 
     return along(run, components, 3, t)
 
 
-def attitudes(run: Trajectory, wanted: Callable[[Equations], Frame], t: Array) -> Array:
-    """How a frame is turned against the root frame, as quaternions, shape (instants, 4)."""
+def attitudes(run: Trajectory, in_mode: Callable[[Equations], Frame], t: Array) -> Array:
+    """Attitude of a frame relative to the root frame, as quaternions, shape (instants, 4)."""
 
     def entries(equations: Equations) -> Sequence[Expr]:
-        matrix = wanted(equations).rotation_to(equations.system.root)
+        matrix = in_mode(equations).rotation_to(equations.system.root)
         return [entry for row in matrix.rows for entry in row]
 
     return quaternions(along(run, entries, 9, t).reshape(-1, 3, 3))
@@ -93,13 +93,14 @@ def quaternions(matrices: Array) -> Array:
 
 
 def rolled(turning: Array, step: float) -> Array:
-    """Attitudes that an angular velocity (rad/s, along fixed directions) leads to from none."""
+    """Attitudes that an angular velocity (rad/s, in fixed axes) leads to from the identity."""
     half = (turning[1:] + turning[:-1]) * (step / 4)
     angle = np.linalg.norm(half, axis=1, keepdims=True)
     turns = np.hstack([half * np.sinc(angle / np.pi), np.cos(angle)])
     found = np.vstack([(0.0, 0.0, 0.0, 1.0), turns])
+    # Products of all steps so far, by doubling: each is a turn over `reach` steps.
     reach = 1
-    while reach < len(found):  # each is a turn over so many steps, and over twice as many next
+    while reach < len(found):
         found[reach:] = _after(found[reach:], found[:-reach])
         reach *= 2
     return found

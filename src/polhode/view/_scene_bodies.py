@@ -1,45 +1,63 @@
-"""Bodies of the scene: their poses, what holds them, and the arrows at them."""
+"""Bodies of the scene: their shapes and poses, what holds them, and the arrows at them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import singledispatch
 
 import numpy as np
 
-from polhode.algebra import Expr, ExprLike, Symbol, Vector
+from polhode.algebra import Expr, Symbol, Vector
 from polhode.derive import Equations
-from polhode.model import Action, Body, BodyPoint
+from polhode.model import (
+    Action,
+    Body,
+    BodyPoint,
+    Ellipsoidal,
+    Face,
+    Hinge,
+    Hold,
+    Load,
+    Pivot,
+    Rim,
+    Round,
+    Surface,
+    TwoPointLink,
+    Universal,
+    Weld,
+)
 from polhode.simulate import Trajectory
-from polhode.view._quantities import Array, equations_of
-from polhode.view._scene import NOWHERE, Arrow, Link, Pose, SceneBody, Triple
+from polhode.view._quantities import Array, equations_of, modes_of
+from polhode.view._scene import NOWHERE, Arrow, BodyShape, Joint, Link, Pose, SceneBody, Triple
 from polhode.view._scene_along import along, attitudes, collapsed, constants, rolled, vectors
-from polhode.view._shapes import reach_of, shape_of
 
+_THIN = 0.06  # thickness of what has none, against its radius
+_SLENDER = 0.045  # radius of a rod against its length
+_HOLLOW = 0.75  # I/(m a²) above which a round body is a hoop rather than a disk
+_FLAT = 0.02  # relative side below which a body counts as a lamina
+_LONG = 2.5  # length against width of a lamina that is drawn with a handle
+_SAME = 1e-6  # relative difference of moments of inertia that count as equal
 _POINT = 0.07  # radius of a particle against the reach of the whole
-_NONE = 1e-9  # of the largest of its kind: an arrow that is not drawn
-_USUAL = 0.9
+_THICKNESS = {"spring": 0.035, "damper": 0.022}  # radius against the greatest length
+_UNSEEN = 1e-9  # of the largest of its kind: an arrow that is not drawn
+_USUAL = 0.9  # share of the motion for which an arrow is shorter than its usual length
+_UPRIGHT: Triple = (0.0, 0.0, 1.0)
 
 
 def bodies_of(run: Trajectory, links: Sequence[Link], t: Array) -> tuple[SceneBody, ...]:
     """Every body with its pose at the given instants; `links` tell the size of the whole."""
-    bodies = [_body(run, body.name, t) for body in run.equations.system.bodies]
-    lengths = [reach_of(b.shape) for b in bodies]
-    lengths += [float(np.linalg.norm(arm)) for b in bodies for arm in b.arms]
-    lengths += [float(np.max(np.linalg.norm(x.start - x.end, axis=1))) for x in links]
-    return tuple(_visible(body, max(lengths) or 1.0) for body in bodies)
-
-
-def _body(run: Trajectory, name: str, t: Array) -> SceneBody:
-    body = equations_of(run).system.body(name)
-    return SceneBody(name, shape_of(body, run), _pose(run, body, t), tuple(_arms(run, body)))
-
-
-def _visible(body: SceneBody, size: float) -> SceneBody:
-    """A particle gets a radius that can be seen."""
-    if any(body.shape.size):
-        return body
-    return replace(body, shape=replace(body.shape, size=(_POINT * size,)))
+    bodies = [
+        SceneBody(body.name, _shape(body.surface, body, run), _pose(run, body, t), _arms(run, body))
+        for body in equations_of(run).system.bodies
+    ]
+    lengths = [body.reach for body in bodies]
+    lengths += [float(np.max(np.linalg.norm(link.start - link.end, axis=1))) for link in links]
+    # A particle gets a radius that can be seen.
+    point = (_POINT * (max(lengths) or 1.0),)
+    return tuple(
+        b if any(b.shape.size) else replace(b, shape=replace(b.shape, size=point)) for b in bodies
+    )
 
 
 def _pose(run: Trajectory, body: Body, t: Array) -> Pose:
@@ -49,107 +67,287 @@ def _pose(run: Trajectory, body: Body, t: Array) -> Pose:
         turning = vectors(run, lambda equations: equations.kinetics.velocities[body][1], t)
         carried = vectors(run, lambda equations: equations.system.root.angular_velocity, t)
         turn = rolled(turning - carried, float(t[1] - t[0]))
-        return Pose(collapsed(place), collapsed(turn), np.zeros(0), (0.0, 0.0, 1.0))
+        return Pose(collapsed(place), collapsed(turn), np.zeros(0), _UPRIGHT)
     turn = attitudes(run, lambda equations: body.axes, t)
-    spin, axis = np.zeros(0), (0.0, 0.0, 1.0)
+    spin, axis = np.zeros(0), _UPRIGHT
     if fixed != body.axes:
         spin = along(run, lambda equations: [fixed.angle], 1, t)[:, 0]
         axis = _triple(constants(run, fixed.axis))
     return Pose(collapsed(place), collapsed(turn), spin, axis)
 
 
-def _arms(run: Trajectory, body: Body) -> Iterator[Triple]:
+def _arms(run: Trajectory, body: Body) -> tuple[Triple, ...]:
     """From the centre of mass to where joints hold it."""
-    for element in run.equations.system.elements:
-        for owner, offset in _held(element):
-            arm = offset.express(body.axes).components
-            if owner == body and not any(s.kind.varies for e in arm for s in e.symbols()):
-                yield _triple(constants(run, arm))
+    held: list[Vector] = []
+    for element in equations_of(run).system.elements:
+        owner, at, to = (getattr(element, name, None) for name in ("body", "at", "to"))
+        if isinstance(at, Vector) and owner == body:
+            held.append(at)
+        if isinstance(to, BodyPoint) and to.body == body:
+            held.append(to.offset)
+    arms = (_fixed(run, offset, body) for offset in held)
+    return tuple(arm for arm in arms if arm is not None)
 
 
-def _held(element: object) -> Iterator[tuple[Body, Vector]]:
-    """Points of bodies that a pivot or a hand holds."""
-    at, to = getattr(element, "at", None), getattr(element, "to", None)
-    if isinstance(at, Vector):
-        yield element.body, at  # type: ignore[attr-defined]
-    if isinstance(to, BodyPoint):
-        yield to.body, to.offset
+def _fixed(run: Trajectory, vector: Vector, body: Body) -> Triple | None:
+    """Components along a body's axes, where they stay the same."""
+    components = vector.express(body.axes).components
+    if any(s.kind.varies for component in components for s in component.symbols()):
+        return None
+    return _triple(constants(run, components))
+
+
+def _triple(values: Sequence[float] | Array) -> Triple:
+    x, y, z = (float(value) for value in values)
+    return x, y, z
+
+
+# --- shapes: by the surface that a body touches with, or else by its inertia ---
+
+
+@singledispatch
+def _shape(surface: Surface | None, body: Body, run: Trajectory) -> BodyShape:
+    profile = surface.profile if surface is not None else None
+    if profile is None:
+        return _equivalent(body, run)
+    lengths = constants(run, [length for point in profile.outline for length in point])
+    return BodyShape("revolution", lengths, *_directions(body.axes.position(profile.axis)))
+
+
+@_shape.register
+def _(surface: Round, body: Body, run: Trajectory) -> BodyShape:
+    radius, offset = constants(run, [surface.radius, surface.offset])
+    if not offset:
+        return BodyShape("ball", (radius,))
+    axis, across = _directions(body.axes.position(surface.axis))
+    x, y, z = (offset * part for part in axis)
+    return BodyShape("ball", (radius,), axis, across, (x, y, z))
+
+
+@_shape.register
+def _(surface: Ellipsoidal, body: Body, run: Trajectory) -> BodyShape:
+    return BodyShape("ellipsoid", constants(run, surface.half_axes))
+
+
+@_shape.register
+def _(surface: Face, body: Body, run: Trajectory) -> BodyShape:
+    (height,) = constants(run, [surface.height])
+    return BodyShape("box", (3 * height, 2.4 * height, 2 * height))
+
+
+@_shape.register
+def _(surface: Rim, body: Body, run: Trajectory) -> BodyShape:
+    position = body.axes.position(surface.axis)
+    moment = body.inertia[position, position]
+    radius, offset, mass, about = constants(
+        run, [surface.radius, surface.offset, body.mass, moment]
+    )
+    kind = "hoop" if about > _HOLLOW * mass * radius**2 else "disk"
+    thick = 2 * abs(offset) or _THIN * radius
+    return BodyShape(kind, (radius, thick), *_directions(position))
+
+
+def _equivalent(body: Body, run: Trajectory) -> BodyShape:
+    """A uniform body of the same mass and inertia."""
+    entries = [entry for row in body.inertia.rows for entry in row]
+    mass, *values = constants(run, [body.mass, *entries])
+    moments, turned = np.linalg.eigh(np.reshape(values, (3, 3)))
+    if mass <= 0 or moments[-1] <= 0:
+        return BodyShape("ball", (0.0,))
+    first, middle, last = moments
+    # The moment unlike the others goes last.
+    order = [1, 2, 0] if last - middle < middle - first else [0, 1, 2]
+    moments, turned = moments[order], turned[:, order]
+    directions = _triple(turned[:, 2]), _triple(turned[:, 0])
+    if moments[2] <= _SAME * moments[0]:
+        length = float(np.sqrt(12 * moments[0] / mass))
+        return BodyShape("rod", (length, _SLENDER * length), *directions)
+    if abs(moments[0] - moments[1]) <= _SAME * moments[0]:
+        return _wheel(mass, moments, directions)
+    return _slab(mass, moments, turned)
+
+
+def _wheel(mass: float, moments: Array, directions: tuple[Triple, Triple]) -> BodyShape:
+    """A cylinder, or a wheel with spokes where it has no thickness."""
+    across, about = moments[0], moments[2]
+    # A uniform cylinder has m r²/2 about its axis and m (3 r² + h²)/12 across it.
+    radius = float(np.sqrt(2 * about / mass))
+    squared = 12 * across / mass - 3 * radius**2
+    if squared > (_FLAT * radius) ** 2:
+        return BodyShape("disk", (radius, float(np.sqrt(squared))), *directions)
+    rim = float(np.sqrt(about / mass))
+    return BodyShape("wheel", (rim, 2 * _THIN * rim), *directions)
+
+
+def _slab(mass: float, moments: Array, turned: Array) -> BodyShape:
+    """A box, or a racquet where it is a long lamina."""
+    total = float(np.sum(moments))
+    # A uniform box with sides a, b, c has m (b² + c²)/12 along a, and so on round.
+    squares = np.clip(6 * (total - 2 * moments) / mass, 0, None)
+    order = np.argsort(-squares)
+    long, wide, thick = (float(side) for side in np.sqrt(squares[order]))
+    axis, across = _triple(turned[:, order[0]]), _triple(turned[:, order[1]])
+    lamina = thick < _FLAT * long
+    if lamina and long > _LONG * wide:
+        return BodyShape("racquet", (long, wide, _THIN * wide), axis, across)
+    return BodyShape("box", (long, wide, max(thick, _FLAT * long)), axis, across)
+
+
+def _directions(position: int) -> tuple[Triple, Triple]:
+    """Along an axis, and across it."""
+    unit = np.eye(3)
+    return _triple(unit[position]), _triple(unit[(position + 1) % 3])
+
+
+# --- joints and links ---
+
+
+def joints_of(run: Trajectory) -> tuple[Joint, ...]:
+    """One for every point that is held; a cross of two for a universal joint."""
+    points = [e for e in equations_of(run).system.elements if isinstance(e, Pivot | Hold)]
+    return tuple(joint for point in points for joint in _joints(run, point))
+
+
+def _joints(run: Trajectory, point: Pivot | Hold) -> Iterator[Joint]:
+    system = equations_of(run).system
+    place = _fixed(run, point.at, point.body)
+    if place is None:
+        return
+    body = list(system.bodies).index(point.body)
+    if isinstance(point, Weld | Hold):
+        yield Joint("weld", point.name, body, place, _UPRIGHT)
+        return
+    couples = [e for e in system.elements if isinstance(e, Hinge | Universal)]
+    # Those that hold the same two bodies together as the point does.
+    turning = [e for e in couples if e.body == point.body and e.to == point.other]
+    if not turning:
+        yield Joint("pivot", point.name, body, place, _UPRIGHT)
+    for couple in turning:
+        yield from _turning(run, couple, point, body, place)
+
+
+def _turning(
+    run: Trajectory, couple: Hinge | Universal, point: Pivot, body: int, place: Triple
+) -> Iterator[Joint]:
+    if isinstance(couple, Hinge):
+        axis = _fixed(run, couple.body.axes[couple.axis], couple.body)
+        yield Joint("hinge", couple.name, body, place, axis or _UPRIGHT)
+        return
+    arm = _fixed(run, couple.arm, couple.body)
+    yield Joint("universal", couple.name, body, place, arm or _UPRIGHT)
+    if isinstance(point.to, BodyPoint):
+        other = point.to
+        arm, place_there = (_fixed(run, v, other.body) for v in (couple.other_arm, other.offset))
+        if arm and place_there:
+            number = list(run.equations.system.bodies).index(other.body)
+            yield Joint("universal", couple.name, number, place_there, arm)
+
+
+def links_of(run: Trajectory, t: Array) -> tuple[Link, ...]:
+    """Springs and dampers with their ends at the given instants."""
+    loads = equations_of(run).system.loads
+    return tuple(_link(run, load.name, load.link, t) for load in loads if load.link is not None)
+
+
+def _link(run: Trajectory, name: str, link: TwoPointLink, t: Array) -> Link:
+    start, end = (_path(run, point, t) for point in (link.start, link.end))
+    longest = float(np.max(np.linalg.norm(start - end, axis=1)))
+    return Link(link.kind, name, start, end, _THICKNESS[link.kind] * longest)
+
+
+def _path(run: Trajectory, point: BodyPoint | Vector, t: Array) -> Array:
+    def place(equations: Equations) -> Vector:
+        if isinstance(point, Vector):
+            return point
+        return equations.kinetics.places[point.body] + point.offset
+
+    return collapsed(vectors(run, place, t))
+
+
+# --- arrows ---
 
 
 def arrows_of(run: Trajectory, t: Array) -> tuple[Arrow, ...]:
     """Forces of contacts and joints, loads, torques, angular velocities and momenta."""
-    found = [*_forces(run, t), *_loads(run, t), *_of_bodies(run, t)]
-    largest = {kind: max(a.largest for a in found if a.kind == kind) for kind in _kinds(found)}
-    return tuple(a for a in found if a.largest > _NONE * largest[a.kind])
-
-
-def _kinds(arrows: list[Arrow]) -> dict[str, None]:
-    return dict.fromkeys(arrow.kind for arrow in arrows)
-
-
-def _arrow(
-    kind: str, name: str, body: int, unit: str, values: Array, foot: Array = NOWHERE
-) -> Arrow:
-    shown = np.nan_to_num(values, posinf=0.0, neginf=0.0)
-    sizes = np.linalg.norm(shown, axis=1)
-    usual, largest = float(np.quantile(sizes, _USUAL)), float(np.max(sizes))
-    return Arrow(kind, name, body, unit, foot, collapsed(shown), usual, largest)
-
-
-def _forces(run: Trajectory, t: Array) -> Iterator[Arrow]:
-    bodies = list(run.equations.system.bodies)
-    names: dict[str, Body] = {}
-    for equations in _modes(run):
+    system = equations_of(run).system
+    bodies = list(system.bodies)
+    attached: dict[str, Body] = {}
+    for equations in modes_of(run):
         for name, reaction in equations.reactions.items():
-            names.setdefault(name, reaction.body)
-    for name, body in names.items():
-        values = vectors(run, _force(name), t)
-        foot = collapsed(vectors(run, _foot(name, body), t))
-        yield _arrow("force", f"force at {name}", bodies.index(body), "N", values, foot)
+            attached.setdefault(name, reaction.body)
+    found = [
+        _arrow("force", f"force at {name}", bodies.index(body), "N", *_reaction(run, name, body, t))
+        for name, body in attached.items()
+    ]
+    found += [
+        _arrow("load", f"{load.name} on {body.name}", i, "N", _force(run, load, body, t))
+        for load in system.loads
+        for i, body in enumerate(bodies)
+    ]
+    for i, body in enumerate(bodies):
+        found += [
+            _arrow(kind, f"{words} {body.name}", i, unit, values)
+            for kind, words, unit, values in _rotation(run, body, t)
+        ]
+    kinds = dict.fromkeys(arrow.kind for arrow in found)
+    largest = {kind: max(a.largest for a in found if a.kind == kind) for kind in kinds}
+    return tuple(a for a in found if a.largest > _UNSEEN * largest[a.kind])
 
 
-def _modes(run: Trajectory) -> Iterator[Equations]:
-    for segment in run.segments:
-        yield segment.dynamics.equations  # type: ignore[misc]
+def _reaction(run: Trajectory, name: str, body: Body, t: Array) -> tuple[Array, Array]:
+    """A reaction, N, and where it acts, m."""
 
-
-def _force(name: str) -> Callable[[Equations], Vector | None]:
     def force(equations: Equations) -> Vector | None:
         reaction = equations.reactions.get(name)
-        return None if reaction is None else reaction.force.subs(_chosen(equations))
+        if reaction is None:
+            return None
+        # What Newton's laws leave open gets its least value.
+        undetermined = map(Symbol, equations.undetermined)
+        least = {Expr.generator(s): equations.least[s.name] for s in undetermined}
+        return reaction.force.subs({**least})
 
-    return force
-
-
-def _foot(name: str, body: Body) -> Callable[[Equations], Vector | None]:
-    def foot(equations: Equations) -> Vector | None:
+    def foot(equations: Equations) -> Vector:
         reaction = equations.reactions.get(name)
         place = equations.kinetics.places[body]
         return place if reaction is None else place + reaction.arm
 
-    return foot
+    return vectors(run, force, t), collapsed(vectors(run, foot, t))
 
 
-def _chosen(equations: Equations) -> dict[Expr, ExprLike]:
-    """The least values of reactions that Newton's laws leave open."""
-    open_ = (Symbol(name) for name in equations.undetermined)
-    return {Expr.generator(s): equations.least[s.name] for s in open_}
+def _force(run: Trajectory, load: Load, body: Body, t: Array) -> Array:
+    """Of a load on a body, N."""
 
-
-def _loads(run: Trajectory, t: Array) -> Iterator[Arrow]:
-    bodies = list(run.equations.system.bodies)
-    for load in run.equations.system.loads:
-        for i, body in enumerate(bodies):
-            values = vectors(run, _load(load.name, body), t)
-            yield _arrow("load", f"{load.name} on {body.name}", i, "N", values)
-
-
-def _load(name: str, body: Body) -> Callable[[Equations], Vector]:
     def force(equations: Equations) -> Vector:
-        actions = _actions(equations, body, name)
+        actions = _actions(equations, body, load.name)
         return sum((a.force for a in actions), start=equations.system.root.zero)
 
-    return force
+    return vectors(run, force, t)
+
+
+def _rotation(run: Trajectory, body: Body, t: Array) -> Iterator[tuple[str, str, str, Array]]:
+    """Torque, angular velocity and angular momentum: kind, words, unit and components."""
+
+    def torque(equations: Equations) -> Vector:
+        """Of everything that acts, about the centre of mass."""
+        total = equations.system.root.zero
+        for line in equations.lines:
+            wrench = line.on(body)
+            if wrench is not None:
+                total = total + wrench.couple * equations.least[line.name]
+        for action in _actions(equations, body):
+            total = total + action.couple + action.arm.cross(action.force)
+        return total
+
+    def omega(equations: Equations) -> Vector:
+        return equations.kinetics.velocities[body][1]
+
+    def momentum(equations: Equations) -> Vector:
+        angular = omega(equations).express(body.axes)
+        return Vector(body.inertia.times(angular.components), body.axes)
+
+    yield "torque", "torque about the centre of", "N m", vectors(run, torque, t)
+    yield "omega", "angular velocity of", "rad/s", vectors(run, omega, t)
+    yield "momentum", "angular momentum of", "kg m²/s", vectors(run, momentum, t)
 
 
 def _actions(equations: Equations, body: Body, only: str = "") -> list[Action]:
@@ -160,45 +358,10 @@ def _actions(equations: Equations, body: Body, only: str = "") -> list[Action]:
     return [action for actions in acting for action in actions if action.body == body]
 
 
-def _of_bodies(run: Trajectory, t: Array) -> Iterator[Arrow]:
-    for i, body in enumerate(run.equations.system.bodies):
-        wanted: Mapping[str, tuple[str, str, Callable[[Equations], Vector]]] = {
-            "torque": ("torque about the centre of", "N m", _torque(body)),
-            "omega": ("angular velocity of", "rad/s", _omega(body)),
-            "momentum": ("angular momentum of", "kg m²/s", _momentum(body)),
-        }
-        for kind, (words, unit, vector) in wanted.items():
-            yield _arrow(kind, f"{words} {body.name}", i, unit, vectors(run, vector, t))
-
-
-def _omega(body: Body) -> Callable[[Equations], Vector]:
-    return lambda equations: equations.kinetics.velocities[body][1]
-
-
-def _momentum(body: Body) -> Callable[[Equations], Vector]:
-    def momentum(equations: Equations) -> Vector:
-        angular = equations.kinetics.velocities[body][1].express(body.axes)
-        return Vector(body.inertia.times(angular.components), body.axes)
-
-    return momentum
-
-
-def _torque(body: Body) -> Callable[[Equations], Vector]:
-    """Of everything that acts, about the centre of mass."""
-
-    def torque(equations: Equations) -> Vector:
-        total = equations.system.root.zero
-        for line in equations.lines:
-            wrench = line.on(body)
-            if wrench is not None:
-                total = total + wrench.couple * equations.least[line.name]
-        for action in _actions(equations, body):
-            total = total + action.couple + action.arm.cross(action.force)
-        return total
-
-    return torque
-
-
-def _triple(values: tuple[float, ...]) -> Triple:
-    x, y, z = values
-    return x, y, z
+def _arrow(
+    kind: str, name: str, body: int, unit: str, values: Array, foot: Array = NOWHERE
+) -> Arrow:
+    shown = np.nan_to_num(values, posinf=0.0, neginf=0.0)
+    sizes = np.linalg.norm(shown, axis=1)
+    usual, largest = float(np.quantile(sizes, _USUAL)), float(np.max(sizes))
+    return Arrow(kind, name, body, unit, foot, collapsed(shown), usual, largest)

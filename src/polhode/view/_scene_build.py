@@ -1,20 +1,28 @@
-"""Making a scene of a motion."""
+"""Building the scene of a motion: its bodies, the supports they stand on, and what is to read."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from math import ceil, isfinite
 
 import numpy as np
+from scipy.integrate import cumulative_simpson
 
 from polhode.algebra import Vector
 from polhode.base import NumericError
 from polhode.derive import Equations
-from polhode.model import Body
+from polhode.model import Body, Contact, Plane
 from polhode.simulate import Trajectory
 from polhode.view._judgement import Judgement
-from polhode.view._quantities import Array, Groups, equations_of, grouped, refuse_an_instant
+from polhode.view._quantities import (
+    Array,
+    Groups,
+    equations_of,
+    everything,
+    grouped,
+    require_duration,
+)
 from polhode.view._scene import (
     Link,
     MotionSummary,
@@ -22,14 +30,12 @@ from polhode.view._scene import (
     Scene,
     SceneBody,
     Support,
+    Trace,
     Triple,
 )
-from polhode.view._scene_along import constants, vectors
-from polhode.view._scene_bodies import arrows_of, bodies_of
-from polhode.view._scene_joints import joints_of, links_of
-from polhode.view._scene_supports import other_traces, supports_of
+from polhode.view._scene_along import along, collapsed, constants, quaternions, vectors
+from polhode.view._scene_bodies import arrows_of, bodies_of, joints_of, links_of
 from polhode.view._scene_text import (
-    everything,
     evidence_of,
     happenings_of,
     motion_of,
@@ -39,12 +45,14 @@ from polhode.view._scene_text import (
     reactions_of,
     start_of,
 )
-from polhode.view._shapes import reach_of
 
 _TURN = 0.12  # largest angle between two frames, rad
 _LEAST, _MOST = 2000, 3600  # frames, for one body
 _FEWEST = 600  # for however many
 _COARSE = 601  # instants at which the turning is looked at
+_ROOM = 2.6  # of a body's reach: margin of a support round the path of the contact
+_BEYOND = 1.1  # of a body's reach: where the end of its axis leaves a trace
+_STILL = 1e-9  # rad: a support that turns less is at rest
 _BELOW = 1.15  # of the reach of everything: depth of the floor where nothing is stood on
 
 
@@ -84,7 +92,7 @@ def account(
     meanings: Mapping[str, str] | None = None,
 ) -> MotionSummary:
     """What there is to read of a motion: the arguments and errors are those of `scene`."""
-    refuse_an_instant(run)
+    require_duration(run)
     return MotionSummary(
         panels=panels_of(run, grouped(plots) or everything(run)),
         motion=motion_of(run),
@@ -98,17 +106,17 @@ def account(
 
 
 def scenery(run: Trajectory, *, title: str = "", about: str = "") -> Scene:
-    """What there is to look at: a scene without an account, which takes its time.
+    """What there is to look at: a scene without formulas, numbers and plots, which take longer.
 
     Raises:
         NumericError: for a motion beyond all numbers, or that does not last.
     """
-    refuse_an_instant(run)
+    require_duration(run)
     equations = equations_of(run)
     t = np.linspace(0.0, run.duration, _frames(run))
     links = links_of(run, t)
     bodies = bodies_of(run, links, t)
-    reach = max(_reach(body) for body in bodies)
+    reach = max(body.reach for body in bodies)
     supports, traces = supports_of(run, t, reach)
     up = _up(run)
     return Scene(
@@ -130,71 +138,152 @@ def scenery(run: Trajectory, *, title: str = "", about: str = "") -> Scene:
 
 
 def poses(run: Trajectory, frames: int) -> tuple[Pose, ...]:
-    """Where the bodies are at equally spaced instants: little else is made while one waits."""
+    """Where the bodies are at equally spaced instants, and nothing else, so that it is quick."""
     t = np.linspace(0.0, run.duration, frames)
     return tuple(body.pose for body in bodies_of(run, (), t))
 
 
 def _frames(run: Trajectory) -> int:
-    """So many that nothing but a spin turns far between two of them."""
-    bodies = run.equations.system.bodies
+    """How many are needed so that only a spin turns far between two of them."""
+    system = equations_of(run).system
     coarse = np.linspace(0.0, run.duration, _COARSE)
-    fastest = max(_fastest(run, body, coarse) for body in bodies)
+    fastest = max(_fastest_turn(run, body, coarse) for body in system.bodies)
     if not isfinite(fastest):
         raise NumericError(
-            f"{equations_of(run).system.name} turns faster than numbers can be squared",
+            f"the square of the angular velocity of {system.name} is too large for a number",
             expected="a motion that can be drawn",
             advice="end it earlier, or check the sizes of the parameters and of the start",
         )
     wanted = ceil(run.duration * fastest / _TURN)
-    most = max(_MOST // len(bodies), _FEWEST)
+    most = max(_MOST // len(system.bodies), _FEWEST)
     return 1 + min(max(wanted, _LEAST), most)
 
 
-def _fastest(run: Trajectory, body: Body, t: Array) -> float:
+def _fastest_turn(run: Trajectory, body: Body, t: Array) -> float:
     """Greatest angular velocity of what poses are given of, rad/s: the axes, or a ball itself."""
-    turning = vectors(run, lambda equations: _turning(equations, body), t)
-    return float(np.max(np.linalg.norm(turning, axis=1)))
 
+    def turning(equations: Equations) -> Vector:
+        if body.fixed_axes is None:
+            return equations.kinetics.velocities[body][1]
+        return body.axes.angular_velocity
 
-def _turning(equations: Equations, body: Body) -> Vector:
-    if body.fixed_axes is None:
-        return equations.kinetics.velocities[body][1]
-    return body.axes.angular_velocity
-
-
-def _reach(body: SceneBody) -> float:
-    return max([reach_of(body.shape), *(float(np.linalg.norm(arm)) for arm in body.arms)])
+    return float(np.max(np.linalg.norm(vectors(run, turning, t), axis=1)))
 
 
 def _up(run: Trajectory) -> Triple:
     """Against gravity; else off a support or out of the plane of a guide."""
-    root = run.equations.system.root
-    vector = next(iter(_upright(run)), root[root.labels[2]])
-    x, y, z = constants(run, vector.express(root).components)
-    return x, y, z
-
-
-def _upright(run: Trajectory) -> list[Vector]:
-    system = run.equations.system
+    system = equations_of(run).system
     root = system.root
     loads = [load for load in system.loads if hasattr(load, "up")]
     lifted = [load.up if load.up is not None else root[root.labels[2]] for load in loads]
     supports = [element.on.up for element in system.elements if hasattr(element, "on")]
     guides = [element.normal for element in system.elements if hasattr(element, "normal")]
-    return [*lifted, *supports, *guides]
+    upright = next(iter([*lifted, *supports, *guides]), root[root.labels[2]])
+    x, y, z = constants(run, upright.express(root).components)
+    return x, y, z
 
 
 def _floor(
     bodies: Sequence[SceneBody], links: Sequence[Link], supports: Sequence[Support], up: Triple
 ) -> float | None:
-    """A height below everything, where nothing is stood on."""
+    """A height below everything; None where something is stood on."""
     if supports:
         return None
-    feet = [end for link in links for end in (link.start, link.end)]
-    lowest = [float(np.min(foot @ np.array(up))) for foot in feet]
-    return min([*lowest, *(_depth(body, np.array(up)) for body in bodies)])
+    ends = [end for link in links for end in (link.start, link.end)]
+    lowest = [float(np.min(end @ np.array(up))) for end in ends]
+    for body in bodies:
+        lowest.append(float(np.min(body.pose.place @ np.array(up))) - _BELOW * body.reach)
+    return min(lowest)
 
 
-def _depth(body: SceneBody, up: Array) -> float:
-    return float(np.min(body.pose.place @ up)) - _BELOW * _reach(body)
+# --- supports, and the paths that are left on them and in space ---
+
+
+def supports_of(
+    run: Trajectory, t: Array, reach: float
+) -> tuple[tuple[Support, ...], tuple[Trace, ...]]:
+    """Supports that bodies touch, each once, and the paths of the contacts."""
+    supports: dict[Plane, Support] = {}
+    traces: list[Trace] = []
+    for element in equations_of(run).system.elements:
+        contact = getattr(element, "contact", element)  # of one that begins in flight
+        if not isinstance(contact, Contact):
+            continue
+        plane = contact.on
+        pose = _support_pose(run, plane, t)
+        points = _contact_path(run, contact, t)
+        # As seen from the support: turned back by the conjugate quaternions.
+        on_it = _turned(points - pose.place, pose.turn * np.array([-1.0, -1.0, -1.0, 1.0]))
+        if plane not in supports:
+            supports[plane] = _support(contact, pose, on_it, reach)
+        traces.append(Trace("contact", f"path of {contact.name}", points))
+        if len(pose.place) > 1 or len(pose.turn) > 1:
+            number = list(supports).index(plane)
+            traces.append(Trace("contact", f"trace on {contact.name}", on_it, number))
+    return tuple(supports.values()), tuple(traces)
+
+
+def other_traces(bodies: tuple[SceneBody, ...]) -> Iterator[Trace]:
+    """Paths of centres of mass that move, and of the ends of axes about those that do not."""
+    for body in bodies:
+        pose, shape = body.pose, body.shape
+        if len(pose.place) > 1:
+            yield Trace("centre", f"centre of {body.name}", pose.place)
+        elif len(pose.turn) > 1 and shape.kind != "ball":
+            tip = np.array(shape.axis) * _BEYOND * shape.reach
+            yield Trace("axis", f"axis of {body.name}", pose.place + _turned(tip, pose.turn))
+
+
+def _contact_path(run: Trajectory, contact: Contact, t: Array) -> Array:
+    """The point of contact at the given instants; not a number in flight."""
+
+    def place(equations: Equations) -> Vector | None:
+        element = equations.system.element(contact.name)
+        if not isinstance(element, Contact):
+            return None
+        return equations.kinetics.places[contact.body] + contact.arm
+
+    return vectors(run, place, t)
+
+
+def _support_pose(run: Trajectory, plane: Plane, t: Array) -> Pose:
+    """Of the surface, its third direction along the normal."""
+    root = plane.axes.root
+    triad = [plane.axes[label].express(root) for label in (*plane.tangents, plane.normal)]
+    entries = [direction.components[i] for i in range(3) for direction in triad]
+    turn = quaternions(along(run, lambda equations: entries, 9, t).reshape(-1, 3, 3))
+    place = vectors(run, lambda equations: plane.origin, t)
+    rate = along(run, lambda equations: [plane.turning], 1, t)[:, 0]
+    angle: Array = cumulative_simpson(rate, x=t, initial=0.0)
+    if np.ptp(angle) <= _STILL:
+        turn = collapsed(turn)
+    else:  # turned further, by that angle about the third direction of the surface
+        x, y, z, w = turn.T
+        s, c = np.sin(angle / 2), np.cos(angle / 2)
+        turn = np.stack([c * x + s * y, c * y - s * x, c * z + s * w, c * w - s * z], axis=1)
+    return Pose(collapsed(place), turn, np.zeros(0), (0.0, 0.0, 1.0))
+
+
+def _turned(vector: Array, turn: Array) -> Array:
+    """Vectors turned by quaternions."""
+    u, w = turn[:, :3], turn[:, 3:]
+    cross = np.cross(u, vector)
+    found: Array = vector + 2 * (w * cross + np.cross(u, cross))
+    return found
+
+
+def _support(contact: Contact, pose: Pose, path: Array, reach: float) -> Support:
+    kind = type(contact.on).__name__.lower()
+    flat = path[np.isfinite(path).all(axis=1), :2]
+    low, high = (flat.min(0), flat.max(0)) if len(flat) else (np.zeros(2), np.zeros(2))
+    middle, half = (low + high) / 2, (high - low) / 2 + _ROOM * reach
+    if kind == "turntable":
+        radius = float(np.max(np.linalg.norm(flat, axis=1), initial=0.0)) + reach
+        middle, half = np.zeros(2), np.full(2, 1.08 * radius)
+    return Support(
+        contact.name,
+        kind,
+        pose,
+        (float(middle[0]), float(middle[1])),
+        (float(half[0]), float(half[1])),
+    )

@@ -14,66 +14,71 @@ from polhode.base import PURE, provenance
 from polhode.derive import Equations, is_angle, slips_along
 from polhode.model import Sliding
 from polhode.simulate import Trajectory
-from polhode.view._mathml import equation, symbol
+from polhode.view._mathml import Formula, equation, inline
 from polhode.view._quantities import (
-    Array,
     equations_of,
     largest,
+    panels,
     quantity,
     scale_for,
 )
-from polhode.view._scene import Formula, Panel, PlotSeries, SceneEvent, SceneNumber
-from polhode.view.figures._history import panels
+from polhode.view._scene import Panel, PlotSeries, SceneEvent, SceneNumber
 
 _EVENTS = 40  # that are listed
 _POINTS = 1501  # of a plotted curve, at most
 _ENERGY = "energy"
-_NOTHING = 1e-15
+_NOTHING = 1e-15  # relative value at the start that counts as zero
 
 
 def panels_of(run: Trajectory, groups: Sequence[Sequence[str]]) -> tuple[Panel, ...]:
     """Plots of named quantities, a panel for each group; energy by itself, last."""
     chosen = [*groups, *([] if any(_ENERGY in group for group in groups) else [[_ENERGY]])]
     t = np.linspace(0.0, run.duration, _POINTS)
-    return tuple(_panel(run, names, t) for group in chosen for names in panels(run, group))
-
-
-def everything(run: Trajectory) -> list[list[str]]:
-    """Coordinates, speeds and reactions."""
-    equations = run.equations
-    groups = [
-        [s.published for s in equations.coordinates],
-        [s.published for s in equations.speeds],
-        list(run.reactions),
-    ]
-    return [group for group in groups if group]
-
-
-def _panel(run: Trajectory, names: Sequence[str], t: Array) -> Panel:
-    values = [run.evaluate(name, t) for name in names]
-    scale = scale_for(quantity(run, names[0]).unit, largest(*values))
-    series = (
-        PlotSeries(name, _letter(run, name), value * scale.factor)
-        for name, value in zip(names, values, strict=True)
-    )
-    return Panel(scale.unit, tuple(series))
+    found = []
+    for names in (names for group in chosen for names in panels(run, group)):
+        values = [run.evaluate(name, t) for name in names]
+        scale = scale_for(quantity(run, names[0]).unit, largest(*values))
+        series = (
+            PlotSeries(name, _letter(run, name), value * scale.factor)
+            for name, value in zip(names, values, strict=True)
+        )
+        found.append(Panel(scale.unit, tuple(series)))
+    return tuple(found)
 
 
 def _letter(run: Trajectory, name: str) -> str:
     if name == _ENERGY:
-        return symbol(Expr.generator(Symbol("E")))
+        return inline(Expr.generator(Symbol("E")))
     expression = run.quantities[name]
-    return symbol(Expr.generator(expression.symbol or Symbol(name)))
+    return inline(Expr.generator(expression.symbol or Symbol(name)))
 
 
 def motion_of(run: Trajectory) -> tuple[Formula, ...]:
     """The equations of motion of every contact mode, and rates that are not speeds."""
-    return _by_mode(run, _motion)
+
+    def motion(equations: Equations) -> list[Formula]:
+        rows = [equation("", row, ZERO) for row in equations.motion]
+        rates = [
+            equation("", Expr.generator(rate), value)
+            for rate, value in equations.kinematics.items()
+            if value != Expr.generator(rate)
+        ]
+        return [*rows, *rates, *_slip_symbols(equations)]
+
+    return _by_mode(run, motion)
 
 
 def reactions_of(run: Trajectory) -> tuple[Formula, ...]:
     """Every component that Newton's laws determine, in every contact mode."""
-    return _by_mode(run, _reactions)
+
+    def reactions(equations: Equations) -> list[Formula]:
+        return [
+            equation("", Expr.generator(Symbol(name)), value)
+            for name, value in equations.components.items()
+            if name not in equations.undetermined
+        ]
+
+    return _by_mode(run, reactions)
 
 
 def _by_mode(
@@ -86,47 +91,23 @@ def _by_mode(
             modes[segment.mode] = formulas(cast(Equations, segment.dynamics.equations))
     if len(modes) == 1:
         return tuple(next(iter(modes.values())))
-    named = [[replace(first, name=mode), *rest] for mode, (first, *rest) in _filled(modes)]
+    filled = ((mode, group) for mode, group in modes.items() if group)
+    named = [[replace(first, name=mode), *rest] for mode, (first, *rest) in filled]
     return tuple(formula for group in named for formula in group)
 
 
-def _filled(modes: Mapping[str, list[Formula]]) -> list[tuple[str, list[Formula]]]:
-    return [(mode, group) for mode, group in modes.items() if group]
-
-
-def _motion(equations: Equations) -> list[Formula]:
-    rows = [equation("", row, ZERO) for row in equations.motion]
-    rates = [
-        equation("", Expr.generator(rate), value)
-        for rate, value in equations.kinematics.items()
-        if value != Expr.generator(rate)
-    ]
-    return [*rows, *rates, *_slips(equations)]
-
-
-def _slips(equations: Equations) -> list[Formula]:
+def _slip_symbols(equations: Equations) -> Iterator[Formula]:
     """What the symbols of contacts that slide stand for."""
-    sliding = [e for e in equations.kinetics.elements if isinstance(e, Sliding)]
-    meanings = [pair for element in sliding for pair in _meanings(equations, element)]
-    return [equation("", Expr.generator(letter), meaning) for letter, meaning in meanings]
-
-
-def _meanings(equations: Equations, element: Sliding) -> list[tuple[Symbol, Expr]]:
-    slips = slips_along(equations.kinetics, element, element.on.tangents)
-    size = Expr.generator(element.slip_speed)
-    told = list(zip(element.direction, (slip / size for slip in slips), strict=True))
-    told.append((element.slip_speed, sqrt(slips[0] ** 2 + slips[1] ** 2)))
-    if element.law.stribeck is not None:
-        told.append((element.slowness, element.law.slowness(size)))
-    return told
-
-
-def _reactions(equations: Equations) -> list[Formula]:
-    return [
-        equation("", Expr.generator(Symbol(name)), value)
-        for name, value in equations.components.items()
-        if name not in equations.undetermined
-    ]
+    for element in equations.kinetics.elements:
+        if not isinstance(element, Sliding):
+            continue
+        slips = slips_along(equations.kinetics, element, element.on.tangents)
+        speed = Expr.generator(element.slip_speed)
+        meanings = list(zip(element.direction, (slip / speed for slip in slips), strict=True))
+        meanings.append((element.slip_speed, sqrt(slips[0] ** 2 + slips[1] ** 2)))
+        if element.law.stribeck is not None:
+            meanings.append((element.slowness, element.law.slowness(speed)))
+        yield from (equation("", Expr.generator(s), meaning) for s, meaning in meanings)
 
 
 def parameters_of(run: Trajectory, meanings: Mapping[str, str]) -> tuple[SceneNumber, ...]:
@@ -138,7 +119,7 @@ def parameters_of(run: Trajectory, meanings: Mapping[str, str]) -> tuple[SceneNu
         _in_degrees(
             SceneNumber(
                 name,
-                symbol(Expr.generator(Symbol(name.rstrip("_"), SymbolKind.PARAMETER))),
+                inline(Expr.generator(Symbol(name.rstrip("_"), SymbolKind.PARAMETER))),
                 float(value),
                 "rad" if name in angles else str(dimensions.get(name, PURE)),
                 meanings.get(name, ""),
@@ -158,35 +139,27 @@ def _in_degrees(number: SceneNumber) -> SceneNumber:
 def start_of(run: Trajectory) -> tuple[SceneNumber, ...]:
     """Coordinates and speeds at the start."""
     names = [s.published for s in (*run.equations.coordinates, *run.equations.speeds)]
-    return tuple(
-        _in_degrees(SceneNumber(name, _letter(run, name), _first(values), quantity(run, name).unit))
-        for name, values in run.table(names).items()
-    )
-
-
-def _first(values: Array) -> float:
-    """The value at the start, without what the evaluation of a series leaves of zero."""
-    first = float(values[0])
-    return first if abs(first) > _NOTHING * max(largest(values), 1.0) else 0.0
+    found = []
+    for name, values in run.table(names).items():
+        first = float(values[0])
+        # The evaluation of a series leaves a little where zero is meant.
+        value = first if abs(first) > _NOTHING * max(largest(values), 1.0) else 0.0
+        number = SceneNumber(name, _letter(run, name), value, quantity(run, name).unit)
+        found.append(_in_degrees(number))
+    return tuple(found)
 
 
 def evidence_of(run: Trajectory) -> tuple[SceneNumber, ...]:
-    """Largest drift of everything that must stay as it is."""
+    """Largest drift of every conserved quantity."""
     drift = run.drift
-    return (
-        SceneNumber("energy − work done", "", drift.energy, "", "against the energy scale"),
-        *_loops(run),
-        *(
-            SceneNumber(name, "", value, "", "against its largest term")
-            for name, value in drift.invariants.items()
-        ),
-    )
-
-
-def _loops(run: Trajectory) -> Iterator[SceneNumber]:
-    """The largest gap of closed loops, where there are any."""
+    found = [SceneNumber("energy − work done", "", drift.energy, "", "against the energy scale")]
     if any(segment.dynamics.equations.closures for segment in run.segments):
-        yield SceneNumber("closed loops", "", run.drift.constraint, "m", "largest gap")
+        found.append(SceneNumber("closed loops", "", drift.constraint, "m", "largest gap"))
+    found += [
+        SceneNumber(name, "", value, "", "against its largest term")
+        for name, value in drift.invariants.items()
+    ]
+    return tuple(found)
 
 
 def happenings_of(run: Trajectory) -> tuple[SceneEvent, ...]:

@@ -114,7 +114,7 @@ def test_a_landing_disk_loses_energy() -> None:
 
 
 def test_goes_flat() -> None:
-    """Released leaning on a frictionless table it falls flat, which ends the motion by name."""
+    """Released leaning on a frictionless table it falls flat, which ends the motion."""
     run = ph.simulate(frictionless(), plain(), {"theta": 1.0}, 2.0, samples=2)
     last = run.events[-2]
     assert (last.kind, last.after) == ("goes flat", "near-flat")

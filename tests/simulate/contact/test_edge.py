@@ -183,5 +183,5 @@ def test_unlimited_friction_at_an_edge_is_refused_with_advice() -> None:
     sheet = ph.Sheet(lab, motion=(x, 0), edge=ph.symbol("edge"))
     system = ph.System(ph.Rolling(ball, on=sheet, name="sheet"), ph.Gravity(g))
     numbers = {"m": 0.05, "r": 0.02, "k": K, "g": G, "edge": 0.05}
-    with pytest.raises(ph.NumericError, match="friction coefficient mu"):
+    with pytest.raises(ph.NumericError, match=r"use Coulomb friction \(a coefficient mu\)"):
         ph.simulate(system, numbers, {"v_x": 0.55}, 2.0, forcing={"X": steady(0.5)}, samples=2)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from polhode.algebra._expression import Expr
-from polhode.algebra._generators import Symbol
+from polhode.algebra._ring import Symbol
 from polhode.algebra.printing._layout import layout
 from polhode.algebra.printing._names import GREEK, Spelling
 from polhode.algebra.printing._nodes import (
-    Fraction,
     PrintCall,
+    PrintFraction,
     PrintName,
     PrintNode,
     PrintNumber,
@@ -16,6 +16,8 @@ from polhode.algebra.printing._nodes import (
     PrintProduct,
     PrintSum,
 )
+
+_ACCENTS = ("", "dot", "ddot", "dddot")
 
 
 def latex(expression: Expr) -> str:
@@ -26,7 +28,14 @@ def latex(expression: Expr) -> str:
 def latex_of_symbol(symbol: Symbol) -> str:
     r"""LaTeX of a symbol: `\dot{\omega}_3` for omega_3_dot, `F'_{\rho}` for Fprime_rho."""
     spelling = Spelling.of(symbol)
-    return _dotted(_letter(spelling.stem), spelling.dots) + _marks(spelling)
+    subscript = ",".join(s if s.isdigit() else _letter(s) for s in spelling.subscripts)
+    below = f"_{subscript}" if len(subscript) == 1 else f"_{{{subscript}}}"
+    letter = _letter(spelling.stem)
+    if spelling.dots >= len(_ACCENTS):
+        letter = rf"{letter}^{{({spelling.dots})}}"
+    elif spelling.dots:
+        letter = rf"\{_ACCENTS[spelling.dots]}{{{letter}}}"
+    return letter + "'" * spelling.primes + (below if subscript else "")
 
 
 def mathml(formula: str) -> str:
@@ -40,23 +49,6 @@ def _letter(name: str) -> str:
     if name in GREEK:
         return rf"\{name}"
     return name if len(name) == 1 else rf"\mathrm{{{name}}}"
-
-
-_ACCENTS = ("", "dot", "ddot", "dddot")
-
-
-def _dotted(letter: str, dots: int) -> str:
-    if dots == 0:
-        return letter
-    if dots < len(_ACCENTS):
-        return rf"\{_ACCENTS[dots]}{{{letter}}}"
-    return rf"{letter}^{{({dots})}}"
-
-
-def _marks(spelling: Spelling) -> str:
-    subscript = ",".join(s if s.isdigit() else _letter(s) for s in spelling.subscripts)
-    below = f"_{subscript}" if len(subscript) == 1 else f"_{{{subscript}}}"
-    return "'" * spelling.primes + (below if subscript else "")
 
 
 class _Latex:
@@ -78,7 +70,7 @@ class _Latex:
                 return self._called("abs", "", argument) + raised
             case PrintCall(function=function, argument=argument):
                 return self._called(function, raised, argument)
-            case PrintSum() | PrintProduct() | Fraction() | PrintPower():
+            case PrintSum() | PrintProduct() | PrintFraction() | PrintPower():
                 return self._bracketed(base) + raised
         written = base.drawn(self)
         return f"{{{written}}}{raised}" if "'" in written or "^" in written else written + raised

@@ -3,20 +3,45 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator
-from fractions import Fraction as Rational
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from fractions import Fraction
 from functools import lru_cache
+from math import gcd
 from operator import add
-from typing import Any
+from typing import Any, TypeVar
 
-from polhode.algebra._expression import ZERO, Expr
-from polhode.algebra._factored import Factored, factorised, powers_of, products, terms
+from flint.utils.flint_exceptions import DomainError
+
+from polhode.algebra._expression import ONE, ZERO, Expr
+from polhode.algebra._forms import (
+    Factored,
+    content,
+    factorised,
+    in_shortest_squares,
+    over_cosines,
+    powers_of,
+    products,
+    terms,
+)
 from polhode.algebra._functions import Elementary, Exponential
-from polhode.algebra._generators import Generator, Symbol
 from polhode.algebra._parts import under_letters
-from polhode.algebra._ring import Monomial, Polynomial, Ring
-from polhode.algebra._squares import in_shortest_squares
-from polhode.algebra.printing._arrange import (
+from polhode.algebra._ring import Generator, Monomial, Polynomial, Ring, Symbol, as_fraction
+from polhode.algebra._roots import SquareRoot, is_plainly_positive
+from polhode.algebra.printing._nodes import (
+    PrintCall,
+    PrintName,
+    PrintNode,
+    PrintNumber,
+    PrintRadical,
+    PrintSum,
+    fraction,
+    power,
+    product,
+    total,
+)
+from polhode.algebra.printing._order import (
     CONSTANT_SUM,
     EXPONENTIAL,
     VARYING_SUM,
@@ -27,21 +52,7 @@ from polhode.algebra.printing._arrange import (
     radical_rank,
     term_rank,
 )
-from polhode.algebra.printing._nodes import (
-    PrintCall,
-    PrintName,
-    PrintNode,
-    PrintNumber,
-    PrintSum,
-    Radical,
-    fraction,
-    power,
-    product,
-    total,
-)
-from polhode.algebra.printing._quotient import shortest_quotient
-from polhode.algebra.printing._radicals import Radicals, gathered
-from polhode.algebra.printing._sums_of_angles import in_sums_of_angles
+from polhode.algebra.printing._shorter import in_sums_of_angles, shortest_quotient
 
 #: Terms are collected by constants, as in I₁(θ̇² + φ̇² sin²θ), only if so much is saved by it.
 _MUCH = 0.85
@@ -93,7 +104,7 @@ def _shortest(candidates: Iterable[PrintNode]) -> PrintNode:
     return min(candidates, key=lambda node: node.size)
 
 
-# --- sums ---
+# -- sums ------------------------------------------------------------------------------------------
 
 Powers = dict[Generator, int]
 
@@ -132,37 +143,42 @@ def _groups(
 def _collected(
     ring: Ring, groups: Iterable[tuple[Powers, Polynomial]], scale: Factored
 ) -> PrintNode:
-    nodes = (_group(ring, outer, coefficient, scale) for outer, coefficient in groups)
-    return total([term for node in nodes for term in _addends(node)])
-
-
-def _group(ring: Ring, outer: Powers, coefficient: Polynomial, scale: Factored) -> PrintNode:
-    if outer:
-        common = scale * Factored(powers=outer)
-        return _shortest(_term(ring, common * form) for form in products(ring, coefficient))
-    scaled = (scale * term for term in terms(ring, coefficient))
-    ordered = sorted(scaled, key=lambda term: term_rank(term.powers))
-    return total([_term(ring, term) for term in ordered])
+    nodes: list[PrintNode] = []
+    for outer, coefficient in groups:
+        if outer:
+            common = scale * Factored(powers=outer)
+            forms = (_term(ring, common * form) for form in products(ring, coefficient))
+            nodes += _addends(_shortest(forms))
+        else:
+            scaled = (scale * term for term in terms(ring, coefficient))
+            ordered = sorted(scaled, key=lambda term: term_rank(term.powers))
+            nodes += _addends(total([_term(ring, term) for term in ordered]))
+    return total(nodes)
 
 
 def _addends(node: PrintNode) -> tuple[PrintNode, ...]:
     return node.terms if isinstance(node, PrintSum) else (node,)
 
 
-# --- products ---
+# -- products --------------------------------------------------------------------------------------
 
 
 def _term(ring: Ring, factored: Factored) -> PrintNode:
-    sums = [(_sum_rank(ring, s), _sum(ring, s, Factored()), p) for s, p in factored.sums]
+    sums = []
+    for polynomial, exponent in factored.sums:
+        used = zip(ring.generators, polynomial.degrees(), strict=True)
+        constant = all(is_constant(g) for g, degree in used if degree > 0)
+        rank = CONSTANT_SUM if constant else VARYING_SUM
+        sums.append((rank, _sum(ring, polynomial, Factored()), exponent))
     return _product(factored, sums)
 
 
 def _product(factored: Factored, sums: list[Placed]) -> PrintNode:
     """A product with one fraction bar; the sums of `factored` are given as nodes."""
-    radicals = gathered(factored.number, factored.powers)
+    radicals = _gathered(factored.number, factored.powers)
     number = radicals.number
-    number, sums = _turned(number, sums, _is_all_negative)
-    number, sums = _turned(number, sums, _takes_a_sign)
+    number, sums = _turned(number, sums, lambda _, signs: all(signs))
+    number, sums = _turned(number, sums, lambda outside, signs: outside < 0 and any(signs))
     placed = [*_powers(radicals.powers), *_roots(radicals), *sums]
     placed.sort(key=lambda factor: factor[0])
     above = [power(node, p) for _, node, p in placed if p > 0]
@@ -171,39 +187,28 @@ def _product(factored: Factored, sums: list[Placed]) -> PrintNode:
 
 
 def _turned(
-    number: Rational, sums: list[Placed], wrong: Callable[[Rational, PrintNode], bool]
-) -> tuple[Rational, list[Placed]]:
-    """With the signs of sums turned where they are wrong, and the number's to match."""
+    number: Fraction, sums: list[Placed], wrong: Callable[[Fraction, list[bool]], bool]
+) -> tuple[Fraction, list[Placed]]:
+    """With the signs of sums turned where they are wrong, and the number's to match.
+
+    `wrong` decides by the number and by which terms of the sum are negative.
+    """
     turned = []
     for rank, node, exponent in sums:
-        if exponent % 2 and wrong(number, node):
+        if exponent % 2 and wrong(number, [term.is_negative for term in _addends(node)]):
             number, node = -number, total(list(_addends(node.negated())))
         turned.append((rank, node, exponent))
     return number, turned
 
 
-def _is_all_negative(_: Rational, node: PrintNode) -> bool:
-    return all(term.is_negative for term in _addends(node))
-
-
-def _takes_a_sign(outside: Rational, node: PrintNode) -> bool:
-    return outside < 0 and any(term.is_negative for term in _addends(node))
-
-
-def _sum_rank(ring: Ring, polynomial: Polynomial) -> Rank:
-    used = zip(ring.generators, polynomial.degrees(), strict=True)
-    constant = all(is_constant(g) for g, degree in used if degree > 0)
-    return CONSTANT_SUM if constant else VARYING_SUM
-
-
-def _roots(radicals: Radicals) -> Iterator[Placed]:
+def _roots(radicals: _Radicals) -> Iterator[Placed]:
     if radicals.power:
-        radicand = Radical(layout(radicals.radicand))
+        radicand = PrintRadical(layout(radicals.radicand))
         yield radical_rank(radicals.radicand.generators), radicand, radicals.power
     for size, exponent in radicals.sizes.items():
         yield absolute_value_rank(size.generators), PrintCall("abs", layout(size)), exponent
     for root, exponent in radicals.loose.items():
-        yield factor_rank(root), Radical(layout(root.radicand)), exponent
+        yield factor_rank(root), PrintRadical(layout(root.radicand)), exponent
 
 
 def _powers(powers: Powers) -> Iterator[Placed]:
@@ -225,3 +230,81 @@ def _generator(generator: Generator) -> PrintNode:
         case Symbol():
             return PrintName(generator)
     raise TypeError(f"{generator.key} is no symbol or function")
+
+
+# -- the roots of one term: √g/√a is printed √(g/a), and √(f²) is |f| ------------------------------
+
+K = TypeVar("K")
+
+
+@dataclass(frozen=True)
+class _Radicals:
+    """number · √radicand^power · Π |size|^power · Π loose root^power · Π generator^power."""
+
+    number: Fraction
+    radicand: Expr
+    power: int
+    sizes: dict[Expr, int]
+    loose: dict[SquareRoot, int]
+    powers: dict[Generator, int]
+
+
+def _gathered(number: Fraction, powers: Mapping[Generator, int]) -> _Radicals:
+    """The roots of a term, as far as their product is a root whatever the signs.
+
+    That is so for all whose radicands are positive, and for one more of unknown sign.
+    """
+    roots = {g: p for g, p in powers.items() if isinstance(g, SquareRoot)}
+    others = {g: p for g, p in powers.items() if g not in roots}
+    absolute = {root: _absolute_of(root) for root in roots}
+    sizes = {f: roots[root] for root, f in absolute.items() if f is not None}
+    below = {g: Expr.generator(g) for g, p in others.items() if p < 0 and p % 2 == 0}
+    squares = {below[g]: others[g] for g in below if below[g] in sizes}  # |f|/f² is 1/|f|
+    others = {g: p for g, p in others.items() if below.get(g) not in squares}
+    sizes = {f: p + squares.get(f, 0) for f, p in sizes.items()}
+    plain = {root: p for root, p in roots.items() if absolute[root] is None}
+    safe = {root: p for root, p in plain.items() if is_plainly_positive(root.radicand)}
+    loose = {root: p for root, p in plain.items() if root not in safe}
+    if list(loose.values()) == [1]:
+        safe, loose = plain, {}
+    power = max(safe.values(), default=0)
+    radicand = ONE
+    for root, exponent in safe.items():
+        radicand = radicand * root.radicand ** (exponent * power)
+    if power > 0:
+        number, radicand = _with_number_below(number, radicand)
+        radicand, sizes = _with_divisors_inside(radicand, {f: f for f in sizes}, sizes)
+        positive = {g: Expr.generator(g) for g in others if g.positive}
+        radicand, others = _with_divisors_inside(radicand, positive, others)
+    return _Radicals(number, radicand, power, sizes, loose, others)
+
+
+def _with_number_below(number: Fraction, radicand: Expr) -> tuple[Fraction, Expr]:
+    """√(2g)/2 is √(g/2)."""
+    inside = content(as_fraction(c) for c in radicand.num.coeffs()).numerator
+    shared = gcd(inside, number.denominator)
+    if shared == 1 or radicand.rational is not None:
+        return number, radicand
+    return number * shared, radicand / shared**2
+
+
+def _with_divisors_inside(
+    radicand: Expr, values: Mapping[K, Expr], powers: dict[K, int]
+) -> tuple[Expr, dict[K, int]]:
+    """√(q r)/q is √(r/q), for values q that are not negative."""
+    found = dict(powers)
+    for key, value in values.items():
+        if found[key] < 0 and (radicand.numerator / value).is_polynomial:
+            radicand = radicand / value**2
+            found[key] += 1
+    return radicand, {key: p for key, p in found.items() if p}
+
+
+@lru_cache(maxsize=1024)
+def _absolute_of(root: SquareRoot) -> Expr | None:
+    """The expression whose absolute value the root is, if it is one."""
+    ring, num = root.radicand.ring, root.radicand.num
+    for form in (num, over_cosines(ring, num), in_shortest_squares(ring, num)):
+        with suppress(DomainError):  # not a square
+            return Expr(ring, ring.reduce(form.sqrt()), ring.one)
+    return None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from polhode.algebra._generators import Symbol, SymbolKind
+from polhode.algebra._ring import Symbol, SymbolKind
 
 _GREEK_LETTERS = dict(
     zip(

@@ -1,4 +1,4 @@
-"""The display tree: what is printed where, decided once for all printers."""
+"""The display tree: the layout of an expression, made once for all printers."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from functools import cached_property
 from math import prod
 from typing import Protocol, TypeVar
 
-from polhode.algebra._generators import Symbol
+from polhode.algebra._ring import Symbol
 
 T = TypeVar("T")
 T_co = TypeVar("T_co", covariant=True)
@@ -74,7 +74,7 @@ class PrintNode(ABC):
 
 @dataclass(frozen=True)
 class PrintNumber(PrintNode):
-    """A whole number; a rational one is a `Fraction` of two."""
+    """A whole number; a rational one is a `PrintFraction` of two."""
 
     value: int
 
@@ -180,7 +180,7 @@ class PrintSum(PrintNode):
 
 
 @dataclass(frozen=True)
-class Fraction(PrintNode):
+class PrintFraction(PrintNode):
     """A quotient; its sign stands before it."""
 
     above: PrintNode
@@ -195,7 +195,7 @@ class Fraction(PrintNode):
 
 
 @dataclass(frozen=True)
-class Radical(PrintNode):
+class PrintRadical(PrintNode):
     """A square root."""
 
     radicand: PrintNode
@@ -223,8 +223,8 @@ def fraction(above: PrintNode, below: PrintNode) -> PrintNode:
     if below == PrintNumber(1):
         return above
     if above.is_negative:
-        return PrintProduct((PrintNumber(-1), Fraction(above.negated(), below)))
-    return Fraction(above, below)
+        return PrintProduct((PrintNumber(-1), PrintFraction(above.negated(), below)))
+    return PrintFraction(above, below)
 
 
 def power(base: PrintNode, exponent: int) -> PrintNode:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from polhode.algebra._expression import Expr
-from polhode.algebra._generators import Symbol
+from polhode.algebra._ring import Symbol
 from polhode.algebra.printing._layout import layout
 from polhode.algebra.printing._names import GREEK, Spelling
 from polhode.algebra.printing._nodes import (
-    Fraction,
     PrintCall,
+    PrintFraction,
     PrintName,
     PrintNode,
     PrintNumber,
@@ -60,13 +60,13 @@ class _Text:
 
     def fraction(self, above: PrintNode, below: PrintNode) -> str:
         over = self._bracketed(above, PrintSum)
-        return f"{over}/{self._bracketed(below, PrintSum, PrintProduct, Fraction)}"
+        return f"{over}/{self._bracketed(below, PrintSum, PrintProduct, PrintFraction)}"
 
     def radical(self, radicand: PrintNode) -> str:
         return f"sqrt({radicand.drawn(self)})"
 
     def _in_power(self, base: PrintNode) -> str:
-        return self._bracketed(base, PrintSum, PrintProduct, Fraction, PrintPower)
+        return self._bracketed(base, PrintSum, PrintProduct, PrintFraction, PrintPower)
 
     def _bracketed(self, node: PrintNode, *looser: type[PrintNode]) -> str:
         written = node.drawn(self)

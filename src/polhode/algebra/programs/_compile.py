@@ -11,21 +11,16 @@ from typing import Any, NamedTuple, TypeAlias
 
 from flint import fmpq
 
-from polhode.algebra._expression import ONE, ZERO, Expr
-from polhode.algebra._factored import extracted
-from polhode.algebra._forms import shortest
+from polhode.algebra._expression import ONE, ZERO, Expr, length
+from polhode.algebra._forms import Factors, extracted, shortest
 from polhode.algebra._functions import CIRCULAR, Elementary, exponentials
-from polhode.algebra._generators import Generator, Symbol
-from polhode.algebra._half_angles import Factors, lowest
-from polhode.algebra._linear import Matrix, Row, length
+from polhode.algebra._half_angles import lowest
 from polhode.algebra._parts import NamedPart
-from polhode.algebra._ring import Polynomial, Ring
-from polhode.algebra._roots import SquareRoot
-from polhode.algebra._special import PI
-from polhode.algebra.programs._centred import centred
-from polhode.algebra.programs._elimination import solve_on
+from polhode.algebra._ring import PI, Generator, Polynomial, Ring, Symbol, SymbolKind, as_fraction
+from polhode.algebra._roots import SquareRoot, factors
+from polhode.algebra._vector import Matrix, Row
 from polhode.algebra.programs._program import Op, Program
-from polhode.algebra.programs._tape import Tape, Value
+from polhode.algebra.programs._tape import Tape, Value, solve_on
 from polhode.base import DeclarationError, NumericError
 
 
@@ -142,10 +137,10 @@ class _TapeWriter:
         return self._fraction(min(forms, key=self._cost) if len(forms) > 1 else forms[0])
 
     def _exponential(self, factor: Expr, exponent: Expr) -> Value:
-        """Factor times one exp; apart, exp(a) and exp(−b) may be infinite and nothing."""
+        """Factor times one exp; separately, exp(a) may overflow where exp(−b) underflows."""
         if exponent.is_zero:
             return self.expression(factor)
-        near = centred(factor, exponent)
+        near = _centred(factor, exponent)
         if near is not None:
             self._values[near.distance] = self.expression(near.meaning)
         value = self.expression(factor if near is None else near.expression)
@@ -188,25 +183,23 @@ class _TapeWriter:
 
     def _symbol(self, symbol: Symbol) -> Value:
         if symbol in self._solves:
-            self._solve(self._solves[symbol])
+            solve = self._solves[symbol]
+            matrix, column = _divided(solve)
+            rows = [[self.expression(entry) for entry in row] for row in matrix.rows]
+            right = [self.expression(entry) for entry in column]
+            values = solve_on(self.tape, rows, right, symmetric=matrix == matrix.T)
+            self._values.update(zip(solve.unknowns, values, strict=True))
             return self._values[symbol]
         meaning = self._where(symbol)
         if meaning is not None:
             return self.expression(meaning)
-        if symbol == PI.symbol:
+        if symbol == PI:
             return self.tape.pi()
         raise DeclarationError(
             f"{symbol.published} has no value",
             expected="a value for every symbol that occurs",
             advice=f"give {symbol.published} or define it",
         )
-
-    def _solve(self, solve: LinearSolve) -> None:
-        matrix, column = _divided(solve)
-        rows = [[self.expression(entry) for entry in row] for row in matrix.rows]
-        right = [self.expression(entry) for entry in column]
-        values = solve_on(self.tape, rows, right, symmetric=matrix == matrix.T)
-        self._values.update(zip(solve.unknowns, values, strict=True))
 
     # -- polynomials ----------------------------------------------------------------------------
 
@@ -229,7 +222,7 @@ class _TapeWriter:
 
     def _scaled(self, ring: Ring, polynomial: Polynomial, number: Fraction) -> Value:
         """A number times a sum, the number multiplied in where that costs no step."""
-        coefficients = [_rational(c) for c in polynomial.coeffs()]
+        coefficients = [as_fraction(c) for c in polynomial.coeffs()]
         inside = sum(abs(c * number) != 1 for c in coefficients)
         outside = sum(abs(c) != 1 for c in coefficients) + (abs(number) != 1)
         if inside < outside:
@@ -260,7 +253,7 @@ class _TapeWriter:
         product = reduce(self.tape.multiply, powers, self.tape.one)
         if coefficient == 1:
             return product
-        return self.tape.multiply(self.tape.constant(_rational(coefficient)), product)
+        return self.tape.multiply(self.tape.constant(as_fraction(coefficient)), product)
 
 
 @lru_cache(maxsize=16384)
@@ -304,16 +297,12 @@ def _factored(ring: Ring, polynomial: Polynomial) -> tuple[Fraction, Factors]:
     if polynomial == 0:
         return Fraction(0), []
     if ring.has_parts or len(polynomial) > _LONG:
-        return _extracted(ring, polynomial)
+        # only what all terms have in common: with many generators, factorising rarely pays
+        outside = extracted(ring, polynomial)
+        powers = [(ring.variable(g), power) for g, power in outside.powers.items()]
+        return outside.number, [*powers, *outside.sums]
     content, factors = polynomial.factor()
-    return _rational(content), [(factor, int(exponent)) for factor, exponent in factors]
-
-
-def _extracted(ring: Ring, polynomial: Polynomial) -> tuple[Fraction, Factors]:
-    """Only what all terms have taken out: in many generators further factors are dear and rare."""
-    outside = extracted(ring, polynomial)
-    powers = [(ring.variable(g), power) for g, power in outside.powers.items()]
-    return outside.number, [*powers, *outside.sums]
+    return as_fraction(content), [(factor, int(exponent)) for factor, exponent in factors]
 
 
 def _most_shared(polynomial: Polynomial) -> tuple[int, int, int]:
@@ -341,5 +330,42 @@ def _split(
     return ring.context.from_dict(inner), ring.context.from_dict(rest)
 
 
-def _rational(number: Any) -> Fraction:
-    return Fraction(int(number.p), int(number.q))
+# -- sums about the centre of an exponent ----------------------------------------------------------
+#
+# The second derivative of exp(−(t − c)²/w²) has the factor 2(t − c)² − w². Multiplied out, as
+# 2t² − 4ct + 2c² − w², it loses the digits of t²/w².
+
+
+class _Centred(NamedTuple):
+    """An expression written with a distance.
+
+    Attributes:
+        expression: with the distance as a symbol.
+        distance: that symbol.
+        meaning: what the distance is.
+    """
+
+    expression: Expr
+    distance: Symbol
+    meaning: Expr
+
+
+def _centred(factor: Expr, exponent: Expr) -> _Centred | None:
+    """The factor of an exp, written with a distance that is a factor of the exponent.
+
+    None where that is not shorter.
+    """
+    ways = []
+    for meaning, power in factors(exponent)[1].items():
+        if power <= 0 or len(meaning.num) < 2:
+            continue
+        # In a fixed order: of equally short ways the first is taken, whatever the hash seed is.
+        for symbol in sorted(meaning.symbols(), key=lambda s: s.published):
+            slope = meaning.diff(symbol)
+            if slope.generators:
+                continue  # it is not linear in the symbol with a number as coefficient
+            distance = Symbol(f"({meaning.key})", SymbolKind.PARAMETER)
+            image = Expr.generator(symbol) + (Expr.generator(distance) - meaning) / slope
+            ways.append(_Centred(factor.subs({symbol: image}), distance, meaning))
+    best = min(ways, key=lambda way: length(way.expression), default=None)
+    return best if best is not None and length(best.expression) < length(factor) else None

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 from types import CodeType, FunctionType
 from typing import Any, NamedTuple, TypeAlias
 
-from polhode.algebra._generators import Symbol
+from polhode.algebra._ring import Symbol
 from polhode.base import NumericError
 
 
@@ -102,7 +102,12 @@ class Program:
             NumericError: for a coefficient beyond the arithmetic's numbers.
         """
         names = {f"_{op.value}": call for op, call in arithmetic.functions.items()}
-        names |= _numbers(self, arithmetic)
+        names |= {
+            f"c{i}": _rounded(Fraction(step.value or 0), arithmetic)
+            for i, step in enumerate(self.instructions)
+            if step.op is Op.CONST
+        }
+        names["pi"] = arithmetic.pi
         return FunctionType(_code(self), {"__builtins__": {}, **names})
 
 
@@ -111,17 +116,6 @@ def arrays() -> Arithmetic:
     import numpy
 
     return Arithmetic.of(numpy)
-
-
-def _numbers(program: Program, arithmetic: Arithmetic) -> dict[str, Any]:
-    """The constants, under the names by which the code knows them."""
-    steps = enumerate(program.instructions)
-    constants = {
-        f"c{i}": _rounded(Fraction(step.value or 0), arithmetic)
-        for i, step in steps
-        if step.op is Op.CONST
-    }
-    return {**constants, "pi": arithmetic.pi}
 
 
 def _rounded(value: Fraction, arithmetic: Arithmetic) -> Any:
@@ -139,27 +133,22 @@ def _rounded(value: Fraction, arithmetic: Arithmetic) -> Any:
 def _code(program: Program) -> CodeType:
     """The steps as Python; every name in it is made here, whatever the symbols are called."""
     slots = _Slots(program)
-    lines = [f"{slots.taken(i)} = {step}" for i, step in _steps(program, slots)]
-    results = "".join(f"{_operand(program, slots, i)}, " for i in program.outputs)
-    arguments = ", ".join(f"a{i}" for i in range(len(program.arguments)))
-    body = "\n ".join([*lines, f"return ({results})"])
-    compiled = compile(f"def program({arguments}):\n {body}", "<program>", "exec")
-    return next(code for code in compiled.co_consts if isinstance(code, CodeType))
-
-
-def _steps(program: Program, slots: _Slots) -> Iterator[tuple[int, str]]:
+    lines = []
     for i, (op, operands, _) in enumerate(program.instructions):
         if op in _GIVEN:
             continue
         parts = [_operand(program, slots, operand) for operand in operands]
         slots.release(operands)
-        yield i, _applied(op, parts)
-
-
-def _applied(op: Op, parts: list[str]) -> str:
-    if op in _SIGNS:
-        return _SIGNS[op].join(parts)
-    return f"-{parts[0]}" if op is Op.NEG else f"_{op.value}({parts[0]})"
+        if op in _SIGNS:
+            step = _SIGNS[op].join(parts)
+        else:
+            step = f"-{parts[0]}" if op is Op.NEG else f"_{op.value}({parts[0]})"
+        lines.append(f"{slots.taken(i)} = {step}")
+    results = "".join(f"{_operand(program, slots, i)}, " for i in program.outputs)
+    arguments = ", ".join(f"a{i}" for i in range(len(program.arguments)))
+    body = "\n ".join([*lines, f"return ({results})"])
+    compiled = compile(f"def program({arguments}):\n {body}", "<program>", "exec")
+    return next(code for code in compiled.co_consts if isinstance(code, CodeType))
 
 
 def _operand(program: Program, slots: _Slots, i: int) -> str:

@@ -107,7 +107,10 @@ def _keeps_at_rest(element: Element) -> bool:
 
 
 def _elements(mechanics: Mechanics) -> Iterator[Entry]:
-    """Velocity, force and moments of contacts and pivots; a plain letter is that of any of them."""
+    """Velocity, force and moments of contacts and pivots, any of which a plain letter may mean.
+
+    Loads have their forces.
+    """
     kinetics = mechanics.equations.kinetics
     for element in kinetics.elements:
         forces = [r for r in kinetics.restraints[element.name] if not r.is_couple]
@@ -124,6 +127,8 @@ def _elements(mechanics: Mechanics) -> Iterator[Entry]:
             yield Name("v", label, decoration=_VECTOR), (f"velocity of {element.name}",)
             yield Name("L", label, decoration=_VECTOR), (f"angular momentum about {element.name}",)
             yield Name("tau", label, decoration=_VECTOR), (f"torque about {element.name}",)
+    for load in mechanics.equations.system.loads:
+        yield Name("F", load.name, decoration=_VECTOR), (f"force of {load.name}",)
 
 
 def _directions(mechanics: Mechanics) -> Iterator[Entry]:

@@ -16,7 +16,7 @@ from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Node
 from polhode.claims.meaning._meaning import Meaning, Tensor
 from polhode.derive import Equations
-from polhode.model import Body, Frame, Gravity, Restraint
+from polhode.model import Action, Body, Frame, Gravity, Load, Restraint
 
 
 @dataclass(frozen=True, eq=False)
@@ -198,7 +198,13 @@ class Mechanics:
         return total
 
     def force(self, of: str) -> Vector:
-        """The force of one contact or joint on its body, N."""
+        """The force of one contact, joint or load on its first body, N; of gravity on all."""
+        for load in self.equations.system.loads:
+            if load.name == of:
+                actions = self._actions(load)
+                body = load.bodies[0] if load.bodies else None
+                forces = (a.force for a in actions if body in (None, a.body))
+                return sum(forces, self.body.axes.zero)
         names = {restraint.name for restraint in self._restraints(of) if not restraint.is_couple}
         return self._sum_of_reactions(names)
 
@@ -235,13 +241,16 @@ class Mechanics:
 
     def gravity(self) -> Vector:
         """Acceleration of gravity, m/s²."""
-        system, known = self.equations.system, self.declared
-        for load in system.loads:
+        for load in self.equations.system.loads:
             if isinstance(load, Gravity):
-                velocities = {b: (known.places[b].dt(), b.angular_velocity) for b in system.bodies}
-                first = load.actions(system.bodies, known.places, velocities)[0]
+                first = self._actions(load)[0]
                 return first.force / first.body.mass
         raise DeclarationError("gravity", expected="a system with the load Gravity")
+
+    def _actions(self, load: Load) -> tuple[Action, ...]:
+        bodies, places = self.equations.system.bodies, self.declared.places
+        velocities = {b: (places[b].dt(), b.angular_velocity) for b in bodies}
+        return load.actions(bodies, places, velocities)
 
     # -- energies -------------------------------------------------------------------------------
 

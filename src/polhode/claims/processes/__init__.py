@@ -1,1 +1,1 @@
-"""Judging in processes of their own, which end where it takes too much."""
+"""Claims judged in worker processes, which are ended where they take too long."""

@@ -1,11 +1,11 @@
-"""Motions side by side: in the lanes of vector instructions, and with their derivatives."""
+"""Many motions at once, in the lanes of vector instructions; and motions with derivatives."""
 
 from polhode.simulate.batch._batch_results import LAST as LAST
 from polhode.simulate.batch._batch_results import BatchResults as BatchResults
+from polhode.simulate.batch._batch_system import BatchSolution as BatchSolution
 from polhode.simulate.batch._batch_system import Plan as Plan
-from polhode.simulate.batch._single_mode_batch import BatchSolution as BatchSolution
-from polhode.simulate.batch._single_mode_batch import SingleModeBatch as SingleModeBatch
-from polhode.simulate.batch._single_mode_batch import abreast as abreast
+from polhode.simulate.batch._batch_system import SingleModeBatch as SingleModeBatch
+from polhode.simulate.batch._batch_system import abreast as abreast
 from polhode.simulate.batch._variational_equations import ConstantInterval as ConstantInterval
 from polhode.simulate.batch._variational_equations import Dual as Dual
 from polhode.simulate.batch._variational_equations import (

@@ -1,35 +1,97 @@
-"""One contact mode, for many motions at once."""
+"""One contact mode, for many motions at once: what they start from, and what ends them."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from polhode.algebra import ZERO, Expr, Matrix, Symbol
+from polhode.algebra import ZERO, Expr, Matrix, Symbol, sqrt
 from polhode.base import look_up
-from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
-from polhode.simulate._readable import readable
-from polhode.simulate.batch._batch_stage import BatchArrivals, BatchStage
-from polhode.simulate.batch._endings import Ending
+from polhode.derive import Guard
+from polhode.simulate._dynamics import CLOCK, WORK, Dynamics, readable
+from polhode.simulate._task import AS_DECLARED
 from polhode.simulate.batch._forcing_intervals import ForcingIntervals
-from polhode.simulate.batch._lanes import Lanes
-from polhode.simulate.integrate._rows import rows
-from polhode.simulate.integrate._stepping import Array
+from polhode.simulate.batch._lanes import BatchArrivals, BatchStage, Lanes
+from polhode.simulate.contact._auxiliary_states import slip_symbols
+from polhode.simulate.contact._hybrid_system import CompiledMode
+from polhode.simulate.integrate._arrays import Array, rows
 
-_CLEAR = 1e-9  # of a guard, relative to the largest: further above its least value is no doubt
-#: Slip speed, relative to the velocities around, that is as good as none. Not sooner: where the
-#: friction hardly exceeds what it opposes, the slip turns all the way down to nothing.
+# -- what ends the motions of a contact mode -------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Ending:
+    """A condition that ends motions within a mode.
+
+    Attributes:
+        positive: while the mode lasts, but for a least value.
+        kind: of the event that ends the motion as a whole; empty where it goes on from there.
+        mode: that a motion ends in.
+        guard: of the contact mode, if the motion goes on in another.
+        least: value at which it has fallen.
+        slips: the slip velocity that vanishes soon after.
+    """
+
+    positive: Expr
+    kind: str
+    mode: str
+    guard: Guard | None = None
+    least: float = 0.0
+    slips: tuple[Symbol, Symbol] | None = None
+
+
+def endings_of(mode: CompiledMode, near_flat: float, until: Collection[str]) -> tuple[Ending, ...]:
+    """The conditions that end a mode, in the order of its guards."""
+    found, name = list[Ending](), mode.mode.name
+    for guard in mode.mode.guards:
+        if guard.kind == "near-flat":
+            found.append(Ending(guard.positive, "goes flat", guard.kind, guard, near_flat))
+            continue
+        kind = guard.kind if guard.kind in until else ""
+        if guard.kind != "sticks":
+            found.append(Ending(guard.positive, kind, name, guard))
+            continue
+        contacts = (touch.contact for touch in mode.mode.touches)
+        slips = next(
+            slip_symbols(c) for c in contacts if guard.contact and c.name == guard.contact.name
+        )
+        if set(slips) <= set(mode.flow.core.symbols):
+            first, second = (Expr.generator(s) for s in slips)
+            speed = sqrt(first * first + second * second)
+            found.append(Ending(speed, kind, name, guard, slips=slips))
+    return (*found, *vanishings_of(mode.dynamics, name))
+
+
+def vanishings_of(dynamics: Dynamics, mode: str) -> Iterator[Ending]:
+    """Lengths that vanish: such a motion is integrated by itself.
+
+    In a Taylor series the length goes on below zero, where it counts as a fallen guard.
+    """
+    for root in dynamics.lengths:
+        length = Expr.generator(root)
+        yield Ending(length, "", mode, Guard(None, "vanishes", length))
+
+
+def sides_of(positive: Collection[Expr]) -> tuple[Ending, ...]:
+    """The side for which equations of one mode were derived."""
+    return tuple(Ending(side, "", AS_DECLARED) for side in positive)
+
+
+_CLEAR = 1e-9  # of the largest value of a guard: motions that start closer to its fall are in doubt
+#: Slip speed, relative to the velocities around, at which slip ends. No larger: where friction
+#: hardly exceeds what it opposes, the slip keeps turning all the way down to zero.
 STILL = 1e-12
-_NEARLY = 1e-6  # of the determinant of a matrix: less of it is as good as none
+_NEARLY = 1e-6  # of the determinant at the start: less counts as zero
 
 Quantity = str | Symbol | Expr
 
 
 class BatchSegment:
-    """What many motions do while they stay in one contact mode.
+    """Integrates many motions while they stay in one contact mode.
 
     Args:
         dynamics: the equations.
@@ -38,8 +100,8 @@ class BatchSegment:
         quantities: that are to be read.
         names: of all quantities of the system: those that this mode does not have are zero in it.
         tolerance: relative, of one step.
-        stretches: of prescribed motions.
-        whole: whether other modes follow, that need all states, or only what is read counts.
+        intervals: of prescribed motions.
+        whole: whether other modes follow, which need all states; else only what is read counts.
         square: a matrix that must stay regular.
     """
 
@@ -51,7 +113,7 @@ class BatchSegment:
         quantities: Collection[Quantity],
         names: Collection[str],
         tolerance: float | None,
-        stretches: ForcingIntervals,
+        intervals: ForcingIntervals,
         *,
         whole: bool = False,
         square: Matrix | None = None,
@@ -62,23 +124,23 @@ class BatchSegment:
         self._square = square
         self._names = names
         self._tolerance = tolerance
-        self._stretches = stretches
+        self._intervals = intervals
         self._whole = whole
         self.states = self._needed(quantities)
 
     @property
     def doubtful(self) -> int:
-        """The guard that only tells that a motion cannot be followed."""
+        """The guard after all others: a motion that it ends has to be integrated by itself."""
         return len(self.endings)
 
-    def launch(
+    def stage(
         self,
         begin: Array,
         states: Mapping[Symbol, Array],
         constants: Mapping[Symbol, Array],
         scales: Array,
     ) -> BatchStage:
-        """Motions that are taken up in this mode.
+        """Motions that enter this mode.
 
         Args:
             begin: s.
@@ -94,34 +156,34 @@ class BatchSegment:
             rows([states.get(s, rest) for s in self.states], len(begin)),
             self.ordered(constants, len(begin)),
             rows([*least, *jams], len(begin)),
-            self._stretches.until_jerk(begin),
+            self._intervals.until_jerk(begin),
         )
         if jams:
             found.least[-1] = _NEARLY * np.abs(self.lanes.guarded(found)[-1])
         return found
 
     def ordered(self, constants: Mapping[Symbol, Array], count: int) -> Array:
-        """Constants of so many motions as the equations take them, shape (parameters, motions)."""
+        """Constants of many motions as the equations take them, shape (parameters, motions)."""
         values: Array = rows([constants[s] for s in self.dynamics.parameters], count)
         return values
 
-    def clear(self, launch: BatchStage) -> NDArray[np.bool_]:
-        """Motions that are taken up where all is finite, and no guard is anywhere near its fall."""
+    def clear(self, stage: BatchStage) -> NDArray[np.bool_]:
+        """Motions that start where all rates are finite and no guard is near its fall."""
         with np.errstate(all="ignore"):
-            above = self.lanes.guarded(launch)
-        rates = self.lanes.values([self._rates[s] for s in self.states], launch)
+            above = self.lanes.guarded(stage)
+        rates = self.lanes.values([self._rates[s] for s in self.states], stage)
         sizes = np.where(np.isfinite(above), np.abs(above), 0.0)
         least = _CLEAR * np.max(sizes, axis=1, initial=0.0, keepdims=True)
         finite = np.all(np.isfinite(rates), axis=0)
         return np.asarray(finite & np.all(above > least, axis=0), dtype=bool)
 
-    def follow(self, launch: BatchStage, times: Array) -> BatchArrivals:
-        """All motions to every one of some times, as far as they go."""
-        return self.lanes.follow(launch, times)
+    def follow(self, stage: BatchStage, times: Array) -> BatchArrivals:
+        """Integrate all motions to each of some times, as far as they go."""
+        return self.lanes.follow(stage, times)
 
-    def rates(self, launch: BatchStage) -> Array:
-        """Of the states where motions are taken up, shape (states, motions)."""
-        return self.lanes.values([self._rates[s] for s in self.states], launch)
+    def rates(self, stage: BatchStage) -> Array:
+        """Rates of the states where motions start, shape (states, motions)."""
+        return self.lanes.values([self._rates[s] for s in self.states], stage)
 
     def values(
         self,
@@ -131,7 +193,7 @@ class BatchSegment:
         constants: Mapping[Symbol, Array],
     ) -> Array:
         """A quantity of many motions, each at its own time; shape (motions,)."""
-        there = self.launch(times, states, constants, np.zeros(len(times)))
+        there = self.stage(times, states, constants, np.zeros(len(times)))
         (found,) = self.lanes.values([self._expression(quantity)], there)
         return np.asarray(found, dtype=float)
 
@@ -156,7 +218,7 @@ class BatchSegment:
         return rates | {WORK: dynamics.equations.power}
 
     def _needed(self, quantities: Collection[Quantity]) -> tuple[Symbol, ...]:
-        """The states that what is asked for depends on, and those that these depend on."""
+        """The states that some quantities and the endings depend on, directly or through rates."""
         rates = self._rates
         asked = [self._expression(quantity) for quantity in quantities]
         wanted = self._read([*asked, *(ending.positive for ending in self.endings)])
@@ -174,6 +236,8 @@ class BatchSegment:
     @cached_property
     def lanes(self) -> Lanes:
         """The compiled equations."""
+        dynamics = self.dynamics
+        motions = (dynamics.prescribed.get(f, ZERO) for f in dynamics.equations.functions)
         return Lanes(
             self.dynamics,
             self.states,
@@ -181,13 +245,7 @@ class BatchSegment:
             [ending.positive for ending in self.endings],
             self._square,
             self._tolerance,
-            self._stretches,
-            driven=self._is_driven,
+            self._intervals,
+            # The time since a knot of a prescribed motion does not count.
+            driven=any(CLOCK in motion.symbols() for motion in motions),
         )
-
-    @property
-    def _is_driven(self) -> bool:
-        """Whether the time itself occurs, and not only that since a knot."""
-        dynamics = self.dynamics
-        motions = (dynamics.prescribed.get(f, ZERO) for f in dynamics.equations.functions)
-        return any(CLOCK in motion.symbols() for motion in motions)

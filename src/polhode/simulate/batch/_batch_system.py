@@ -1,31 +1,121 @@
-"""What is followed many times over: a system with its contact modes, or equations of one mode."""
+"""A system, with its contact modes or in one of them, for many motions at once."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Protocol
 
-from polhode.algebra import Symbol
+import numpy as np
+from numpy.typing import NDArray
+
+from polhode.algebra import Expr, Matrix, Symbol
 from polhode.derive import Automaton
 from polhode.model import Contact, Coulomb
-from polhode.simulate._dynamics import Dynamics, EquationsOfMotion
-from polhode.simulate._names import Name
-from polhode.simulate._readable import readable
+from polhode.simulate._dynamics import Dynamics, EquationsOfMotion, readable
+from polhode.simulate._names import Name, by_name, published
 from polhode.simulate._task import AS_DECLARED, Task
-from polhode.simulate._values import idle_parameters, read_parameters
+from polhode.simulate._values import idle_parameters, read_parameters, read_values
 from polhode.simulate.batch._batch_results import BatchResults
-from polhode.simulate.batch._batch_scheduler import BatchScheduler
-from polhode.simulate.batch._batch_segment import BatchSegment, Quantity
-from polhode.simulate.batch._endings import endings_of, sides_of, vanishings_of
+from polhode.simulate.batch._batch_scheduler import BatchScheduler, SingleTrajectoryStepper
+from polhode.simulate.batch._batch_segment import (
+    BatchSegment,
+    Quantity,
+    endings_of,
+    sides_of,
+    vanishings_of,
+)
 from polhode.simulate.batch._forcing_intervals import ForcingIntervals
-from polhode.simulate.batch._mode_batch import ModeBatch, Phases, Starts
-from polhode.simulate.batch._single_trajectory import SingleTrajectoryStepper
-from polhode.simulate.contact._checks import check_numbers
+from polhode.simulate.batch._mode_batch import Group, ModeBatch, Phases, Starts
 from polhode.simulate.contact._hybrid_system import HybridSystem
+from polhode.simulate.contact._through_modes import can_be_followed, check_numbers
 from polhode.simulate.forcing._prescribed_motion import prescribed_motion
+from polhode.simulate.integrate._arrays import Array, rows
+from polhode.simulate.integrate._integrators import chosen
 from polhode.simulate.integrate._stepping import Integrator
+
+# -- start values of many motions, and whether they are in any doubt -------------------------------
+
+_ROUNDING = 1e-9  # relative: flat bodies are at the limit of the inequality of principal moments
+
+Mask = NDArray[np.bool_]
+
+
+def filled(
+    symbols: Sequence[Symbol],
+    common: Mapping[Symbol, float],
+    columns: Mapping[str, Array],
+    count: int,
+) -> dict[Symbol, Array]:
+    """Values of symbols for every motion: what differs, what is common, or zero."""
+    return {
+        s: np.asarray(columns.get(s.published, np.full(count, common.get(s, 0.0))), dtype=float)
+        for s in symbols
+    }
+
+
+@dataclass(frozen=True)
+class BatchStart:
+    """Many motions at time 0.
+
+    Attributes:
+        dynamics: the equations of the mode in which they start.
+        states: by symbol, shape (motions,).
+        constants: of all parameters, likewise.
+        contacts: whose coefficients count.
+    """
+
+    dynamics: Dynamics
+    states: Mapping[Symbol, Array]
+    constants: Mapping[Symbol, Array]
+    contacts: Sequence[Contact]
+
+    @property
+    def _count(self) -> int:
+        return len(next(iter((*self.states.values(), *self.constants.values()))))
+
+    def possible(self) -> Mask:
+        """The motions whose numbers bodies and contacts can have."""
+        fine = np.ones(self._count, dtype=bool)
+        for symbol, values in self.constants.items():
+            fine &= np.isfinite(values) & ((values > 0) | (not symbol.positive))
+        for body in getattr(self.dynamics.equations.system, "bodies", ()):
+            fine &= self._values([body.mass])[0] > 0
+            first, second, third = self._moments(body.inertia, fine).T
+            fine &= (first >= 0) & (first + second >= third * (1 - _ROUNDING))
+        for contact in self.contacts:
+            (restitution,) = self._values([contact.restitution])
+            fine &= (restitution >= 0) & (restitution <= 1)
+            if isinstance(contact, Coulomb):
+                kinetic, static = self._values([contact.mu, contact.mu_static])
+                fine &= (kinetic >= 0) & (static >= kinetic)
+        return fine
+
+    def regular(self) -> Mask:
+        """The motions with finite rates and a positive definite mass matrix at the start."""
+        fine = np.all(np.isfinite(self._values(self.dynamics.rates)), axis=0)
+        mass = self.dynamics.equations.mass
+        if mass == mass.T:
+            fine &= self._moments(mass, fine)[:, 0] > 0
+        return np.asarray(fine)
+
+    def _moments(self, matrix: Matrix, fine: Mask) -> Array:
+        """Eigenvalues of a symmetric matrix for every motion, rising; shape (motions, size)."""
+        size = len(matrix.rows)
+        entries = self._values([e for row in matrix.rows for e in row])
+        finite = fine & np.all(np.isfinite(entries), axis=0)
+        matrices = np.where(finite, entries, np.eye(size).reshape(-1, 1)).T
+        return np.asarray(np.linalg.eigvalsh(matrices.reshape(-1, size, size)))
+
+    def _values(self, expressions: Sequence[Expr]) -> Array:
+        """Values at the start, shape (expressions, motions)."""
+        states = [self.states[s] for s in self.dynamics.states]
+        constants = [self.constants[s] for s in self.dynamics.parameters]
+        with np.errstate(all="ignore"):
+            found = self.dynamics.function(expressions)(*states, *constants, 0.0)
+        values: Array = rows(found, self._count)
+        return values
 
 
 @dataclass(frozen=True)
@@ -68,16 +158,16 @@ class Plan:
 
 
 class BatchSystem(Protocol):
-    """What is followed many times over."""
+    """A system of which many motions are integrated."""
 
     @property
-    def stretches(self) -> ForcingIntervals:
+    def intervals(self) -> ForcingIntervals:
         """Of its prescribed motions."""
         ...
 
     @property
     def phases(self) -> Phases:
-        """Of the contacts in the mode that motions are expected to start in."""
+        """Phases of the contacts in the mode that motions are expected to start in."""
         ...
 
     @property
@@ -87,7 +177,7 @@ class BatchSystem(Protocol):
 
     @property
     def contacts(self) -> tuple[Contact, ...]:
-        """Whose coefficients count."""
+        """The contacts whose coefficients are checked."""
         ...
 
     @property
@@ -95,31 +185,31 @@ class BatchSystem(Protocol):
         """All parameters of one motion."""
         ...
 
-    def stay(self, phases: Phases) -> BatchSegment:
-        """What motions do in a mode."""
+    def batch_segment(self, phases: Phases) -> BatchSegment:
+        """A mode, for many motions."""
         ...
 
-    def company(self, sightings: BatchResults, starts: Starts) -> ModeBatch:
-        """What follows them."""
+    def batch(self, results: BatchResults, starts: Starts) -> ModeBatch:
+        """Integrates a batch of motions."""
         ...
 
 
 @dataclass(frozen=True)
 class OneMode:
-    """Equations that are kept to."""
+    """Equations of one mode, whose contacts are kept as declared."""
 
     dynamics: Dynamics
     numbers: Mapping[Symbol, float]
     plan: Plan
-    stretches: ForcingIntervals
+    intervals: ForcingIntervals
     phases: Phases = ()
     contacts: tuple[Contact, ...] = ()
 
-    def stay(self, phases: Phases) -> BatchSegment:
-        return self._stay
+    def batch_segment(self, phases: Phases) -> BatchSegment:
+        return self._only_segment
 
     @cached_property
-    def _stay(self) -> BatchSegment:
+    def _only_segment(self) -> BatchSegment:
         plan, sides = self.plan, self.dynamics.equations.assumed_positive
         return BatchSegment(
             self.dynamics,
@@ -128,84 +218,81 @@ class OneMode:
             plan.quantities,
             (),
             plan.tolerance,
-            self.stretches,
+            self.intervals,
         )
 
-    def company(self, sightings: BatchResults, starts: Starts) -> ModeBatch:
-        return ModeBatch(self.stay, sightings)
+    def batch(self, results: BatchResults, starts: Starts) -> ModeBatch:
+        return ModeBatch(self.batch_segment, results)
 
 
 @dataclass(frozen=True)
 class AllModes:
     """A system that goes from contact mode to contact mode."""
 
-    machine: HybridSystem
+    hybrid: HybridSystem
     plan: Plan
     numbers: Mapping[Symbol, float]
-    stretches: ForcingIntervals
+    intervals: ForcingIntervals
     _known: dict[Phases, BatchSegment] = field(default_factory=dict)
 
     @property
     def phases(self) -> Phases:
-        return self.machine.automaton.together.phases
+        return self.hybrid.automaton.together.phases
 
     @property
     def dynamics(self) -> Dynamics:
-        return self.machine.mode(self.phases).dynamics
+        return self.hybrid.mode(self.phases).dynamics
 
     @property
     def contacts(self) -> tuple[Contact, ...]:
-        return self.machine.automaton.contacts
+        return self.hybrid.automaton.contacts
 
     @cached_property
     def goes_on(self) -> bool:
-        """Whether motions are followed beyond their first mode.
+        """Whether motions are integrated beyond their first mode.
 
-        Where nothing rubs or jerks they hardly ever leave it, and need not be known in full.
+        Without friction or jerks they hardly ever leave it: only what is read is integrated.
         """
-        if len(self.stretches.jerks):
+        if len(self.intervals.jerks):
             return True
         rubs = any(isinstance(contact, Coulomb) for contact in self.contacts)
-        endings = endings_of(self.machine.mode(self.phases), 0.0, self.plan.until)
+        endings = endings_of(self.hybrid.mode(self.phases), 0.0, self.plan.until)
         return rubs and not all(ending.kind for ending in endings)
 
-    def stay(self, phases: Phases) -> BatchSegment:
+    def batch_segment(self, phases: Phases) -> BatchSegment:
         if phases not in self._known:
-            self._known[phases] = self._made(phases)
+            mode, plan = self.hybrid.mode(phases), self.plan
+            self._known[phases] = BatchSegment(
+                mode.dynamics,
+                mode.mode.name,
+                endings_of(mode, plan.near_flat, plan.until),
+                plan.quantities,
+                readable(self.dynamics, {}),
+                plan.tolerance,
+                self.intervals,
+                whole=self.goes_on,
+                square=mode.mode.equations.mass if mode.can_jam else None,
+            )
         return self._known[phases]
 
-    def _made(self, phases: Phases) -> BatchSegment:
-        mode, plan = self.machine.mode(phases), self.plan
-        return BatchSegment(
-            mode.dynamics,
-            mode.mode.name,
-            endings_of(mode, plan.near_flat, plan.until),
-            plan.quantities,
-            readable(self.dynamics, {}),
-            plan.tolerance,
-            self.stretches,
-            whole=self.goes_on,
-            square=mode.mode.equations.mass if mode.can_jam else None,
-        )
-
-    def company(self, sightings: BatchResults, starts: Starts) -> ModeBatch:
+    def batch(self, results: BatchResults, starts: Starts) -> ModeBatch:
         if not self.goes_on:
-            return ModeBatch(self.stay, sightings)
-        pilot = SingleTrajectoryStepper(
-            self.machine, self.plan.task(self.machine.integrator), self.stretches
+            return ModeBatch(self.batch_segment, results)
+        stepper = SingleTrajectoryStepper(
+            self.hybrid, self.plan.task(self.hybrid.integrator), self.intervals
         )
-        return BatchScheduler(self.stay, sightings, pilot, starts)
+        return BatchScheduler(self.batch_segment, results, stepper, starts)
 
 
 def one_mode(equations: EquationsOfMotion, plan: Plan) -> OneMode | None:
-    """Equations that are kept to; None where their supports jerk on the way, or loops close."""
+    """Equations of one mode; None if a support jerks on the way, or loops close."""
     drive = prescribed_motion(equations.functions, plan.forcing, plan.duration)
-    stretches = ForcingIntervals(drive, plan.duration)
-    if len(stretches.jerks) or equations.closures:
+    intervals = ForcingIntervals(drive, plan.duration)
+    if len(intervals.jerks) or equations.closures:
         return None
     dynamics = Dynamics(equations, drive.expressions, idle_parameters(equations, plan.parameters))
     numbers = read_parameters(dynamics, plan.parameters, drive.constants(0.0))
-    return OneMode(dynamics, numbers, plan, stretches)
+    return OneMode(dynamics, numbers, plan, intervals)
 
 
 def all_modes(modes: Automaton, plan: Plan, integrator: Integrator) -> AllModes:
@@ -215,6 +302,104 @@ def all_modes(modes: Automaton, plan: Plan, integrator: Integrator) -> AllModes:
     idle = idle_parameters(equations, plan.parameters)
     common = Dynamics(equations, drive.expressions, (*modes.parameters, *idle))
     numbers = read_parameters(common, plan.parameters, drive.constants(0.0))
-    machine = HybridSystem(modes, drive, numbers, integrator, plan.tolerance)
-    check_numbers(machine)
-    return AllModes(machine, plan, numbers, ForcingIntervals(drive, plan.duration))
+    hybrid = HybridSystem(modes, drive, numbers, integrator, plan.tolerance)
+    check_numbers(hybrid)
+    return AllModes(hybrid, plan, numbers, ForcingIntervals(drive, plan.duration))
+
+
+# -- the whole batch -------------------------------------------------------------------------------
+#
+# A motion in any doubt is left out, to be integrated by itself.
+
+
+@dataclass(frozen=True)
+class BatchSolution:
+    """The motions of a batch.
+
+    Attributes:
+        kept: which of them are complete; the others are to be integrated by themselves.
+        seen: their states and events.
+    """
+
+    kept: NDArray[np.bool_]
+    seen: BatchResults
+
+
+class SingleModeBatch:
+    """Many motions of one system at once.
+
+    Args:
+        subject: what is followed.
+        start: SI start values of one motion, where all of them are states of the first mode.
+    """
+
+    def __init__(self, subject: BatchSystem, start: Mapping[Symbol, float] | None) -> None:
+        self._subject = subject
+        self._start = start
+
+    @property
+    def keeps_to_one_mode(self) -> bool:
+        """Whether contacts are kept as declared."""
+        return not self._subject.contacts
+
+    def follow(
+        self,
+        count: int,
+        columns: Mapping[str, Array],
+        times: Array,
+        starts: Starts,
+    ) -> BatchSolution:
+        """Integrate all motions together.
+
+        Args:
+            count: of motions.
+            columns: SI values of what differs, by published name, shape (motions,).
+            times: of the samples, s, increasing from 0 to the duration.
+            starts: start values of one motion, as `simulate` takes them.
+        """
+        subject, dynamics = self._subject, self._subject.dynamics
+        constants = filled(tuple(subject.numbers), subject.numbers, columns, count)
+        states = filled(dynamics.states, self._start or {}, columns, count)
+        at_once = subject.intervals.from_then(np.zeros(count))
+        begun = BatchStart(dynamics, states, constants | at_once, subject.contacts)
+        possible = begun.possible()
+        usual = possible & begun.regular() & (self._start is not None)
+        first = subject.batch_segment(subject.phases).mode
+        results = BatchResults.of(count, times, constants, subject.intervals, first)
+        batch = subject.batch(results, starts)
+        rows = np.flatnonzero(usual)
+        zero, own = np.zeros(len(rows)), {s: values[rows] for s, values in states.items()}
+        group = Group(rows, zero, own, zero, [None] * len(rows), [0] * len(rows))
+        batch.together(subject.phases, group)
+        for row in np.flatnonzero(possible & ~usual).tolist():
+            batch.start(row)
+        batch.run()
+        possible[sorted(batch.lost)] = False
+        return BatchSolution(possible, batch.results)
+
+
+def abreast(subject: Automaton | EquationsOfMotion, plan: Plan) -> SingleModeBatch | None:
+    """A system for many motions; None if they cannot be integrated together.
+
+    Raises:
+        DeclarationError: for numbers that are not known, missing or impossible.
+    """
+    integrator = chosen()
+    if integrator.name != "heyoka":
+        return None
+    if isinstance(subject, Automaton) and not (subject.contacts and can_be_followed(subject)):
+        subject = subject.together.equations
+    found: BatchSystem | None
+    if isinstance(subject, Automaton):
+        found = all_modes(subject, plan, integrator)
+    else:
+        found = one_mode(subject, plan)
+    if found is None or found.dynamics.undecided:
+        return None  # each motion changes the sides of absolute values at times of its own
+    names = by_name(found.dynamics.states)
+    start: dict[Name, Any] = {published(name): value for name, value in plan.start.items()}
+    if not start.keys() <= names.keys():
+        return SingleModeBatch(found, None)
+    dimensions = getattr(found.dynamics.equations, "dimensions", {})
+    values = read_values(start, names, "state of this mode", dimensions, found.numbers)
+    return SingleModeBatch(found, values)

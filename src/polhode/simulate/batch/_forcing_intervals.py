@@ -1,4 +1,4 @@
-"""Prescribed motions that change from stretch to stretch, as many motions at once have them."""
+"""Prescribed motions whose coefficients change at given times, for many motions at once."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 from polhode.algebra import Symbol
 from polhode.simulate.forcing._pieces import Pieces
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion
-from polhode.simulate.integrate._stepping import Array
+from polhode.simulate.integrate._arrays import Array
 
-_SMOOTH = 1e-9  # change of an acceleration, over the largest one, that no force notices
+_SMOOTH = 1e-9  # of the largest acceleration: a smaller jump does not count
 
 
 @dataclass(frozen=True)
 class ForcingIntervals:
-    """Coefficients of prescribed motions, each set for a stretch of time.
+    """Coefficients of prescribed motions, constant on intervals of time.
 
     Attributes:
         drive: the prescribed motions.
@@ -55,7 +55,7 @@ class ForcingIntervals:
 
     @cached_property
     def _table(self) -> Array:
-        """Shape (symbols, stretches)."""
+        """Shape (symbols, intervals)."""
         rows = [list(self.drive.constants(t).values()) for t in self._begins.tolist()]
         return np.array(rows, dtype=float).reshape(len(rows), len(self.symbols)).T
 
@@ -67,15 +67,15 @@ class ForcingIntervals:
         """Coefficients that hold up to some times."""
         return self._held(np.searchsorted(self.breaks, times, "left"))
 
-    def _held(self, stretches: NDArray[np.intp]) -> dict[Symbol, Array]:
-        return dict(zip(self.symbols, self.table(stretches), strict=True))
+    def _held(self, intervals: NDArray[np.intp]) -> dict[Symbol, Array]:
+        return dict(zip(self.symbols, self.table(intervals), strict=True))
 
-    def table(self, stretches: NDArray[np.intp]) -> Array:
-        """Coefficients of some stretches, by their places; shape (symbols, stretches)."""
-        return self._table[:, stretches]
+    def table(self, intervals: NDArray[np.intp]) -> Array:
+        """Coefficients on some intervals, by their numbers; shape (symbols, intervals)."""
+        return self._table[:, intervals]
 
     def begun_before(self, time: float) -> float:
-        """Beginning of the stretch that lasts until a time, s."""
+        """Beginning of the interval that lasts until a time, s."""
         return float(self._begins[np.searchsorted(self.breaks, time, "left")])
 
     def until_jerk(self, begin: Array) -> Array:
@@ -87,42 +87,38 @@ def _abrupt(pieces: Pieces) -> Iterator[float]:
     """Knots at which the second derivative changes."""
     knots = pieces.knots
     after = pieces.acceleration(knots)
-    before = np.concatenate([[0.0], _ends(pieces)])
+    powers = np.arange(2, pieces.coefficients.shape[1])
+    factors = powers * (powers - 1) * np.diff(pieces.knots)[:, None] ** (powers - 2)
+    at_ends = np.sum(pieces.coefficients[:, 2:] * factors, axis=1)
+    before = np.concatenate([[0.0], at_ends])
     largest = max(float(np.max(np.abs(after))), float(np.max(np.abs(before))))
     yield from knots[np.abs(after - before) > _SMOOTH * largest].tolist()
 
 
-def _ends(pieces: Pieces) -> Array:
-    """Second derivatives at the ends of all pieces."""
-    powers = np.arange(2, pieces.coefficients.shape[1])
-    factors = powers * (powers - 1) * np.diff(pieces.knots)[:, None] ** (powers - 2)
-    return np.asarray(np.sum(pieces.coefficients[:, 2:] * factors, axis=1))
-
-
 @dataclass(frozen=True)
 class PauseTimes:
-    """Times at which many motions pause: to be looked at, or since what drives them changes.
+    """Times at which motions pause: for a sample, or since coefficients of the forcing change.
 
     Attributes:
         times: s, rising.
-        looks: place of each among the times that were asked for, or -1.
+        samples: place of each among the requested times, or -1.
         held: coefficients that hold up to each, shape (symbols, times), in their order.
         abrupt: where forces may jump.
     """
 
     times: Array
-    looks: list[int]
+    samples: list[int]
     held: Array
     abrupt: list[bool]
 
     @classmethod
-    def of(cls, asked: Array, stretches: ForcingIntervals) -> PauseTimes:
-        """Of the times that were asked for, and those of the prescribed motions."""
-        times = np.union1d(asked, stretches.breaks)
+    def of(cls, asked: Array, intervals: ForcingIntervals) -> PauseTimes:
+        """Requested times together with the breaks of the prescribed motions."""
+        times = np.union1d(asked, intervals.breaks)
         places = {time: place for place, time in enumerate(asked.tolist())}
         return cls(
             times,
             [places.get(time, -1) for time in times.tolist()],
-            stretches.table(np.searchsorted(stretches.breaks, times, "left")),
-            [time in stretches.abrupt for time in times.tolist()],
+            intervals.table(np.searchsorted(intervals.breaks, times, "left")),
+            [time in intervals.abrupt for time in times.tolist()],
         )

@@ -1,4 +1,4 @@
-"""Many motions that go abreast through one contact mode, for as long as each stays in it."""
+"""Integrates many motions together through one contact mode, for as long as each stays in it."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ from polhode.model import Phase
 from polhode.simulate._names import Name
 from polhode.simulate.batch._batch_results import LAST, BatchResults, Rows
 from polhode.simulate.batch._batch_segment import STILL, BatchSegment
-from polhode.simulate.batch._batch_stage import NONE, BatchArrivals, BatchStage
+from polhode.simulate.batch._lanes import NONE, BatchArrivals, BatchStage
 from polhode.simulate.contact._mode_state import ModeState
-from polhode.simulate.integrate._stepping import Array
+from polhode.simulate.integrate._arrays import Array
 
-_AT_ONCE = 4096  # motions that are taken up together: memory is bounded, lanes are full
-_LANDED = 1e-10  # slip speed, relative to the velocities around, that is none
+_AT_ONCE = 4096  # motions that are integrated together: enough to fill lanes, in bounded memory
+_LANDED = 1e-10  # slip speed, relative to the velocities around, that counts as none
 
 Phases = tuple[Phase, ...]
-Stays = Callable[[Phases], BatchSegment]
+SegmentFor = Callable[[Phases], BatchSegment]
 Starts = Callable[[int], Mapping[Name, Any]]
 
 
 @dataclass(frozen=True)
 class Group:
-    """Motions that are taken up together in one mode.
+    """Motions that enter one mode and are integrated together.
 
     Attributes:
         rows: which ones they are.
@@ -50,7 +50,7 @@ class Group:
 
 @dataclass(frozen=True)
 class BatchExit:
-    """Where a motion leaves a mode.
+    """How a motion leaves a mode.
 
     Attributes:
         phases: of the contacts, in the mode.
@@ -71,59 +71,66 @@ class ModeBatch:
     """Motions of one system, each with its own numbers, in their first mode.
 
     Args:
-        stays: what many motions do in a mode.
-        sightings: where they are seen and what happens to them.
+        batch_segments: the modes, for many motions.
+        results: records their states and events.
 
     Attributes:
-        sightings: the same.
-        lost: motions that are to be followed by themselves from their start.
+        results: the same.
+        lost: motions that are to be integrated by themselves from their start.
     """
 
-    def __init__(self, stays: Stays, sightings: BatchResults) -> None:
-        self._stays = stays
-        self.sightings = sightings
+    def __init__(self, batch_segments: SegmentFor, results: BatchResults) -> None:
+        self._batch_segment = batch_segments
+        self.results = results
         self.lost: set[int] = set()
 
     def start(self, row: int) -> None:
-        """Take up a motion of which it is not clear what mode it starts in."""
+        """Start a motion of which it is not clear what mode it starts in."""
         self.lost.add(row)
 
     def run(self) -> None:
-        """Follow all that wait for others, until nobody does."""
+        """Integrate the motions that wait for others, until none is left."""
 
     def together(self, phases: Phases, group: Group) -> None:
-        """Follow motions through one mode."""
-        stay = self._stays(phases)
-        constants = self.sightings.constants_from(group.rows, group.begin)
-        launch = stay.launch(group.begin, group.states, constants, group.scales)
-        clear = stay.clear(launch)
+        """Integrate motions through one mode."""
+        batch_segment = self._batch_segment(phases)
+        constants = self.results.constants_from(group.rows, group.begin)
+        stage = batch_segment.stage(group.begin, group.states, constants, group.scales)
+        clear = batch_segment.clear(stage)
         for i in np.flatnonzero(~clear).tolist():
             self._doubt(int(group.rows[i]), group.entries[i])
         which = np.flatnonzero(clear)
         for begin in range(0, len(which), _AT_ONCE):
-            self._abreast(phases, group, launch, which[begin : begin + _AT_ONCE])
+            self._abreast(phases, group, stage, which[begin : begin + _AT_ONCE])
 
     def _leave(self, row: int, departure: BatchExit) -> None:
         """A motion leaves the mode, and does not end there."""
         self.lost.add(row)
 
     def _doubt(self, row: int, entry: ModeState | None) -> None:
-        """A motion begins where one cannot be sure that it stays in the mode at all."""
+        """A motion starts so close to a guard that it may not stay in the mode at all."""
         self.lost.add(row)
 
-    def _abreast(self, phases: Phases, group: Group, launch: BatchStage, which: Rows) -> None:
-        stay, rows, launch = self._stays(phases), group.rows[which], launch.some(which)
-        found = self._landed(stay, rows, launch, stay.follow(launch, self.sightings.times[1:]))
-        self._note(stay, rows, launch, found)
+    def _abreast(self, phases: Phases, group: Group, stage: BatchStage, which: Rows) -> None:
+        batch_segment, times = self._batch_segment(phases), self.results.times
+        rows, stage = group.rows[which], stage.some(which)
+        found = self._landed(batch_segment, rows, stage, batch_segment.follow(stage, times[1:]))
+        starts = np.flatnonzero(stage.begin == 0.0)
+        self.results.record(0, batch_segment, rows[starts], stage.states[:, starts])
+        for sample, time in enumerate(self.results.times[1:-1]):
+            there = np.flatnonzero((stage.begin <= time) & (time < found.end))
+            self.results.record(
+                sample + 1, batch_segment, rows[there], found.states[sample][:, there]
+            )
         self.lost |= set(rows[~found.good].tolist())
         on = found.good & (found.guard == NONE)
-        over = found.end >= self.sightings.times[-1]
-        self._finish(stay, rows, found, on & over, "", stay.mode)
+        over = found.end >= self.results.times[-1]
+        self._finish(batch_segment, rows, found, on & over, "", batch_segment.mode)
         self._go_on(phases, group, which, found, on & ~over, None)
-        for k, ending in enumerate(stay.endings):
+        for k, ending in enumerate(batch_segment.endings):
             here = found.good & (found.guard == k)
             if ending.kind:
-                self._finish(stay, rows, found, here, ending.kind, ending.mode)
+                self._finish(batch_segment, rows, found, here, ending.kind, ending.mode)
             else:
                 self._go_on(phases, group, which, found, here, ending.guard)
 
@@ -137,7 +144,7 @@ class ModeBatch:
         guard: Guard | None,
     ) -> None:
         """Motions go on in another mode."""
-        symbols = self._stays(phases).states
+        symbols = self._batch_segment(phases).states
         for j in np.flatnonzero(here).tolist():
             state = dict(zip(symbols, found.states[-1, :, j].tolist(), strict=True))
             changes = group.changes[which[j]]
@@ -145,55 +152,45 @@ class ModeBatch:
             self._leave(int(group.rows[which[j]]), departure)
 
     def _landed(
-        self, stay: BatchSegment, rows: Rows, launch: BatchStage, found: BatchArrivals
+        self, batch_segment: BatchSegment, rows: Rows, stage: BatchStage, found: BatchArrivals
     ) -> BatchArrivals:
-        """The arrivals, moved on to where slips vanish that nearly have.
+        """The arrivals, extrapolated to where slips that have nearly ended vanish.
 
-        What is left of the way is so short that it takes no time to speak of.
+        The remaining time is so short that a linear extrapolation is exact to rounding.
         """
         states, end, good = found.states.copy(), found.end.copy(), found.good.copy()
-        good &= found.guard != stay.doubtful
-        for k, ending in enumerate(stay.endings):
+        good &= found.guard != batch_segment.doubtful
+        for k, ending in enumerate(batch_segment.endings):
             here = np.flatnonzero(found.guard == k)
             if ending.slips is None or not len(here):
                 continue
-            constants = self.sightings.constants_until(rows[here], end[here])
-            there = launch.some(here).moved(
-                end[here], states[-1][:, here], stay.ordered(constants, len(here))
+            constants = self.results.constants_until(rows[here], end[here])
+            there = stage.some(here).moved(
+                end[here], states[-1][:, here], batch_segment.ordered(constants, len(here))
             )
-            rates = stay.rates(there)
-            places = [stay.states.index(s) for s in ending.slips]
+            rates = batch_segment.rates(there)
+            places = [batch_segment.states.index(s) for s in ending.slips]
             slip, change = there.states[places], rates[places]
             left = -np.sum(slip * change, axis=0) / np.sum(change * change, axis=0)
             states[-1][:, here] += left * rates
             end[here] += left
             miss = np.hypot(*(slip + left * change))
-            good[here] &= miss <= _LANDED / STILL * launch.least[k, here]
+            good[here] &= miss <= _LANDED / STILL * stage.least[k, here]
         return replace(found, states=states, end=end, good=good)
-
-    def _note(
-        self, stay: BatchSegment, rows: Rows, launch: BatchStage, found: BatchArrivals
-    ) -> None:
-        """States at the looks before the last."""
-        starts = np.flatnonzero(launch.begin == 0.0)
-        self.sightings.note(0, stay, rows[starts], launch.states[:, starts])
-        for look, time in enumerate(self.sightings.times[1:-1]):
-            there = np.flatnonzero((launch.begin <= time) & (time < found.end))
-            self.sightings.note(look + 1, stay, rows[there], found.states[look][:, there])
 
     def _finish(
         self,
-        stay: BatchSegment,
+        batch_segment: BatchSegment,
         rows: Rows,
         found: BatchArrivals,
         here: NDArray[np.bool_],
         kind: str,
         mode: str,
     ) -> None:
-        """The end of motions, by an event or not."""
+        """Record the end of motions, by an event or not."""
         which = np.flatnonzero(here)
-        self.sightings.note(LAST, stay, rows[which], found.states[-1][:, which])
+        self.results.record(LAST, batch_segment, rows[which], found.states[-1][:, which])
         for row, time in zip(rows[which].tolist(), found.end[which].tolist(), strict=True):
-            self.sightings.finish(row, time, mode)
+            self.results.finish(row, time, mode)
             if kind:
-                self.sightings.happened(row, time, kind)
+                self.results.record_event(row, time, kind)

@@ -1,7 +1,7 @@
-"""A motion together with its derivatives by parameters and start values.
+"""A motion with its derivatives by parameters and start values.
 
-Every step of the compiled equations is carried out on numbers that carry their derivatives along,
-so that the variational equations are exact and never written out.
+The compiled equations are evaluated on dual numbers (forward differentiation), so that the
+variational equations are exact and never written out.
 """
 
 from __future__ import annotations
@@ -15,17 +15,17 @@ import numpy as np
 
 from polhode.algebra import Arithmetic, Expr, Op, Program, Symbol, arrays
 from polhode.simulate._dynamics import CLOCK, Dynamics
+from polhode.simulate.integrate._arrays import Array, rows
 from polhode.simulate.integrate._integrators import chosen
-from polhode.simulate.integrate._rows import rows
-from polhode.simulate.integrate._stepping import Array, broken
+from polhode.simulate.integrate._stepping import broken
 
-_TOLERANCE = 1e-13  # of Runge-Kutta's steps
+_TOLERANCE = 1e-13  # relative, of Runge–Kutta steps
 _ABSOLUTE = 1e-14
 
 
 @dataclass(frozen=True)
 class Dual:
-    """A number and its derivatives; the derivatives may be those of an array of numbers.
+    """A dual number: a number, or an array of numbers, with derivatives.
 
     Attributes:
         value: the number.
@@ -35,7 +35,7 @@ class Dual:
     value: Any
     slopes: Any
 
-    __array_ufunc__ = None  # an array times such a number is such a number
+    __array_ufunc__ = None  # so that an array times a dual number is a dual number
 
     def __add__(self, other: Any) -> Dual:
         value, slopes = _parts(other)
@@ -76,7 +76,7 @@ def _parts(number: Any) -> tuple[Any, Any]:
 
 
 def duals(plain: Arithmetic) -> Arithmetic:
-    """The arithmetic of numbers with derivatives, over that of plain ones."""
+    """The arithmetic of dual numbers, from that of plain ones."""
     f = plain.functions
     slopes: dict[Op, Callable[[Any, Any], Any]] = {
         Op.SQRT: lambda x, y: 1 / (2 * y),
@@ -101,7 +101,7 @@ def duals(plain: Arithmetic) -> Arithmetic:
 
 @dataclass(frozen=True)
 class ConstantInterval:
-    """A time in which the same constants hold.
+    """An interval of time in which the same constants hold.
 
     Attributes:
         begin: s.
@@ -133,13 +133,13 @@ class VariationalEquations:
         self._quantities = dynamics.program(quantities, arguments)
 
     def follow(
-        self, start: Array, stretches: Sequence[ConstantInterval], times: Array
+        self, start: Array, intervals: Sequence[ConstantInterval], times: Array
     ) -> tuple[Array, Array]:
         """Quantities and their derivatives along one motion.
 
         Args:
-            start: of all states, where the first stretch begins.
-            stretches: one after the other, from the start on.
+            start: of all states, where the first interval begins.
+            intervals: one after the other, from the start on.
             times: s, within them.
 
         Returns:
@@ -148,23 +148,27 @@ class VariationalEquations:
         Raises:
             NumericError: where the motion cannot be continued.
         """
-        whole = np.concatenate([start, self._at_start.ravel()])
+        slopes_at_start = np.array([self._slopes(s)[:, 0] for s in self._dynamics.states])
+        whole = np.concatenate([start, slopes_at_start.ravel()])
         values = np.empty((len(self._quantities.outputs), len(times)))
         slopes = np.empty((len(values), len(self._by), len(times)))
-        begins = [stretch.begin for stretch in stretches]
+        begins = [interval.begin for interval in intervals]
         which = np.clip(np.searchsorted(begins, times, "right") - 1, 0, None)
-        for i, stretch in enumerate(stretches):
+        for i, interval in enumerate(intervals):
             here = which == i
-            path = self._path(whole, stretch, np.append(times[here], stretch.end))
+            path = self._path(whole, interval, np.append(times[here], interval.end))
             whole = path[:, -1]
-            values[:, here], slopes[:, :, here] = self._read(path[:, :-1], stretch, times[here])
+            values[:, here], slopes[:, :, here] = self._read(path[:, :-1], interval, times[here])
         return values, slopes
 
-    def _read(self, path: Array, stretch: ConstantInterval, times: Array) -> tuple[Array, Array]:
+    def _read(self, path: Array, interval: ConstantInterval, times: Array) -> tuple[Array, Array]:
         size = len(self._dynamics.states)
         slopes = path[size:].reshape(size, len(self._by), len(times))
         numbers = [Dual(x, s) for x, s in zip(path[:size], slopes, strict=True)]
-        constants = [_constant(p, self._slopes(s)) for s, p in self._valued(stretch.constants)]
+        constants = [
+            Dual(p, slope) if np.any(slope := self._slopes(s)) else p
+            for s, p in self._valued(interval.constants)
+        ]
         found = self._quantities.function(duals(arrays()))(*numbers, *constants, times)
         values = rows([_parts(q)[0] for q in found], len(times))
         shape = (len(self._by), len(times))
@@ -178,18 +182,13 @@ class VariationalEquations:
         """Derivatives of a quantity that is given, shape (by, 1)."""
         return np.array([[float(symbol == other)] for other in self._by])
 
-    @property
-    def _at_start(self) -> Array:
-        """Derivatives of the states at the start, shape (states, by)."""
-        return np.array([self._slopes(s)[:, 0] for s in self._dynamics.states])
-
-    def _path(self, whole: Array, stretch: ConstantInterval, times: Array) -> Array:
+    def _path(self, whole: Array, interval: ConstantInterval, times: Array) -> Array:
         """States and then their derivatives, shape (states × (1 + by), times)."""
         solved = self._taylor if chosen().name == "heyoka" else self._runge_kutta
-        grid = np.unique(np.append(stretch.begin, times))
-        found = solved(whole, stretch.constants, grid)
+        grid = np.unique(np.append(interval.begin, times))
+        found = solved(whole, interval.constants, grid)
         if not np.all(np.isfinite(found)):
-            raise broken(stretch.end)
+            raise broken(interval.end)
         return found[:, np.searchsorted(grid, times)]
 
     def _taylor(self, whole: Array, parameters: Array, grid: Array) -> Array:
@@ -258,10 +257,6 @@ class VariationalEquations:
         if solution.status != 0:
             raise broken(float(solution.t[-1]) if len(solution.t) else 0.0)
         return np.asarray(solution.y, dtype=float)
-
-
-def _constant(value: float, slopes: Array) -> Any:
-    return Dual(value, slopes) if np.any(slopes) else value
 
 
 def _slopes_of(number: Any, shape: tuple[int, ...]) -> Any:

@@ -1,24 +1,54 @@
-"""Where bodies and supports meet, in numbers."""
+"""The state that all contact modes share, and the kinematics of every contact in it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from polhode.algebra import Expr, linear_parts
-from polhode.derive import Automaton, Mode, Touch
-from polhode.simulate.contact._state import Function, State
-from polhode.simulate.integrate._number_types import NumberType
-from polhode.simulate.integrate._stepping import Array
+from polhode.derive import Automaton, Mode
+from polhode.simulate.integrate._arrays import Array
+from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 
-_ROUNDING = 16  # steps of rounding of the coordinates: a distance from an edge that is none
+#: Of a state, a time, and the values of extra symbols.
+Function = Callable[[Array, float, Sequence[float]], Array]
+
+
+@dataclass(frozen=True)
+class State:
+    """A state that all modes share: in terms of the mode in which nothing touches.
+
+    Attributes:
+        coordinates: of that mode.
+        speeds: of that mode.
+        work: done so far by everything that is not in the potential, J.
+    """
+
+    time: float
+    coordinates: Array
+    speeds: Array
+    work: float = 0.0
+
+    def rounded(self) -> State:
+        """The same in doubles."""
+        double = DOUBLES.array
+        return State(
+            float(self.time), double(self.coordinates), double(self.speeds), float(self.work)
+        )
+
+    def with_impulse(self, change: Array, work: Any) -> State:
+        """After an impulse has changed the speeds and done work."""
+        return replace(self, speeds=self.speeds + change, work=self.work + work)
+
+
+_ROUNDING = 16  # units in the last place of the coordinates: a distance from an edge that is zero
 
 
 class Touching:
-    """Where bodies and supports meet, from the shared state."""
+    """The kinematics of all contacts as functions of the shared state."""
 
     def __init__(
         self,
@@ -36,6 +66,13 @@ class Touching:
     def _seen(self, mode: Mode) -> Function:
         speeds = mode.equations.speeds
         motion = mode.equations.kinetics
+        supports = list[Expr]()  # velocities of the supports at the contacts
+        for touch in mode.touches:
+            contact, surface = touch.contact, touch.contact.on
+            place = motion.places[contact.body] + contact.arm
+            velocity = motion.resolve(surface.velocity(place).express(surface.axes))
+            labels = (*surface.tangents, surface.normal)
+            supports += [velocity.dot(surface.axes[label]) for label in labels]
         velocities = [v for t in mode.touches for v in (*t.slip, t.closing)]
         parts = [linear_parts(motion.on_speeds(v), speeds) for v in velocities]
         return self._compiled(
@@ -43,70 +80,74 @@ class Touching:
                 *(t.gap for t in mode.touches),
                 *(t.reserve for t in mode.touches),
                 *(t.reserve.chain(motion.rate) for t in mode.touches),
-                *(v for t in mode.touches for v in _support_velocity(mode, t)),
+                *supports,
                 *(rest for _, rest in parts),
                 *(c for row, _ in parts for c in row),
             ]
         )
 
-    def at(self, place: State, beyond: frozenset[int]) -> list[ContactKinematics]:
+    def at(self, shared: State, beyond: frozenset[int]) -> list[ContactKinematics]:
         """Every contact, at one instant; some of them beyond the edge of their support."""
-        here = self._meetings(self._here, place)
+        here = self._points(self._here, shared)
         if not beyond:
             return here
-        there = self._meetings(self._there, place)
-        return [there[i] if i in beyond else meeting for i, meeting in enumerate(here)]
+        there = self._points(self._there, shared)
+        return [there[i] if i in beyond else point for i, point in enumerate(here)]
 
-    def beyond(self, place: State) -> frozenset[int]:
+    def scale(self, shared: State, beyond: frozenset[int]) -> Any:
+        """Size of the velocities that slips are the difference of, m/s."""
+        return max((point.scale for point in self.at(shared, beyond)), default=0.0)
+
+    def beyond(self, shared: State) -> frozenset[int]:
         """The contacts that are beyond the edge of their support, or are about to be."""
         if not self._edges:
             return frozenset()
-        rounding = _ROUNDING * self._numbers.spacing(max(abs(q) for q in place.coordinates))
-        found = enumerate(self._meetings(self._here, place))
-        return frozenset(i for i, meeting in found if meeting.is_beyond(rounding))
+        rounding = _ROUNDING * self._numbers.spacing(max(abs(q) for q in shared.coordinates))
+        found = enumerate(self._points(self._here, shared))
+        return frozenset(i for i, point in found if point.is_beyond(rounding))
 
-    def _meetings(self, function: Function, place: State) -> list[ContactKinematics]:
-        state = np.concatenate([place.coordinates, place.speeds])
-        found = function(state, place.time, ())
+    def _points(self, function: Function, shared: State) -> list[ContactKinematics]:
+        state = np.concatenate([shared.coordinates, shared.speeds])
+        found = function(state, shared.time, ())
         count = self._shape[0]
         gaps, reserves, drifts = found[: 3 * count].reshape(3, count)
         supports, rests = found[3 * count : 9 * count].reshape(2, count, 3)
-        arms = found[9 * count :].reshape(self._shape)
+        jacobian = found[9 * count :].reshape(self._shape)
         return [
             ContactKinematics(
                 gap,
                 reserve,
                 drift,
-                rest + arm @ place.speeds,
+                rest + arm @ shared.speeds,
                 arm,
                 support,
-                np.max(np.abs(rest) + np.abs(arm) @ np.abs(place.speeds), initial=0.0),
+                np.max(np.abs(rest) + np.abs(arm) @ np.abs(shared.speeds), initial=0.0),
             )
             for gap, reserve, drift, support, rest, arm in zip(
-                gaps, reserves, drifts, supports, rests, arms, strict=True
+                gaps, reserves, drifts, supports, rests, jacobian, strict=True
             )
         ]
 
 
 @dataclass(frozen=True)
 class ContactKinematics:
-    """A contact at one instant.
+    """The kinematics of one contact at an instant.
 
     Attributes:
         gap: m.
         reserve: how far it is on this side of the support's edge, m.
         drift: rate of that, m/s.
         velocity: of the body's point against the support: along it twice, and away from it, m/s.
-        arms: the same per unit of every shared speed, shape (3, speeds).
+        jacobian: of that velocity by the shared speeds, shape (3, speeds).
         support: velocity of the support there, in inertial space, m/s.
-        scale: size of what the velocity is the sum of, m/s.
+        scale: size of the terms that the velocity is the sum of, m/s.
     """
 
     gap: float
     reserve: float
     drift: float
     velocity: Array
-    arms: Array
+    jacobian: Array
     support: Array
     scale: float
 
@@ -114,7 +155,7 @@ class ContactKinematics:
         """Whether it is beyond the edge; at the edge, whether it does not come back from there.
 
         Args:
-            rounding: distance from the edge that is none, m.
+            rounding: distance from the edge that counts as zero, m.
         """
         if abs(self.reserve) <= rounding:
             return bool(self.drift <= 0)
@@ -125,14 +166,42 @@ class ContactKinematics:
         return max(-self.reserve if is_beyond else self.reserve, 0.0)
 
     def leaving(self, *, is_beyond: bool) -> Any:
-        """Rate of that, m/s."""
+        """How fast it moves away from the edge, m/s."""
         return -self.drift if is_beyond else self.drift
 
 
-def _support_velocity(mode: Mode, touch: Touch) -> tuple[Expr, ...]:
-    motion = mode.equations.kinetics
-    contact = touch.contact
-    place = motion.places[contact.body] + contact.arm
-    velocity = motion.resolve(contact.on.velocity(place).express(contact.on.axes))
-    labels = (*contact.on.tangents, contact.on.normal)
-    return tuple(velocity.dot(contact.on.axes[label]) for label in labels)
+# -- the first instants of a contact that has opened -----------------------------------------------
+
+#: Normal velocity, relative to the velocities it is the difference of, that counts as zero.
+STILL = 1e-14
+
+
+@dataclass(frozen=True)
+class LiftOff:
+    """A contact that opens.
+
+    Attributes:
+        speed: of opening, at first, m/s.
+        still: speed that counts as zero, m/s.
+    """
+
+    speed: float
+    still: float
+
+    def mean(self, heights: Array, passed: Array) -> Array:
+        """The mean speed of opening, height over time: it falls through zero where the height does.
+
+        The height itself begins at zero and could not be told from a fall. Where a contact opens
+        without speed the mean begins at zero as well, and is raised by the rounding.
+
+        Args:
+            passed: time since the contact opened, s; zero where heights are only rounding.
+        """
+        now = passed == 0
+        mean = np.where(now, self.speed, heights / np.where(now, 1.0, passed))
+        return np.asarray(mean + self.still if abs(self.speed) <= self.still else mean)
+
+
+def fall_of(height: Any, rise: Any, fall: Any) -> Any:
+    """How long something stays above the ground that rises from a height and falls ever faster."""
+    return (rise + max(rise * rise - 2 * height * fall, 0) ** 0.5) / -fall

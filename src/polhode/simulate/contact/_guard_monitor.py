@@ -1,4 +1,10 @@
-"""Where a stretch of a motion ends, since a guard of its contact mode falls."""
+"""Detects the end of a contact mode: lift-off, landing, slip that begins or ends, an edge.
+
+A mode lasts while the expressions of its guards stay positive (`derive` writes them): the normal
+force, for lift-off; friction in reserve below μ_s N, for slip; the height of an open contact, for
+landing. `GuardMonitor.first_fall` finds the first to fall through zero on a piece of the motion.
+Slip that ends is noticed during the integration (`StopCriteria`); `landing` names its guard.
+"""
 
 from __future__ import annotations
 
@@ -15,24 +21,23 @@ from polhode.derive import Guard
 from polhode.simulate._absolute_values import from_zero
 from polhode.simulate._dynamics import CLOCK
 from polhode.simulate._segment import TrajectoryPiece
-from polhode.simulate.contact._carried import gap_symbol, room_symbol
-from polhode.simulate.contact._contact_kinematics import ContactKinematics
+from polhode.simulate.contact._auxiliary_states import gap_symbol, room_symbol
+from polhode.simulate.contact._contact_kinematics import STILL, ContactKinematics, LiftOff
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
-from polhode.simulate.contact._lift_off import STILL, LiftOff
 from polhode.simulate.contact._mode_state import ModeState, beyond
 from polhode.simulate.contact._select_mode import painleve
 from polhode.simulate.contact._transition import index_of
+from polhode.simulate.integrate._arrays import Array, rows
 from polhode.simulate.integrate._crossing import first_fall
-from polhode.simulate.integrate._rows import rows
-from polhode.simulate.integrate._stepping import Array, broken
+from polhode.simulate.integrate._stepping import broken
 from polhode.simulate.integrate._stop_criteria import Stop
 
-_JAMMED = 1e-6  # of what sliding has in reserve before it jams: as good as none
-_INSTANT = 8  # steps of rounding of the time, over which nothing can be told from a height
+_JAMMED = 1e-6  # of the largest determinant of the mass matrix on a piece: sliding jams
+_INSTANT = 8  # units in the last place of the time: so soon, heights are only rounding
 
 
 class DenseOutput(Protocol):
-    """The states along a stretch of the motion, in doubles, by a place that rises with the time."""
+    """The states along a piece of a motion, in doubles, by a place that rises with the time."""
 
     @property
     def symbols(self) -> tuple[Symbol, ...]:
@@ -57,34 +62,34 @@ class DenseOutput(Protocol):
         """When, s."""
 
     def passed(self, places: Array) -> Array:
-        """Since the mode was entered, s; zero where nothing can be told from a height yet."""
+        """Time since the mode was entered, s; zero where heights are still only rounding."""
 
 
 @dataclass(frozen=True)
-class _Seen:
-    """A part of a motion in doubles, by the time; and when its mode was entered, s."""
+class _DoubleOutput:
+    """A piece in double precision, by the time; and when its mode was entered, s."""
 
-    part: TrajectoryPiece
+    piece: TrajectoryPiece
     begin: float
 
     @property
     def symbols(self) -> tuple[Symbol, ...]:
-        return self.part.solution.symbols
+        return self.piece.solution.symbols
 
     @property
     def turned(self) -> Mapping[Symbol, Symbol]:
-        return self.part.solution.turned
+        return self.piece.solution.turned
 
     @property
     def constants(self) -> Array:
-        return self.part.constants
+        return self.piece.constants
 
     @property
     def knots(self) -> Array:
-        return self.part.solution.steps
+        return self.piece.solution.steps
 
     def at(self, places: Array) -> Array:
-        return self.part.solution.at(places)
+        return self.piece.solution.at(places)
 
     def times(self, places: Array) -> Array:
         return places
@@ -100,48 +105,48 @@ def _time(seen: DenseOutput, place: float) -> float:
 
 @dataclass(frozen=True)
 class GuardMonitor:
-    """Looks at the guards of a mode along a stretch of the motion.
+    """Finds where the guards of a mode fall along a piece of the motion.
 
     Attributes:
-        machine: the modes.
-        near_flat: value at which an expression that must stay positive counts as gone.
+        hybrid: the modes.
+        near_flat: value at which an expression that must stay positive counts as zero.
         mode: the one that the motion is in.
         entry: where it was entered.
     """
 
-    machine: HybridSystem
+    hybrid: HybridSystem
     near_flat: float
     mode: CompiledMode
     entry: ModeState
 
     @cached_property
-    def meetings(self) -> list[ContactKinematics]:
-        """What meets where the mode is entered."""
-        return self.machine.touching.at(self.entry.place, beyond(self.entry.phases))
+    def points(self) -> list[ContactKinematics]:
+        """The contacts where the mode is entered."""
+        return self.hybrid.touching.at(self.entry.shared, beyond(self.entry.phases))
 
-    def cut(self, part: TrajectoryPiece) -> tuple[TrajectoryPiece, Guard | None]:
-        """The part up to the first guard that falls, and that guard."""
-        seen = _Seen(part, self.entry.place.time)
+    def cut(self, piece: TrajectoryPiece) -> tuple[TrajectoryPiece, Guard | None]:
+        """A piece up to the first guard that falls, and that guard."""
+        seen = _DoubleOutput(piece, self.entry.shared.time)
         fall = self.first_fall(seen)
         if fall is not None:
-            return replace(part, end=fall[0]), fall[1]
-        if part.solution.stop is Stop.STUCK:
+            return replace(piece, end=fall[0]), fall[1]
+        if piece.solution.stop is Stop.STUCK:
             raise self.broken(seen)
-        return part, self.landing(part.solution.vanished)
+        return piece, self.landing(piece.solution.vanished)
 
     def first_fall(self, seen: DenseOutput) -> tuple[float, Guard] | None:
-        """Where the first guard falls, and that guard.
+        """Where the first guard falls, and which: slip begins, or a contact opens or closes.
 
         Raises:
             NumericError: where sliding jams before.
         """
         watched = [g for g in self.mode.mode.guards if g.kind != "sticks"]
-        watched += self.mode.passages
+        watched += self.mode.side_guards
         if not (watched or self.mode.can_jam):
             return None
         values = self._values(seen, watched)
-        if self.mode.passages:
-            values = from_zero(values, seen.knots, len(watched) - len(self.mode.passages))
+        if self.mode.side_guards:
+            values = from_zero(values, seen.knots, len(watched) - len(self.mode.side_guards))
         fall = first_fall(values, seen.knots)
         if fall is None:
             return None
@@ -150,7 +155,7 @@ class GuardMonitor:
         return fall.time, watched[fall.guard]
 
     def broken(self, seen: DenseOutput) -> NumericError:
-        """Why the motion cannot be continued where a stretch ends: Painlevé's paradox, if it is."""
+        """Why a motion cannot be continued: Painlevé's paradox, or a singular position."""
         last = seen.knots[-1]
         if self.mode.can_jam:
             reserves = self._values(seen, [])(seen.knots)[-1]
@@ -162,7 +167,10 @@ class GuardMonitor:
         return painleve(", ".join(e.name for e in self.mode.sliding), _time(seen, place))
 
     def _values(self, seen: DenseOutput, watched: list[Guard]) -> Callable[[Array], Array]:
-        """Values of the guards, and how far sliding is from jamming."""
+        """The guards as functions of the place, and how far sliding is from jamming.
+
+        Sliding is determined while the determinant of the mass matrix is positive.
+        """
         mode = self.mode
         expressions = [self.looked_at(guard) for guard in watched]
         size = len(mode.mode.equations.speeds)
@@ -188,22 +196,22 @@ class GuardMonitor:
         return looked
 
     def _leaving(self, watched: list[Guard]) -> dict[int, LiftOff]:
-        """The guards of contacts that have just opened or crossed an edge, and how these rise."""
+        """Guards of contacts that have just opened or crossed an edge, with their speeds."""
         found, entry = {}, self.entry
         for k, guard in enumerate(watched):
-            i = index_of(guard, self.machine)
+            i = index_of(guard, self.hybrid)
             if i < 0:
                 continue
-            meeting, is_beyond = self.meetings[i], entry.phases[i].is_beyond
-            still = float(self.machine.numbers.finer(STILL) * meeting.scale)
+            point, is_beyond = self.points[i], entry.phases[i].is_beyond
+            still = float(self.hybrid.numbers.finer(STILL) * point.scale)
             if guard.kind == "touches down" and entry.gaps.get(i) == 0.0:
-                found[k] = LiftOff(float(meeting.velocity[2]), still)
+                found[k] = LiftOff(float(point.velocity[2]), still)
             if guard.kind == "crosses the edge" and entry.rooms[i] == 0.0:
-                found[k] = LiftOff(float(meeting.leaving(is_beyond=is_beyond)), still)
+                found[k] = LiftOff(float(point.leaving(is_beyond=is_beyond)), still)
         return found
 
     def looked_at(self, guard: Guard) -> Expr:
-        """What falls through zero where a guard does."""
+        """The expression that is followed to zero: heights and distances to edges as integrated."""
         if guard.kind == "touches down" and guard.contact is not None:
             return Expr.generator(gap_symbol(guard.contact))
         if guard.kind == "crosses the edge" and guard.contact is not None:
@@ -213,11 +221,11 @@ class GuardMonitor:
         return guard.positive
 
     def landing(self, vanished: int | None) -> Guard | None:
-        """The guard of the contact whose slip velocity vanishes, if one does."""
+        """The guard of the contact whose slip has ended, if one has."""
         if vanished is None:
             return None
         i = sorted(self.entry.slips)[vanished]
-        name = self.machine.automaton.contacts[i].name
+        name = self.hybrid.automaton.contacts[i].name
         return next(
             g
             for g in self.mode.mode.guards

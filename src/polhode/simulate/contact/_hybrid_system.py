@@ -1,8 +1,8 @@
-"""A contact mode in numbers: what moves it, what it feels, and how others are handed over to it."""
+"""The contact modes of a system with numbers: equations, forces, slips, and maps between modes."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -12,16 +12,15 @@ from polhode.algebra import Compiled, Expr, Symbol, compile_program, linear_part
 from polhode.base import NumericError
 from polhode.derive import Automaton, Mode
 from polhode.model import Contact, Phase, Sliding
-from polhode.simulate._absolute_values import Here, Sides, passages_of, sides_at
+from polhode.simulate._absolute_values import Here, Sides, guards_of_sides, sides_at
 from polhode.simulate._dynamics import CLOCK, Dynamics
-from polhode.simulate.contact._carried import dynamics_of
-from polhode.simulate.contact._contact_kinematics import Touching
-from polhode.simulate.contact._state import Function, State
+from polhode.simulate.contact._auxiliary_states import dynamics_of
+from polhode.simulate.contact._contact_kinematics import Function, State, Touching
 from polhode.simulate.forcing._prescribed_motion import PrescribedMotion
+from polhode.simulate.integrate._arrays import Array, rows
 from polhode.simulate.integrate._flow import Flow, flow_of
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
-from polhode.simulate.integrate._rows import rows
-from polhode.simulate.integrate._stepping import Array, Integrator, Stepper
+from polhode.simulate.integrate._stepping import Integrator, Stepper
 
 Constants = Mapping[Symbol, float]
 
@@ -31,12 +30,12 @@ class HybridSystem:
 
     Args:
         automaton: the modes.
-        drive: motions that are given.
+        drive: the prescribed motions.
         constants: value of every parameter.
-        integrator: what integrates them.
+        integrator: integrates the modes.
         tolerance: of its steps.
-        numbers: what is computed with.
-        rough: the same machine in doubles; None for that itself.
+        numbers: the type of numbers to compute with.
+        in_doubles: the same system in doubles; None if this is in doubles.
     """
 
     def __init__(
@@ -47,10 +46,10 @@ class HybridSystem:
         integrator: Integrator,
         tolerance: float | None,
         numbers: NumberType = DOUBLES,
-        rough: HybridSystem | None = None,
+        in_doubles: HybridSystem | None = None,
     ) -> None:
         self.numbers = numbers
-        self.rough = rough or self
+        self.in_doubles = in_doubles or self
         self.automaton = automaton
         self.drive = drive
         self.take(constants)
@@ -72,7 +71,7 @@ class HybridSystem:
             self.constants = {**self.constants, **held}
 
     def mode(self, phases: tuple[Phase, ...]) -> CompiledMode:
-        """The machinery of a mode, made when it is first needed."""
+        """A mode, compiled when it is first needed."""
         if phases not in self._modes:
             self._modes[phases] = CompiledMode(self, self.automaton.mode(phases))
         return self._modes[phases]
@@ -93,23 +92,23 @@ class HybridSystem:
 
     @cached_property
     def touching(self) -> Touching:
-        """What every contact sees, from the shared state."""
+        """The kinematics of all contacts, from the shared state."""
         return Touching(self.automaton, self.apart.function, self.numbers)
 
 
 class CompiledMode:
     """One contact mode with numbers."""
 
-    def __init__(self, machine: HybridSystem, mode: Mode, dynamics: Dynamics | None = None) -> None:
+    def __init__(self, hybrid: HybridSystem, mode: Mode, dynamics: Dynamics | None = None) -> None:
         self.mode = mode
-        self._machine = machine
-        self._numbers = machine.numbers
+        self._hybrid = hybrid
+        self._numbers = hybrid.numbers
         self._last: tuple[Constants, Array, list[float]] = ({}, np.empty(0), [])
         self._faces: dict[int, CompiledMode] = {}
         self.dynamics = dynamics or dynamics_of(
-            machine.automaton, mode, machine.drive.expressions, machine.constants
+            hybrid.automaton, mode, hybrid.drive.expressions, hybrid.constants
         )
-        self.passages = passages_of(self.dynamics)
+        self.side_guards = guards_of_sides(self.dynamics)
 
     def on(self, sides: Sides) -> CompiledMode:
         """The same mode on given sides of all absolute values."""
@@ -117,7 +116,7 @@ class CompiledMode:
         if dynamics is self.dynamics:
             return self
         if id(dynamics) not in self._faces:
-            self._faces[id(dynamics)] = CompiledMode(self._machine, self.mode, dynamics)
+            self._faces[id(dynamics)] = CompiledMode(self._hybrid, self.mode, dynamics)
         return self._faces[id(dynamics)]
 
     def here(self, state: Mapping[Symbol, Any], time: Any) -> Here:
@@ -132,8 +131,8 @@ class CompiledMode:
     @property
     def _taken(self) -> tuple[Constants, Array, list[float]]:
         """What the constants were read from; the constants as an array, and as a list."""
-        if self._last[0] is not self._machine.constants:
-            known = self._machine.constants
+        if self._last[0] is not self._hybrid.constants:
+            known = self._hybrid.constants
             values = self._numbers.array([known[s] for s in self.dynamics.parameters])
             self._last = (known, values, values.tolist())
         return self._last
@@ -141,27 +140,27 @@ class CompiledMode:
     @cached_property
     def flow(self) -> Flow:
         """What is integrated."""
-        return flow_of(self.dynamics, reduced=self._machine.integrator.dense)
+        return flow_of(self.dynamics, reduced=self._hybrid.integrator.dense)
 
     @cached_property
     def stepper(self) -> Stepper:
         """The compiled flow."""
-        return self._machine.integrator.prepare(self.flow, self._machine.tolerance)
+        return self._hybrid.integrator.prepare(self.flow, self._hybrid.tolerance)
 
     def rest(self, state: Mapping[Symbol, float], time: float) -> Array:
-        """A state as the flow takes it: less what is known of it as functions of time."""
+        """A state as the flow takes it: less the parts that are known functions of time."""
         return self.flow.rest(state, self.parameters, time)
 
     @cached_property
     def sides(self) -> Compiled:
-        """What stays positive where the equations hold: of the core, the parameters, the time."""
+        """What is positive where the equations hold, as a function of core, parameters and time."""
         sides = [guard.positive for guard in self.mode.guards if guard.kind == "near-flat"]
         given = (*self.flow.core.symbols, *self.dynamics.parameters, CLOCK)
         return self.dynamics.program(sides, given).function()
 
     def function(self, expressions: Iterable[Expr], extra: Sequence[Symbol] = ()) -> Function:
         """Expressions as a function of the state, the time and values of extra symbols."""
-        states = tuple(s for s in self.dynamics.states if s not in self.dynamics.carried)
+        states = tuple(s for s in self.dynamics.states if s not in self.dynamics.auxiliary)
         known = (*states, *extra, *self.dynamics.parameters, CLOCK)
         if self.dynamics.undecided:
             return self._function_by_sides(tuple(expressions), states, tuple(extra))
@@ -195,24 +194,25 @@ class CompiledMode:
     # -- to and from the shared state -----------------------------------------------------------
 
     @cached_property
-    def _lift(self) -> Function:
-        apart = self._machine.automaton.apart.equations
-        wanted = (*apart.coordinates, *apart.speeds)
-        lifted = self.mode.lifted
-        return self.function([lifted.get(s, Expr.generator(s)) for s in wanted])
+    def lifted(self) -> Callable[[Any, Mapping[Symbol, Any], Any], State]:
+        """The shared state of a state of this mode: of the time, the state, the work done."""
+        apart = self._hybrid.automaton.apart.equations
+        known, size = self.mode.lifted, len(apart.coordinates)
+        wanted = [known.get(s, Expr.generator(s)) for s in (*apart.coordinates, *apart.speeds)]
+        function = self.function(wanted)
+        own = [s for s in self.dynamics.states if s not in self.dynamics.auxiliary]
 
-    def lifted(self, time: float, state: Mapping[Symbol, float], work: float) -> State:
-        """The shared state of a state of this mode."""
-        own = [s for s in self.dynamics.states if s not in self.dynamics.carried]
-        values = self._lift(self._numbers.array([state[s] for s in own]), time, ())
-        size = len(self._machine.automaton.apart.equations.coordinates)
-        return State(time, values[:size], values[size:], work)
+        def lifted(time: Any, state: Mapping[Symbol, Any], work: Any) -> State:
+            values = function(self._numbers.array([state[s] for s in own]), time, ())
+            return State(time, values[:size], values[size:], work)
+
+        return lifted
 
     @cached_property
     def _projection(self) -> Function:
-        """Shared speeds as this mode has them: what they are at rest, and per speed of its own."""
+        """The shared speeds in this mode: at zero speeds of its own, and by each of these."""
         motion = self.mode.equations.kinetics
-        apart = self._machine.automaton.apart.equations
+        apart = self._hybrid.automaton.apart.equations
         parts = [
             linear_parts(
                 motion.on_speeds(self.mode.lifted.get(s, Expr.generator(s))), motion.speeds
@@ -221,35 +221,37 @@ class CompiledMode:
         ]
         return self.function([rest for _, rest in parts] + [c for row, _ in parts for c in row])
 
-    def entered(self, place: State) -> tuple[Array, Array]:
-        """Coordinates and speeds of this mode, and the impulse-free projection on its motions.
+    def entered(self, shared: State) -> tuple[Array, Array]:
+        """Coordinates and speeds of this mode: the shared speeds, projected on its motions.
 
-        What the constraints take away is taken by impulses along their reactions: momentum along
-        every motion that remains is kept, M P u = M (u_shared − rest) along P.
+        The constraints act by impulses along their reactions, which leave the momentum along every
+        motion P that they allow as it was: Pᵀ M P u = Pᵀ M (u_shared − rest).
         """
-        apart = self._machine.apart
+        apart = self._hybrid.apart
         names = apart.mode.equations.coordinates
-        values = dict(zip(names, place.coordinates, strict=True))
+        values = dict(zip(names, shared.coordinates, strict=True))
         numbers = self._numbers
         coordinates = numbers.array([values[s] for s in self.mode.equations.coordinates])
         size = len(self.mode.equations.speeds)
         state = np.concatenate([coordinates, numbers.array(np.zeros(size))])
-        found = self._projection(state, place.time, ())
-        rest, columns = found[: len(place.speeds)], found[len(place.speeds) :]
-        allowed = columns.reshape(len(place.speeds), size)
-        momentum = apart.mass(place) @ (place.speeds - rest)
-        reduced = allowed.T @ apart.mass(place) @ allowed
+        found = self._projection(state, shared.time, ())
+        rest, columns = found[: len(shared.speeds)], found[len(shared.speeds) :]
+        allowed = columns.reshape(len(shared.speeds), size)
+        momentum = apart.mass(shared) @ (shared.speeds - rest)
+        reduced = allowed.T @ apart.mass(shared) @ allowed
         return coordinates, numbers.solved(reduced, allowed.T @ momentum)
 
     @cached_property
-    def _mass(self) -> Function:
-        return self.function([e for row in self.mode.equations.mass.rows for e in row])
+    def mass(self) -> Callable[[State], Array]:
+        """The mass matrix, if this is the mode in which nothing touches, of the shared state."""
+        matrix = self.mode.equations.mass
+        entries = self.function([e for row in matrix.rows for e in row])
 
-    def mass(self, place: State) -> Array:
-        """The mass matrix, of the mode in which nothing touches."""
-        size = len(place.speeds)
-        state = np.concatenate([place.coordinates, place.speeds])
-        return self._mass(state, place.time, ()).reshape(size, size)
+        def mass(shared: State) -> Array:
+            state = np.concatenate([shared.coordinates, shared.speeds])
+            return entries(state, shared.time, ()).reshape(matrix.shape)
+
+        return mass
 
     # -- forces and slips -----------------------------------------------------------------------
 
@@ -268,7 +270,11 @@ class CompiledMode:
         return next(e for e in self.sliding if e.name == contact.name)
 
     @cached_property
-    def _contact_forces(self) -> Function:
+    def contact_forces(self) -> Function:
+        """Force along the two tangents and the normal of every contact, shape (contacts, 3).
+
+        Of the state, the time, and directions and speeds of slip, as all functions here.
+        """
         components = self.mode.equations.components
         wanted = []
         for touch, phase in zip(self.mode.touches, self.mode.phases, strict=True):
@@ -278,54 +284,46 @@ class CompiledMode:
                 wanted += [components.get(contact.component(label), Expr.of(0)) for label in labels]
             else:
                 wanted += [Expr.of(0)] * 3
-        return self.function(wanted, self.directions)
-
-    def contact_forces(self, state: Array, time: float, directions: Sequence[float]) -> Array:
-        """Force along the two tangents and the normal of every contact, shape (contacts, 3)."""
-        return self._contact_forces(state, time, directions).reshape(-1, 3)
+        forces = self.function(wanted, self.directions)
+        return lambda state, time, directions: forces(state, time, directions).reshape(-1, 3)
 
     @cached_property
-    def _closing_rates(self) -> Function:
+    def closing_rates(self) -> Callable[[Array, Any], Array]:
+        """Normal acceleration of every open contact, m/s², shape (contacts,): no slip matters."""
         motion = self.mode.equations.kinetics
-        rates = [touch.closing.chain(motion.rate) for touch in self.mode.touches]
-        return self.function(rates, self.directions)
-
-    def closing_rates(self, state: Array, time: float) -> Array:
-        """How fast every contact that is open is opening faster, m/s², shape (contacts,)."""
-        return self._closing_rates(state, time, [0.0] * len(self.directions))
+        accelerations = [touch.closing.chain(motion.rate) for touch in self.mode.touches]
+        rates, no_slip = self.function(accelerations, self.directions), [0.0] * len(self.directions)
+        return lambda state, time: rates(state, time, no_slip)
 
     @cached_property
-    def _room_rates(self) -> Function:
+    def room_rates(self) -> Function:
+        """Second rate of the distance of every contact to its edge, m/s², shape (contacts,)."""
         rate = self.mode.equations.kinetics.rate
-        return self.function(
-            [t.room.chain(rate).chain(rate) for t in self.mode.touches], self.directions
-        )
-
-    def room_rates(self, state: Array, time: float, directions: Sequence[float]) -> Array:
-        """How fast every contact leaves the edge of its support faster, m/s², shape (contacts,)."""
-        return self._room_rates(state, time, directions)
-
-    @cached_property
-    def _masses(self) -> Function:
-        entries = [e for row in self.mode.equations.mass.rows for e in row]
-        return self.function(entries, self.directions)
+        second = [touch.room.chain(rate).chain(rate) for touch in self.mode.touches]
+        return self.function(second, self.directions)
 
     @cached_property
     def can_jam(self) -> bool:
-        """Whether the friction reaches into the mass matrix."""
+        """Whether friction enters the mass matrix, so that sliding may jam."""
         entries = [e for row in self.mode.equations.mass.rows for e in row]
         return any(set(self.directions) & entry.symbols() for entry in entries)
 
-    def jamming(self, state: Array, time: float, directions: Sequence[float]) -> float:
-        """Determinant of the mass matrix over that without friction; sliding needs it positive."""
+    @cached_property
+    def jamming(self) -> Callable[[Array, Any, Sequence[float]], float]:
+        """Determinant of the mass matrix over that without friction; positive unless it jams."""
         if not self.can_jam:
-            return 1.0
-        size = len(self.mode.equations.speeds)
-        with_friction, without = (
-            np.linalg.det(self._masses(state, time, d).reshape(size, size))
-            for d in (directions, [0.0] * len(directions))
-        )
-        return float(with_friction / without)
+            return lambda state, time, directions: 1.0
+        matrix = self.mode.equations.mass
+        entries = self.function([e for row in matrix.rows for e in row], self.directions)
+
+        def jamming(state: Array, time: Any, directions: Sequence[float]) -> float:
+            with_friction, without = (
+                np.linalg.det(entries(state, time, d).reshape(matrix.shape))
+                for d in (directions, [0.0] * len(directions))
+            )
+            return float(with_friction / without)
+
+        return jamming
 
     @cached_property
     def slip_changes(self) -> tuple[Expr, ...]:
@@ -334,13 +332,9 @@ class CompiledMode:
         touches = self.mode.touches
         return tuple(slip.chain(motion.rate) for touch in touches for slip in touch.slip)
 
-    @cached_property
-    def _slip_rates(self) -> Function:
-        return self.function(self.slip_changes, self.directions)
-
     def slip_rates_along(self, state: Array, time: float, directions: Sequence[Any]) -> Array:
-        """The same for arrays of directions, shape (contacts, 2, directions)."""
-        states = tuple(s for s in self.dynamics.states if s not in self.dynamics.carried)
+        """`slip_rates` for arrays of directions, shape (contacts, 2, directions)."""
+        states = tuple(s for s in self.dynamics.states if s not in self.dynamics.auxiliary)
         known = (*states, *self.directions, *self.dynamics.parameters, CLOCK)
         function = self.dynamics.function(self.slip_changes, known)
         with np.errstate(all="ignore"):
@@ -349,13 +343,15 @@ class CompiledMode:
         rates: Array = rows(found, count)
         return rates.reshape(-1, 2, count)
 
-    def slip_rates(self, state: Array, time: float, directions: Sequence[float]) -> Array:
+    @cached_property
+    def slip_rates(self) -> Function:
         """Rate of the slip velocity of every contact, m/s², shape (contacts, 2)."""
-        return self._slip_rates(state, time, directions).reshape(-1, 2)
+        rates = self.function(self.slip_changes, self.directions)
+        return lambda state, time, directions: rates(state, time, directions).reshape(-1, 2)
 
 
 def singular(time: float) -> NumericError:
-    """An expression without a finite value."""
+    """The error for an expression without a finite value."""
     return NumericError(
         f"the equations have no finite value at t = {float(time):.9g} s",
         expected="a motion away from singular positions",

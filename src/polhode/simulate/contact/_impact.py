@@ -1,33 +1,177 @@
-"""Shocks: what a body that lands with friction does in the instant of touching.
+"""Impacts with friction: Routh's process along the normal impulse, with Stronge's restitution.
 
 The normal impulse p grows; the velocity of the point of contact changes at the rate W f, with W
 the inverse inertia felt there and f the force per normal force: (−μ ŝ, 1) while it slips, what
 keeps it from slipping while it sticks. Compression ends where the normal velocity vanishes,
 restitution where the normal force has given back e² of the work of compression (Stronge), which
-never adds energy. W is positive definite: where a shock drives the bodies together (Painlevé's
-paradox) f · W f > 0 makes the slip shrink, so that every shock ends.
+never adds energy. W is positive definite: where friction drives the bodies together (Painlevé's
+paradox) f · W f > 0 makes the slip shrink, so that every impact ends.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
+from math import hypot
 from typing import Any
 
 import numpy as np
 
+from polhode.algebra import Expr, Program, Symbol, SymbolKind, compile_program, sqrt
 from polhode.base import NumericError
-from polhode.simulate.contact._slip_reversal import STICKS, SlipReversal
+from polhode.simulate.integrate._arrays import Array
+from polhode.simulate.integrate._crossing import bisected
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
-from polhode.simulate.integrate._stepping import Array
+from polhode.simulate.integrate._series import InitialValueProblem, TaylorSolution
 
-_STRAIGHT = 1e-14  # of what an impulse does: what it does across the slip that is nothing
+# -- slip that friction turns during an impact -----------------------------------------------------
+#
+# With the slip velocity ρ (cos ψ, sin ψ) and dp = ρ dτ for the normal impulse p, log ρ and ψ change
+# at rates that depend on ψ alone: nothing is singular where the slip vanishes, at infinite τ.
+
+STICKS = 1e-13  # slip, relative to the velocity before, that has vanished
+_LONGEST = 10**9  # τ, which grows but as the logarithm of a slip that vanishes
+
+
+@dataclass(frozen=True)
+class SlipReversalResult:
+    """The end of such a slip.
+
+    Attributes:
+        velocity: of the point of contact.
+        impulse: since the beginning.
+        work: of its normal part.
+        over: whether compression or restitution has ended; if not, the slip has.
+    """
+
+    velocity: Array
+    impulse: Array
+    work: Any
+    over: bool
+
+
+@dataclass(frozen=True)
+class SlipReversal:
+    """Slip against friction, with velocities scaled to order one.
+
+    Attributes:
+        inverse_mass: inverse inertia felt at the point of contact.
+        kinetic: friction coefficient.
+        velocity: of that point before.
+        budget: work of restitution; None during compression, which ends with the approach.
+    """
+
+    inverse_mass: Array
+    kinetic: Any
+    velocity: Array
+    budget: Any
+
+    def turned(self, numbers: NumberType) -> SlipReversalResult:
+        """Up to the end of the slip, or of compression or restitution."""
+        return self._in_doubles() if numbers is DOUBLES else self._in_series(numbers)
+
+    def _in_doubles(self) -> SlipReversalResult:
+        """States: log ρ, ψ, normal velocity, impulse, work of the normal impulse."""
+        from scipy.integrate import solve_ivp  # slow to import, and rarely needed
+
+        x, y, z = self.velocity
+        start = np.array([np.log(np.hypot(x, y)), np.arctan2(y, x), z, 0.0, 0.0, 0.0, 0.0])
+
+        def rates(_: float, y: Array) -> Array:
+            size, c, s = np.exp(y[0]), np.cos(y[1]), np.sin(y[1])
+            force = np.array([-self.kinetic * c, -self.kinetic * s, 1.0])
+            x, across, up = self.inverse_mass @ force
+            along, turning = x * c + across * s, across * c - x * s
+            return np.array([along, turning, size * up, *(size * force), size * y[2]])
+
+        def stuck(_: float, y: Array) -> float:
+            return float(y[0] - np.log(STICKS))
+
+        def over(_: float, y: Array) -> float:
+            return float(self._left(y[2], y[6]))
+
+        for event in (stuck, over):
+            event.terminal = True  # type: ignore[attr-defined]
+        found = solve_ivp(
+            rates,
+            (0.0, np.inf),
+            start,
+            method="DOP853",
+            rtol=1e-13,
+            atol=1e-15,
+            events=(stuck, over),
+        )
+        last = found.y[:, -1]
+        size, angle = np.exp(last[0]), last[1]
+        velocity = np.array([size * np.cos(angle), size * np.sin(angle), last[2]])
+        return SlipReversalResult(velocity, last[3:6], last[6], bool(found.t_events[1].size))
+
+    def _in_series(self, numbers: NumberType) -> SlipReversalResult:
+        """States: velocity, impulse, work of the normal impulse."""
+        from polhode.simulate.integrate._flint import PowerSeries
+
+        constants = [*self.inverse_mass.ravel().tolist(), self.kinetic]
+        start = [*self.velocity.tolist(), 0, 0, 0, 0]
+        least = float(numbers.finer(STICKS))
+
+        def goes_on(time: float, step: float, state: Sequence[Any]) -> bool:
+            x, y, z, *_, work = map(float, state)
+            return hypot(x, y) > least and self._left(z, work) < 0
+
+        problem = InitialValueProblem(_program(), numbers, constants, start, 0, _LONGEST)
+        series = PowerSeries().integrate(problem, goes_on)
+        share, over = self._end(series)
+        last = series.state(series.steps - 1, share)
+        return SlipReversalResult(last[:3], last[3:6], last[6], over)
+
+    def _end(self, series: TaylorSolution) -> tuple[Any, bool]:
+        """The share of the last step after which compression or restitution ends, if it does."""
+        step, numbers = series.steps - 1, series.numbers
+
+        def left(state: Any) -> Any:
+            return self._left(state[2], state[6])
+
+        if left(series.state(step, 1)) < 0:
+            return 1, False
+
+        def rough(share: float) -> float:
+            return -float(left(series.rounded_states(np.array([step + share]))[:, 0]))
+
+        return numbers.zero(lambda s: left(series.state(step, s)), bisected(rough, 0.0, 1.0)), True
+
+    def _left(self, velocity: Any, work: Any) -> Any:
+        """Rises through zero where compression or restitution ends."""
+        return velocity if self.budget is None else work - self.budget
+
+
+@cache
+def _program() -> Program:
+    """Rates of velocity, impulse and work, by τ."""
+    states = [
+        Symbol(name, SymbolKind.SPEED) for name in ("x", "y", "z", "p_x", "p_y", "p_z", "work")
+    ]
+    inverse_mass = [[Symbol(f"w_{i}{j}", SymbolKind.PARAMETER) for j in range(3)] for i in range(3)]
+    kinetic = Symbol("mu", SymbolKind.PARAMETER)
+    x, y, z = map(Expr.generator, states[:3])
+    size = sqrt(x * x + y * y)
+    force = [-Expr.generator(kinetic) * x, -Expr.generator(kinetic) * y, size]
+    rates = [
+        sum((Expr.generator(w) * f for w, f in zip(row, force, strict=True)), Expr.of(0))
+        for row in inverse_mass
+    ]
+    arguments = (*states, *(w for row in inverse_mass for w in row), kinetic)
+    return compile_program([*rates, *force, size * z], arguments)
+
+
+_STRAIGHT = 1e-14  # of the effect of an impulse: less across the slip does not turn it
 _PHASES = 100
 _ANGLES = 72
 
 
 @dataclass(frozen=True)
 class Impact:
-    """The outcome of a shock.
+    """The outcome of an impact.
 
     Attributes:
         impulse: along the support twice, and away from it, N s.
@@ -42,27 +186,27 @@ class Impact:
 
 @dataclass(frozen=True)
 class Roughness:
-    """What resists at the contact: coefficients of kinetic and static friction, and restitution."""
+    """Coefficients of a contact: kinetic and static friction, and restitution."""
 
     kinetic: Any
     static: Any
     restitution: Any
 
 
-def smooth_impact(felt: Array, velocity: Array, restitution: Any) -> Impact:
-    """A shock without friction."""
-    impulse = np.array([0.0, 0.0, -(1 + restitution) * velocity[2] / felt[2, 2]])
-    return Impact(impulse, velocity + felt @ impulse, sticks=False)
+def smooth_impact(inverse_mass: Array, velocity: Array, restitution: Any) -> Impact:
+    """An impact without friction."""
+    impulse = np.array([0.0, 0.0, -(1 + restitution) * velocity[2] / inverse_mass[2, 2]])
+    return Impact(impulse, velocity + inverse_mass @ impulse, sticks=False)
 
 
 def rough_impact(
-    felt: Array, velocity: Array, restitution: Any, numbers: NumberType = DOUBLES
+    inverse_mass: Array, velocity: Array, restitution: Any, numbers: NumberType = DOUBLES
 ) -> Impact:
-    """A shock on a support that allows no slip at all.
+    """An impact on a support that allows no slip at all.
 
-    What it gives back is a part of the energy that the point of contact brought, no more.
+    The rebound takes at most the energy that the point of contact brought.
     """
-    inertia = _inverse(felt, numbers)
+    inertia = _inverse(inverse_mass, numbers)
     brought = velocity @ inertia @ velocity
     rebound = min(restitution * -velocity[2], (brought / inertia[2, 2]) ** 0.5)
     after = np.array([0.0, 0.0, rebound])
@@ -70,37 +214,42 @@ def rough_impact(
 
 
 def coulomb_impact(
-    felt: Array,
+    inverse_mass: Array,
     velocity: Array,
     roughness: Roughness,
     where: str = "a contact",
     numbers: NumberType = DOUBLES,
 ) -> Impact:
-    """A shock with Coulomb's friction and Stronge's restitution.
+    """An impact with Coulomb friction and Stronge's energetic restitution.
 
     Args:
-        felt: inverse inertia felt at the point of contact, 1/kg.
+        inverse_mass: inverse effective mass at the point of contact, W = J M⁻¹ Jᵀ, 1/kg.
         velocity: of that point before, m/s.
         where: what an error calls the contact and the instant.
-        numbers: what is computed with.
+        numbers: the type of numbers to compute with.
 
     Raises:
-        NumericError: where friction jams and the shock never ends, or slip has no one direction.
+        NumericError: where the impact does not end, or slip can begin in no or several directions.
     """
-    course = _ImpactCourse(felt, velocity, roughness, where, numbers)
+    course = _ImpactCourse(inverse_mass, velocity, roughness, where, numbers)
     while not course.done:
         course.advance()
     return Impact(course.impulse, course.velocity, course.sticks)
 
 
 class _ImpactCourse:
-    """The course of a shock over the normal impulse, phase by phase."""
+    """The course of an impact over the normal impulse, phase by phase."""
 
     def __init__(
-        self, felt: Array, velocity: Array, roughness: Roughness, where: str, numbers: NumberType
+        self,
+        inverse_mass: Array,
+        velocity: Array,
+        roughness: Roughness,
+        where: str,
+        numbers: NumberType,
     ) -> None:
         self.where = where
-        self.felt = felt
+        self.inverse_mass = inverse_mass
         self.roughness = roughness
         self.velocity = velocity.copy()
         self.impulse = numbers.array(np.zeros(3))
@@ -123,26 +272,26 @@ class _ImpactCourse:
             self._slide()
         if self._phases > _PHASES:
             raise NumericError(
-                f"a shock at {self.where} that does not end",
+                f"an impact at {self.where} that does not end",
                 expected="compression that ends with restitution",
                 advice="lower the friction coefficient",
             )
 
     def _hold(self) -> None:
-        """Without slip: friction as it is needed, if the static limit allows; else it slips on."""
-        inertia = _inverse(self.felt, self._numbers)
+        """Without slip: it sticks if static friction suffices, else slip resumes."""
+        inertia = _inverse(self.inverse_mass, self._numbers)
         needed = inertia[:, 2] / inertia[2, 2]
         self.velocity[:2] = 0.0
         if self._numbers.size(needed[:2]) <= self.roughness.static:
             self.sticks = True
             self._straight(needed)
             return
-        direction = _onset(self.felt, self.roughness.kinetic, self.where, self._numbers)
+        direction = _onset(self.inverse_mass, self.roughness.kinetic, self.where, self._numbers)
         self._straight(np.array([*(-self.roughness.kinetic * direction), 1.0]))
 
     def _straight(self, force: Array) -> None:
         """A constant force per normal impulse, until compression or restitution ends."""
-        rate = self.felt @ force
+        rate = self.inverse_mass @ force
         start = self.velocity[2]
         if self._compressing:
             length = -start / rate[2]
@@ -166,14 +315,22 @@ class _ImpactCourse:
         self.done = True
 
     def _slide(self) -> None:
-        """Friction against a slip that may turn; over an arc of impulse up to the next change."""
-        if not self._turns():
-            self._slide_straight()
+        """Slip, whose direction friction may turn, up to the next change."""
+        slip = self.velocity[:2]
+        direction = slip / self._numbers.size(slip)
+        force = np.array([*(-self.roughness.kinetic * direction), 1.0])  # per normal force
+        rate = self.inverse_mass @ force
+        across = rate[1] * direction[0] - rate[0] * direction[1]
+        straight = self._numbers.finer(_STRAIGHT) * np.max(np.abs(self.inverse_mass))
+        if not abs(across) > straight:
+            self._slide_straight(direction, force)
             return
         unit, bounce = self._scale, self.roughness.restitution**2
         budget = None if self._compressing else bounce * self._stored / unit**2
         start = self.velocity / unit
-        turn = SlipReversal(self.felt, self.roughness.kinetic, start, budget).turned(self._numbers)
+        turn = SlipReversal(self.inverse_mass, self.roughness.kinetic, start, budget).turned(
+            self._numbers
+        )
         self.velocity = unit * turn.velocity
         self.impulse = self.impulse + unit * turn.impulse
         work = unit**2 * turn.work
@@ -183,10 +340,9 @@ class _ImpactCourse:
         else:
             self.velocity[:2] = 0.0
 
-    def _slide_straight(self) -> None:
-        """Where friction cannot turn the slip, everything is linear in the impulse."""
-        direction, force = self._resisted()
-        rate = self.felt @ force
+    def _slide_straight(self, direction: Array, force: Array) -> None:
+        """Where friction does not turn the slip, everything is linear in the impulse."""
+        rate = self.inverse_mass @ force
         slowing = -(rate[:2] @ direction)
         size = self._numbers.size(self.velocity[:2])
         to_stick = size / slowing if slowing > 0 else np.inf
@@ -205,19 +361,6 @@ class _ImpactCourse:
         else:
             self._turn()
 
-    def _turns(self) -> bool:
-        """Whether friction turns the slip that it opposes."""
-        direction, force = self._resisted()
-        rate = self.felt @ force
-        across = rate[1] * direction[0] - rate[0] * direction[1]
-        return bool(abs(across) > self._numbers.finer(_STRAIGHT) * np.max(np.abs(self.felt)))
-
-    def _resisted(self) -> tuple[Array, Array]:
-        """Direction of the slip, and the force per normal force that opposes it."""
-        slip = self.velocity[:2]
-        direction = slip / self._numbers.size(slip)
-        return direction, np.array([*(-self.roughness.kinetic * direction), 1.0])
-
     def _to_turn(self, rate: Any) -> Any:
         """Impulse up to the end of compression or restitution, if the slip lasts so long.
 
@@ -234,12 +377,12 @@ class _ImpactCourse:
         return (square**0.5 - start) / rate if rate != 0 else left / start
 
 
-def _inverse(felt: Array, numbers: NumberType) -> Array:
-    return np.asarray(numbers.solved(felt, numbers.array(np.eye(3))))
+def _inverse(inverse_mass: Array, numbers: NumberType) -> Array:
+    return np.asarray(numbers.solved(inverse_mass, numbers.array(np.eye(3))))
 
 
-def _onset(felt: Array, friction: Any, where: str, numbers: NumberType) -> Array:
-    """Direction in which slip grows from nothing during the shock.
+def _onset(inverse_mass: Array, friction: Any, where: str, numbers: NumberType) -> Array:
+    """The direction in which slip resumes during an impact.
 
     Raises:
         NumericError: where there is none, or more than one.
@@ -248,7 +391,7 @@ def _onset(felt: Array, friction: Any, where: str, numbers: NumberType) -> Array
 
     def rate(angle: Any) -> Array:
         along = np.array(numbers.direction(angle))
-        change = felt @ np.array([*(-friction * along), 1.0])
+        change = inverse_mass @ np.array([*(-friction * along), 1.0])
         return np.array([change[:2] @ along, change[1] * along[0] - change[0] * along[1]])
 
     def across(angle: float) -> float:
@@ -264,7 +407,7 @@ def _onset(felt: Array, friction: Any, where: str, numbers: NumberType) -> Array
     growing = [angle for angle in found if rate(angle)[0] > 0]
     if len(growing) != 1:
         raise NumericError(
-            f"a shock at {where} in which slip can begin in {len(growing)} directions",
+            f"an impact at {where} in which slip can begin in {len(growing)} directions",
             expected="one direction in which slip grows against the friction it brings",
             advice="the rigid body with this friction has no unique motion from here",
         )

@@ -1,4 +1,4 @@
-"""Where a contact mode is entered, and what its constraints do to the speeds there."""
+"""How a contact mode is entered, and what its constraints do to the speeds there."""
 
 from __future__ import annotations
 
@@ -11,21 +11,20 @@ import numpy as np
 from polhode.algebra import Symbol
 from polhode.model import Phase
 from polhode.simulate._dynamics import WORK
-from polhode.simulate.contact._carried import gap_symbol, room_symbol, slip_symbols
-from polhode.simulate.contact._contact_kinematics import ContactKinematics
+from polhode.simulate.contact._auxiliary_states import gap_symbol, room_symbol, slip_symbols
+from polhode.simulate.contact._contact_kinematics import ContactKinematics, State
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
-from polhode.simulate.contact._state import State
+from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
-from polhode.simulate.integrate._stepping import Array
 
 
 @dataclass(frozen=True)
 class ModeState:
-    """A mode, and where it is entered.
+    """A contact mode, and the state in which it is entered.
 
     Attributes:
         phases: of every contact.
-        place: the shared state, after what the entry did to the speeds.
+        shared: the shared state, after the impulses of the constraints.
         coordinates: of the mode.
         speeds: of the mode.
         onset: for contacts that begin to slip, the angle of the slip to come.
@@ -35,7 +34,7 @@ class ModeState:
     """
 
     phases: tuple[Phase, ...]
-    place: State
+    shared: State
     coordinates: Array
     speeds: Array
     onset: dict[int, Any] = field(default_factory=dict)
@@ -53,7 +52,7 @@ class ModeState:
         double = DOUBLES.array
         return replace(
             self,
-            place=self.place.rounded(),
+            shared=self.shared.rounded(),
             coordinates=double(self.coordinates),
             speeds=double(self.speeds),
             onset={i: float(angle) for i, angle in self.onset.items()},
@@ -64,59 +63,55 @@ class ModeState:
 
 
 def entered(
-    machine: HybridSystem,
-    place: State,
+    hybrid: HybridSystem,
+    shared: State,
     phases: tuple[Phase, ...],
-    meetings: Sequence[ContactKinematics],
+    points: Sequence[ContactKinematics],
     starting: frozenset[int],
 ) -> ModeState:
-    """A mode with what entering it does to the speeds.
+    """Enter a mode: its constraints project the speeds.
 
     Args:
-        starting: contacts that begin to slip; in which direction remains to be found.
+        starting: contacts that begin to slip, in a direction that is found later.
     """
-    mode = machine.mode(phases)
-    coordinates, speeds = mode.entered(place)
-    after = _after(machine, place, mode, coordinates, speeds, meetings, phases)
+    mode = hybrid.mode(phases)
+    coordinates, speeds = mode.entered(shared)
+    after = _after(hybrid, shared, mode, coordinates, speeds, points, phases)
     sliding = [i for i, phase in enumerate(phases) if phase.slides]
-    none = machine.numbers.array(np.zeros(2))
-    slips = {i: none if i in starting else meetings[i].velocity[:2] for i in sliding}
+    no_slip = hybrid.numbers.array(np.zeros(2))
+    slips = {i: no_slip if i in starting else points[i].velocity[:2] for i in sliding}
     onset = dict.fromkeys(sorted(starting), 0.0)
-    rooms = _rooms(mode, meetings)
+    there = zip(mode.mode.touches, mode.mode.phases, points, strict=True)
+    rooms = {
+        i: point.room(is_beyond=phase.is_beyond)
+        for i, (touch, phase, point) in enumerate(there)
+        if touch.reserve and not phase.flies
+    }
     return ModeState(phases, after, coordinates, speeds, onset, slips, rooms=rooms)
 
 
-def _rooms(mode: CompiledMode, meetings: Sequence[ContactKinematics]) -> dict[int, Any]:
-    """How far contacts that touch are from the edges of their supports."""
-    there = zip(mode.mode.touches, mode.mode.phases, meetings, strict=True)
-    return {
-        i: meeting.room(is_beyond=phase.is_beyond)
-        for i, (touch, phase, meeting) in enumerate(there)
-        if touch.reserve and not phase.flies
-    }
-
-
 def _after(
-    machine: HybridSystem,
-    place: State,
+    hybrid: HybridSystem,
+    shared: State,
     mode: CompiledMode,
     coordinates: Array,
     speeds: Array,
-    meetings: Sequence[ContactKinematics],
+    points: Sequence[ContactKinematics],
     phases: tuple[Phase, ...],
 ) -> State:
-    """The shared state in the mode; what its constraints did to the speeds did work."""
+    """The shared state in the mode, and in its work that of the impulses of the constraints."""
     own = (*mode.mode.equations.coordinates, *mode.mode.equations.speeds)
     values: dict[Any, float] = dict(zip(own, (*coordinates, *speeds), strict=True))
-    lifted = mode.lifted(place.time, values, place.work)
-    change = lifted.speeds - place.speeds
-    touching = [m for m, p in zip(meetings, phases, strict=True) if not p.flies]
+    lifted = mode.lifted(shared.time, values, shared.work)
+    change = lifted.speeds - shared.speeds
+    touching = [m for m, p in zip(points, phases, strict=True) if not p.flies]
     if not touching or not np.any(change):
         return lifted
-    arms = np.vstack([m.arms for m in touching])
-    impulse = machine.numbers.least(arms.T, machine.apart.mass(place) @ change)
-    middle = [m.velocity + m.support + m.arms @ change / 2 for m in touching]
-    return lifted.kicked(np.zeros_like(change), impulse @ np.concatenate(middle))
+    # The work of an impulse is its product with the mean of the velocities before and after.
+    jacobian = np.vstack([m.jacobian for m in touching])
+    impulse = hybrid.numbers.least(jacobian.T, hybrid.apart.mass(shared) @ change)
+    middle = [m.velocity + m.support + m.jacobian @ change / 2 for m in touching]
+    return lifted.with_impulse(np.zeros_like(change), impulse @ np.concatenate(middle))
 
 
 def directions_of(entry: ModeState, numbers: NumberType = DOUBLES) -> list[Any]:
@@ -131,23 +126,23 @@ def directions_of(entry: ModeState, numbers: NumberType = DOUBLES) -> list[Any]:
     return found
 
 
-def state_on(machine: HybridSystem, entry: ModeState) -> dict[Symbol, Any]:
-    """All states where a mode is entered, those that are carried along included."""
-    mode = machine.mode(entry.phases)
-    equations, carried = mode.mode.equations, mode.dynamics.carried
+def state_on(hybrid: HybridSystem, entry: ModeState) -> dict[Symbol, Any]:
+    """All states where a mode is entered, auxiliary ones included."""
+    mode = hybrid.mode(entry.phases)
+    equations, auxiliary = mode.mode.equations, mode.dynamics.auxiliary
     own = (*equations.coordinates, *equations.speeds)
     state = dict(zip(own, entry.state.tolist(), strict=True))
-    meetings = machine.touching.at(entry.place, beyond(entry.phases))
+    points = hybrid.touching.at(entry.shared, beyond(entry.phases))
     for i, touch in enumerate(mode.mode.touches):
         gap, room = gap_symbol(touch.contact), room_symbol(touch.contact)
         slips = slip_symbols(touch.contact)
-        if gap in carried:
-            state[gap] = entry.gaps.get(i, meetings[i].gap)
-        if room in carried:
+        if gap in auxiliary:
+            state[gap] = entry.gaps.get(i, points[i].gap)
+        if room in auxiliary:
             state[room] = entry.rooms[i]
-        if slips[0] in carried:
+        if slips[0] in auxiliary:
             state |= zip(slips, entry.slips[i].tolist(), strict=True)
-    return {**state, WORK: entry.place.work}
+    return {**state, WORK: entry.shared.work}
 
 
 def beyond(phases: tuple[Phase, ...]) -> frozenset[int]:

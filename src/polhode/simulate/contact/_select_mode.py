@@ -1,8 +1,12 @@
-"""Which contact mode a motion goes on in."""
+"""Chooses the contact mode in which a motion goes on, from the forces that each would need.
+
+Candidates are tried in order: rolling before sliding before flight, contact by contact. A mode is
+possible if no contact has to pull, and static friction stays within its limit μ_s N.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import permutations, product
 from typing import Any
@@ -11,26 +15,26 @@ import numpy as np
 
 from polhode.base import NumericError
 from polhode.model import FLIGHT, FRICTIONLESS, ROLLING, SLIDING, Contact, Coulomb, Phase, Rolling
-from polhode.simulate.contact._contact_kinematics import ContactKinematics
+from polhode.simulate.contact._contact_kinematics import ContactKinematics, State
 from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
 from polhode.simulate.contact._mode_state import ModeState, directions_of, entered
-from polhode.simulate.contact._state import State
-from polhode.simulate.integrate._stepping import Array
+from polhode.simulate.integrate._arrays import Array
 
-STILL = 1e-12  # slip, relative to the velocities it is the difference of, that is none
-_TOLERANCE = 1e-11  # relative, of forces at a limit
-_ANGLES = 72
+#: Slip, relative to the velocities it is the difference of, that counts as none.
+STILL = 1e-12
+_TOLERANCE = 1e-11  # relative to the largest force: what a force may be beyond its limit
+_ANGLES = 72  # directions between which those of a slip that begins are bracketed
 
 
 @dataclass(frozen=True)
 class ContactStatus:
-    """What an event has told about the contacts, by their places in the declaration.
+    """What is known of the contacts at an event, by their places in the declaration.
 
     Attributes:
-        apart: do not touch.
-        stuck: have no slip.
-        slipping: have reached the limit of static friction.
-        beyond: are beyond the edge of their support; None where that is to be looked up.
+        apart: those that do not touch.
+        stuck: those without slip.
+        slipping: those that have reached the limit of static friction.
+        beyond: those beyond the edge of their support; None where the state is to tell.
     """
 
     apart: frozenset[int] = frozenset()
@@ -39,138 +43,118 @@ class ContactStatus:
     beyond: frozenset[int] | None = None
 
 
-def select_mode(machine: HybridSystem, place: State, known: ContactStatus) -> ModeState:
+def select_mode(hybrid: HybridSystem, shared: State, known: ContactStatus) -> ModeState:
     """The mode whose forces are those its contacts can exert.
 
     Raises:
         NumericError: where none or several are possible.
     """
-    beyond = machine.touching.beyond(place) if known.beyond is None else known.beyond
-    meetings = machine.touching.at(place, beyond)
+    beyond = hybrid.touching.beyond(shared) if known.beyond is None else known.beyond
+    points = hybrid.touching.at(shared, beyond)
     failures = list[str]()
-    for phases in _candidates(machine, meetings, replace(known, beyond=beyond)):
-        still = [_is_still(machine, i, meeting, known) for i, meeting in enumerate(meetings)]
+    contacts = enumerate(zip(hybrid.automaton.contacts, points, strict=True))
+    tried = [
+        list(_phases(hybrid, contact, i, point, replace(known, beyond=beyond)))
+        for i, (contact, point) in contacts
+    ]
+    for phases in product(*tried):
+        still = [_is_still(hybrid, i, point, known) for i, point in enumerate(points)]
         starting = frozenset(i for i, phase in enumerate(phases) if phase.slides and still[i])
-        entry = entered(machine, place, phases, meetings, starting)
-        _refuse_shared(machine.rough, entry.rounded())
+        entry = entered(hybrid, shared, phases, points, starting)
+        _refuse_shared(hybrid.in_doubles, entry.rounded())
         for i in sorted(starting):
-            entry.onset[i] = onset_angle(machine, entry, i)
-        failure = _objection(machine, entry, known)
+            entry.onset[i] = onset_angle(hybrid, entry, i)
+        failure = _objection(hybrid, entry, known)
         if failure is None:
             return entry
         failures.append(failure)
     raise NumericError(
-        f"no contact mode is possible at t = {float(place.time):.9g} s: {'; '.join(failures)}",
+        f"no contact mode is possible at t = {float(shared.time):.9g} s: {'; '.join(failures)}",
         expected="friction and normal forces that some mode can supply",
         advice="lower the friction coefficient, or end the motion before that time",
     )
 
 
-def _candidates(
-    machine: HybridSystem, meetings: Sequence[ContactKinematics], known: ContactStatus
-) -> Iterator[tuple[Phase, ...]]:
-    """Phases of all contacts, those that stick first."""
-    options = [
-        list(_options(machine, contact, i, meeting, known))
-        for i, (contact, meeting) in enumerate(
-            zip(machine.automaton.contacts, meetings, strict=True)
-        )
-    ]
-    yield from product(*options)
-
-
-def _options(
-    machine: HybridSystem,
+def _phases(
+    hybrid: HybridSystem,
     contact: Contact,
     i: int,
-    meeting: ContactKinematics,
+    point: ContactKinematics,
     known: ContactStatus,
 ) -> Iterator[Phase]:
+    """The phases of a contact, in the order in which they are tried."""
+    closed = [FRICTIONLESS]
+    if isinstance(contact, Rolling):
+        closed = [ROLLING]
+    elif isinstance(contact, Coulomb):
+        sticks = _is_still(hybrid, i, point, known) and i not in known.slipping
+        closed = [ROLLING, SLIDING] if sticks else [SLIDING]
     if i not in known.apart:
-        for phase in _touching(machine, contact, i, meeting, known):
+        for phase in closed:
             yield phase.beyond() if i in (known.beyond or ()) else phase
     yield FLIGHT
 
 
-def _touching(
-    machine: HybridSystem,
-    contact: Contact,
-    i: int,
-    meeting: ContactKinematics,
-    known: ContactStatus,
-) -> Iterator[Phase]:
-    if isinstance(contact, Coulomb):
-        if _is_still(machine, i, meeting, known) and i not in known.slipping:
-            yield ROLLING
-        yield SLIDING
-    elif isinstance(contact, Rolling):
-        yield ROLLING
-    else:
-        yield FRICTIONLESS
-
-
-def _is_still(
-    machine: HybridSystem, i: int, meeting: ContactKinematics, known: ContactStatus
-) -> bool:
+def _is_still(hybrid: HybridSystem, i: int, point: ContactKinematics, known: ContactStatus) -> bool:
     if i in known.stuck or i in known.slipping:
         return True
-    slip = machine.numbers.size(meeting.velocity[:2])
-    return bool(slip <= machine.numbers.finer(STILL) * meeting.scale)
+    slip = hybrid.numbers.size(point.velocity[:2])
+    return bool(slip <= hybrid.numbers.finer(STILL) * point.scale)
 
 
-def _refuse_shared(machine: HybridSystem, entry: ModeState) -> None:
-    """Refuse slips that begin at once where each has its say in the direction of the other.
+def _refuse_shared(hybrid: HybridSystem, entry: ModeState) -> None:
+    """Refuse slips that begin together and influence one another's direction.
 
     Raises:
         NumericError: with the contacts.
     """
-    mode, angles = machine.mode(entry.phases), np.linspace(0.0, 2 * np.pi, 8)
+    mode, angles = hybrid.mode(entry.phases), np.linspace(0.0, 2 * np.pi, 8)
     for i, j in permutations(entry.onset, 2):
         rates = rates_along(mode, entry, j, i, angles)
         if np.max(np.ptp(rates, axis=1)) > STILL * np.max(np.abs(rates)):
-            names = ", ".join(machine.automaton.contacts[k].name for k in entry.onset)
+            names = ", ".join(hybrid.automaton.contacts[k].name for k in entry.onset)
             raise NumericError(
-                f"slipping begins at several contacts at once at t = {entry.place.time:.9g} s: "
+                f"slipping begins at several contacts at once at t = {entry.shared.time:.9g} s: "
                 f"{names}",
                 expected="contacts that do not feel each other: else no direction is determined",
             )
 
 
-def _objection(machine: HybridSystem, entry: ModeState, known: ContactStatus) -> str | None:
-    """Why the forces in a mode are impossible; None if they are not."""
-    mode, numbers = machine.mode(entry.phases), machine.numbers
+def _objection(hybrid: HybridSystem, entry: ModeState, known: ContactStatus) -> str | None:
+    """Why the forces in a mode are impossible; None if they are possible."""
+    mode, numbers = hybrid.mode(entry.phases), hybrid.numbers
     if entry.slips:
-        refuse_jamming(machine.rough, entry.rounded())
+        refuse_jamming(hybrid.in_doubles, entry.rounded())
     directions = directions_of(entry, numbers)
-    forces = mode.contact_forces(entry.state, entry.place.time, directions)
+    forces = mode.contact_forces(entry.state, entry.shared.time, directions)
     tolerance = numbers.finer(_TOLERANCE)
     scale = np.max(np.abs(forces), initial=0.0)
-    for contact, phase, force in zip(machine.automaton.contacts, entry.phases, forces, strict=True):
+    for contact, phase, force in zip(hybrid.automaton.contacts, entry.phases, forces, strict=True):
         if phase.flies:
             continue
         if force[2] < -tolerance * scale:
             return f"{mode.mode.name} would need {contact.name} to pull"
         if phase.rolls and isinstance(contact, Coulomb):
-            static = machine.value(contact.mu_static)
+            static = hybrid.value(contact.mu_static)
             if numbers.size(force[:2]) > static * force[2] * (1 + tolerance):
                 return f"{mode.mode.name} would need more friction than {contact.name} has"
     return None
 
 
-def refuse_jamming(machine: HybridSystem, entry: ModeState) -> None:
-    """Refuse Painlevé's configurations: a rising normal force that pushes the bodies together.
+def refuse_jamming(hybrid: HybridSystem, entry: ModeState) -> None:
+    """Refuse Painlevé's configurations, in which a normal force accelerates the bodies together.
 
     Raises:
         NumericError: where normal forces and accelerations of sliding are not determined.
     """
-    mode = machine.mode(entry.phases)
-    if mode.jamming(entry.state, entry.place.time, directions_of(entry)) <= 0:
+    mode = hybrid.mode(entry.phases)
+    if mode.jamming(entry.state, entry.shared.time, directions_of(entry)) <= 0:
         names = ", ".join(element.name for element in mode.sliding)
-        raise painleve(names, entry.place.time)
+        raise painleve(names, entry.shared.time)
 
 
 def painleve(names: str, time: float) -> NumericError:
-    """Friction so strong that sliding has no unique forces."""
+    """The error for friction so strong that sliding has no unique forces."""
     return NumericError(
         f"sliding at {names} jams at t = {float(time):.9g} s (Painlevé's paradox)",
         expected="friction low enough for the normal force to be determined",
@@ -178,34 +162,34 @@ def painleve(names: str, time: float) -> NumericError:
     )
 
 
-def onset_angle(machine: HybridSystem, entry: ModeState, i: int) -> Any:
-    """The direction (angle, rad) in which a contact that begins to slip slips.
+def onset_angle(hybrid: HybridSystem, entry: ModeState, i: int) -> Any:
+    """The direction (angle, rad) in which a contact begins to slip.
 
-    The slip velocity must grow along itself while friction opposes it.
+    In it the rate of the slip velocity, against which friction acts, must point along it and grow.
 
     Raises:
-        NumericError: where no direction, or several, will do.
+        NumericError: where no direction, or more than one, is possible.
     """
-    near = _rough_angle(machine.rough, entry.rounded(), i)
-    mode, numbers = machine.mode(entry.phases), machine.numbers
+    near = _rough_angle(hybrid.in_doubles, entry.rounded(), i)
+    mode, numbers = hybrid.mode(entry.phases), hybrid.numbers
 
     def across(angle: Any) -> Any:
         trial = replace(entry, onset={**entry.onset, i: angle})
         directions = directions_of(trial, numbers)
-        x, y = mode.slip_rates(entry.state, entry.place.time, directions)[i]
+        x, y = mode.slip_rates(entry.state, entry.shared.time, directions)[i]
         cos, sin = numbers.direction(angle)
         return y * cos - x * sin
 
     return numbers.zero(across, near)
 
 
-def _rough_angle(machine: HybridSystem, entry: ModeState, i: int) -> float:
+def _rough_angle(hybrid: HybridSystem, entry: ModeState, i: int) -> float:
     """The same in doubles."""
-    mode = machine.mode(entry.phases)
+    mode = hybrid.mode(entry.phases)
 
     def rate(angle: float) -> Array:
         trial = replace(entry, onset={**entry.onset, i: angle})
-        return np.asarray(mode.slip_rates(entry.state, entry.place.time, directions_of(trial))[i])
+        return np.asarray(mode.slip_rates(entry.state, entry.shared.time, directions_of(trial))[i])
 
     def across(angle: float) -> float:
         x, y = rate(angle)
@@ -229,10 +213,10 @@ def _rough_angle(machine: HybridSystem, entry: ModeState, i: int) -> float:
     growing = [angle for angle in found if along(angle) > -1e-9 * size]
     if len(growing) == 1:
         return growing[0]
-    name = machine.automaton.contacts[i].name
+    name = hybrid.automaton.contacts[i].name
     which = "several directions" if growing else "no direction"
     raise NumericError(
-        f"at t = {entry.place.time:.9g} s slip can begin at {name} in {which}",
+        f"at t = {entry.shared.time:.9g} s slip can begin at {name} in {which}",
         expected="one direction in which slip grows against the friction it brings",
         advice="the rigid body with this friction has no unique motion from here",
     )
@@ -243,9 +227,9 @@ def rates_along(mode: CompiledMode, entry: ModeState, i: int, seen: int, angles:
 
     Args:
         i: the contact at which it begins.
-        seen: the one whose slip is looked at.
+        seen: the contact whose slip rates are returned.
     """
     given: list[Any] = list(directions_of(replace(entry, onset={**entry.onset, i: 0.0})))
     place = 3 * sorted(entry.slips).index(i)
     given[place : place + 3] = [np.cos(angles), np.sin(angles), np.zeros_like(angles)]
-    return np.asarray(mode.slip_rates_along(entry.state, entry.place.time, given)[seen])
+    return np.asarray(mode.slip_rates_along(entry.state, entry.shared.time, given)[seen])

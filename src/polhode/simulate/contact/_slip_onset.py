@@ -2,30 +2,42 @@
 
 With the slip velocity s = ρ (cos ψ, sin ψ) the equations are ρ̇ = ṡ·ŝ and ρ ψ̇ = ṡ·ŝ', regular at
 ρ = 0 if ψ starts where ṡ·ŝ' vanishes, but infinitely stiff there: they are solved by collocation
-at Radau's points, which include the end of a step and not its beginning.
+at Radau's points, which include the end of a step and not its beginning (Radau IIA, Hairer and
+Wanner, Solving Ordinary Differential Equations II).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache as once
+from typing import Any
 
 import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 from threadpoolctl import ThreadpoolController
 
+from polhode.algebra import Expr, Symbol
 from polhode.base import NumericError
+from polhode.model import Contact
+from polhode.simulate._dynamics import CLOCK, WORK
+from polhode.simulate._segment import TrajectoryPiece
+from polhode.simulate.contact._auxiliary_states import slip_symbols
+from polhode.simulate.contact._hybrid_system import CompiledMode
+from polhode.simulate.contact._mode_state import ModeState
+from polhode.simulate.contact._select_mode import rates_along
+from polhode.simulate.integrate._arrays import Array, rows
 from polhode.simulate.integrate._crossing import bisected
-from polhode.simulate.integrate._stepping import Array
+from polhode.simulate.integrate._driver import SegmentSolution
+from polhode.simulate.integrate._stop_criteria import Stop
 
-_STAGES = 9
-_RESOLVED = 1e-14  # last coefficients of a step, relative to the largest
-_ROUNDED = 1e-11  # the same, of a series that a shorter step resolves no better: rounding
-_TURN = 10.0  # rad: what the rounding of an angle is relative to, as that of a small difference
-_NOISE = 1e-15  # of a slip speed, relative to its largest within a step
-_ENDED = 1e-12  # the same, beyond which no step is resolved
+_STAGES = 9  # of the method, which is then of order 17
+_RESOLVED = 1e-14  # last Legendre coefficients of a step, relative to the largest
+_ROUNDED = 1e-11  # the same, if a shorter step resolves the series no better: it is rounding
+_TURN = 10.0  # rad: scale of the rounding of angles, which come from differences
+_NOISE = 1e-15  # of a slip speed, relative to its largest within a step: rounding
+_ENDED = 1e-12  # the same: a slip that no shorter step can resolve has ended
 _PARTS = np.concatenate([np.geomspace(1e-6, 0.02, 30), np.linspace(0.03, 1.0, 98)])
 _WELL_INSIDE, _CLOSER = (
     0.2,
@@ -36,7 +48,10 @@ _SHORTEST = 1e-13
 
 
 def _radau() -> tuple[Array, Array]:
-    """Points of [0, 1] with 0 in front, and the matrix that differentiates through them."""
+    """Radau's points of [0, 1] with 0 in front, and the differentiation matrix on them.
+
+    By barycentric weights (Berrut and Trefethen, SIAM Review 46, 2004).
+    """
     series = np.zeros(_STAGES + 1)
     series[_STAGES], series[_STAGES - 1] = 1.0, -1.0
     points = np.concatenate([[0.0], (np.sort(legendre.legroots(series).real) + 1) / 2])
@@ -74,14 +89,8 @@ class SlipOnset:
         step = np.clip(np.searchsorted(self.times, times, "right") - 1, 0, len(self.series) - 1)
         left, right = self.times[step], self.times[step + 1]
         place = (2 * times - left - right) / (right - left)
-        return _values(place, self.series[step])
-
-
-def _values(place: Array, series: Array) -> Array:
-    """Legendre series, one per place: series (places, orders, states) to (states, places)."""
-    return np.asarray(
-        legendre.legval(place[None, :], np.transpose(series, (1, 2, 0)), tensor=False)
-    )
+        by_order = np.transpose(self.series[step], (1, 2, 0))  # (orders, states, times)
+        return np.asarray(legendre.legval(place[None, :], by_order, tensor=False))
 
 
 Indices = NDArray[np.intp]
@@ -116,7 +125,7 @@ def slip_onset(
 
 @once
 def _pools() -> ThreadpoolController:
-    """The threads of linear algebra; looking for them takes a while."""
+    """The thread pools of linear algebra; finding them takes a while."""
     return ThreadpoolController()
 
 
@@ -166,7 +175,7 @@ def _followed(
 
 
 def _ended(series: list[Array], state: Array, sizes: Indices) -> int | None:
-    """Which ρ is as good as none where no step is short enough to go on, if one is."""
+    """Which ρ has vanished, where no step is short enough to go on; None if none has."""
     largest = np.max([np.max(np.abs(step[:, sizes]), axis=0) for step in series], axis=0)
     left = np.abs(state[sizes]) / largest
     return int(np.argmin(left)) if np.min(left) <= _ENDED else None
@@ -182,18 +191,18 @@ class _Step:
     sizes: Indices
 
     def is_resolved(self, before: float) -> bool:
-        """Whether the series ends, or ends no sooner than over a step four times as long did."""
+        """Whether the series has converged, or as far as it did over a step four times as long."""
         return self.tail <= _RESOLVED or before / 4 <= self.tail <= _ROUNDED
 
     @property
     def vanishing(self) -> tuple[float, int | None]:
-        """The part of the step after which the first ρ vanishes, and which, if any does."""
+        """The share of the step after which the first ρ vanishes, and which, if any does."""
         found = [(self._vanishes(row), k) for k, row in enumerate(self.sizes.tolist())]
         parts = [(part, k) for part, k in found if part is not None]
         return min(parts, default=(np.inf, None))
 
     def _vanishes(self, row: int) -> float | None:
-        """The part of the step after which a ρ vanishes (not where it begins to grow)."""
+        """The share of the step after which a ρ vanishes (not where it begins to grow)."""
         series = self.series[:, row]
 
         def size(part: float) -> float:
@@ -247,7 +256,10 @@ def _step(
 def _system(
     rates: Rates, times: Array, length: float, start: Array, stages: Array, angles: Indices
 ) -> tuple[Array, Array]:
-    """Residual of the collocation, and its derivative by all stages (by complex steps)."""
+    """Residual of the collocation, and its derivative by all stages.
+
+    By complex steps, which lose no digits (Squire and Trapp, SIAM Review 40, 1998).
+    """
     states, count = stages.shape
     whole = np.hstack([start[:, None], stages])
     slopes = whole @ _SLOPES[1:].T / length
@@ -268,3 +280,124 @@ def _system(
     stage = np.arange(count)
     full[:, stage, :, stage] += np.transpose(inner, (2, 0, 1))
     return residual, full.reshape(states * count, states * count)
+
+
+# -- the equations, in the speed and direction of each slip ----------------------------------------
+
+
+@dataclass(frozen=True)
+class PolarShape:
+    """The rates to be computed while slips begin, and their arguments.
+
+    Attributes:
+        starting: the contacts, by their places in the declaration.
+        symbols: all other states.
+        polars: slip velocities of those contacts, two of each.
+        given: of each of them, cosine and sine of the direction of its slip, and its size.
+        wanted: rates of the other states, then of the slip velocities.
+    """
+
+    starting: tuple[int, ...]
+    symbols: tuple[Symbol, ...]
+    polars: tuple[Symbol, ...]
+    given: tuple[Symbol, ...]
+    wanted: tuple[Expr, ...]
+
+
+def polar_shape(mode: CompiledMode, entry: ModeState, contacts: Sequence[Contact]) -> PolarShape:
+    """The rates for a mode in which some contacts begin to slip.
+
+    Args:
+        contacts: of the automaton.
+    """
+    starting = tuple(sorted(entry.onset))
+    touching = [contacts[i] for i in starting]
+    polars = tuple(symbol for contact in touching for symbol in slip_symbols(contact))
+    own = tuple(s for s in mode.dynamics.states if s not in polars and s != WORK)
+    rates = dict(zip(mode.dynamics.states, mode.dynamics.rates, strict=True))
+    slips = [slip for i in starting for slip in mode.slip_changes[2 * i : 2 * i + 2]]
+    turning = [mode.sliding_at(contact) for contact in touching]
+    return PolarShape(
+        starting,
+        (*own, WORK),
+        polars,
+        tuple(s for e in turning for s in (*e.direction, e.slip_speed)),
+        (*(rates[s] for s in own), mode.mode.equations.power, *slips),
+    )
+
+
+# -- the first piece of a motion on which contacts begin to slip -----------------------------------
+
+_BARELY = 1e-150  # m/s, for a slip with a direction but no speed yet: its square does not underflow
+_STIFF = 30.0  # stiffness, time of slipping over time of turning, that explicit steps can bear
+
+
+def slip_onset_piece(
+    mode: CompiledMode,
+    entry: ModeState,
+    state: Mapping[Symbol, Any],
+    span: tuple[float, float],
+    contacts: Sequence[Contact],
+) -> TrajectoryPiece:
+    """The piece on which slip velocities have to be integrated as sizes and directions.
+
+    Args:
+        mode: sliding.
+        entry: with the directions in which slips begin.
+        state: at the beginning.
+        span: from when, and until when at most, s.
+        contacts: of the automaton.
+    """
+    shape = polar_shape(mode, entry, contacts)
+    starting, symbols, polars = shape.starting, shape.symbols, shape.polars
+    arguments = (*symbols, *shape.given, *mode.dynamics.parameters, CLOCK)
+    function = mode.dynamics.function(shape.wanted, arguments)
+    constants = mode.parameters
+    first = len(symbols)
+
+    def polar(states: Array, times: Array) -> Array:
+        sizes, psis = states[first::2], states[first + 1 :: 2]
+        c, s = np.cos(psis), np.sin(psis)
+        directions = np.stack([c, s, sizes], axis=1).reshape(-1, len(times))
+        found = function(*states[:first], *directions, *constants, times)
+        values: Array = rows(found, len(times), states.dtype)
+        along, across = values[first::2].copy(), values[first + 1 :: 2].copy()
+        values[first::2] = along * c + across * s
+        values[first + 1 :: 2] = across * c - along * s
+        return values
+
+    angles = [entry.onset[i] for i in starting]
+    start = np.array([*(state[s] for s in symbols), *(x for psi in angles for x in (0.0, psi))])
+    pulls = [_pulls(mode, entry, i) for i in starting]
+    grips = np.array([grip for grip, _ in pulls])
+
+    def enough(elapsed: float, reached: Array) -> bool:
+        return bool(np.all(grips * elapsed < _STIFF * reached[first::2]))
+
+    pull = max(pull for _, pull in pulls)
+    found = slip_onset(polar, start, *span, pull, enough, len(starting))
+    all_symbols = (*symbols, *polars)
+
+    def at(times: Array) -> Array:
+        values = found.at(times)
+        sizes, psis = np.maximum(values[first::2], _BARELY), values[first + 1 :: 2].copy()
+        values[first::2], values[first + 1 :: 2] = sizes * np.cos(psis), sizes * np.sin(psis)
+        return values
+
+    def rest_at(time: float) -> Array:
+        values = dict(zip(all_symbols, at(np.array([time]))[:, 0].tolist(), strict=True))
+        return mode.flow.rest(values, constants, time)
+
+    stop, vanished = Stop.PAUSE, None
+    if found.vanished is not None:
+        stop, vanished = Stop.VANISHED, sorted(entry.slips).index(starting[found.vanished])
+    times = np.append(found.times[:-1], found.end)
+    solution = SegmentSolution(all_symbols, {}, times, stop, vanished, at, _rest_at=rest_at)
+    return TrajectoryPiece(entry.shared.time, found.end, solution, constants)
+
+
+def _pulls(mode: CompiledMode, entry: ModeState, i: int) -> tuple[float, float]:
+    """Accelerations of a slip by its friction, and by that or by all else if more, m/s²."""
+    along, against = rates_along(mode, entry, i, i, np.array([0.0, np.pi])).T
+    grip, rest = (float(np.hypot(*change)) / 2 for change in (along - against, along + against))
+    return grip, max(grip, rest)

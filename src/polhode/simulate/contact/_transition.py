@@ -1,16 +1,18 @@
-"""From one contact mode to the next: what is known where a mode ends, and shocks on landing."""
+"""What happens where a contact mode ends: impacts on landing, and how the next mode is entered.
+
+Which mode that is, `select_mode` decides by the forces, given what the event tells of the contacts.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
 from polhode.base import NumericError
 from polhode.derive import Guard
 from polhode.model import Contact, Coulomb, Rolling
-from polhode.simulate.contact._contact_kinematics import ContactKinematics
+from polhode.simulate.contact._contact_kinematics import STILL, ContactKinematics, State, fall_of
 from polhode.simulate.contact._hybrid_system import HybridSystem
 from polhode.simulate.contact._impact import (
     Impact,
@@ -19,16 +21,14 @@ from polhode.simulate.contact._impact import (
     rough_impact,
     smooth_impact,
 )
-from polhode.simulate.contact._lift_off import STILL, fall_of
 from polhode.simulate.contact._mode_state import ModeState, beyond
 from polhode.simulate.contact._select_mode import ContactStatus, select_mode
-from polhode.simulate.contact._state import State
+from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._number_types import NumberType
-from polhode.simulate.integrate._stepping import Array
 
-_REBOUND = 1e-13  # of the hardest landing: a rebound that is none
-_INSTANT = 32  # steps of rounding of the time: a hop that is over sooner is none
-_UNFELT = 1e-12  # of what an impulse does where it acts: what it does elsewhere that is nothing
+_REBOUND = 1e-13  # of the speed of the hardest landing: a slower rebound counts as none
+_INSTANT = 32  # units in the last place of the time: a shorter hop counts as none
+_UNFELT = 1e-12  # of its effect where it acts: an impulse with less effect elsewhere has none
 
 
 @dataclass(frozen=True)
@@ -37,13 +37,13 @@ class ModeExit:
 
     Attributes:
         guard: what ended it; None for a jerk of a support.
-        place: the shared state.
-        gaps: heights of the contacts that are open, as they were followed, m.
-        rooms: likewise distances to an edge, m.
+        shared: the shared state.
+        gaps: heights of the contacts that are open, as integrated, m.
+        rooms: distances to an edge, likewise, m.
     """
 
     guard: Guard | None
-    place: State
+    shared: State
     gaps: dict[int, float]
     rooms: dict[int, float]
 
@@ -52,119 +52,113 @@ class Transitions:
     """The changes of mode along one motion; remembers the hardest landing of every contact.
 
     Args:
-        machine: the modes.
+        hybrid: the modes.
     """
 
-    def __init__(self, machine: HybridSystem) -> None:
-        self._machine = machine
+    def __init__(self, hybrid: HybridSystem) -> None:
+        self._hybrid = hybrid
         self._hardest: dict[int, float] = {}
 
     def next(self, before: ModeState, leaving: ModeExit) -> tuple[str, ModeState]:
-        """What happens where a mode ends, and how the motion enters the mode that follows."""
-        self._machine.move_on(leaving.place.time)
+        """What happens where a mode ends, and how the next mode is entered."""
+        self._hybrid.move_on(leaving.shared.time)
         kind, entry, opened = self._next(before, leaving)
         rooms = {i: _room(before, leaving, entry, i) for i in entry.rooms}
-        return kind, replace(entry, gaps=_gaps(before, leaving, entry, opened), rooms=rooms)
+        # Heights of open contacts: as integrated, and zero for those that have just opened.
+        gaps = {
+            k: leaving.gaps[k] if before.phases[k].flies and k != opened else 0.0
+            for k, phase in enumerate(entry.phases)
+            if phase.flies
+        }
+        return kind, replace(entry, gaps=gaps, rooms=rooms)
 
     def _next(self, before: ModeState, leaving: ModeExit) -> tuple[str, ModeState, int | None]:
-        """Also the contact that opens again at once, if one does."""
-        guard, place = leaving.guard, leaving.place
+        """The same, and the contact that has landed: if it bounces, its height is zero."""
+        guard, shared = leaving.guard, leaving.shared
         apart = frozenset(k for k, phase in enumerate(before.phases) if phase.flies)
         if guard is None:
-            return "jerk", select_mode(self._machine, place, ContactStatus(apart)), None
-        i = index_of(guard, self._machine)
+            return "jerk", select_mode(self._hybrid, shared, ContactStatus(apart)), None
+        i = index_of(guard, self._hybrid)
         still = frozenset(k for k, phase in enumerate(before.phases) if phase.rolls)
         if guard.kind == "touches down":
-            return *self._land(before, place, i), i
+            return *self._land(before, shared, i), i
         far = beyond(before.phases)
+        # Contacts that have begun to slip at this very instant are slipping, though without speed.
+        starting = frozenset(before.onset) if before.shared.time == shared.time else frozenset()
         known = {
             "lifts off": ContactStatus(apart | {i}, still - {i}, beyond=far),
             "crosses the edge": ContactStatus(apart, still - {i}, beyond=far ^ {i}),
-            "slips": ContactStatus(apart, still - {i}, _starting(before, place) | {i}, far),
+            "slips": ContactStatus(apart, still - {i}, starting | {i}, far),
             "sticks": ContactStatus(apart, still | {i}, beyond=far),
         }
-        entry = select_mode(self._machine, place, known[guard.kind])
+        entry = select_mode(self._hybrid, shared, known[guard.kind])
         turned = guard.kind == "sticks" and entry.phases[i].slides
         return "turns round" if turned else guard.kind, entry, None
 
-    def _land(self, before: ModeState, place: State, i: int) -> tuple[str, ModeState]:
-        """A shock, then contact or another flight."""
-        machine, numbers = self._machine, self._machine.numbers
-        contact = machine.automaton.contacts[i]
+    def _land(self, before: ModeState, shared: State, i: int) -> tuple[str, ModeState]:
+        """An impact, if it approaches; then contact, or flight again if it rebounds."""
+        hybrid, numbers = self._hybrid, self._hybrid.numbers
+        contact = hybrid.automaton.contacts[i]
         apart = frozenset(k for k, phase in enumerate(before.phases) if phase.flies)
         still = frozenset(k for k, phase in enumerate(before.phases) if phase.rolls)
-        far = beyond(before.phases) | (machine.touching.beyond(place) & apart)
-        meetings = machine.touching.at(place, far)
-        mass = machine.apart.mass(place)
-        for k, phase in enumerate(before.phases):
-            if not phase.flies and _feel(meetings[k], meetings[i], mass, numbers):
-                raise _shared(contact.name, machine.automaton.contacts[k].name, place.time)
-        meeting = meetings[i]
-        slow = numbers.finer(STILL) * meeting.scale
-        if meeting.velocity[2] > slow:
-            return "touches down", select_mode(
-                machine, place, ContactStatus(apart, still, beyond=far)
+        far = beyond(before.phases) | (hybrid.touching.beyond(shared) & apart)
+        points = hybrid.touching.at(shared, far)
+        mass = hybrid.apart.mass(shared)
+        touching = [k for k, phase in enumerate(before.phases) if not phase.flies]
+        if felt := [k for k in touching if _feel(points[k], points[i], mass, numbers)]:
+            other = hybrid.automaton.contacts[felt[0]].name
+            raise NumericError(
+                f"{contact.name} lands at t = {float(shared.time):.9g} s, and the contact {other} "
+                "feels the impact",
+                expected="one contact of connected bodies at a time: impacts at several contacts "
+                "are not determined",
+                advice="end the motion before that time",
             )
-        if meeting.velocity[2] >= -slow:
-            return "touches down", select_mode(
-                machine, place, ContactStatus(apart - {i}, still, beyond=far)
-            )
-        felt = meeting.arms @ numbers.solved(mass, meeting.arms.T)
-        shock = self._shock(contact, felt, meeting.velocity, place.time)
-        work = shock.impulse @ (meeting.support + (meeting.velocity + shock.velocity) / 2)
-        change = numbers.solved(mass, meeting.arms.T @ shock.impulse)
-        after = place.kicked(change, work)
-        hardest = max(self._hardest.get(i, 0.0), -meeting.velocity[2])
+        point = points[i]
+        slow = numbers.finer(STILL) * point.scale
+        open_again = ContactStatus(apart, still, beyond=far)
+        closed = ContactStatus(apart - {i}, still, beyond=far)
+        if point.velocity[2] > slow:
+            return "touches down", select_mode(hybrid, shared, open_again)
+        if point.velocity[2] >= -slow:  # without an impact
+            return "touches down", select_mode(hybrid, shared, closed)
+        inverse_mass = point.jacobian @ numbers.solved(mass, point.jacobian.T)
+        impact = self._impact(contact, inverse_mass, point.velocity, shared.time)
+        work = impact.impulse @ (point.support + (point.velocity + impact.velocity) / 2)
+        change = numbers.solved(mass, point.jacobian.T @ impact.impulse)
+        after = shared.with_impulse(change, work)
+        hardest = max(self._hardest.get(i, 0.0), -point.velocity[2])
         self._hardest[i] = hardest
-        if shock.velocity[2] > numbers.finer(_REBOUND) * hardest:
-            bounced = select_mode(machine, after, ContactStatus(apart, still, beyond=far))
-            if self._rises(bounced, i, shock.velocity[2]):
+        if impact.velocity[2] > numbers.finer(_REBOUND) * hardest:
+            bounced = select_mode(hybrid, after, open_again)
+            time = bounced.shared.time
+            fall = hybrid.mode(bounced.phases).closing_rates(bounced.state, time)[i]
+            hop = fall_of(0.0, impact.velocity[2], fall) if fall < 0 else np.inf
+            if hop > _INSTANT * numbers.spacing(time):
                 return "bounces", bounced
-        stuck = still | {i} if shock.sticks else still
-        return "touches down", select_mode(
-            machine, after, ContactStatus(apart - {i}, stuck, beyond=far)
-        )
+        if impact.sticks:
+            closed = replace(closed, stuck=still | {i})
+        return "touches down", select_mode(hybrid, after, closed)
 
-    def _rises(self, bounced: ModeState, i: int, speed: Any) -> bool:
-        """Whether a contact that bounces is open for longer than the rounding of the time."""
-        time = bounced.place.time
-        fall = self._machine.mode(bounced.phases).closing_rates(bounced.state, time)[i]
-        hop = fall_of(0.0, speed, fall) if fall < 0 else np.inf
-        return bool(hop > _INSTANT * self._machine.numbers.spacing(time))
-
-    def _shock(self, contact: Contact, felt: Array, velocity: Array, time: float) -> Impact:
-        numbers = self._machine.numbers
-        restitution = self._machine.value(contact.restitution)
+    def _impact(
+        self, contact: Contact, inverse_mass: Array, velocity: Array, time: float
+    ) -> Impact:
+        numbers = self._hybrid.numbers
+        restitution = self._hybrid.value(contact.restitution)
         if isinstance(contact, Coulomb):
-            kinetic, static = (self._machine.value(m) for m in (contact.mu, contact.mu_static))
+            kinetic, static = (self._hybrid.value(m) for m in (contact.mu, contact.mu_static))
             roughness = Roughness(kinetic, static, restitution)
             where = f"{contact.name} at t = {float(time):.9g} s"
-            return coulomb_impact(felt, velocity, roughness, where, numbers)
+            return coulomb_impact(inverse_mass, velocity, roughness, where, numbers)
         if isinstance(contact, Rolling):
-            return rough_impact(felt, velocity, restitution, numbers)
-        return smooth_impact(felt, velocity, restitution)
-
-
-def _starting(before: ModeState, place: State) -> frozenset[int]:
-    """The contacts that have begun to slip at this very instant."""
-    return frozenset(before.onset) if before.place.time == place.time else frozenset()
-
-
-def _gaps(
-    before: ModeState, leaving: ModeExit, entry: ModeState, landed: int | None
-) -> dict[int, float]:
-    """Heights of open contacts: as they were followed, and none where they have just opened."""
-    return {
-        k: leaving.gaps[k] if before.phases[k].flies and k != landed else 0.0
-        for k, phase in enumerate(entry.phases)
-        if phase.flies
-    }
+            return rough_impact(inverse_mass, velocity, restitution, numbers)
+        return smooth_impact(inverse_mass, velocity, restitution)
 
 
 def _room(before: ModeState, leaving: ModeExit, entry: ModeState, i: int) -> float:
-    """The distance to an edge: as it was followed, and none where that has just been crossed.
+    """The distance to an edge: as integrated, and zero where the edge has just been crossed.
 
-    Where a support jerks it may have been shifted.
+    A support that jerks may have shifted it: then it is taken from the state.
     """
     if leaving.guard is None or i not in leaving.rooms:
         return entry.rooms[i]
@@ -176,20 +170,12 @@ def _feel(
     one: ContactKinematics, other: ContactKinematics, mass: Array, numbers: NumberType
 ) -> bool:
     """Whether an impulse at one contact is felt at another."""
-    shared = one.arms @ numbers.solved(mass, other.arms.T)
-    own = one.arms @ numbers.solved(mass, one.arms.T)
+    shared = one.jacobian @ numbers.solved(mass, other.jacobian.T)
+    own = one.jacobian @ numbers.solved(mass, one.jacobian.T)
     return bool(np.max(np.abs(shared)) > _UNFELT * np.max(np.abs(own)))
 
 
-def _shared(lands: str, touches: str, time: float) -> NumericError:
-    return NumericError(
-        f"{lands} lands at t = {float(time):.9g} s while {touches}, which feels it, touches",
-        expected="one contact of connected bodies at a time: shared shocks are not determined",
-        advice="end the motion before that time",
-    )
-
-
-def index_of(guard: Guard, machine: HybridSystem) -> int:
+def index_of(guard: Guard, hybrid: HybridSystem) -> int:
     """Which contact a guard watches; -1 for none."""
-    names = [contact.name for contact in machine.automaton.contacts]
+    names = [contact.name for contact in hybrid.automaton.contacts]
     return names.index(guard.contact.name) if guard.contact is not None else -1

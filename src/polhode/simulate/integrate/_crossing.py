@@ -1,7 +1,7 @@
 """Where functions of time first fall below zero, found to rounding.
 
-Guards are looked at after the motion has been computed, not while: they cannot disturb its steps.
-Each is resolved into Legendre series piece by piece, so that a dip between two samples is seen.
+Guards are evaluated after the motion has been computed, so that they do not disturb its steps.
+Each is resolved into Legendre series piece by piece, so that no dip between samples is missed.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from itertools import count, pairwise
 import numpy as np
 from numpy.polynomial import legendre
 
+from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._quadrature import resolved
-from polhode.simulate.integrate._stepping import Array
 
-#: Of the largest value a guard has: a dip below zero that is no deeper is rounding.
+#: Of the largest value of a guard: a dip below zero that is no deeper counts as rounding.
 NOISE = 1e-13
-_POLISHED = 6  # secant steps after the series has said where
+_POLISHED = 6  # secant steps from the root of the series
 _DENSE = 65
 _INSIDE = 0.005  # share of an interval by which guesses keep from its ends
 
@@ -67,8 +67,9 @@ def roots(function: Callable[[Array], Array], knots: Array) -> list[float]:
     for i in range(len(left)):
         for place in _real_roots(series[0, i]):
             time = _time(left[i], right[i], place)
-            before, after = _either_side(series[0, i], place)
-            if before * after < 0:
+            beside = np.clip(np.array([place - 1e-6, place + 1e-6]), -1, 1)
+            earlier, later = legendre.legval(beside, series[0, i])
+            if earlier * later < 0:
                 found.append(_polished(function, 0, time, 1e-7 * (right[i] - left[i])))
     return sorted(found)
 
@@ -107,7 +108,9 @@ def _fall(
 ) -> float | None:
     for i in np.flatnonzero(suspects):
         dense = legendre.legval(np.linspace(-1, 1, _DENSE), series[i])
-        if np.min(dense) >= -noise and np.min(_extremes(series[i]), initial=0.0) >= -noise:
+        turns = np.array(_real_roots(_slope(series[i])), dtype=float)
+        extremes = legendre.legval(turns, series[i])
+        if np.min(dense) >= -noise and np.min(extremes, initial=0.0) >= -noise:
             continue
         if dense[0] <= 0 and not np.any(dense > noise):
             return float(left[i])
@@ -132,10 +135,6 @@ def _first_fall_place(series: Array, noise: float) -> float | None:
     return None
 
 
-def _extremes(series: Array) -> Array:
-    return np.asarray(legendre.legval(np.array(_real_roots(_slope(series)), dtype=float), series))
-
-
 def _slope(series: Array) -> Array:
     return np.asarray(legendre.legder(series), dtype=float)
 
@@ -148,12 +147,6 @@ def _real_roots(series: Array) -> list[float]:
     found = legendre.legroots(series[: kept[-1] + 1])
     real = found[np.abs(found.imag) < 1e-7].real
     return sorted(float(r) for r in real if -1 <= r <= 1)
-
-
-def _either_side(series: Array, place: float) -> tuple[float, float]:
-    sides = np.clip(np.array([place - 1e-6, place + 1e-6]), -1, 1)
-    before, after = legendre.legval(sides, series)
-    return float(before), float(after)
 
 
 def _time(left: float, right: float, place: float) -> float:

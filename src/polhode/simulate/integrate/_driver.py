@@ -1,4 +1,4 @@
-"""Drives an integrator over a stretch of time, and puts its legs together."""
+"""Integrates a flow over a span of time: the core step by step, then the quadratures over it."""
 
 from __future__ import annotations
 
@@ -12,33 +12,79 @@ from numpy.typing import NDArray
 
 from polhode.algebra import Symbol
 from polhode.base import NumericError, Progress
-from polhode.simulate.integrate._ascending import ascending, occurring
+from polhode.simulate.integrate._arrays import Array, ascending, occurring
 from polhode.simulate.integrate._crossing import bisected
 from polhode.simulate.integrate._flow import Flow, Stage
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._quadrature import integral
-from polhode.simulate.integrate._steady import Constant, is_steady
-from polhode.simulate.integrate._stepping import Array, Leg, Stepper, broken, looks_along
+from polhode.simulate.integrate._stepping import Leg, Stepper, broken, looks_along
 from polhode.simulate.integrate._stop_criteria import StepWatch, Stop, StopCriteria
 
-_FEW = 10_000  # times for which states are remembered
+# -- motions that begin in equilibrium, to the last digit of where they begin ------------------
+
+_APART = 1e-6  # of a state, or of one: step of the difference quotients
+
+
+@dataclass(frozen=True)
+class Constant:
+    """A solution that does not change.
+
+    Attributes:
+        times: where it begins and ends, s.
+        state: all along.
+    """
+
+    times: Array
+    state: Array
+    broken: bool = False
+
+    def at(self, times: Array) -> Array:
+        """States, shape (states, times)."""
+        return np.repeat(self.state[:, None], len(times), axis=1)
+
+
+def is_steady(flow: Flow, parameters: Array, state: Array) -> bool:
+    """Whether the rates of the core are zero to within the rounding of its state.
+
+    90° has no exact double: the rates of a disk that stands upright come from the last digit of
+    that angle, and in an unstable equilibrium they would grow without limit. Rates that are
+    exactly zero need no such care.
+    """
+    core = flow.core
+    size = len(state)
+    if flow.degree > 0:
+        return False
+    apart = _APART * np.maximum(np.abs(state), 1.0)
+    columns = np.repeat(state[:, None], size + 1, axis=1)
+    columns[:, 1:] += np.diag(apart)
+    others = [0.0] * (len(core.program.arguments) - size - len(parameters) - 1)
+    with np.errstate(all="ignore"):
+        found = core.rates(*columns, *others, *parameters, 0.0)
+    rates = np.array([np.broadcast_to(np.asarray(rate, dtype=float), size + 1) for rate in found])
+    slopes = np.abs(rates[:, 1:] - rates[:, :1]) / apart
+    rounding = slopes @ np.where(state == 0, 0.0, np.spacing(np.abs(state)))
+    now = np.abs(rates[:, 0])
+    return bool(np.any(now > 0) and np.all(now <= rounding))
+
+
+_FEW = 10_000  # times for which states are kept
 _ROUNDING = 8 * float(np.finfo(float).eps)
-_TURNS = 4  # periods after which an angle is counted from zero again
+_TURNS = 4  # periods after which an angle is reduced by whole turns
 
 States: TypeAlias = Callable[[Array], Array]
 
 
 @dataclass(frozen=True)
 class SegmentSolution:
-    """All states at every instant of a stretch of time.
+    """All states at every instant of a span of time.
 
     Attributes:
         symbols: the states, in the order of the rows of `at`.
         turned: of large angles: the symbol of the angle less whole turns.
         steps: where the steps of the integrator begin and end, s.
         stop: why it ends where it does.
-        vanished: which of the vectors watched vanishes at its end.
-        numbers: what the states are.
+        vanished: which of the watched vectors vanishes at its end.
+        numbers: the type of the states.
     """
 
     symbols: tuple[Symbol, ...]
@@ -56,9 +102,9 @@ class SegmentSolution:
         return self._at(times)
 
     def rest(self, time: float) -> Array:
-        """All states of the flow at an instant, less what is known of them as functions of time.
+        """All states of the flow at an instant, less the parts that are known functions of time.
 
-        What goes on from these does not gather the rounding of what is known.
+        A motion that is continued from these does not accumulate the rounding of the known parts.
         """
         if self._rest_at is None:
             return self._at(np.array([time]))[:, 0]
@@ -79,24 +125,24 @@ def integrate(
     start: Array,
     span: tuple[float, float],
     progress: Progress,
-    watched: StopCriteria | None = None,
+    criteria: StopCriteria | None = None,
 ) -> SegmentSolution:
     """Integrate a flow over a span of time, or as far as it goes.
 
     Args:
-        start: of all states, in the order of the flow, less what is known of them.
-        watched: what may stop it early.
+        start: of all states, in the order of the flow, less the parts that are known.
+        criteria: what may stop it early.
 
     Raises:
         NumericError: where the motion cannot even begin.
     """
     size = len(flow.core.symbols)
-    watched = watched or StopCriteria()
-    path = _legs(flow, stepper, parameters, start[:size], span, progress, watched)
+    criteria = criteria or StopCriteria()
+    path = _legs(flow, stepper, parameters, start[:size], span, progress, criteria)
     steps = ascending([leg.times for leg in path.legs])
     vanished = None
     if path.stop is Stop.VANISHED:
-        end, vanished = _vanishing(path, watched, (float(steps[-2]), float(steps[-1])))
+        end, vanished = _vanishing(path, criteria, (float(steps[-2]), float(steps[-1])))
         steps = np.append(steps[:-1], end)
     if looks_along(flow) > 1:
         looks = np.linspace(steps[0], steps[-1], looks_along(flow) + 1)
@@ -120,10 +166,10 @@ def integrate(
 
 
 def _vanishing(
-    path: _Path, watched: StopCriteria, step: tuple[float, float]
+    path: _Path, criteria: StopCriteria, step: tuple[float, float]
 ) -> tuple[float, int | None]:
-    """When a vector vanishes within the last step, and which; its end if it only turned round."""
-    for k, places in enumerate(watched.vectors):
+    """When a slip ends within the last step, and which; if none does, the end of the step."""
+    for k, places in enumerate(criteria.vectors):
         rows = list(places)
         start = path.at(np.array(step[:1]))[rows, 0]
 
@@ -135,16 +181,16 @@ def _vanishing(
 
         if along(step[1]) <= 0:
             time = bisected(along, *step)
-            if np.hypot(*vector(time)) <= watched.passing:
+            if np.hypot(*vector(time)) <= criteria.passing:
                 return time, k
-        elif np.hypot(*vector(step[1])) <= watched.passing:
+        elif np.hypot(*vector(step[1])) <= criteria.passing:
             return step[1], k
     return step[1], None
 
 
 @dataclass(frozen=True)
 class _Path:
-    """Legs one after the other, each with what was taken off its angles before it began.
+    """Legs one after the other, each with the whole turns by which its angles were reduced.
 
     Its rows are the states of the core, then the periodic ones once more, less whole turns.
     """
@@ -186,12 +232,12 @@ def _legs(
     state: Array,
     span: tuple[float, float],
     progress: Progress,
-    watched: StopCriteria,
+    criteria: StopCriteria,
 ) -> _Path:
-    """Angles that have grown far are counted from zero again: their rounding would spread."""
+    """Integrates leg by leg: each begins with angles reduced by whole turns, for their digits."""
     now, end = span
     periods = np.array([period or np.inf for period in flow.periods])
-    steps = StepWatch(watched, state.tolist(), span, progress)
+    steps = StepWatch(criteria, state.tolist(), span, progress)
     watch = _AngleMonitor(steps, _TURNS * periods)
     legs, begins, turned = list[Leg](), list[float](), list[Array]()
     offset = np.zeros(len(state))
@@ -215,7 +261,7 @@ def _legs(
 
 
 class _AngleMonitor:
-    """Stops a leg when an angle has grown far, and all of them when there is reason to look."""
+    """Stops a leg when an angle has grown large, and the integration when its criteria say so."""
 
     def __init__(self, steps: StepWatch, limits: Array) -> None:
         self.stop: Stop | None = None
@@ -230,33 +276,30 @@ class _AngleMonitor:
 
 
 def stuck(solution: SegmentSolution) -> NumericError:
-    """The motion cannot be continued beyond the end of a solution."""
+    """The error where a motion cannot be continued beyond the end of a solution."""
     return broken(float(solution.steps[-1]))
 
 
 def _summed(
     stage: Stage, flow: Flow, inner: States, start: Array, parameters: Array, steps: Array
 ) -> States:
-    """The quadratures of a stage, less what is known of them."""
+    """The quadratures of a stage, less the parts that are known."""
 
     def rates(times: Array) -> Array:
         return flow.values(stage.rates, inner(times), parameters, times)
 
-    found = integral(rates, steps, _noise(stage, flow, inner(steps), parameters, steps))
+    # Rates are as uncertain as they change with the rounding of the states.
+    states = inner(steps)
+    moved = states * (1.0 + _ROUNDING * np.where(np.arange(len(states)) % 2, -1.0, 1.0)[:, None])
+    with np.errstate(all="ignore"):
+        here, there = (flow.values(stage.rates, s, parameters, steps) for s in (states, moved))
+        noise = np.max(np.abs(there - here), axis=1, initial=0.0)
+    found = integral(rates, steps, np.where(np.isfinite(noise), noise, 0.0))
     return lambda times: start[:, None] + found.at(times)
 
 
-def _noise(stage: Stage, flow: Flow, states: Array, parameters: Array, times: Array) -> Array:
-    """What rates are uncertain by: how they change with the rounding of the states."""
-    moved = states * (1.0 + _ROUNDING * np.where(np.arange(len(states)) % 2, -1.0, 1.0)[:, None])
-    with np.errstate(all="ignore"):
-        here, there = (flow.values(stage.rates, s, parameters, times) for s in (states, moved))
-        noise = np.max(np.abs(there - here), axis=1, initial=0.0)
-    return np.where(np.isfinite(noise), noise, 0.0)
-
-
 class _Remembered:
-    """States at the times at which they were last asked for: often they are asked for again."""
+    """Keeps the states at the last times: they are often needed again."""
 
     def __init__(self, at: States) -> None:
         self._at = at

@@ -1,7 +1,7 @@
-"""The motion as a flow: a core that drives itself, and quadratures that follow from it.
+"""The equations of motion as a flow: a core that is integrated, and quadratures over it.
 
-Angles of spin, positions and work done grow without influencing the accelerations. Left out of
-the core they cannot spoil its accuracy, however far they grow.
+Spin angles, positions and work grow without influencing the accelerations. Left out of the core
+they cannot spoil its accuracy, however large they become.
 """
 
 from __future__ import annotations
@@ -10,18 +10,89 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import lcm, pi
+from math import inf, lcm, pi
 
 import numpy as np
-from numpy.typing import NDArray
 
-from polhode.algebra import Compiled, Expr, Op, Program, Symbol, SymbolKind, arrays
+from polhode.algebra import ZERO, Compiled, Expr, Op, Program, Symbol, SymbolKind, arrays
 from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
-from polhode.simulate.integrate._foresight import degree_in
-from polhode.simulate.integrate._primitives import primitive
-from polhode.simulate.integrate._rows import rows
+from polhode.simulate.integrate._arrays import Array, rows
 
-Array = NDArray[np.float64]
+# -- how the time itself occurs: steps foresee a polynomial of it, but not a pulse -------------
+
+
+def degree_in(program: Program, argument: Symbol) -> float:
+    """The highest degree to which any step of a program is a polynomial of an argument.
+
+    Zero where the argument does not occur; infinite where a step is no polynomial of it.
+    """
+    place = program.arguments.index(argument)
+    degrees = list[float]()
+    for step in program.instructions:
+        own = [degrees[operand] for operand in step.operands]
+        degrees.append(1.0 if (step.op, step.value) == (Op.ARG, place) else _degree(step.op, own))
+    return max(degrees, default=0.0)
+
+
+def _degree(op: Op, own: list[float]) -> float:
+    match op:
+        case Op.MUL:
+            return sum(own)
+        case Op.DIV:
+            return inf if own[1] else own[0]
+        case Op.ADD | Op.SUB | Op.NEG:
+            return max(own)
+        case _:
+            return inf if any(own) else 0.0
+
+
+# -- the part of a coordinate or a speed that is a function of time alone -----------------------
+#
+# A body that keeps to a shaken support goes where the support goes: if its velocity were summed up
+# over many periods, rounding would carry it away from there.
+
+
+@dataclass(frozen=True)
+class Primitive:
+    """A rate, taken apart.
+
+    Attributes:
+        known: an expression of prescribed functions of time, whose derivative is part of the rate.
+        rest: of the rate.
+    """
+
+    known: Expr
+    rest: Expr
+
+
+def primitive(dynamics: Dynamics, state: Symbol, rate: Expr) -> Primitive:
+    """The part of a state's rate that is a constant times the rates of prescribed functions."""
+    full = _written_out(dynamics, state)
+    if full is None:
+        return Primitive(ZERO, rate)
+    symbols = [s for s in full.generators if isinstance(s, Symbol)]
+    driving_rates = [s for s in symbols if s.kind is SymbolKind.FUNCTION and s.order > 0]
+    known = ZERO
+    for symbol in driving_rates:
+        coefficient = full.diff(symbol)
+        if all(s.kind is SymbolKind.PARAMETER for s in coefficient.symbols()):
+            integrated = Symbol(symbol.name, symbol.kind, symbol.order - 1)
+            known = known + coefficient * Expr.generator(integrated)
+            full = full - coefficient * Expr.generator(symbol)
+    return Primitive(known, full) if known else Primitive(ZERO, rate)
+
+
+def _written_out(dynamics: Dynamics, state: Symbol) -> Expr | None:
+    """The rate of a coordinate, or of a speed that has a row of the equations to itself."""
+    equations, own = dynamics.equations, state.derivative()
+    if own in equations.kinematics:
+        return dynamics.on_side(equations.kinematics[own].subs(equations.dependent))
+    if own not in dynamics.accelerations.unknowns:
+        return None
+    row = dynamics.accelerations.unknowns.index(own)
+    masses = dynamics.accelerations.matrix.rows[row]
+    alone = not any(mass for k, mass in enumerate(masses) if k != row)
+    return dynamics.accelerations.right[row] / masses[row] if alone else None
 
 
 @dataclass(frozen=True)
@@ -34,7 +105,7 @@ class Stage:
     Attributes:
         symbols: the states.
         program: their rates; of a quadrature, less those of what is known of it.
-        known: of each quadrature the part that is a function of time.
+        known: the part of each quadrature that is a function of time.
     """
 
     symbols: tuple[Symbol, ...]
@@ -48,7 +119,7 @@ class Stage:
 
     @cached_property
     def known_values(self) -> Compiled | None:
-        """What is known, on arrays."""
+        """The known parts, on arrays."""
         return self.known.function(arrays()) if self.known is not None else None
 
 
@@ -77,16 +148,17 @@ class Flow:
         return max(degree_in(stage.program, CLOCK) for stage in (self.core, *self.stages))
 
     def values(self, function: Compiled, states: Array, parameters: Array, times: Array) -> Array:
-        """Of a function of a stage, from the rows of the states before it, which it may not read.
+        """Values of the functions of a stage, shape (functions, times).
 
-        Shape (functions, times).
+        Args:
+            states: rows of the states of earlier stages; later ones are not read.
         """
         later = [0.0] * (len(self.symbols) - len(states))
         found: Array = rows(function(*states, *later, *parameters, times), len(times))
         return found
 
     def rest(self, states: Mapping[Symbol, float], parameters: Array, time: float) -> Array:
-        """The states, in their order, less what is known of them as functions of time."""
+        """The states in the order of the flow, less the parts that are known functions of time."""
         rests = [np.array([states[symbol] for symbol in self.core.symbols])]
         for stage in self.stages:
             own = np.array([states[symbol] for symbol in stage.symbols])
@@ -112,7 +184,7 @@ class Flow:
 
 
 def flow_of(dynamics: Dynamics, *, reduced: bool) -> Flow:
-    """The flow of all states and of the work done; `reduced` to the smallest core or whole."""
+    """The flow of all states and the work: with the smallest core if `reduced`, else all in it."""
     rates = dict(zip(dynamics.states, dynamics.rates, strict=True))
     if dynamics.equations.power or not rates:
         rates[WORK] = dynamics.equations.power
@@ -123,7 +195,11 @@ def flow_of(dynamics: Dynamics, *, reduced: bool) -> Flow:
     given = (*outer, *dynamics.parameters, CLOCK)
     program = dynamics.program([rates[s] for s in core], (*core, *given))
     periods = tuple(period_in(program, i) for i in range(len(core)))
-    turned = {s: _less_turns(s) for s, period in zip(core, periods, strict=True) if period}
+    turned = {
+        angle: Symbol(f"{angle.name} less whole turns", SymbolKind.COORDINATE)
+        for angle, period in zip(core, periods, strict=True)
+        if period
+    }
     arguments = (*core, *turned.values(), *given)
     stages = []
     for layer in layers:
@@ -132,10 +208,6 @@ def flow_of(dynamics: Dynamics, *, reduced: bool) -> Flow:
         known = dynamics.program([part.known for part in parts], arguments, turned)
         stages.append(Stage(layer, rests, known if any(p.known for p in parts) else None))
     return Flow(Stage(core, program), periods, turned, tuple(stages), dynamics.parameters)
-
-
-def _less_turns(angle: Symbol) -> Symbol:
-    return Symbol(f"{angle.name} less whole turns", SymbolKind.COORDINATE)
 
 
 def _influences(dynamics: Dynamics, rates: dict[Symbol, Expr]) -> dict[Symbol, set[Symbol]]:
@@ -152,7 +224,7 @@ def _influences(dynamics: Dynamics, rates: dict[Symbol, Expr]) -> dict[Symbol, s
 
 
 def _peeled(influences: dict[Symbol, set[Symbol]]) -> Iterator[tuple[Symbol, ...]]:
-    """Layers of states that influence none of those within; at least one remains as the core."""
+    """Layers of states, outermost first, that influence no others; at least one state remains."""
     remaining = dict(influences)
     while len(remaining) > 1:
         felt = set[Symbol]().union(*remaining.values())
@@ -166,7 +238,7 @@ def _peeled(influences: dict[Symbol, set[Symbol]]) -> Iterator[tuple[Symbol, ...
 
 
 def period_in(program: Program, argument: int) -> float | None:
-    """The period of a program in an argument seen only by sines and cosines, else None."""
+    """The period of a program in an argument that occurs only in sines and cosines, else None."""
     steps = program.instructions
     place = next((i for i, s in enumerate(steps) if (s.op, s.value) == (Op.ARG, argument)), None)
     if place is None or place in program.outputs:
@@ -182,7 +254,7 @@ def period_in(program: Program, argument: int) -> float | None:
 
 
 def _factor_of_angle(program: Program, i: int, place: int) -> Fraction | None:
-    """k where step i is k times the argument and goes into sines and cosines only."""
+    """k if step i is k times the argument and only enters sines and cosines, else None."""
     steps = program.instructions
     others = [steps[operand] for operand in steps[i].operands if operand != place]
     users = [step.op for step in steps if i in step.operands]

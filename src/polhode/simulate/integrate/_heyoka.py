@@ -20,9 +20,16 @@ import numpy as np
 
 from polhode.algebra import Arithmetic, Program, SymbolKind
 from polhode.base import StoreError, cache
+from polhode.simulate.integrate._arrays import Array, evaluated, pieces_at, powers_of
 from polhode.simulate.integrate._flow import Flow
+from polhode.simulate.integrate._number_types import LongDoubles, NumberType, number
+from polhode.simulate.integrate._series import (
+    InitialValueProblem,
+    SeriesCallback,
+    TaylorSolution,
+    limbs_of,
+)
 from polhode.simulate.integrate._stepping import (
-    Array,
     Leg,
     StepCallback,
     Stepper,
@@ -30,7 +37,85 @@ from polhode.simulate.integrate._stepping import (
     longest_step,
     looks_along,
 )
-from polhode.simulate.integrate._taylor import TaylorSteps
+
+# -- a solution as Taylor series, step by step -------------------------------------------------
+
+_MISSED = 2  # units in the last place by which the sum of the steps may miss the end
+
+
+class TaylorSteps:
+    """Steps as they are made.
+
+    Args:
+        begin: of the first of them, s.
+    """
+
+    def __init__(self, begin: float) -> None:
+        self._times = [(begin, 0.0)]
+        self._lengths = list[float]()
+        self._series = list[Array]()
+
+    @property
+    def count(self) -> int:
+        """How many there are."""
+        return len(self._series)
+
+    def add(self, end: tuple[float, float], length: float, series: Array) -> None:
+        """One more.
+
+        Args:
+            end: the sum of these, s.
+            length: s.
+            series: Taylor coefficients about its beginning, shape (states, order + 1).
+        """
+        self._times.append(end)
+        self._lengths.append(length)
+        self._series.append(series.copy())
+
+    def leg(self, goal: float, *, broken: bool) -> TaylorLeg:
+        """All of them together.
+
+        Args:
+            goal: where they were to end, s. If only rounding is in between they end there: an
+                event at that instant would be missed otherwise.
+        """
+        times, rests = np.array(self._times).T
+        if abs(times[-1] - goal) <= _MISSED * np.spacing(abs(goal)):
+            times[-1], rests[-1] = goal, 0.0
+        lengths = np.array(self._lengths)
+        shares = np.array(self._series)
+        with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+            powers = powers_of(lengths, shares.shape[2] - 1).T
+            np.multiply(
+                shares[:, :, 1:], powers[:, None], out=shares[:, :, 1:], where=shares[:, :, 1:] != 0
+            )
+        return TaylorLeg(times, rests, lengths, shares, broken)
+
+
+@dataclass(frozen=True)
+class TaylorLeg:
+    """Taylor series one after the other.
+
+    Attributes:
+        times: where the steps begin, and where the last one ends, s, shape (steps + 1,).
+        rests: the remainders of the same times in double-double precision, s.
+        lengths: of the steps, s.
+        shares: coefficients of the powers of the share of a step, shape (steps, states, order + 1).
+        broken: whether it cannot be continued.
+    """
+
+    times: Array
+    rests: Array
+    lengths: Array
+    shares: Array
+    broken: bool
+
+    def at(self, times: Array) -> Array:
+        """States, shape (states, times)."""
+        which = pieces_at(self.times, times)
+        passed = (times - self.times[which]) - self.rests[which]
+        return evaluated(self.shares, which, passed / self.lengths[which])
+
 
 _LONG = 3000  # operations
 
@@ -70,7 +155,7 @@ def _compiled(program: Program, size: int, tolerance: float) -> Any:
 
 
 def is_long(program: Program) -> bool:
-    """Whether its code, written out, would not find room on the stack."""
+    """Whether its unrolled code would not fit on the stack."""
     return program.operations > _LONG
 
 
@@ -126,7 +211,7 @@ def library() -> Any:
     """The heyoka module, its cache of compiled code set to a folder of polhode's."""
     with _importing, _without_sympy():
         import heyoka
-    heyoka.set_logger_level_critical()  # its words would come on standard output
+    heyoka.set_logger_level_critical()  # it logs to standard output
     try:
         kept = cache.folder("heyoka")
         _drop_damaged(kept / "cache.db")
@@ -138,7 +223,7 @@ def library() -> Any:
 
 
 def _drop_damaged(database: Path) -> None:
-    """Take away what is no data base, so that it is made anew."""
+    """Remove what is not a database, so that it is made anew."""
     if not database.exists():
         return
     try:
@@ -153,7 +238,7 @@ def _drop_damaged(database: Path) -> None:
 
 @contextmanager
 def _without_sympy() -> Iterator[None]:
-    """heyoka imports SymPy wherever it is installed: two thirds of its start, and not needed."""
+    """heyoka imports SymPy if it is installed: two thirds of its start-up time, and not needed."""
     if "sympy" in sys.modules:
         yield
         return
@@ -162,3 +247,77 @@ def _without_sympy() -> Iterator[None]:
         yield
     finally:
         del sys.modules["sympy"]
+
+
+# -- in long doubles, quadruple and any precision -----------------------------------------------
+
+_SPARE_DIGITS = 8
+_QUADRUPLE_BITS = 113
+
+
+class TaylorSeries:
+    """Adaptive Taylor series, kept as they are."""
+
+    name = "heyoka"
+
+    def integrate(self, problem: InitialValueProblem, watch: SeriesCallback) -> TaylorSolution:
+        """The motion up to its end, until `watch` returns false, or as far as it goes."""
+        numbers = problem.numbers
+        taylor = copy(_compiled_in(problem.program, len(problem.start), numbers))
+        read = _HeyokaNumbers(numbers)
+        taylor.time = read(problem.begin)
+        taylor.state[:] = [read(value) for value in problem.start]
+        taylor.pars[:] = [read(value) for value in problem.constants[: len(taylor.pars)]]
+        _, *_, output, _ = taylor.propagate_until(
+            read(problem.end),
+            c_output=True,
+            callback=lambda t: watch(float(t.time), float(t.last_h), t.state),
+        )
+        if output is None:
+            raise broken(float(taylor.time))
+        times = numbers.joined(list(limbs_of(np.asarray(output.times), numbers.limbs)))
+        # Powers of the share of a step: their coefficients neither grow nor vanish.
+        coefficients = np.array(output.tcs)  # shape (steps, states, order + 1)
+        ends = np.asarray(output.times)
+        lengths = (ends[1:] - ends[:-1])[:, None]
+        power = lengths
+        for k in range(1, coefficients.shape[2]):
+            coefficients[:, :, k] = coefficients[:, :, k] * power
+            power = power * lengths
+        limbs = limbs_of(coefficients, numbers.limbs).transpose(0, 1, 3, 2)
+        return TaylorSolution(numbers, times, limbs)
+
+
+@lru_cache(maxsize=32)
+def _compiled_in(program: Program, size: int, numbers: NumberType) -> Any:
+    """An integrator that is only ever copied."""
+    read = _HeyokaNumbers(numbers)
+    return library().taylor_adaptive(
+        rates_of(program, size, read),
+        [read(0)] * size,
+        opt_level=0,
+        compact_mode=True,  # unrolled, the code would be too long at such orders
+        **read.kind,
+    )
+
+
+class _HeyokaNumbers:
+    """Makes numbers of one precision as heyoka knows them."""
+
+    def __init__(self, numbers: NumberType) -> None:
+        heyoka = library()
+        self._numbers = numbers
+        self._make: Callable[[str], Any]
+        self.kind: dict[str, Any]
+        if isinstance(numbers, LongDoubles):
+            self._make, self.kind = np.longdouble, {"fp_type": np.longdouble}
+        elif numbers.bits == _QUADRUPLE_BITS and hasattr(heyoka, "real128"):
+            self._make, self.kind = heyoka.real128, {"fp_type": heyoka.real128}
+        else:
+            self._make = lambda text: heyoka.real(text, numbers.bits)
+            self.kind = {"fp_type": heyoka.real, "prec": numbers.bits}
+
+    def __call__(self, value: Fraction | Any) -> Any:
+        exact = self._numbers.exact
+        digits = int(exact.dps) + _SPARE_DIGITS
+        return self._make(exact.nstr(number(exact, value), digits, strip_zeros=False))

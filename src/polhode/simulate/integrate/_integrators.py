@@ -1,4 +1,4 @@
-"""The one seam to the libraries that integrate differential equations."""
+"""The integrators there are, and which one is used."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def chosen() -> Integrator:
     """heyoka's Taylor method where it is installed, else SciPy's DOP853.
 
     Raises:
-        DeclarationError: where POLHODE_INTEGRATOR asks for one that is not there.
+        DeclarationError: where POLHODE_INTEGRATOR names one that is not installed.
     """
     there = ["heyoka", "scipy"] if find_spec("heyoka") else ["scipy"]
     name = os.environ.get(CHOICE) or there[0]

@@ -1,4 +1,4 @@
-"""The sorts of real numbers that a motion can be computed in."""
+"""The types of real numbers that a motion can be computed in."""
 
 from __future__ import annotations
 
@@ -13,24 +13,23 @@ import numpy as np
 
 from polhode.algebra import Arithmetic, Op, arrays, fraction_of
 from polhode.base import NumericError
-from polhode.simulate.integrate._equations import least_solution, solution
 
-#: As asked for: double, extended, quadruple, or a number of decimal digits.
+#: As requested: double, extended, quadruple, or a number of decimal digits.
 Precision: TypeAlias = str | int | None
 
 _DOUBLE_BITS = 53
 _FEWEST, _MOST = 16, 300  # decimal digits; the last of more would be below the least double
-_SPARE = 64  # bits carried beyond those asked for in what is worked out once
+_SPARE = 64  # bits carried beyond those requested in what is computed once
 _DOUBLE_SPACING = 2.0**-52
 _POLISHED = 40  # secant steps to a zero at most
-_NEAR = 1e-9  # how far from where it is in doubles they set out
+_NEAR = 1e-9  # distance between the two points at which they start
 
 
 class NumberType(ABC):
     """Numbers of one precision.
 
     Attributes:
-        name: what the precision is called.
+        name: of the precision.
         bits: of the significand.
         dtype: NumPy's type of arrays of them.
     """
@@ -46,11 +45,11 @@ class NumberType(ABC):
 
     @abstractmethod
     def array(self, values: Any) -> Any:
-        """Numbers of any sort as an array of these, each rounded at most once."""
+        """Numbers of any type as an array of these, each rounded at most once."""
 
     @abstractmethod
     def scalar(self, value: Any) -> Any:
-        """One element of an array, as people want it."""
+        """One element of an array, as a number of its own."""
 
     @property
     def limbs(self) -> int:
@@ -66,12 +65,12 @@ class NumberType(ABC):
 
     @cached_property
     def exact(self) -> Any:
-        """An mpmath context with bits to spare, for what is worked out once."""
+        """An mpmath context with bits to spare, for what is computed once."""
         return context_of(self.bits + _SPARE)
 
     @cached_property
     def careful(self) -> ManyDigits:
-        """Numbers of that context, for what is worked out where a contact mode ends."""
+        """Numbers of that context, for what is computed where a contact mode ends."""
         return ManyDigits(self.name, self.bits, _SPARE)
 
     # -- single numbers, vectors and matrices ---------------------------------------------------
@@ -83,7 +82,7 @@ class NumberType(ABC):
 
     @abstractmethod
     def finer(self, share: float) -> Any:
-        """What is to the rounding of these numbers what a share is to that of doubles."""
+        """A tolerance of double precision, scaled to the rounding of these numbers."""
 
     @abstractmethod
     def solved(self, matrix: Any, right: Any) -> Any:
@@ -107,7 +106,7 @@ class NumberType(ABC):
         return abs(value) * self.finer(_DOUBLE_SPACING)
 
     def zero(self, function: Callable[[Any], Any], near: float) -> Any:
-        """Where a function is zero, by the secant method from where it is in doubles."""
+        """Where a function is zero, by the secant method from where it is zero in doubles."""
         older = self.scalar(self.array(near - _NEAR)[()])
         newer = self.scalar(self.array(near)[()])
         before, now = function(older), function(newer)
@@ -235,7 +234,7 @@ class ManyDigits(Finer):
         return value
 
 
-_DEPENDENT = 1e-10  # of the largest singular value: one that is rounding
+_DEPENDENT = 1e-10  # of the largest singular value: below, others count as zero
 _FLOATS = Arithmetic.of(math)
 _CALLS = (Op.SQRT, Op.SIN, Op.COS, Op.EXP, Op.SINH, Op.COSH)
 
@@ -244,17 +243,23 @@ _QUADRUPLE = ManyDigits("quadruple", 113)
 
 
 def numbers_for(precision: Precision) -> NumberType:
-    """The numbers of a precision that was asked for.
+    """The numbers of a requested precision.
 
     Raises:
-        NumericError: for a precision that is not known, or that this machine does not have.
+        NumericError: for an unknown precision, or one that this machine does not have.
     """
     if precision in (None, "double"):
         return DOUBLES
     if precision == "quadruple":
         return _QUADRUPLE
     if precision == "extended":
-        return _long_doubles()
+        if LongDoubles.bits <= _DOUBLE_BITS:
+            raise NumericError(
+                "extended precision, on a machine whose long double is a double",
+                expected="double, quadruple, or a number of decimal digits",
+                advice="ask for quadruple, which is computed without it",
+            )
+        return LongDoubles()
     if isinstance(precision, str) and precision.isdecimal() and len(precision) < _FEWEST:
         precision = int(precision)
     if isinstance(precision, bool) or not isinstance(precision, int):
@@ -262,16 +267,6 @@ def numbers_for(precision: Precision) -> NumberType:
     if not _FEWEST <= precision <= _MOST:
         raise _unknown(precision)
     return ManyDigits(f"{precision} digits", math.ceil(precision * math.log2(10)) + 4)
-
-
-def _long_doubles() -> LongDoubles:
-    if LongDoubles.bits <= _DOUBLE_BITS:
-        raise NumericError(
-            "extended precision, on a machine whose long double is a double",
-            expected="double, quadruple, or a number of decimal digits",
-            advice="ask for quadruple, which is computed without it",
-        )
-    return LongDoubles()
 
 
 def _unknown(precision: object) -> NumericError:
@@ -298,7 +293,33 @@ def ratio(context: Any, value: Fraction) -> Any:
 
 
 def number(context: Any, value: Any) -> Any:
-    """A number of any sort, rounded to a context."""
+    """A number of any type, rounded to a context."""
     if hasattr(value, "_mpf_"):
         return +context.make_mpf(value._mpf_)
     return context.mpf(value) if isinstance(value, float) else ratio(context, fraction_of(value))
+
+
+# -- linear equations in numbers of an mpmath context, in NumPy arrays of objects --------------
+
+
+def solution(context: Any, matrix: Any, right: Any) -> Any:
+    """Of linear equations, for one right side or the columns of a matrix."""
+    columns = [right.tolist()] if np.ndim(right) == 1 else np.transpose(right).tolist()
+    if not np.size(right):
+        return np.empty(np.shape(right), dtype=object)
+    square = context.matrix(matrix.tolist())
+    found = [list(context.lu_solve(square, context.matrix(column))) for column in columns]
+    return np.array(found, dtype=object).T.reshape(np.shape(right))
+
+
+def least_solution(context: Any, matrix: Any, right: Any, dependent: Any) -> Any:
+    """The least-squares solution of least norm.
+
+    Args:
+        dependent: share of the largest singular value below which others count as zero.
+    """
+    left, sizes, across = context.svd_r(context.matrix(matrix.tolist()))
+    felt = [k for k in range(len(sizes)) if sizes[k] > dependent * max(sizes)]
+    shares = {k: sum(left[i, k] * right[i] for i in range(len(right))) / sizes[k] for k in felt}
+    found = [sum(across[k, j] * shares[k] for k in felt) for j in range(matrix.shape[1])]
+    return np.array(found, dtype=object)

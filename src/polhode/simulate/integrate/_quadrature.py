@@ -7,11 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 
-from polhode.simulate.integrate._polynomials import evaluated, pieces_at
-
-Array = NDArray[np.float64]
+from polhode.simulate.integrate._arrays import Array, evaluated, pieces_at
 
 _NODES, _WEIGHTS = legendre.leggauss(16)
 _ORDERS = np.arange(len(_NODES))
@@ -24,10 +21,10 @@ _ANTIDERIVATIVES = np.zeros((len(_NODES), len(_NODES) + 1))
 for _k in range(len(_NODES)):
     _ANTIDERIVATIVES[_k, : _k + 2] = legendre.leg2poly(legendre.legint(np.eye(_k + 1)[_k], lbnd=-1))
 _CONVERGED = 1e-14  # last coefficients, relative to the largest value anywhere
-_NOISE = 1e-8  # last coefficients below this that no longer fall are rounding
-_FALLING = 0.25  # what is left of them when a piece that is not yet resolved is halved
-_SHORTEST = 1e-11  # length of a piece over the time: the digits of shorter ones are rounding
-_DROWNED = 1e-3  # what values are uncertain by, over the largest, where they are rounding
+_NOISE = 1e-8  # last coefficients below this that no longer fall count as rounding
+_FALLING = 0.25  # share of them that is left when an unresolved piece is halved
+_SHORTEST = 1e-11  # length of a piece over the time: shorter ones have no digits left
+_DROWNED = 1e-3  # uncertainty over the largest value: above, a function is only rounding
 _MOST = 100_000  # new pieces at a time; nothing smooth needs more
 
 
@@ -62,7 +59,7 @@ def integral(
     Args:
         function: values at some times, shape (functions, times).
         knots: first guess of pieces on which 16 nodes may do, s.
-        noise: what the values of each function are uncertain by, shape (functions,).
+        noise: uncertainty of the values of each function, shape (functions,).
     """
     left, right, coefficients = resolved(function, knots, noise)
     halves = (right - left) / 2
@@ -79,17 +76,20 @@ def integral(
 def resolved(
     function: Callable[[Array], Array], knots: Array, noise: Array | None = None
 ) -> tuple[Array, Array, Array]:
-    """Pieces on which the Legendre coefficients have died out, in order, and the coefficients.
+    """Pieces on which the Legendre series have converged, in order, and their coefficients.
 
-    Functions that are nothing but noise, as the sum of forces on a body that rests, are not looked
-    at: their coefficients never die out.
+    Functions that are only noise, such as the sum of forces on a body at rest, are left out of the
+    test: their series never converge.
     """
     left, right = knots[:-1], knots[1:]
     before = np.full(len(left), np.inf)
     done: list[tuple[Array, Array, Array]] = []
     scale = np.zeros((1, 1, 1))
     while len(left):
-        coefficients = _coefficients(function, left, right)
+        times = (left[:, None] + right[:, None] + (right - left)[:, None] * _NODES) / 2
+        values = function(times.ravel())
+        values = values.reshape(len(values), len(left), len(_NODES))
+        coefficients = values @ _ANALYSIS.T  # shape (functions, pieces, order)
         largest = np.max(np.abs(coefficients), axis=(1, 2), keepdims=True)
         scale = np.maximum(scale, largest)
         tails = np.abs(coefficients[:, :, -2:]) / np.where(scale > 0, scale, 1.0)
@@ -106,10 +106,3 @@ def resolved(
     left, right = np.concatenate(lefts), np.concatenate(rights)
     order = np.argsort(left)
     return left[order], right[order], np.concatenate(parts, axis=1)[:, order]
-
-
-def _coefficients(function: Callable[[Array], Array], left: Array, right: Array) -> Array:
-    """Legendre coefficients on every piece, shape (functions, pieces, order)."""
-    times = (left[:, None] + right[:, None] + (right - left)[:, None] * _NODES) / 2
-    values = function(times.ravel())
-    return np.asarray(values.reshape(len(values), len(left), len(_NODES)) @ _ANALYSIS.T)

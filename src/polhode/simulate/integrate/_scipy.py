@@ -9,9 +9,9 @@ import numpy as np
 from scipy.integrate import DOP853, OdeSolution
 
 from polhode.algebra import Compiled
+from polhode.simulate.integrate._arrays import Array
 from polhode.simulate.integrate._flow import Flow
 from polhode.simulate.integrate._stepping import (
-    Array,
     Leg,
     StepCallback,
     Stepper,
@@ -20,7 +20,7 @@ from polhode.simulate.integrate._stepping import (
     looks_along,
 )
 
-_TIGHTEST = 1e-13  # relative; below it rounding rules the choice of steps
+_TIGHTEST = 1e-13  # relative; below it rounding would determine the steps
 _ABSOLUTE = 1e-15
 
 

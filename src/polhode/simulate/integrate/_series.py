@@ -1,4 +1,4 @@
-"""A motion as power series in time, one after the other."""
+"""Solutions as Taylor series in numbers of any precision, step by step."""
 
 from __future__ import annotations
 
@@ -10,9 +10,8 @@ from typing import Any, Protocol
 import numpy as np
 
 from polhode.algebra import Program
-from polhode.simulate.integrate._ascending import occurring
+from polhode.simulate.integrate._arrays import occurring, pieces_at
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
-from polhode.simulate.integrate._polynomials import pieces_at
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,7 +19,7 @@ class TaylorSolution:
     """All states over the steps of an integration, in numbers of any precision.
 
     Attributes:
-        numbers: what they are computed in.
+        numbers: their type.
         times: where the steps begin, and where the last one ends, s.
         limbs: coefficients of the powers of the share of a step that has passed, each as a sum of
             doubles, shape (limbs, steps, order + 1, states).
@@ -50,7 +49,7 @@ class TaylorSolution:
         return _horner(self._piece(step), self.numbers.array([share]))[:, 0]
 
     def time(self, step: int, share: Any) -> Any:
-        """When that is, s."""
+        """The time there, s."""
         begin, end = self.times[step : step + 2]
         return begin + (end - begin) * self.numbers.scalar(self.numbers.array(share)[()])
 
@@ -64,7 +63,7 @@ class TaylorSolution:
         return found
 
     def rounded_times(self, places: Any, begin: Any) -> Any:
-        """When that is, from some instant on, s, in doubles."""
+        """The times there since some instant, s, in doubles."""
         which = pieces_at(np.arange(len(self.times), dtype=float), places)
         since = np.array([float(time - begin) for time in self.times])
         lengths = np.array([float(step) for step in self.times[1:] - self.times[:-1]])
@@ -122,7 +121,7 @@ def limbs_of(values: Any, count: int) -> Any:
 
 
 class SeriesCallback(Protocol):
-    """Looks on after every step."""
+    """Called after every step."""
 
     def __call__(self, time: float, step: float, state: Sequence[Any]) -> bool:
         """Whether to go on, from the end of a step of that length."""
@@ -131,11 +130,11 @@ class SeriesCallback(Protocol):
 
 @dataclass(frozen=True)
 class InitialValueProblem:
-    """What is integrated, from where and to where.
+    """An initial value problem.
 
     Attributes:
         program: of the rates of its first arguments, the states.
-        numbers: what it is to be computed in.
+        numbers: the type of numbers to compute with.
         constants: of the parameters, as mpmath numbers with bits to spare.
         start: of the states, the same.
         begin: s, the same.
@@ -155,8 +154,8 @@ class SeriesIntegrator(Protocol):
 
     name: str
 
-    def integrate(self, launch: InitialValueProblem, watch: SeriesCallback) -> TaylorSolution:
-        """The motion up to its end, until `watch` says no, or as far as it goes.
+    def integrate(self, problem: InitialValueProblem, watch: SeriesCallback) -> TaylorSolution:
+        """The motion up to its end, until `watch` returns false, or as far as it goes.
 
         Raises:
             NumericError: where the motion cannot even begin.

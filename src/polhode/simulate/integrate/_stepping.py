@@ -1,35 +1,31 @@
-"""What an integrator is to the rest: it steps along a flow, and is looked on."""
+"""What an integrator is: steps over a span, and what they leave."""
 
 from __future__ import annotations
 
 from typing import Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
 from polhode.base import NumericError
+from polhode.simulate.integrate._arrays import Array as Array
 from polhode.simulate.integrate._flow import Flow
 
-Array = NDArray[np.float64]
-
-#: Steps at least over a stretch that a pulse may drive, so that it is not stepped over.
+#: Fewest steps over a span if the motion is driven by time, so that no pulse is stepped over.
 LOOKS = 64
-_SHORTEST = 1e-13  # of the time: within less of it nothing can be missed
-_FORESEEN = 12  # degree of a polynomial of time that a step sees whole
+_SHORTEST = 1e-13  # of the time: a step this short misses nothing
+_FORESEEN = 12  # degree of a polynomial of time that the series of one step represents
 
 
 def looks_along(flow: Flow) -> int:
-    """Steps at least over a stretch of a motion that is driven by the time itself."""
+    """Fewest steps over a span of a motion that is driven by the time itself."""
     return int(min(LOOKS, 1 + flow.degree / _FORESEEN))
 
 
 def longest_step(begin: float, end: float, fewest: int) -> float:
-    """Length of a step with which a span takes so many, unless it is as short as rounding, s."""
+    """Longest step, s, for a span to take so many; no shorter than the rounding of the time."""
     return max((end - begin) / fewest, _SHORTEST * max(abs(begin), abs(end)))
 
 
 class StepCallback(Protocol):
-    """Looks on after every step."""
+    """Called after every step."""
 
     def __call__(self, time: float, state: list[float]) -> bool:
         """Whether to go on."""
@@ -37,7 +33,7 @@ class StepCallback(Protocol):
 
 
 class Leg(Protocol):
-    """A solution over a stretch of time, known at every instant of it."""
+    """A solution over a span of time, known at every instant of it."""
 
     @property
     def broken(self) -> bool:
@@ -60,7 +56,7 @@ class Stepper(Protocol):
     def leg(
         self, parameters: Array, begin: float, state: Array, end: float, watch: StepCallback
     ) -> Leg:
-        """Integrate the core from `begin` to `end`, until `watch` says no, or as far as it goes.
+        """Integrate the core to `end`, until `watch` returns false, or as far as it goes.
 
         Raises:
             NumericError: where the motion cannot even begin.
@@ -73,7 +69,7 @@ class Integrator(Protocol):
 
     Attributes:
         name: of the library or method.
-        dense: whether a solution is as exact between the steps as at their ends, so that
+        dense: whether a solution is as accurate between the steps as at their ends, so that
             quadratures can be done afterwards.
     """
 
@@ -86,7 +82,7 @@ class Integrator(Protocol):
 
 
 def broken(time: float) -> NumericError:
-    """The motion cannot be continued."""
+    """The error where the motion cannot be continued."""
     return NumericError(
         f"the motion cannot be continued beyond t = {time:.9g} s",
         expected="finite accelerations",

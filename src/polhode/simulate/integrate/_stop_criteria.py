@@ -1,4 +1,7 @@
-"""What is watched while integrating: vectors that may vanish, and the steps of the motion."""
+"""What stops an integration: slips that end, steps that become too many or too short, pauses.
+
+The end of slip is noticed here, step by step: a slip velocity that vanishes, or reverses.
+"""
 
 from __future__ import annotations
 
@@ -9,34 +12,86 @@ from math import hypot, inf
 from operator import mul
 from typing import Any
 
-from polhode.base import Progress, StopRequested
+from polhode.base import NumericError, Progress, StopRequested
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
-from polhode.simulate.integrate._step_count import StepCount
+
+# -- how many steps a motion may take ---------------------------------------------------------
+
+MOST_KEPT = 5_000_000  # states at the beginning of steps, each with its powers of time
+
+# After so many steps, how many the motion may appear to take in all: the first may be tiny.
+_GLANCES = {100: 4e12, 4_000: 1e10}
+
+
+class StepCount:
+    """The steps of one motion, over all its pieces."""
+
+    def __init__(self) -> None:
+        self._steps = 0
+        self._kept = 0.0
+        self._begin = 0.0
+
+    def count(self, span: tuple[float, float], time: float, size: float, *, hurries: bool) -> None:
+        """Count one more.
+
+        Args:
+            span: of the piece, s.
+            time: at the end of the step, s.
+            size: how many states are kept for it, as doubles.
+            hurries: whether no slip is about to end, which would explain short steps.
+
+        Raises:
+            NumericError: where there are too many already, or will be.
+        """
+        begin, end = span
+        if self._steps == 0:
+            self._begin = begin
+        if self._kept + size > MOST_KEPT:
+            raise NumericError(
+                f"{self._steps} steps are not enough to go beyond t = {time:.9g} s",
+                expected="a motion without singular positions, over a duration that can be kept "
+                "in memory",
+                advice="end before that time, or start elsewhere",
+            )
+        self._steps += 1
+        self._kept += size
+        passed = time - self._begin
+        expected = _GLANCES.get(self._steps)
+        if expected and hurries and end - time > expected / self._steps * passed:
+            most = int(MOST_KEPT / self._kept * self._steps)
+            raise NumericError(
+                f"a motion up to t = {end:g} s, of which {self._steps} steps cover {passed:.3g} s",
+                expected=f"a duration that {most} steps can cover",
+                advice=f"try {most / self._steps * passed / 100:.0e} s",
+            )
+
+
+# -- why an integration stops ----------------------------------------------------------------------
 
 _SMALLEST = 1e-14  # length of a step, over the time and the longest, at a singular position
-_ALMOST = 100.0  # times the length at which a vector has vanished: there it turns round
+_ALMOST = 100.0  # times the length at which a vector has vanished: there it reverses
 
 
 class Stop(Enum):
     """Why an integration came to its end."""
 
     TIME = "the end was reached"
-    INTERRUPTED = "who listens has enough"
-    PAUSE = "enough steps to look at"
-    VANISHED = "a vector that was watched vanished or turned round"
+    INTERRUPTED = "the progress asked to stop"
+    PAUSE = "guards are to be checked"
+    VANISHED = "a watched vector vanished or reversed"
     STUCK = "the motion cannot be continued"
 
 
 @dataclass(frozen=True)
 class StopCriteria:
-    """What to look at while integrating.
+    """What to watch for while integrating.
 
     Attributes:
-        pause: steps after which to stop for a look.
-        vectors: places in the core of vectors that stop the integration where they vanish.
+        pause: steps after which to stop, so that guards are checked.
+        vectors: places in the core of vectors (slip velocities) that stop it where they vanish.
         least: length, m/s, at which such a vector has vanished.
-        passing: the same at an instant at which it turns round, or where steps become too short.
-        over: whether the motion is certainly over at a state, so that there is reason for a look.
+        passing: the same at an instant at which it reverses, or where steps become too short.
+        over: whether a state is certainly beyond the end of the mode, so that guards are checked.
         tally: of the steps of the whole motion.
     """
 
@@ -48,69 +103,69 @@ class StopCriteria:
     tally: StepCount = field(default_factory=StepCount)
 
     def seen(self, state: Sequence[Any]) -> list[list[float]]:
-        """The vectors in a state of the core; alone, they are known to the digits of doubles."""
+        """The vectors in a state of the core, in doubles."""
         return [[float(state[place]) for place in places] for places in self.vectors]
 
 
 class _Vanishing:
-    """Watches from step to step whether a vector vanishes.
+    """Notices from step to step whether a vector vanishes.
 
     Args:
-        watched: which vectors, and what is small.
+        criteria: which vectors, and what is small.
         state: at the beginning.
     """
 
-    def __init__(self, watched: StopCriteria, state: Sequence[Any]) -> None:
-        self._watched = watched
-        self._vectors = watched.seen(state)
+    def __init__(self, criteria: StopCriteria, state: Sequence[Any]) -> None:
+        self._criteria = criteria
+        self._vectors = criteria.seen(state)
         self._shrinks = [False for _ in self._vectors]
 
     def at(self, state: Sequence[Any]) -> bool:
-        """Whether one vanishes, or turns round, on the way to a state."""
-        before, self._vectors = self._vectors, self._watched.seen(state)
+        """Whether one vanishes, or reverses, on the way to a state."""
+        before, self._vectors = self._vectors, self._criteria.seen(state)
         shrank, self._shrinks = self._shrinks, list(map(_is_shorter, self._vectors, before))
-        return any(map(self._vanishes, before, self._vectors, shrank))
+        least = self._criteria.least
+        for old, new, was_shrinking in zip(before, self._vectors, shrank, strict=True):
+            size, reverses = hypot(*new), sum(map(mul, old, new)) <= 0.0
+            # Where it reverses within a few steps, none of them need turn it by more than 90°.
+            grows = was_shrinking and size <= _ALMOST * least and not _is_shorter(new, old)
+            if reverses or grows or size <= least:
+                return True
+        return False
 
     @property
     def is_near(self) -> bool:
-        """Whether one is as small as where it turns round."""
-        return any(hypot(*vector) <= self._watched.passing for vector in self._vectors)
-
-    def _vanishes(self, before: list[float], now: list[float], shrank: bool) -> bool:
-        turned = sum(map(mul, before, now)) <= 0.0
-        size = hypot(*now)
-        # Where it turns round within a few steps, none of them need be half a turn.
-        grows = shrank and size <= _ALMOST * self._watched.least and not _is_shorter(now, before)
-        return turned or grows or size <= self._watched.least
+        """Whether one is as small as vectors are where they reverse."""
+        return any(hypot(*vector) <= self._criteria.passing for vector in self._vectors)
 
 
 class StepWatch:
-    """Tells of every step of a stretch of a motion, and says where there is reason to stop.
+    """Reports the steps of an integration to the progress, and says when to stop.
 
     Args:
-        watched: what may stop it.
+        criteria: what may stop it.
         state: at the beginning.
         span: from its beginning to where it is to end, s.
-        progress: told of every step.
+        progress: notified of every step.
         numbers: in which the states are.
     """
 
     def __init__(
         self,
-        watched: StopCriteria,
+        criteria: StopCriteria,
         state: Sequence[Any],
         span: tuple[float, float],
         progress: Progress,
         numbers: NumberType = DOUBLES,
     ) -> None:
-        self._watched = watched
+        self._criteria = criteria
         self._span = span
         self._progress = progress
         self._smallest = float(numbers.finer(_SMALLEST))
         self._size = len(state) * numbers.bits / DOUBLES.bits
         self._longest = 0.0
         self._steps = 0
-        self._vanishing = _Vanishing(watched, state)
+        self._vanishing = _Vanishing(criteria, state)
 
     def after(self, time: float, step: float, state: Sequence[Any]) -> Stop | None:
         """Why to stop after a step, if at all.
@@ -129,19 +184,17 @@ class StepWatch:
         except StopRequested:
             return Stop.INTERRUPTED
         hurries = not self._vanishing.is_near
-        self._watched.tally.count(self._span, time, self._size, hurries=hurries)
+        self._criteria.tally.count(self._span, time, self._size, hurries=hurries)
         if self._vanishing.at(state):
             return Stop.VANISHED
-        if self._is_short(time, step) and time < self._span[1]:
-            return Stop.VANISHED if self._vanishing.is_near else Stop.STUCK
-        if self._steps >= self._watched.pause or self._watched.over(time, state):
-            return Stop.PAUSE
-        return None
-
-    def _is_short(self, time: float, step: float) -> bool:
         if step < inf:
             self._longest = max(self._longest, step)
-        return step < self._smallest * max(abs(time), self._longest)
+        is_short = step < self._smallest * max(abs(time), self._longest)
+        if is_short and time < self._span[1]:
+            return Stop.VANISHED if self._vanishing.is_near else Stop.STUCK
+        if self._steps >= self._criteria.pause or self._criteria.over(time, state):
+            return Stop.PAUSE
+        return None
 
 
 def _is_shorter(one: list[float], other: list[float]) -> bool:

@@ -1,69 +1,98 @@
-"""A stretch of a motion within one contact mode, in numbers of higher precision."""
+"""Pieces of a trajectory in numbers of higher precision, and where they end.
+
+Events are bracketed in double precision, then refined to the requested precision.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 import numpy as np
 
-from polhode.algebra import Symbol
+from polhode.algebra import Expr, Symbol
 from polhode.base import Progress
-from polhode.simulate._dynamics import Dynamics
+from polhode.simulate._dynamics import CLOCK, Dynamics
+from polhode.simulate._mode_integration import StateValues
 from polhode.simulate._segment import TrajectoryPiece
+from polhode.simulate.integrate._arrays import Array
+from polhode.simulate.integrate._crossing import bisected
 from polhode.simulate.integrate._driver import SegmentSolution
 from polhode.simulate.integrate._flow import Flow, flow_of
 from polhode.simulate.integrate._number_types import DOUBLES, NumberType
 from polhode.simulate.integrate._series import InitialValueProblem, SeriesIntegrator, TaylorSolution
-from polhode.simulate.integrate._stepping import Array, looks_along
+from polhode.simulate.integrate._stepping import looks_along
 from polhode.simulate.integrate._stop_criteria import StepWatch, Stop, StopCriteria
-
-StateValues = Mapping[Symbol, Any]
 
 
 @dataclass(frozen=True)
-class PrecisePiece:
-    """A stretch of a motion, and why it ends where it does.
+class SeriesPiece(TrajectoryPiece):
+    """A piece of a trajectory as Taylor series in any precision.
 
     Attributes:
-        symbols: the states.
-        series: their powers of time.
-        constants: the parameters.
-        stop: why it ends.
-        mode_begin: when its contact mode was entered, s.
+        series: the states as powers of the time; they may reach beyond the end.
+        exact_constants: the parameters, with bits to spare.
     """
 
-    symbols: tuple[Symbol, ...]
-    series: TaylorSolution
-    constants: Any
-    stop: Stop
-    mode_begin: Any
+    series: TaylorSolution = field(repr=False)
+    exact_constants: Sequence[Any] = field(repr=False)
 
-    def state(self, step: int, share: Any, numbers: NumberType) -> dict[Symbol, Any]:
-        """All states where a share of a step has passed, in other numbers."""
-        values = numbers.array(self.series.state(step, share)).tolist()
-        return dict(zip(self.symbols, values, strict=True))
+    @classmethod
+    def of(
+        cls,
+        symbols: tuple[Symbol, ...],
+        series: TaylorSolution,
+        constants: Sequence[Any],
+        stop: Stop,
+    ) -> SeriesPiece:
+        """All steps of some series.
 
-    def part(self, end: Any) -> TrajectoryPiece:
-        """Its part up to some instant, as trajectories have it."""
-        series, times = self.series, self.series.times
-        steps = np.append(times[times < end], end)
-        at, rounded = series.at, series.rounded_at
-        numbers = series.numbers
-        solution = SegmentSolution(self.symbols, {}, steps, self.stop, None, at, numbers, rounded)
-        return TrajectoryPiece(times[0], end, solution, numbers.array(self.constants))
+        Args:
+            symbols: the states.
+            constants: the parameters.
+            stop: why the series end.
+        """
+        times, numbers = series.times, series.numbers
+        solution = SegmentSolution(
+            symbols, {}, times, stop, None, series.at, numbers, series.rounded_at
+        )
+        return cls(times[0], times[-1], solution, numbers.array(constants), series, constants)
+
+    def state(self, point: PiecePoint, numbers: NumberType) -> dict[Symbol, Any]:
+        """All states at a point, in other numbers."""
+        values = numbers.array(self.series.state(point.step, point.share)).tolist()
+        return dict(zip(self.solution.symbols, values, strict=True))
+
+
+@dataclass(frozen=True)
+class PiecePoint:
+    """A point within a piece.
+
+    Attributes:
+        step: which of its steps.
+        share: of it that has passed.
+    """
+
+    step: int
+    share: Any
 
 
 @dataclass(frozen=True)
 class InDoubles:
-    """A stretch as those see it who look out for guards; places count its steps."""
+    """A piece in double precision, in which guards are looked for; places count its steps.
 
-    stretch: PrecisePiece
+    Attributes:
+        piece: in higher precision.
+        mode_begin: when its contact mode was entered, s.
+    """
+
+    piece: SeriesPiece
+    mode_begin: Any
 
     @property
     def symbols(self) -> tuple[Symbol, ...]:
-        return self.stretch.symbols
+        return self.piece.solution.symbols
 
     @property
     def turned(self) -> Mapping[Symbol, Symbol]:
@@ -71,20 +100,23 @@ class InDoubles:
 
     @property
     def constants(self) -> Array:
-        return np.asarray(DOUBLES.array(self.stretch.constants))
+        return np.asarray(DOUBLES.array(self.piece.exact_constants))
 
     @property
     def knots(self) -> Array:
-        return np.arange(self.stretch.series.steps + 1.0)
+        return np.arange(self.piece.series.steps + 1.0)
 
     def at(self, places: Array) -> Array:
-        return np.asarray(self.stretch.series.rounded_states(places))
+        return np.asarray(self.piece.series.rounded_states(places))
 
     def times(self, places: Array) -> Array:
-        return np.asarray(self.stretch.series.rounded_times(places, 0))
+        return np.asarray(self.piece.series.rounded_times(places, 0))
 
     def passed(self, places: Array) -> Array:
-        return np.asarray(self.stretch.series.rounded_times(places, self.stretch.mode_begin))
+        return np.asarray(self.piece.series.rounded_times(places, self.mode_begin))
+
+
+# -- integration -----------------------------------------------------------------------------------
 
 
 class NumericEquations(Protocol):
@@ -99,14 +131,14 @@ class NumericEquations(Protocol):
         """The constants, in the order of the equations."""
 
 
-class PieceIntegrator:
-    """Makes such stretches.
+class SeriesStepper:
+    """Makes such pieces.
 
     Args:
         integrator: Taylor's method.
         numbers: to compute in.
         end: of the motion, s.
-        progress: told of every step.
+        progress: notified of every step.
     """
 
     def __init__(
@@ -128,9 +160,8 @@ class PieceIntegrator:
         mode: NumericEquations,
         start: StateValues,
         span: tuple[Any, Any],
-        watched: StopCriteria,
-        mode_begin: Any,
-    ) -> PrecisePiece:
+        criteria: StopCriteria,
+    ) -> SeriesPiece:
         """From a state on, towards the end of a span, or to where what is watched ends it.
 
         Raises:
@@ -139,19 +170,24 @@ class PieceIntegrator:
         flow, constants = self._flow(mode.dynamics), mode.parameters.tolist()
         begin, end = span
         looks = looks_along(flow)
-        if looks > 1:  # steps are not to leap over a pulse
+        if looks > 1:  # steps must not leap over a pulse
             end = min(end, begin + self.end / looks)
         end = self.numbers.array([end])[0]
         symbols = flow.core.symbols
         own = [start[s] for s in symbols]
-        launch = InitialValueProblem(flow.core.program, self.numbers, constants, own, begin, end)
+        problem = InitialValueProblem(flow.core.program, self.numbers, constants, own, begin, end)
         within = (float(begin), float(end))
-        watch = _StopReason(StepWatch(watched, own, within, self._progress, self.numbers))
-        series = self._integrator.integrate(launch, watch)
-        stop = watch.stop or Stop.TIME
-        if watch.stop is None and series.times[-1] < end:
-            stop = Stop.STUCK
-        return PrecisePiece(symbols, series.without_empty_steps(), constants, stop, mode_begin)
+        steps = StepWatch(criteria, own, within, self._progress, self.numbers)
+        reason: Stop | None = None
+
+        def goes_on(time: float, step: float, state: Sequence[Any]) -> bool:
+            nonlocal reason
+            reason = steps.after(time, step, state)
+            return reason is None
+
+        series = self._integrator.integrate(problem, goes_on)
+        stop = reason or (Stop.STUCK if series.times[-1] < end else Stop.TIME)
+        return SeriesPiece.of(symbols, series.without_empty_steps(), constants, stop)
 
     def _flow(self, dynamics: Dynamics) -> Flow:
         if id(dynamics) not in self._flows:
@@ -159,13 +195,55 @@ class PieceIntegrator:
         return self._flows[id(dynamics)][1]
 
 
-class _StopReason:
-    """Remembers why a stretch was stopped."""
+# -- where a piece ends ----------------------------------------------------------------------------
 
-    def __init__(self, steps: StepWatch) -> None:
-        self.stop: Stop | None = None
-        self._steps = steps
 
-    def __call__(self, time: float, step: float, state: Sequence[Any]) -> bool:
-        self.stop = self._steps.after(time, step, state)
-        return self.stop is None
+def fallen(dynamics: Dynamics, positive: Expr, piece: SeriesPiece, place: float) -> PiecePoint:
+    """Where an expression falls through zero, to the rounding of the numbers.
+
+    Args:
+        dynamics: in whose symbols it is.
+        place: where it does so in doubles, in steps.
+    """
+    series, numbers = piece.series, piece.series.numbers
+    step = min(int(place), series.steps - 1)
+    arguments = (*piece.solution.symbols, *dynamics.parameters, CLOCK)
+    function = dynamics.function([positive], arguments, numbers=numbers)
+
+    def value(share: Any) -> Any:
+        return function(*series.state(step, share), *piece.constants, series.time(step, share))[0]
+
+    share = numbers.zero(value, place - step)
+    return PiecePoint(step, min(max(share, 0), 1))
+
+
+def landing(piece: SeriesPiece, criteria: StopCriteria) -> tuple[PiecePoint, int] | None:
+    """Where a slip vanishes within the last step, and which; None if slips only reverse."""
+    if piece.solution.stop is not Stop.VANISHED:
+        return None
+    series = piece.series
+    for k, pair in enumerate(criteria.vectors):
+        point = _reversal(series, list(pair))
+        slip = series.state(point.step, point.share)[list(pair)]
+        if float(series.numbers.size(slip)) <= criteria.passing:
+            return point, k
+    return None
+
+
+def _reversal(series: TaylorSolution, rows: list[int]) -> PiecePoint:
+    """Where a vector is across what it was when the last step began; else the end of the step."""
+    step, numbers = series.steps - 1, series.numbers
+    first = series.state(step, 0)[rows]
+
+    def along(share: Any) -> Any:
+        return first @ series.state(step, share)[rows]
+
+    if along(1) > 0:
+        return PiecePoint(step, 1)
+    coarse = [float(value) for value in first]
+
+    def roughly_along(share: float) -> Any:
+        return series.rounded_states(np.array([step + share]))[rows, 0] @ coarse
+
+    near = bisected(roughly_along, 0.0, 1.0)
+    return PiecePoint(step, numbers.zero(along, near))

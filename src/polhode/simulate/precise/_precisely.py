@@ -1,71 +1,43 @@
-"""A motion computed again in numbers of higher precision, along the one in doubles."""
+"""A motion once more in numbers of higher precision."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
-
-import numpy as np
 
 from polhode.algebra import Expr
 from polhode.base import DeclarationError, Progress
-from polhode.simulate._absolute_values import (
-    Here,
-    SideChange,
-    SideChangeCount,
-    beyond,
-    from_zero,
-    nearer,
-    passages_of,
-    sides_at,
-    told_change,
-)
-from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
-from polhode.simulate._event import Event, ModeSwitch, events_of, placed
-from polhode.simulate._lengths import refuse_vanishing
-from polhode.simulate._segment import Segment, TrajectoryPiece
-from polhode.simulate._task import AS_DECLARED, Guarded, MotionResult, Task
+from polhode.simulate._event import Event, events_of, placed, zero_crossings
+from polhode.simulate._segment import Segment
+from polhode.simulate._task import Guarded, MotionResult, Task
 from polhode.simulate._trajectory import Trajectory
-from polhode.simulate._watching import passages
-from polhode.simulate.contact._hybrid_integrator import HybridSolution
+from polhode.simulate.contact._contact_kinematics import State
+from polhode.simulate.contact._hybrid_integrator import HybridIntegrator, HybridSolution
 from polhode.simulate.contact._hybrid_system import HybridSystem
-from polhode.simulate.contact._initial_mode import begun_at
-from polhode.simulate.contact._state import State
+from polhode.simulate.contact._through_modes import begun_at
 from polhode.simulate.forcing._pieces import Pieces
-from polhode.simulate.integrate._crossing import first_fall
 from polhode.simulate.integrate._number_types import NumberType
-from polhode.simulate.integrate._rows import rows
 from polhode.simulate.integrate._series import SeriesIntegrator
-from polhode.simulate.integrate._stepping import Array, broken
-from polhode.simulate.integrate._stop_criteria import Stop, StopCriteria
-from polhode.simulate.precise._landing import PiecePoint, fallen
-from polhode.simulate.precise._precise_piece import (
-    InDoubles,
-    PieceIntegrator,
-    PrecisePiece,
-    StateValues,
-)
+from polhode.simulate.precise._precise_declared import as_declared
+from polhode.simulate.precise._precise_modes import precise_pieces
+from polhode.simulate.precise._precise_piece import SeriesStepper
 from polhode.simulate.precise._precise_start import Given, evaluated, read_exactly
-from polhode.simulate.precise._precise_walk import PreciseWalk
 from polhode.simulate.precise._wanted import Wanted
-
-_LOOK = 12  # steps between checks of the signs of absolute values
 
 
 def precisely(
     rough: Trajectory, motion: MotionResult, task: Task, wanted: Wanted, progress: Progress
 ) -> Trajectory:
-    """The motion in numbers of higher precision.
+    """The same motion in other numbers.
 
     Args:
-        rough: the motion in doubles.
-        motion: the parts it was made of.
-        task: parameters and start, as given.
-        wanted: the precision, duration, samples and events requested.
+        rough: in doubles.
+        motion: what it was made of.
+        task: numbers and start, as they were given.
 
     Raises:
-        DeclarationError: for prescribed motions that are known only in double precision.
+        DeclarationError: for prescribed motions that are known to doubles only.
         NumericError: where the motion cannot be continued.
     """
     numbers = wanted.numbers
@@ -74,29 +46,32 @@ def precisely(
     given = read_exactly(motion.begun, known, task, numbers)
     (duration,) = evaluated([wanted.duration.exact()], numbers.exact)
     end = numbers.array([duration])[0]
-    steps = PieceIntegrator(_integrator(task.integrator.name), numbers, end, progress)
+    steps = SeriesStepper(_integrator(task.integrator.name), numbers, end, progress)
     if motion.guarded is None:
-        solution = as_declared(motion.begun.dynamics, given, steps)
-        # Start, end and sign changes are those found now, other events those seen in doubles.
-        first, *sign_changes, last = events_of(solution)
-        seen = [e for e in rough.events[1:-1] if not e.divides and e.time < last.time]
-        others = placed(seen, solution.segments)
-        between = sorted([*sign_changes, *others], key=lambda event: event.time)
-        events = (first, *between, last)
+        course = as_declared(motion.begun.dynamics, given, steps)
+        events = _events_beside(rough, course)
     else:
-        solution = _through_modes(motion.guarded, given, steps, task, progress)
-        events = events_of(solution)
-    end = solution.segments[-1].end
+        course = _through_modes(motion.guarded, given, steps, task)
+        events = events_of(course)
+    end = course.segments[-1].end
     run = replace(
         rough,
-        segments=solution.segments,
+        segments=course.segments,
         duration=end,
         t=_samples(wanted, duration, end),
-        mode=solution.ending,
+        mode=course.ending,
         integrator=steps.name,
         events=events,
     )
     return _with_events(run, wanted.events)
+
+
+def _events_beside(rough: Trajectory, course: HybridSolution) -> tuple[Event, ...]:
+    """Start and end, and between them what was seen of the motion in doubles."""
+    first, *turns, last = events_of(course)
+    seen = [e for e in rough.events[1:-1] if not e.divides and e.time < last.time]
+    between = sorted([*turns, *placed(seen, course.segments)], key=lambda event: event.time)
+    return (first, *between, last)
 
 
 def _refuse_samples(forcing: Mapping[Any, Any], numbers: NumberType) -> None:
@@ -111,7 +86,7 @@ def _refuse_samples(forcing: Mapping[Any, Any], numbers: NumberType) -> None:
 
 def _integrator(name: str) -> SeriesIntegrator:
     if name == "heyoka":
-        from polhode.simulate.integrate._heyoka_series import TaylorSeries
+        from polhode.simulate.integrate._heyoka import TaylorSeries
 
         return TaylorSeries()
     from polhode.simulate.integrate._flint import PowerSeries
@@ -119,123 +94,15 @@ def _integrator(name: str) -> SeriesIntegrator:
     return PowerSeries()
 
 
-# -- equations of one contact mode, kept to as declared --------------------------------------------
-
-
-@dataclass(frozen=True)
-class _WithValues:
-    """The equations of the contacts as declared, with the values of their parameters."""
-
-    dynamics: Dynamics
-    parameters: Any
-
-
-@dataclass(frozen=True)
-class _Arrival:
-    """A stretch up to a sign change of an absolute value, or to the end."""
-
-    part: TrajectoryPiece
-    state: StateValues
-    time: Any
-    stop: Stop
-    sign_change: SideChange | None
-
-
-def as_declared(dynamics: Dynamics, given: Given, steps: PieceIntegrator) -> HybridSolution:
-    """The motion with the contacts as declared, without looking for mode changes.
-
-    Args:
-        dynamics: with the signs of absolute values not yet decided.
-
-    Raises:
-        NumericError: where the motion cannot be continued.
-    """
-    numbers, careful = steps.numbers, steps.numbers.careful
-    constants = careful.array([given.parameters[s] for s in dynamics.parameters])
-    now = given.context.mpf(0)
-    state: StateValues = given.state(dynamics.states) | {WORK: now}
-    signed = dynamics.on(sides_at(dynamics, Here(state, constants, now, careful)))
-    segments, changes, sign_changes = list[Segment](), list[ModeSwitch](), SideChangeCount()
-    parts, stop = list[TrajectoryPiece](), Stop.TIME
-    while now < steps.end and stop is not Stop.INTERRUPTED:
-        arrival = _along(_WithValues(signed, constants), state, (now, steps.end), steps)
-        parts.append(arrival.part)
-        state, now, stop = arrival.state, arrival.time, arrival.stop
-        if arrival.sign_change is None:
-            continue
-        sign_changes.count(now, arrival.sign_change)
-        segments.append(_segment(signed, parts))
-        parts = []
-        here = Here(state, constants, now, careful)
-        sides = beyond(dynamics, here, signed.sides, arrival.sign_change)
-        if sides != signed.sides:
-            time, kind = numbers.array([now])[0], told_change(arrival.sign_change, sides)
-            changes.append(ModeSwitch(time, kind, AS_DECLARED, AS_DECLARED))
-        signed = dynamics.on(sides)
-    if parts:
-        segments.append(_segment(signed, parts))
-    return HybridSolution(tuple(segments), tuple(changes), AS_DECLARED)
-
-
-def _segment(signed: Dynamics, parts: list[TrajectoryPiece]) -> Segment:
-    return Segment(AS_DECLARED, parts[0].begin, parts[-1].end, signed, tuple(parts))
-
-
-def _along(
-    declared: _WithValues, state: StateValues, span: tuple[Any, Any], steps: PieceIntegrator
-) -> _Arrival:
-    """Integrate to the end of a span, or to the first sign change of an absolute value."""
-    passages, careful = passages_of(declared.dynamics), steps.numbers.careful
-    watched = StopCriteria(pause=_LOOK) if passages else StopCriteria()
-    stretch = steps.along(declared, state, span, watched, span[0])
-    found = _first_sign_change(declared.dynamics, passages, stretch)
-    if found is None:
-        if stretch.stop is Stop.STUCK:
-            raise broken(float(stretch.series.times[-1]))
-        point, change = PiecePoint(stretch.series.steps - 1, 1), None
-        time = stretch.series.times[-1]
-    else:
-        point, change = found
-        time = stretch.series.time(point.step, point.share)
-        again = nearer(stretch.series.times, time, steps.numbers)
-        if again is not None:
-            return _along(declared, state, (span[0], careful.array([again])[0]), steps)
-    part = stretch.part(time)
-    refuse_vanishing(declared.dynamics, part.rounded())
-    arrived = stretch.state(point.step, point.share, careful)
-    return _Arrival(part, arrived, careful.array([time])[0], stretch.stop, change)
-
-
-def _first_sign_change(
-    dynamics: Dynamics, passages: Sequence[SideChange], stretch: PrecisePiece
-) -> tuple[PiecePoint, SideChange] | None:
-    """Where the first sign changes, and which."""
-    if not passages:
-        return None
-    seen = InDoubles(stretch)
-    arguments = (*seen.symbols, *dynamics.parameters, CLOCK)
-    function = dynamics.function([change.positive for change in passages], arguments)
-
-    def values(places: Array) -> Array:
-        found = function(*seen.at(places), *seen.constants, seen.times(places))
-        return np.asarray(rows(found, len(places)))
-
-    fall = first_fall(from_zero(values, seen.knots), seen.knots)
-    if fall is None:
-        return None
-    change = passages[fall.guard]
-    return fallen(dynamics, change.positive, stretch, fall.time), change
-
-
-# -- through contact modes -------------------------------------------------------------------------
+# -- what is integrated ------------------------------------------------------------------------
 
 
 def _through_modes(
-    guarded: Guarded, given: Given, steps: PieceIntegrator, task: Task, progress: Progress
+    guarded: Guarded, given: Given, steps: SeriesStepper, task: Task
 ) -> HybridSolution:
-    """The motion through all contact modes, as the forces demand."""
-    rough, numbers = guarded.machine, steps.numbers.careful
-    hybrid = HybridSystem(
+    """Through all contact modes, as the forces demand."""
+    rough, numbers = guarded.hybrid, steps.numbers.careful
+    machine = HybridSystem(
         rough.automaton, rough.drive, given.parameters, rough.integrator, None, numbers, rough
     )
     equations = rough.automaton.apart.equations
@@ -244,12 +111,12 @@ def _through_modes(
         for symbols in (equations.coordinates, equations.speeds)
     )
     zero = given.context.mpf(0)
-    first = begun_at(hybrid, State(zero, coordinates, speeds, zero), guarded.apart)
-    walk = PreciseWalk(hybrid, steps, task.near_flat, progress, task.until)
-    return walk.along(first, steps.end)
+    first = begun_at(machine, State(zero, coordinates, speeds, zero), guarded.apart)
+    pieces = precise_pieces(machine, task.near_flat, steps)
+    return HybridIntegrator(machine, pieces, task.until).integrate(first, steps.end)
 
 
-# -- samples and events ----------------------------------------------------------------------------
+# -- samples and events ------------------------------------------------------------------------
 
 
 def _samples(wanted: Wanted, duration: Any, end: Any) -> Any:
@@ -263,11 +130,11 @@ def _samples(wanted: Wanted, duration: Any, end: Any) -> Any:
 
 
 def _with_events(run: Trajectory, events: Mapping[str, Expr]) -> Trajectory:
-    """The same motion with an event at every zero crossing of some expressions."""
+    """The same motion with an event wherever one of some expressions passes through zero."""
     segments = run.segments
     found = []
     for name, expression in events.items():
-        for near, k, begins in passages([s.rounded() for s in segments], expression):
+        for near, k, begins in zero_crossings([s.rounded() for s in segments], expression):
             segment, mode = segments[k], segments[k].mode
             time = segment.begin if begins else _root(segment, expression, near)
             found.append(Event(time, name, mode, mode, segment, segment))
@@ -277,7 +144,7 @@ def _with_events(run: Trajectory, events: Mapping[str, Expr]) -> Trajectory:
 
 
 def _root(segment: Segment, expression: Expr, near: float) -> Any:
-    """The zero of an expression, from its position in doubles."""
+    """Where an expression is zero, from where it is in doubles."""
     wanted, numbers = [Expr.of(expression)], segment.numbers
     length = segment.end - segment.begin
 

@@ -15,9 +15,9 @@ from polhode.model import Contact, Plane
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array, instants, label, largest, scale_for
 from polhode.view._scene_along import along
-from polhode.view.figures._drawn import Drawn
+from polhode.view.figures._figure import Drawn, axes_or_new
 from polhode.view.figures._history import legend_above
-from polhode.view.figures._style import COLOURS, WIDTH, axes_or_new, house_style
+from polhode.view.figures._style import COLOURS, WIDTH, house_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -55,7 +55,9 @@ def support_trace(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
     contact = _contact(run)
     support = contact.on
     x, y = _on_plane(run, support, lambda equations: _touched(equations, contact) - support.origin)
-    turned = _angle(run, support)
+    t = instants(run)
+    # Angle by which the support has turned since the start, rad.
+    turned: Array = cumulative_simpson(run.evaluate(support.turning, t), x=t, initial=0.0)
     along, across = np.cos(turned), np.sin(turned)
     trace = np.array([along * x + across * y, along * y - across * x])
     return _drawn(ax, {"trace on the support": trace}, support)
@@ -66,7 +68,7 @@ def _contact(run: Trajectory) -> Contact:
         if isinstance(element, Contact):
             return element
     raise DeclarationError(
-        f"a path on the support of {run.system.name}",
+        f"no body of {run.system.name} touches a support",
         expected="a system with a Rolling, Smooth or Coulomb contact",
     )
 
@@ -89,18 +91,17 @@ def _on_plane(run: Trajectory, plane: Plane, place: Callable[[Equations], Vector
     return along(run, components, 2, instants(run)).T
 
 
-def _angle(run: Trajectory, support: Plane) -> Array:
-    """Angle by which a support has turned since the start, rad."""
-    t = instants(run)
-    turned: Array = cumulative_simpson(run.evaluate(support.turning, t), x=t, initial=0.0)
-    return turned
-
-
 def _drawn(ax: Axes | None, paths: dict[str, Array], plane: Plane) -> Drawn:
-    across, up = (1, 0) if _climbs(plane) else (0, 1)
+    root = plane.axes.root
+    vertical = root[root.labels[2]]
+    first, second = (bool(plane.axes[name].dot(vertical)) for name in plane.tangents)
+    # Where the first direction alone points up a slope, it points up the page.
+    across, up = (1, 0) if first and not second else (0, 1)
     scale = scale_for("m", largest(*paths.values()))
     together = np.concatenate(list(paths.values()), axis=1)[[across, up]]
-    axes = axes_or_new(ax, _height(together))
+    wide, high = (float(extent) for extent in np.ptp(together, axis=1))
+    height = _MARGIN + (WIDTH - _MARGIN) * high / (wide or 1.0)  # for equal scales
+    axes = axes_or_new(ax, min(3.5, max(1.7, height)))
     lines = []
     for i, (name, path) in enumerate(paths.items()):
         shown = path[[across, up]] * scale.factor
@@ -118,20 +119,6 @@ def _drawn(ax: Axes | None, paths: dict[str, Array], plane: Plane) -> Drawn:
     if ax is None and figure is not None:
         figure.draw_without_rendering()  # equal scales may need wider labels
     return Drawn(axes, lines)
-
-
-def _climbs(plane: Plane) -> bool:
-    """Whether the first direction in the plane alone points up a slope."""
-    root = plane.axes.root
-    vertical = root[root.labels[2]]
-    first, second = (plane.axes[name].dot(vertical) for name in plane.tangents)
-    return bool(first) and not second
-
-
-def _height(points: Array) -> float:
-    """Height in inches of a figure of its usual width that shows points to equal scales."""
-    wide, high = (float(extent) for extent in np.ptp(points, axis=1))
-    return min(3.5, max(1.7, _MARGIN + (WIDTH - _MARGIN) * high / (wide or 1.0)))
 
 
 def _symbol(direction: str) -> str:

@@ -1,30 +1,37 @@
-"""Quantities against time."""
+"""Quantities against time, by themselves and stacked; phase portraits; shades of modes."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from itertools import groupby
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from polhode.base import DeclarationError
 from polhode.simulate import Trajectory
 from polhode.view._quantities import (
     Array,
     Named,
-    PlottedQuantity,
     common_unit,
+    everything,
+    grouped,
     instants,
     label,
     largest,
+    panels,
     quantity,
     scale_for,
 )
-from polhode.view.figures._drawn import Drawn
-from polhode.view.figures._style import axes_or_new, house_style, line_style
+from polhode.view.figures._figure import Drawn, axes_or_new, new_figure
+from polhode.view.figures._style import COLOURS, INK, SHADES, house_style, line_style, worded
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
     from matplotlib.legend import Legend
+    from matplotlib.patches import Polygon, Rectangle
+
 
 _SHARED = {
     "rad": "angle",
@@ -36,8 +43,10 @@ _SHARED = {
 }
 _ROUNDING = 1e-11  # relative spread below which a quantity counts as constant
 _SLIGHT = 1e-3  # relative spread below which only the change is worth showing
+_PALE: dict[str, Any] = {"edgecolor": INK, "alpha": 0.28, "linewidth": 0, "zorder": 0}
+_HATCHES = ("", "////", "....", "xxxx")
+_PANEL, _FOOT, _LEAST = 1.35, 0.45, 2.3  # heights in inches: of a panel, below them, of a figure
 _ROOM = 1.1  # widths of the axes that a legend may take
-_DISPARATE = 25.0  # ratio of sizes that do not share an axis
 
 
 @house_style()
@@ -58,7 +67,7 @@ def history(run: Trajectory, *names: Named, ax: Axes | None = None) -> Drawn:
     shown = _SHARED.get(unit, ", ".join(q.symbol for q in quantities))
     if len(values) == 1:
         shown = quantities[0].symbol
-        if _hardly_changes(values[0]):
+        if _ROUNDING * largest(values[0]) < np.ptp(values[0]) < _SLIGHT * largest(values[0]):
             values = [values[0] - values[0][0]]
             shown = f"${shown.strip('$')} - {shown.strip('$')}(0)$"
     scale = scale_for(unit, largest(*values))
@@ -92,35 +101,93 @@ def _legend(axes: Axes, columns: int) -> Legend:
     return axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=columns)
 
 
-def panels(run: Trajectory, names: Sequence[str]) -> list[list[str]]:
-    """A group of names split into what can share an axis: one unit, sizes that compare."""
-    found: list[list[tuple[PlottedQuantity, float, str]]] = []
-    for name in names:
-        one, size = quantity(run, name), largest(run.evaluate(name, instants(run)))
-        home = next((group for group in found if _fits(one, size, group)), None)
-        if home is None:
-            found.append([(one, size, name)])
-        else:
-            home.append((one, size, name))
-    return [[name for _, _, name in group] for group in found]
-
-
-def _fits(
-    one: PlottedQuantity, size: float, group: list[tuple[PlottedQuantity, float, str]]
-) -> bool:
-    sizes = [other for _, other, _ in group if other]
-    comparable = not size or all(1 / _DISPARATE < size / s < _DISPARATE for s in sizes)
-    return comparable and one.unit == group[0][0].unit
-
-
-def _hardly_changes(values: Array) -> bool:
-    spread, size = float(np.ptp(values)), largest(values)
-    return _ROUNDING * size < spread < _SLIGHT * size
-
-
 def widen(axes: Axes, values: Array) -> None:
     """Limits about a constant that do not blow rounding up to the height of the panel."""
     size = largest(values)
     if float(np.ptp(values)) <= _ROUNDING * size or not size:
         middle, room = float(np.mean(values)), 0.2 * size or 1.0
         axes.set_ylim(middle - room, middle + room)
+
+
+@house_style()
+def phase_portrait(run: Trajectory, name: Named, *, ax: Axes | None = None) -> Drawn:
+    """The rate of a coordinate against the coordinate; a dot marks the start.
+
+    Raises:
+        DeclarationError: for a name that is no coordinate of the run.
+    """
+    coordinate = quantity(run, name)
+    rate = f"{coordinate.name}_dot"
+    if rate not in run.quantities:
+        raise DeclarationError(
+            f"{coordinate.name} has no rate among the quantities",
+            expected="a coordinate or a speed",
+        )
+    axes = axes_or_new(ax, 3.0)
+    shown = []
+    for side, plotted in (("x", coordinate), ("y", quantity(run, rate))):
+        values = run.evaluate(plotted.name, instants(run))
+        scale = scale_for(plotted.unit, largest(values))
+        axes.set(**{f"{side}label": plotted.label(scale)})
+        shown.append(values * scale.factor)
+    (line,) = axes.plot(*shown, color=COLOURS[0])
+    axes.plot(shown[0][0], shown[1][0], "o", color=COLOURS[0], markersize=4.5)
+    axes.margins(0.06)
+    return Drawn(axes, [line])
+
+
+@house_style()
+def modes(run: Trajectory, *, ax: Axes) -> Drawn:
+    """Shade the time that a motion spends in each contact mode; nothing where there is only one.
+
+    Modes are told apart by shade and hatching, and named in the legend of the axes.
+    """
+    stays = [list(group) for _, group in groupby(run.segments, lambda segment: segment.mode)]
+    names = list(dict.fromkeys(segment.mode for segment in run.segments))
+    if len(names) < 2:
+        return Drawn(ax, [])
+    drawn: list[Polygon | Rectangle] = []
+    for i, name in enumerate(names):
+        spans = [(s[0].begin, s[-1].end) for s in stays if s[0].mode == name]
+        style = {
+            **_PALE,
+            "facecolor": SHADES[i % len(SHADES)],
+            "hatch": _HATCHES[i % len(_HATCHES)],
+        }
+        labels = [worded(name), *["_"] * (len(spans) - 1)]
+        drawn += [
+            ax.axvspan(*span, label=label, **style)
+            for span, label in zip(spans, labels, strict=True)
+        ]
+    return Drawn(ax, drawn)
+
+
+def plot(run: Trajectory, *quantities: Named | Sequence[Named]) -> Figure:
+    """A figure of quantities against time: a panel for each name, or for each group of names.
+
+    `plot(run, "theta", ("F_x", "F_z"), "energy")`; `.savefig("run.pdf")` writes it. Without
+    names it shows coordinates, speeds and reactions.
+
+    Raises:
+        DeclarationError: for a name the run does not have.
+    """
+    return figure_of_run(run, grouped(quantities) or everything(run))
+
+
+@house_style()
+def figure_of_run(run: Trajectory, groups: Sequence[Sequence[str]]) -> Figure:
+    """Named quantities against time, one panel for each group.
+
+    A group is split where its quantities have different units or sizes that do not compare.
+
+    Raises:
+        DeclarationError: for a name the run does not have.
+    """
+    stacked = [panel for group in groups for panel in panels(run, group)]
+    figure = new_figure(max(_LEAST, _FOOT + _PANEL * len(stacked)))
+    column = figure.subplots(len(stacked), 1, sharex=True, squeeze=False)[:, 0]
+    for axes, names in zip(column, stacked, strict=True):
+        history(run, *names, ax=axes)
+        axes.label_outer()
+    figure.align_ylabels(column)
+    return figure

@@ -1,4 +1,4 @@
-"""Effective potential: the energy that a tilt alone costs, with what is conserved kept constant."""
+"""Effective potential of a tilt: the energy with the other speeds eliminated by their integrals."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from polhode.analyse import LinearIntegrals, linear_integrals, reduced
 from polhode.base import PURE, DeclarationError, to_si
 from polhode.simulate import Trajectory
 from polhode.view._quantities import Array, equations_of, instants, quantity, scale_for
-from polhode.view.figures._drawn import Drawn
+from polhode.view.figures._figure import Drawn, axes_or_new
 from polhode.view.figures._history import legend_above
-from polhode.view.figures._style import COLOURS, FAINT, MUTED, axes_or_new, house_style
+from polhode.view.figures._style import COLOURS, FAINT, MUTED, house_style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,8 +31,8 @@ def effective_potential(
 ) -> Drawn:
     """Effective potential of the tilt of a motion, with the energy and its turning points, J.
 
-    It is the energy of the same motion without the rate of the tilt: every other speed as it is
-    at that tilt, by the integrals that are linear in the speeds. The tilt swings where the curve
+    It is the energy without the rate of the tilt, the other speeds following from the tilt by
+    the integrals that are linear in the speeds. The tilt swings where the curve
     is below the energy (the line), between the turning points (dots).
 
     Args:
@@ -55,19 +55,15 @@ def effective_potential(
     for turn in np.degrees(turning_points(angles, heights, energy)):
         axes.axvline(turn, color=MUTED, linewidth=0.6, linestyle=(0, (2, 2)))
         axes.plot(turn, level, "o", color=COLOURS[1], zorder=3)
-    axes.set_ylim(*_window(curve, level))
+    # The axes show the well, not the walls beside it.
+    bottom, top = float(np.min(curve)), float(np.max(curve))
+    rise = max(level - bottom, 1e-3 * (top - bottom))
+    top = min(top, bottom + _HIGH * rise)
+    axes.set_ylim(bottom - 0.08 * (top - bottom), top)
     axes.set_xlabel(f"{quantity(run, tilt.published).symbol} (deg)")
     axes.set_ylabel(f"energy ({scale.unit})")
     legend_above(axes)
     return Drawn(axes, [line])
-
-
-def _window(curve: Array, level: float) -> tuple[float, float]:
-    """Heights of the axes: the well, not the walls beside it."""
-    bottom, top = float(np.min(curve)), float(np.max(curve))
-    rise = max(level - bottom, 1e-3 * (top - bottom))
-    top = min(top, bottom + _HIGH * rise)
-    return bottom - 0.08 * (top - bottom), top
 
 
 def potential(run: Trajectory, angles: Array) -> Array:
@@ -90,9 +86,9 @@ def _speeds(run: Trajectory, found: LinearIntegrals, angles: Array) -> Array:
     start = {name: float(run.evaluate(name, 0.0)) for name in (tilt, *names)}
     rows = np.empty((len(angles), len(names)))
     first = int(np.argmin(np.abs(angles - start[tilt])))
-    for order in (range(first, len(angles)), range(first - 1, -1, -1)):
+    for outwards in (range(first, len(angles)), range(first - 1, -1, -1)):
         state = start
-        for i in order:
+        for i in outwards:
             rows[i] = found.values(run.parameters, state, float(angles[i]))
             state = {tilt: float(angles[i]), **dict(zip(names, rows[i], strict=True))}
     return rows.T
@@ -111,7 +107,7 @@ def _tilt(run: Trajectory) -> Symbol:
     """The one coordinate that the motion reduces to."""
     equations = equations_of(run)
     if equations.rate(equations.energy):
-        raise _refused(run, "a system whose energy stays the same")
+        raise _refused(run, "a system whose energy is conserved")
     system = reduced(equations)
     found = linear_integrals(equations)
     known = found.speeds if found is not None else ()
@@ -125,7 +121,7 @@ def _tilt(run: Trajectory) -> Symbol:
 
 
 def _refused(run: Trajectory, expected: str) -> DeclarationError:
-    return DeclarationError(f"the effective potential of {run.system.name}", expected=expected)
+    return DeclarationError(f"{run.system.name} has no effective potential", expected=expected)
 
 
 def _range(run: Trajectory, tilt: Symbol, between: tuple[str, str] | None) -> Array:

@@ -1,4 +1,4 @@
-"""Reactions along a motion, and the range each of them covers."""
+"""Reactions along a motion, the range each of them covers, and the friction that rolling needs."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from polhode.algebra import Expr, Symbol
 from polhode.base import DeclarationError
 from polhode.derive import Equations
-from polhode.model import Frame
+from polhode.model import Contact, Coulomb, Frame, Rolling
 from polhode.simulate import Trajectory
 from polhode.view._quantities import (
     Array,
@@ -20,13 +20,15 @@ from polhode.view._quantities import (
     modes_of,
     scale_for,
 )
-from polhode.view._scene_along import along
-from polhode.view.figures._drawn import Drawn
-from polhode.view.figures._history import history, legend_above, time_axis, widen
-from polhode.view.figures._style import COLOURS, MUTED, axes_or_new, house_style, line_style, worded
+from polhode.view._scene_along import along, constants
+from polhode.view.figures._figure import Drawn, axes_or_new
+from polhode.view.figures._history import history, legend_above, modes, time_axis, widen
+from polhode.view.figures._style import COLOURS, MUTED, house_style, line_style, worded
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+_ROOM = 1.15  # height of the axes against the greatest value
 
 
 @house_style()
@@ -54,7 +56,7 @@ def reactions(
     names = dict.fromkeys(r.name for r in restraints if not r.is_couple)
     if not names:
         raise DeclarationError(
-            f"the force of {element.name!r}, which takes none",
+            f"{element.name!r} takes no force along the motion",
             expected="a contact or joint that holds a point",
         )
     return history(run, *names, ax=ax)
@@ -113,10 +115,13 @@ def reaction_ranges(run: Trajectory, *, ax: Axes | None = None) -> Drawn:
 
 def _forces(run: Trajectory) -> dict[str, Array]:
     """Components of all contact modes along the motion, by name."""
-    names = list(dict.fromkeys(name for e in modes_of(run) for name in _force_names(e)))
+    couples = {line.name for e in modes_of(run) for line in e.lines if line.restraint.is_couple}
+    names = [
+        n for n in dict.fromkeys(n for e in modes_of(run) for n in e.least) if n not in couples
+    ]
     if not names:
         raise DeclarationError(
-            f"forces of contacts and joints on {run.system.name}",
+            f"no contact or joint of {run.system.name} takes a force",
             expected="a motion on which something takes a force",
         )
     zero = Expr.of(0)
@@ -127,6 +132,61 @@ def _forces(run: Trajectory) -> dict[str, Array]:
     return dict(zip(names, along(run, least, len(names), instants(run)).T, strict=True))
 
 
-def _force_names(equations: Equations) -> list[str]:
-    couples = {line.name for line in equations.lines if line.restraint.is_couple}
-    return [name for name in equations.least if name not in couples]
+@house_style()
+def friction_needed(run: Trajectory, contact: str = "", *, ax: Axes | None = None) -> Drawn:
+    """Friction over normal force at a contact against time, with what the contact offers.
+
+    The ratio is the least coefficient of static friction with which it would roll so; where the
+    contact slides, it is the coefficient of kinetic friction. Of a `Coulomb` contact the static
+    coefficient, which is available, is drawn besides (dashed), and the contact modes are shaded.
+
+    Args:
+        run: the motion.
+        contact: name of the contact; by default the first that rolls or has friction.
+        ax: axes to draw in.
+
+    Raises:
+        DeclarationError: for a system that has no such contact.
+    """
+    axes = axes_or_new(ax, 2.2)
+    t = instants(run)
+    touching = _contact(run, contact)
+    components = {id(equations): _components(equations, touching) for equations in modes_of(run)}
+    normal, *tangential = along(run, lambda equations: components[id(equations)], 3, t).T
+    with np.errstate(divide="ignore", invalid="ignore"):
+        needed: Array = np.hypot(*tangential) / np.abs(normal)  # not a number in flight
+    lines = axes.plot(t, needed, color=COLOURS[0], label=r"$\mu$ needed")
+    greatest = float(np.nanmax(needed))
+    if isinstance(touching, Coulomb):
+        (available,) = constants(run, [touching.mu_static])
+        name, dashes = r"$\mu$ available", (0, (5, 1.6))
+        lines.append(axes.axhline(available, color=COLOURS[1], linestyle=dashes, label=name))
+        greatest = max(greatest, available)
+    shaded = modes(run, ax=axes)
+    axes.set_ylim(0, _ROOM * greatest or 1.0)
+    time_axis(axes, t)
+    axes.set_ylabel("friction / normal force")
+    if shaded or len(lines) > 1:
+        legend_above(axes)
+    return Drawn(axes, lines)
+
+
+def _contact(run: Trajectory, name: str) -> Contact:
+    elements = [run.system.element(name)] if name else run.system.elements
+    for element in elements:
+        if isinstance(element, Rolling | Coulomb):
+            return element
+    raise DeclarationError(
+        f"{run.system.name} has no contact with friction",
+        expected="a system with a Rolling or Coulomb contact",
+    )
+
+
+def _components(equations: Equations, contact: Contact) -> list[Expr] | None:
+    """Along the normal and along the two directions of the support; None in flight."""
+    support = contact.on
+    names = [contact.component(label) for label in (support.normal, *support.tangents)]
+    if names[0] not in equations.components:
+        return None
+    zero = Expr.of(0)
+    return [equations.components.get(name, zero) for name in names]

@@ -20,7 +20,7 @@ class ShownFigure(Figure):
 
     @house_style()
     def draw(self, renderer: RendererBase) -> None:
-        """Ticks are made when they are drawn, and take their style from then."""
+        """Draw in the style of all figures, which ticks take on only as they are drawn."""
         super().draw(renderer)
 
     def _repr_png_(self) -> bytes:

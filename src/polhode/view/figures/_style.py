@@ -4,11 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from typing import Any
 
 #: Lines are told apart by colour (Okabe and Ito's, safe for the colour-blind) and by dashes.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#a8518f")
@@ -33,7 +29,7 @@ _DARK = {
     COLOURS[3]: "#db92c8",
 }
 
-_RULES: Any = {
+RULES: Any = {
     "font.family": "STIXGeneral",
     "font.size": 10,
     "mathtext.fontset": "stix",
@@ -83,56 +79,11 @@ _RULES: Any = {
 
 @contextmanager
 def house_style() -> Iterator[None]:
-    """Everything drawn or saved within looks as figures of this house do; also a decorator."""
+    """The style of these figures for all that is drawn or saved within; also a decorator."""
     from matplotlib import rc_context
 
-    with rc_context(_RULES):
+    with rc_context(RULES):
         yield
-
-
-@house_style()
-def new_figure(height: float, width: float = WIDTH) -> Figure:
-    """An empty figure of a size in inches."""
-    from polhode.view.figures._shown import ShownFigure
-
-    return ShownFigure(figsize=(width, height))
-
-
-@house_style()
-def axes_or_new(ax: Axes | None, height: float = 2.6) -> Axes:
-    """The axes given, in the style of all figures, or those of a new figure."""
-    if ax is not None:
-        _dress(ax)
-        return ax
-    axes: Axes = new_figure(height).subplots()
-    return axes
-
-
-def _dress(axes: Axes) -> None:
-    """Give axes that were made in another style the frame, ticks and fonts of all figures."""
-    if axes.name != "rectilinear":
-        return
-    for side, spine in axes.spines.items():
-        spine.set(color=MUTED, linewidth=_RULES["axes.linewidth"])
-        spine.set_visible(side in ("left", "bottom"))
-    axes.tick_params(
-        which="both",
-        direction="out",
-        width=_RULES["xtick.major.width"],
-        color=MUTED,
-        labelcolor=INK,
-        labelsize=_RULES["font.size"],
-        labelfontfamily=_RULES["font.family"],
-    )
-    axes.tick_params(which="major", length=_RULES["xtick.major.size"])
-    axes.grid(visible=True, color=FAINT, linewidth=_RULES["grid.linewidth"])
-    axes.set_axisbelow(True)
-    axes.margins(_RULES["axes.xmargin"], _RULES["axes.ymargin"])
-    for text in (axes.xaxis.label, axes.yaxis.label):
-        text.set(color=INK, fontsize=_RULES["axes.labelsize"])
-    numbers = (*axes.get_xticklabels(), *axes.get_yticklabels())  # those made by now
-    for text in (axes.xaxis.label, axes.yaxis.label, axes.title, *numbers):
-        text.set(fontfamily=_RULES["font.family"], math_fontfamily=_RULES["mathtext.fontset"])
 
 
 def line_style(number: int) -> dict[str, Any]:
@@ -145,7 +96,7 @@ def line_style(number: int) -> dict[str, Any]:
 
 
 def worded(name: str) -> str:
-    """A name that somebody gave, as a legend shows it: no formula, and not hidden."""
+    """A user's name as a legend shows it: taken neither for a formula nor for a hidden entry."""
     plain = name.replace("$", r"\$")
     return f" {plain}" if plain.startswith("_") else plain
 

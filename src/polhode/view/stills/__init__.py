@@ -2,5 +2,5 @@
 
 from polhode.view.stills._files import movie as movie
 from polhode.view.stills._files import still as still
+from polhode.view.stills._picture import clearest_time as clearest_time
 from polhode.view.stills._picture import picture as picture
-from polhode.view.stills._telling import telling_time as telling_time

@@ -1,31 +1,47 @@
-"""Bodies of a scene as meshes, with marks so that a spin is seen."""
+"""Bodies, joints and links of a scene as meshes; marks on the bodies show their spin."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
 
-from polhode.view._scene import BodyShape, SceneBody, Triple
-from polhode.view._shapes import reach_of
+from polhode.view._quantities import Array
+from polhode.view._scene import BodyShape, Link, Scene, SceneBody, Triple
+from polhode.view.stills._camera import between, place_at, turn_at
 from polhode.view.stills._mesh import (
     Mesh,
     box,
     cap,
+    coil,
+    revolution,
     ring,
     rod_between,
     sphere,
     together,
     tube,
+    turned_to,
 )
 
 LIGHT, BLUE, DEEP, ACCENT, METAL = "#f3e9d2", "#2f6f9f", "#1d4a6d", "#e0672b", "#9aa3ad"
+_DARK = "#5b636d"
 _SECTORS = 12
 _REMEMBERED = 32  # bodies: those of a movie are drawn again and again
 _PIECES = 8  # of a spoke
+_POT = 0.5  # of a damper's length at the middle of the motion
+_CLEAR = 0.11  # size of a joint against the reach of its body
+_ROD_END = 1.9  # against the radius of a rod: beyond the knob at its end
 _AXLE = 0.055  # thickness of the rod to where a body is held, against its reach
+
+
+def bodies(scene: Scene, frame: float) -> list[Mesh]:
+    """The bodies where they are at a frame."""
+    return [
+        body_mesh(body).placed(turn_at(body.pose, frame), place_at(body.pose, frame))
+        for body in scene.bodies
+    ]
 
 
 def body_mesh(body: SceneBody) -> Mesh:
@@ -35,18 +51,15 @@ def body_mesh(body: SceneBody) -> Mesh:
 
 @lru_cache(_REMEMBERED)
 def _mesh(shape: BodyShape, held: tuple[Triple, ...]) -> Mesh:
-    mesh = _BUILDERS.get(shape.kind, _ball)(*shape.size)
+    mesh = _SHAPES.get(shape.kind, _ball)(*shape.size)
     if shape.kind != "ellipsoid":
-        mesh = mesh.placed(_basis(shape), np.array(shape.centre))
-    thick = _AXLE * max([reach_of(shape), *(float(np.linalg.norm(arm)) for arm in held)])
+        axis, across = np.array(shape.axis), np.array(shape.across)
+        turn = np.stack([across, np.cross(axis, across), axis], axis=1)
+        mesh = mesh.placed(turn, np.array(shape.centre))
+    thick = _AXLE * max([shape.reach, *(float(np.linalg.norm(arm)) for arm in held)])
     arms = [np.array(arm) for arm in held if any(arm)]
     rods = [rod_between(np.zeros(3), arm, thick / 2, METAL) for arm in arms]
     return together([mesh, *rods])
-
-
-def _basis(shape: BodyShape) -> np.ndarray:
-    axis, across = np.array(shape.axis), np.array(shape.across)
-    return np.stack([across, np.cross(axis, across), axis], axis=1)
 
 
 def _sector(column: int, columns: int, dark: str = BLUE, light: str = LIGHT) -> str:
@@ -96,16 +109,15 @@ def _wheel(radius: float, height: float) -> Mesh:
     deep = 0.1 * radius
     plain: Callable[[int, int], str] = lambda i, j: DEEP  # noqa: E731
     ends = [cap(hub, side * deep, plain) for side in (-1, 1)]
-    spokes = [_spoke(i, hub, inside, 0.028 * radius) for i in range(6)]
+    spokes = []
+    for i in range(6):
+        along = np.array([np.cos(np.pi * i / 3), np.sin(np.pi * i / 3), 0.0])
+        # In short pieces: each is nearer or farther than what it crosses.
+        points = [distance * along for distance in np.linspace(hub, inside, _PIECES + 1)]
+        colour = METAL if i else ACCENT
+        pieces = [rod_between(a, b, 0.028 * radius, colour) for a, b in pairwise(points)]
+        spokes.append(together(pieces))
     return together([_hoop(radius, height), *spokes, tube(hub, -deep, deep, plain), *ends])
-
-
-def _spoke(number: int, inner: float, outer: float, thick: float) -> Mesh:
-    """From the hub to the rim, in short pieces: each is nearer or farther than what it crosses."""
-    along = np.array([np.cos(np.pi * number / 3), np.sin(np.pi * number / 3), 0.0])
-    ends = [distance * along for distance in np.linspace(inner, outer, _PIECES + 1)]
-    colour = METAL if number else ACCENT
-    return together([rod_between(a, b, thick, colour) for a, b in pairwise(ends)])
 
 
 def _rod(length: float, radius: float) -> Mesh:
@@ -117,10 +129,6 @@ def _rod(length: float, radius: float) -> Mesh:
         for side, colour in ((1, ACCENT), (-1, LIGHT))
     ]
     return together([bar, *ends])
-
-
-def _box(long: float, wide: float, thick: float) -> Mesh:
-    return box((wide, thick, long), (BLUE, BLUE, LIGHT, DEEP, ACCENT, METAL))
 
 
 def _racquet(length: float, width: float, thick: float) -> Mesh:
@@ -139,13 +147,93 @@ def _racquet(length: float, width: float, thick: float) -> Mesh:
     return together([flat, handle])
 
 
-_BUILDERS: dict[str, Callable[..., Mesh]] = {
+_COLUMNS = 48  # around a body of revolution
+_SHAPES: dict[str, Callable[..., Mesh]] = {
     "ball": _ball,
     "ellipsoid": _ellipsoid,
     "disk": _disk,
     "hoop": _hoop,
     "wheel": _wheel,
     "rod": _rod,
-    "box": _box,
+    "box": lambda long, wide, thick: box(
+        (wide, thick, long), (BLUE, BLUE, LIGHT, DEEP, ACCENT, METAL)
+    ),
     "racquet": _racquet,
+    "revolution": lambda *lengths: revolution(
+        np.reshape(lengths, (-1, 2)), lambda _, column: _sector(column, _COLUMNS)
+    ),
+}
+
+
+# --- joints, springs and dampers ---
+
+
+def links(scene: Scene, frame: float) -> list[Mesh]:
+    """Springs and dampers, and the knobs at ends that are tied to a place."""
+    drawn = [_LINKS[link.kind](link, frame) for link in scene.links]
+    tied = [
+        _knob(1.5 * link.thick, _DARK).placed(np.eye(3), end[0])
+        for link in scene.links
+        for end in (link.start, link.end)
+        if len(end) == 1
+    ]
+    return [*drawn, *tied]
+
+
+def _damper(link: Link, frame: float) -> Mesh:
+    start, end = between(link.start, frame), between(link.end, frame)
+    middle = max(len(link.start), len(link.end)) / 2
+    usual = float(np.linalg.norm(between(link.end, middle) - between(link.start, middle)))
+    length = float(np.linalg.norm(end - start))
+    if not length:
+        return _knob(link.thick, DEEP).placed(np.eye(3), start)
+    foot = start + (end - start) * min(_POT * usual / length, 0.8)
+    pot = rod_between(start, foot, link.thick, DEEP)
+    return together([pot, rod_between(foot, end, 0.35 * link.thick, LIGHT)])
+
+
+_LINKS: dict[str, Callable[[Link, float], Mesh]] = {
+    "spring": lambda link, frame: coil(
+        between(link.start, frame), between(link.end, frame), link.thick, METAL
+    ),
+    "damper": _damper,
+}
+
+
+def joints(scene: Scene, frame: float) -> Iterator[Mesh]:
+    """Joints that are not at the centre of mass of a body."""
+    for joint in scene.joints:
+        if any(joint.place):
+            pose = scene.bodies[joint.body].pose
+            shape, arm = scene.bodies[joint.body].shape, float(np.linalg.norm(joint.place))
+            clear = _CLEAR * max(shape.reach, arm)
+            if shape.kind == "rod":
+                clear = _ROD_END * shape.size[1]
+            mesh = _JOINTS[joint.kind](clear, np.array(joint.axis))
+            mesh = mesh.placed(np.eye(3), np.array(joint.place))
+            yield mesh.placed(turn_at(pose, frame), place_at(pose, frame))
+
+
+def _knob(radius: float, colour: str) -> Mesh:
+    return sphere(lambda i, j: colour, 10, 16).stretched(*[radius] * 3)
+
+
+def _pin(radius: float, half: float, axis: Array) -> Mesh:
+    """A short cylinder with an eye at either end."""
+    parts = []
+    for share, length, colour in ((1.0, 0.95 * half, _DARK), (0.6, 1.4 * half, METAL)):
+        side = tube(share * radius, -length, length, lambda i, j, c=colour: c, 24)  # type: ignore[misc]
+        ends = [
+            cap(share * radius, end, lambda i, j, c=colour: c)  # type: ignore[misc]
+            for end in (length, -length)
+        ]
+        parts += [side, *ends]
+    return together(parts).placed(turned_to(axis), np.zeros(3))
+
+
+_JOINTS: dict[str, Callable[[float, Array], Mesh]] = {
+    "pivot": lambda clear, axis: _knob(clear, METAL),
+    "hinge": lambda clear, axis: _pin(1.6 * clear, clear, axis),
+    "universal": lambda clear, axis: _pin(0.9 * clear, 1.5 * clear, axis),
+    "weld": lambda clear, axis: box([2 * clear] * 3, [_DARK] * 6),
 }

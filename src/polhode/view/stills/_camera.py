@@ -8,8 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from polhode.view._quantities import Array
-from polhode.view._scene import Pose, Scene, SceneBody
-from polhode.view._shapes import reach_of
+from polhode.view._scene import Pose, Scene
 
 _FIELD = np.radians(16)  # half of the angle of view, up and down
 _FOLLOWED = 3.45  # reaches of the body in view when it is followed
@@ -56,8 +55,12 @@ class Camera:
 
 def camera_of(scene: Scene, frame: float) -> Camera:
     """The view that the page opens with: from the same side, and as near as all is in view."""
-    reach = max(_reach(body) for body in scene.bodies)
-    bodies, paths = _passed(scene), _left(scene)
+    reach = max(body.reach for body in scene.bodies)
+    frames = np.linspace(0, scene.frames - 1, _SAMPLES)
+    bodies = np.array([place_at(body.pose, f) for body in scene.bodies for f in frames])
+    # Points that are held or tied, and those of the paths that are left behind.
+    fixed = [arrow.foot[0] for arrow in scene.arrows if len(arrow.foot) == 1]
+    paths = np.concatenate([np.reshape(fixed, (-1, 3)), _tied(scene), *_paths(scene)])
     box = np.array([f(np.concatenate([bodies, paths]), axis=0) for f in (np.nanmin, np.nanmax)])
     radius = float(np.linalg.norm(box[1] - box[0])) / 2 + reach
     follows = radius > _FAR * reach and not len(_tied(scene))
@@ -80,7 +83,7 @@ def camera_of(scene: Scene, frame: float) -> Camera:
 
 
 def _needed(view: Camera, points: Array, radius: float) -> float:
-    """How far away, along its direction, a view has all balls about some points in it, m."""
+    """Distance, along its direction, from which a view contains all balls about some points, m."""
     right, above, away = ((points - view.target) @ view.axes.T).T
     across = np.maximum(np.abs(right), np.abs(above)) + radius
     return float(np.nanmax(across / np.tan(_FIELD) - away, initial=0.0))
@@ -124,20 +127,8 @@ def rotation(quaternion: Array) -> Array:
     )
 
 
-def _passed(scene: Scene) -> Array:
-    """Places that bodies pass through."""
-    frames = np.linspace(0, scene.frames - 1, _SAMPLES)
-    return np.array([place_at(b.pose, f) for b in scene.bodies for f in frames])
-
-
-def _left(scene: Scene) -> Array:
-    """Points that are held, and those of the paths that are left behind."""
-    fixed = [arrow.foot[0] for arrow in scene.arrows if len(arrow.foot) == 1]
-    return np.concatenate([np.reshape(fixed, (-1, 3)), _tied(scene), *_paths(scene)])
-
-
 def _paths(scene: Scene) -> Iterator[Array]:
-    """Points of what is left behind; on a support that moves, where they lie while it does."""
+    """Points of the traces; those on a moving support at several instants."""
     for trace in scene.traces:
         points = trace.points[:: max(1, len(trace.points) // _SAMPLES)]
         if trace.support < 0:
@@ -154,7 +145,3 @@ def _tied(scene: Scene) -> Array:
     """Places in space that springs and dampers are tied to, shape (places, 3)."""
     ends = [end for link in scene.links for end in (link.start, link.end)]
     return np.reshape([end[0] for end in ends if len(end) == 1], (-1, 3))
-
-
-def _reach(body: SceneBody) -> float:
-    return max([reach_of(body.shape), *(float(np.linalg.norm(arm)) for arm in body.arms)])

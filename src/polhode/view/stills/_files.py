@@ -6,23 +6,26 @@ import io
 import json
 import tempfile
 from collections.abc import Callable, Collection, Iterator
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from polhode.base import TIME, NumericError, StoreError, Value, to_si, write_whole
+from polhode.base import TIME, DeclarationError, NumericError, StoreError, Value, to_si, write_whole
 from polhode.simulate import Trajectory
 from polhode.view._scene import Scene
 from polhode.view._scene_build import scene
 from polhode.view.figures import new_figure, save_figure
-from polhode.view.stills._asked import count_of_frames, kinds, pixels
-from polhode.view.stills._picture import SKY, picture
+from polhode.view.stills._picture import ARROWS, SKY, picture
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from PIL.Image import Image
 
+
+_WIDEST = 10_000  # pixels
+_LONGEST = 5_000  # frames of a movie
 _DOTS = 100  # of an inch
 _SMOOTH = 2  # dots drawn for each dot of a movie
 _GIF_LEAST, _GIF_MOST = 0.01, 50  # frames per second
@@ -49,15 +52,21 @@ def still(
         arrows: kinds of arrows to draw: force, load, torque, omega, momentum.
 
     Raises:
-        DeclarationError: for a kind of arrow that there is not.
+        DeclarationError: for an unknown kind of arrow.
         NumericError: for a time outside the motion, or a size that cannot be drawn.
         StoreError: for another ending, or where the file cannot be written.
     """
     target = Path(path)
-    wide_high, drawn = pixels(size), kinds(arrows)
+    wide_high, drawn = _pixels(size), _kinds(arrows)
     seconds = to_si(time, TIME, "time")
     shown = _scene(run)
-    figure = _drawn(shown, _frame(shown, seconds), wide_high, drawn)
+    if not 0 <= seconds <= shown.duration:
+        raise NumericError(
+            f"{seconds:g} s is outside the motion",
+            expected=f"a time from 0 to {shown.duration:g} s",
+        )
+    frame = seconds / shown.duration * (shown.frames - 1)
+    figure = _drawn(shown, frame, wide_high, drawn)
     save_figure(figure, target, origin=json.dumps(dict(shown.origin), sort_keys=True))
 
 
@@ -83,7 +92,7 @@ def movie(
         arrows: kinds of arrows to draw: force, load, torque, omega, momentum.
 
     Raises:
-        DeclarationError: for a kind of arrow that there is not.
+        DeclarationError: for an unknown kind of arrow.
         NumericError: for a speed or rate that is not positive, for more than some thousands of
             frames, or a size that cannot be drawn.
         StoreError: for another ending, where ffmpeg is not there, or where the file cannot be
@@ -92,9 +101,11 @@ def movie(
     target = Path(path)
     write = _WRITERS.get(target.suffix.lower())
     if write is None:
-        raise StoreError(f"a movie as {target.name}", expected="a name that ends in .gif or .mp4")
-    wide_high, drawn = pixels(size), kinds(arrows)
-    count = count_of_frames(run.duration, speed, rate)
+        raise StoreError(
+            f"cannot write a movie as {target.name}", expected="a name that ends in .gif or .mp4"
+        )
+    wide_high, drawn = _pixels(size), _kinds(arrows)
+    count = _count_of_frames(run.duration, speed, rate)
     shown = _scene(run)
     instants = np.arange(count) / count * (shown.frames - 1)
     images = (_image(shown, float(frame), wide_high, drawn) for frame in instants)
@@ -103,14 +114,6 @@ def movie(
 
 def _scene(run: Trajectory | Scene) -> Scene:
     return run if isinstance(run, Scene) else scene(run)
-
-
-def _frame(shown: Scene, time: float) -> float:
-    if not 0 <= time <= shown.duration:
-        raise NumericError(
-            f"a picture at {time:g} s", expected=f"a time from 0 to {shown.duration:g} s"
-        )
-    return time / shown.duration * (shown.frames - 1)
 
 
 def _drawn(shown: Scene, frame: float, size: tuple[int, int], arrows: Collection[str]) -> Figure:
@@ -139,8 +142,8 @@ def _gif(images: Iterator[Image], rate: float, size: tuple[int, int]) -> bytes:
 
     if not _GIF_LEAST <= rate <= _GIF_MOST:
         raise NumericError(
-            f"a GIF with {rate:g} frames per second",
-            expected=f"{_GIF_LEAST} to {_GIF_MOST}, which browsers show as they are meant",
+            f"{rate:g} frames per second is no rate for a GIF",
+            expected=f"{_GIF_LEAST} to {_GIF_MOST}, which browsers play at the right speed",
             advice="write an .mp4, or give another rate",
         )
     first, *others = (image.quantize(128, dither=Image.Dither.NONE) for image in images)
@@ -162,7 +165,7 @@ def _mp4(images: Iterator[Image], rate: float, size: tuple[int, int]) -> bytes:
         from imageio_ffmpeg import write_frames
     except ImportError as error:
         raise StoreError(
-            "a movie as MP4, where no ffmpeg is installed",
+            "an MP4 needs ffmpeg, which is not installed",
             expected="the extra `movie`",
             advice="pip install 'polhode[movie]', or write a .gif",
         ) from error
@@ -180,3 +183,57 @@ _WRITERS: dict[str, Callable[[Iterator[Image], float, tuple[int, int]], bytes]] 
     ".gif": _gif,
     ".mp4": _mp4,
 }
+
+
+# --- arguments, checked before anything is drawn ---
+
+
+def _pixels(size: tuple[int, int]) -> tuple[int, int]:
+    """Width and height that can be drawn.
+
+    Raises:
+        NumericError: for anything but two whole numbers from 1 to some thousands.
+    """
+    whole = [n for n in size if isinstance(n, int) and 0 < n <= _WIDEST]
+    if len(whole) != 2 or len(size) != 2:
+        raise NumericError(
+            f"{size} pixels is no size of a picture",
+            expected=f"width and height, whole numbers from 1 to {_WIDEST}",
+        )
+    return whole[0], whole[1]
+
+
+def _kinds(arrows: Collection[str]) -> frozenset[str]:
+    """Kinds of arrows, given by one name or by several.
+
+    Raises:
+        DeclarationError: for an unknown kind.
+    """
+    asked = frozenset([arrows] if isinstance(arrows, str) else arrows)
+    unknown = sorted(asked - set(ARROWS))
+    if unknown:
+        raise DeclarationError(
+            f"no arrows are called {', '.join(map(repr, unknown))}",
+            expected=f"some of {', '.join(ARROWS)}",
+        )
+    return asked
+
+
+def _count_of_frames(duration: float, speed: float, rate: float) -> int:
+    """How many frames show a motion of this duration, s.
+
+    Raises:
+        NumericError: for a speed or rate that is not positive, or for too many frames.
+    """
+    if not (speed > 0 and rate > 0 and isfinite(rate)):
+        raise NumericError(
+            f"a speed of {speed} at {rate} frames per second", expected="positive numbers"
+        )
+    frames = duration / speed * rate
+    if frames > _LONGEST:
+        raise NumericError(
+            f"the movie would have {frames:.3g} frames",
+            expected=f"at most {_LONGEST}",
+            advice=f"give a higher speed than {speed:g}, or a lower rate than {rate:g}",
+        )
+    return max(2, round(frames))

@@ -40,8 +40,16 @@ class Ground:
 def grounds_of(scene: Scene, frame: float, radius: float, middle: Array) -> list[Ground]:
     """All surfaces of a scene at a frame; a boundless one reaches `radius` about `middle`."""
     sheets = [support for support in scene.supports if support.kind == "sheet"]
-    found = [_table(sheet, radius, middle) for sheet in sheets[:1]]
-    found += [_support(support, frame, radius, middle) for support in scene.supports]
+    # A sheet lies on a plane that does not move.
+    found = [_boundless(sheet, 0.0, radius, middle) for sheet in sheets[:1]]
+    for support in scene.supports:
+        turn, place = turn_at(support.pose, frame), place_at(support.pose, frame)
+        if support.kind == "turntable":
+            found.append(_turntable(turn, place, support.reach[0]))
+        elif support.kind == "sheet":
+            found.append(_sheet(turn, place, support))
+        else:
+            found.append(_boundless(support, frame, radius, middle))
     if scene.floor is not None:
         up = np.array(scene.up)
         under = middle + up * (scene.floor - middle @ up)
@@ -49,19 +57,8 @@ def grounds_of(scene: Scene, frame: float, radius: float, middle: Array) -> list
     return found
 
 
-def _table(support: Support, radius: float, middle: Array) -> Ground:
-    """What a sheet lies on."""
-    turn, place = turn_at(support.pose, 0.0), place_at(support.pose, 0.0)
-    below = middle - turn[:, 2] * float((middle - place) @ turn[:, 2])
-    return _plane(turn, place, radius, below)
-
-
-def _support(support: Support, frame: float, radius: float, middle: Array) -> Ground:
+def _boundless(support: Support, frame: float, radius: float, middle: Array) -> Ground:
     turn, place = turn_at(support.pose, frame), place_at(support.pose, frame)
-    if support.kind == "turntable":
-        return _turntable(turn, place, support.reach[0])
-    if support.kind == "sheet":
-        return _sheet(turn, place, support)
     below = middle - turn[:, 2] * float((middle - place) @ turn[:, 2])
     return _plane(turn, place, radius, below)
 

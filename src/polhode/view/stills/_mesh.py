@@ -81,6 +81,13 @@ def ring(radius: float, thick: float, paint: Paint, columns: int = 48) -> Mesh:
     return _of_grid([out * np.cos(round_), out * np.sin(round_), thick * np.sin(about)], paint)
 
 
+def revolution(outline: Array, paint: Paint, columns: int = 48) -> Mesh:
+    """An outline of heights and radii, from the top downwards, turned about the third axis."""
+    height, round_ = _grid(outline[:, 0], np.linspace(0, 2 * np.pi, columns + 1))
+    radius = np.broadcast_to(outline[:, 1:], height.shape)
+    return _of_grid([radius * np.cos(round_), radius * np.sin(round_), height], paint)
+
+
 def box(sides: Sequence[float], colours: Sequence[str]) -> Mesh:
     """A box along the axes; colours of the faces at +1, −1, +2, −2, +3, −3."""
     faces = []

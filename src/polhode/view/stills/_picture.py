@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,14 +10,14 @@ import numpy as np
 from polhode.view._quantities import Array
 from polhode.view._scene import Arrow, Scene, Trace
 from polhode.view.figures import house_style
-from polhode.view.stills._bodies import body_mesh
+from polhode.view.stills._bodies import bodies, joints, links
 from polhode.view.stills._camera import Camera, between, camera_of, place_at, turn_at
 from polhode.view.stills._ground import LINES, STRONG, Ground, grounds_of
-from polhode.view.stills._links import joints, links
 from polhode.view.stills._mesh import Mesh, rod_between, together
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
 
 SKY = "#f7f6f2"
 _SHADOW = "#cfccc2"
@@ -34,6 +34,8 @@ ARROWS = {
 _LONG = 2.0  # usual length of the longest arrow of a kind, in reaches of the picture
 _LEVEL = 1e-3  # of its rise and fall: how far below a point a body must be to hang
 _BOUNDLESS = 2.6  # radius of a plane against that of the picture
+_SHARES = np.linspace(0.25, 0.6, 36)  # of the motion: some of it done, and some to come
+_ENOUGH = 0.85  # of the largest outline seen: the first instant with so much of it will do
 
 
 @house_style()
@@ -49,7 +51,7 @@ def picture(scene: Scene, frame: float, ax: Axes, arrows: Collection[str] = ()) 
     camera = camera_of(scene, frame)
     width = float(np.linalg.norm(camera.eye - camera.target)) * 0.3
     grounds = grounds_of(scene, frame, _BOUNDLESS * width, camera.target)
-    parts = (_bodies(scene, frame), joints(scene, frame), links(scene, frame), _posts(scene, frame))
+    parts = (bodies(scene, frame), joints(scene, frame), links(scene, frame), _posts(scene, frame))
     mesh = together([part for kind in parts for part in kind])
     light = _light(camera, np.array(scene.up))
     for i, ground in enumerate(grounds):
@@ -62,35 +64,26 @@ def picture(scene: Scene, frame: float, ax: Axes, arrows: Collection[str] = ()) 
     for arrow in scene.arrows:
         if arrow.kind in arrows:
             _draw_arrow(ax, camera, scene, arrow, frame, 0.55 * width)
-    _frame(ax)
+    box = ax.get_window_extent()
+    ratio = box.width / box.height
+    ax.set_xlim(-ratio, ratio)
+    ax.set_ylim(-1, 1)
+    ax.set_axis_off()
 
 
-def _bodies(scene: Scene, frame: float) -> list[Mesh]:
-    return [
-        body_mesh(body).placed(turn_at(body.pose, frame), place_at(body.pose, frame))
-        for body in scene.bodies
-    ]
-
-
-def _posts(scene: Scene, frame: float) -> list[Mesh]:
+def _posts(scene: Scene, frame: float) -> Iterator[Mesh]:
     """Under points that are held in space, but not where a body hangs."""
     if scene.floor is None:
-        return []
+        return
     up = np.array(scene.up)
-    held = [arrow for arrow in scene.arrows if arrow.kind == "force" and len(arrow.foot) == 1]
-    feet = [arrow.foot[0] for arrow in held if not _hangs(scene, arrow)]
-    heights = [float(foot @ up) - scene.floor for foot in feet]
-    return [
-        rod_between(foot - up * height, foot, 0.03 * height, "#5b636d")
-        for foot, height in zip(feet, heights, strict=True)
-        if height > 0
-    ]
-
-
-def _hangs(scene: Scene, arrow: Arrow) -> bool:
-    """Whether a body is mostly below the point at which it is held."""
-    up, place = np.array(scene.up), scene.bodies[arrow.body].pose.place
-    return bool(np.mean((place - arrow.foot[0]) @ up) < -_LEVEL * np.ptp(place @ up))
+    for arrow in scene.arrows:
+        if arrow.kind != "force" or len(arrow.foot) != 1:
+            continue
+        foot, place = arrow.foot[0], scene.bodies[arrow.body].pose.place
+        hangs = np.mean((place - foot) @ up) < -_LEVEL * np.ptp(place @ up)
+        height = float(foot @ up) - scene.floor
+        if height > 0 and not hangs:
+            yield rod_between(foot - up * height, foot, 0.03 * height, "#5b636d")
 
 
 def _light(camera: Camera, up: Array) -> Array:
@@ -181,9 +174,20 @@ def _draw_arrow(
     ax.annotate("", tip, tail, arrowprops=style, zorder=4)
 
 
-def _frame(ax: Axes) -> None:
-    box = ax.get_window_extent()
-    ratio = box.width / box.height
-    ax.set_xlim(-ratio, ratio)
-    ax.set_ylim(-1, 1)
-    ax.set_axis_off()
+def clearest_time(scene: Scene) -> float:
+    """A time at which the bodies show most of their faces, and not their edges, s."""
+    seen = np.array([_outline(scene, share * (scene.frames - 1)) for share in _SHARES])
+    first = int(np.argmax(seen >= _ENOUGH * np.max(seen)))
+    return float(_SHARES[first]) * scene.duration
+
+
+def _outline(scene: Scene, frame: float) -> float:
+    """Area of all faces that are seen, in the picture."""
+    camera = camera_of(scene, frame)
+    area = 0.0
+    for mesh in bodies(scene, frame):
+        corners = camera.project(mesh.faces)
+        across, along = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+        turned = across[:, 0] * along[:, 1] - across[:, 1] * along[:, 0]
+        area += float(np.sum(turned[turned > 0])) / 2
+    return area

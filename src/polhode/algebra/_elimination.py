@@ -1,0 +1,261 @@
+"""Systems of linear equations solved exactly, with pivots that keep expressions small.
+
+`eliminate` multiplies everything out. `eliminate_in_parts` puts long expressions under names and
+never divides by one that can vanish. Both use the same Gauss–Jordan elimination and differ in
+their choice of pivots. Programs, which solve equations for numbers, have an elimination of their
+own: see `programs._tape.solve_on`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+from polhode.algebra._expression import ONE, ZERO, Expr, length
+from polhode.algebra._parts import named
+from polhode.algebra._ring import Symbol
+from polhode.algebra._roots import is_plainly_positive, is_positive
+from polhode.algebra._vector import Row, dot
+from polhode.base import NumericError
+
+Table = list[list[Expr]]
+
+LONGEST = 3000  # terms of an entry; the longest of the systems in the tests has half as many
+_STATE = 3  # the random state at which entries are compared
+
+
+class OutgrownError(NumericError):
+    """An exact solution that has grown too long to be of use."""
+
+
+def refuse_long(expressions: Iterable[Expr], what: str) -> None:
+    """Raise `OutgrownError` if an expression is too long to be of use."""
+    longest = max(map(length, expressions), default=0)
+    if longest > LONGEST:
+        raise OutgrownError(
+            f"{what} whose exact solution has grown to {longest} terms",
+            expected=f"at most {LONGEST}",
+            advice="put in numbers or fewer parameters, or choose coordinates that suit them",
+        )
+
+
+@dataclass(frozen=True)
+class Elimination:
+    """Outcome of Gauss–Jordan elimination of A x = b.
+
+    `solved[j]` gives unknown j as (coefficients of the free unknowns, constant). `leftover[i]` is
+    what row i still demands to be zero when all unknowns are gone.
+    """
+
+    solved: dict[int, tuple[Row, Expr]]
+    free: tuple[int, ...]
+    leftover: dict[int, Expr]
+
+    @property
+    def contradictory(self) -> tuple[int, ...]:
+        """Rows that cannot hold together with the others."""
+        return tuple(i for i, rest in self.leftover.items() if rest)
+
+
+def eliminate(
+    rows: Sequence[Sequence[Expr]],
+    right: Sequence[Expr],
+    rank: Sequence[int] | None = None,
+) -> Elimination:
+    """Solve A x = b for as many unknowns as its rank.
+
+    `rank[j]` says how readily unknown j is solved for (low first); among equals the simplest
+    pivot is taken, so that no expression grows without need.
+
+    Raises:
+        OutgrownError: where the exact solution grows beyond `LONGEST` terms all the same.
+    """
+    width = len(rows[0]) if rows else len(rank or ())
+    ranks = rank or [0] * width
+    table = [[*row, value] for row, value in zip(rows, right, strict=True)]
+
+    def cost(j: int, entry: Expr) -> object:
+        return (ranks[j], _complexity(entry)) if entry else None
+
+    pivots = dict[int, int]()
+    for j, i in _gauss_jordan(table, range(width), cost):
+        pivots[j] = i
+        # Elimination multiplies lengths: what has grown this long takes hours two pivots later.
+        refuse_long((entry for row in table for entry in row), "linear equations")
+    free = tuple(j for j in range(width) if j not in pivots)
+    solved = {
+        j: (tuple(-table[i][k] for k in free), table[i][width]) for j, i in sorted(pivots.items())
+    }
+    pending = sorted(set(range(len(table))) - set(pivots.values()))
+    return Elimination(solved, free, {i: table[i][width] for i in pending})
+
+
+def solve(rows: Sequence[Sequence[Expr]], right: Sequence[Expr]) -> Row:
+    """The unique solution of A x = b; `ZeroDivisionError` where there is none or several."""
+    outcome = eliminate(rows, right)
+    if outcome.free or outcome.contradictory:
+        raise ZeroDivisionError("the equations are singular")
+    return tuple(outcome.solved[j][1] for j in range(len(outcome.solved)))
+
+
+def _gauss_jordan(
+    table: Table,
+    columns: Iterable[int],
+    cost: Callable[[int, Expr], Any],
+    written: Callable[[Expr], Expr] = lambda entry: entry,
+) -> Iterator[tuple[int, int]]:
+    """Clear columns of a table in place, cheapest pivot first; each with the row it is solved by.
+
+    Args:
+        table: rows of coefficients with their right-hand sides.
+        columns: that may be cleared.
+        cost: of a pivot, by its column and value; None for one that must not be divided by.
+        written: how a new entry is written.
+    """
+    columns, found = set(columns), dict[int, int]()
+    while places := [
+        (price, j, i)
+        for i, row in enumerate(table)
+        if i not in found.values()
+        for j in columns - found.keys()
+        if (price := cost(j, row[j])) is not None
+    ]:
+        _, j, i = min(places)
+        found[j] = i
+        scale = ONE / table[i][j]
+        table[i] = [written(entry * scale) if entry else entry for entry in table[i]]
+        for k, row in enumerate(table):
+            factor = row[j]
+            if k != i and factor:
+                table[k] = [
+                    written(entry - factor * base) if base else entry
+                    for entry, base in zip(row, table[i], strict=True)
+                ]
+        yield j, i
+
+
+def _complexity(pivot: Expr) -> tuple[int, int]:
+    """Numbers first, then what cannot vanish, then parameters; short before long."""
+    if pivot.rational is not None:
+        return (0, 0)
+    if is_positive(pivot) or is_positive(-pivot):
+        return (1, length(pivot))
+    constant = all(not s.kind.varies for s in pivot.symbols())
+    return (2 if constant else 3, length(pivot))
+
+
+# -- with long expressions under names -------------------------------------------------------------
+#
+# Elimination divides by one entry after the other. Multiplied out, a factor that vanishes somewhere
+# cancels again; under names it would stay. So only numbers and what is positive serve as pivots,
+# and the block that remains is made symmetric, AᵀA x = Aᵀb, which is regular wherever A is. As AᵀA
+# is positive definite, LDLᵀ without pivoting solves it, and no pivot can vanish.
+
+
+def eliminate_in_parts(
+    rows: Sequence[Sequence[Expr]],
+    right: Sequence[Expr],
+    rank: Sequence[int] | None = None,
+    visible: Iterable[Symbol] = (),
+) -> Elimination:
+    """As `eliminate`, with every long entry under a name.
+
+    Args:
+        rows: of the matrix.
+        right: the column they equal.
+        rank: how readily each unknown is solved for, low first.
+        visible: symbols in which the right-hand sides are polynomials, and remain so explicitly.
+    """
+    width, shown = len(rows[0]) if rows else len(rank or ()), tuple(visible)
+    table = [[*row, constant] for row, constant in zip(rows, right, strict=True)]
+    order = sorted(range(width), key=lambda j: (rank or [0] * width)[j])
+    wanted = list(_independent(table, range(len(table)), order))
+    free = tuple(j for j in range(width) if j not in wanted)
+    sides = (*free, width)
+
+    def written(entry: Expr) -> Expr:
+        return named(entry, shown)
+
+    def cost(_: int, entry: Expr) -> int | None:
+        return length(entry) if _cannot_vanish(entry) else None
+
+    cleared = dict(_gauss_jordan(table, wanted, cost, written))
+    block = [j for j in wanted if j not in cleared]
+    pending = [i for i in range(len(table)) if i not in cleared.values()]
+    down = [[table[i][j] for i in pending] for j in (*block, *sides)]
+    normal = [
+        [written(dot(down[r], column)) if k >= r else ZERO for k, column in enumerate(down)]
+        for r in range(len(block))
+    ]
+    values = dict(zip(block, _solved_definite(normal, shown), strict=True))
+
+    def rest(i: int) -> Row:
+        """What is left of the right-hand sides of a row once the unknowns of the block are in."""
+        row = table[i]
+        return tuple(
+            written(row[k] - dot((row[j] for j in values), (v[side] for v in values.values())))
+            for side, k in enumerate(sides)
+        )
+
+    found = values | {j: rest(i) for j, i in cleared.items()}
+    spare = set(pending) - set(_independent(table, pending, block).values())
+    return Elimination(
+        {j: (tuple(-c for c in found[j][:-1]), found[j][-1]) for j in sorted(found)},
+        free,
+        {i: rest(i)[-1] for i in sorted(spare)},
+    )
+
+
+@lru_cache(maxsize=4096)
+def _cannot_vanish(entry: Expr) -> bool:
+    plain = entry.rational is not None or is_plainly_positive(entry) or is_plainly_positive(-entry)
+    return plain and not entry.is_zero
+
+
+def solve_definite(matrix: Sequence[Row], right: Row) -> Row:
+    """The solution of A x = b for a positive definite A, with every long step under a name."""
+    table = [[*row, constant] for row, constant in zip(matrix, right, strict=True)]
+    return tuple(value for (value,) in _solved_definite(table, ()))
+
+
+def _solved_definite(table: Table, visible: tuple[Symbol, ...]) -> list[Row]:
+    """The solution for each of the right-hand sides at the end of the rows, by LDLᵀ.
+
+    What is below the diagonal is not read.
+    """
+    size = len(table)
+    for r, row in enumerate(table):
+        for k in range(r + 1, size):
+            factor = named(row[k] / row[r])
+            lower = zip(table[k][k:], row[k:], strict=True)
+            table[k][k:] = [named(entry - factor * base, visible) for entry, base in lower]
+    sides = len(table[0]) - size if table else 0
+    found: list[Row] = []
+    for r in reversed(range(size)):
+        row, below = table[r], ONE / table[r][r]
+        known = [dot(row[r + 1 : size], (later[s] for later in found)) for s in range(sides)]
+        pairs = zip(row[size:], known, strict=True)
+        found.insert(0, tuple(named((side - share) * below, visible) for side, share in pairs))
+    return found
+
+
+def _independent(table: Table, rows: Iterable[int], columns: Iterable[int]) -> dict[int, int]:
+    """Linearly independent columns, the first ones preferred, each with a pivot row.
+
+    Decided by the values at a random state, with partial pivoting.
+    """
+    wanted = list(columns)
+    pending = {i: [table[i][j].ball(_STATE) for j in wanted] for i in rows}
+    found = dict[int, int]()
+    for k, j in enumerate(wanted):
+        best = max(pending, key=lambda i: float(abs(pending[i][k]).mid()), default=None)
+        if best is None or pending[best][k].contains(0):
+            continue
+        found[j] = best
+        pivot = pending.pop(best)
+        for i, row in pending.items():
+            factor = row[k] / pivot[k]
+            pending[i] = [entry - factor * base for entry, base in zip(row, pivot, strict=True)]
+    return found

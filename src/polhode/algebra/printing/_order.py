@@ -1,0 +1,78 @@
+"""The order in which a text writes the factors of a term, and the terms of a sum."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import lru_cache
+
+from polhode.algebra._functions import Elementary, Even
+from polhode.algebra._ring import Generator, Symbol, SymbolKind
+from polhode.algebra.printing._names import Spelling
+
+Rank = tuple[object, ...]
+
+_MASSES, _INERTIAS, _GRAVITY = ("m", "M"), ("I",), ("g",)
+
+# Where these stand among the factors.
+CONSTANT_SUM: Rank = (1, 1)
+VARYING_SUM: Rank = (6,)
+EXPONENTIAL: Rank = (3,)
+
+
+@lru_cache(maxsize=4096)
+def is_constant(generator: Generator) -> bool:
+    """Whether it depends on parameters alone."""
+    return all(s.kind is SymbolKind.PARAMETER for s in generator.symbols())
+
+
+@lru_cache(maxsize=4096)
+def factor_rank(generator: Generator) -> Rank:
+    """Numbers, then parameters, then what varies, then functions: m g a θ̇ sin θ."""
+    if isinstance(generator, Symbol):
+        if generator.kind is not SymbolKind.PARAMETER:
+            return (2, _level(generator), generator.kind is not SymbolKind.SPEED, _place(generator))
+        stem = Spelling.of(generator).stem
+        families = ("pi",), _MASSES, _INERTIAS, _GRAVITY
+        family = next((i for i, stems in enumerate(families) if stem in stems), len(families))
+        return (1, 0, family, _place(generator))
+    if isinstance(generator, Elementary):
+        names = sorted(_place(s) for s in generator.symbols())
+        return (3, names, generator.family.sign, isinstance(generator, Even), generator.key)
+    return radical_rank(tuple(generator.symbols()), generator.key)
+
+
+def radical_rank(inside: Sequence[Generator], key: str = "") -> Rank:
+    """Where a root stands: of a number first, of constants after them, any other last."""
+    if not inside:
+        return (0, key)
+    return (1, 2, key) if all(map(is_constant, inside)) else (4, key)
+
+
+def absolute_value_rank(inside: Iterable[Generator]) -> Rank:
+    """Where an absolute value stands: last, in the order of its contents."""
+    return (5, sorted(map(factor_rank, inside)))
+
+
+def _place(symbol: Symbol) -> Rank:
+    return (*Spelling.of(symbol).place, symbol.order)
+
+
+def term_rank(powers: Mapping[Generator, int]) -> Rank:
+    """Highest time derivative first, then higher degree in speeds, then the rest."""
+    rates = [(g, p) for g, p in powers.items() if isinstance(g, Symbol) and _level(g) > 0]
+    highest = max((_level(g) for g, _ in rates), default=0)
+    degree = sum(p * _level(g) for g, p in rates)
+    return (
+        -highest if highest > 1 else 0,
+        -degree,
+        -max((p for _, p in rates), default=0),
+        sum(abs(p) for p in powers.values()),
+        sorted((*factor_rank(g), -p) for g, p in powers.items()),
+    )
+
+
+def _level(symbol: Symbol) -> int:
+    """0 for a place, 1 for a velocity, 2 for an acceleration."""
+    if symbol.kind in (SymbolKind.PARAMETER, SymbolKind.TIME):
+        return 0
+    return symbol.order + (symbol.kind is SymbolKind.SPEED)

@@ -1,0 +1,402 @@
+"""Worker processes: they answer questions one after another, within limits, and end with us.
+
+Everything that polhode computes in another process of this machine goes through `Worker`, one
+process, or `answers`, which shares tasks out among several:
+
+- a question may have a limit on processor time, which the operating system keeps even deep in
+  compiled code, and on time by the clock, six times as long; a worker may have one on memory;
+- a worker that ends for whatever reason is noticed by its closed pipe, and reported;
+- Ctrl-C reaches this process alone, which ends its workers; what they have answered is kept;
+- a worker ends by itself when this process ends, even by SIGKILL: at its next read if it waits
+  for a question, and by the signal that its pipe sends if it computes.
+
+Is it safe to fork while other threads run? Not in general, and Python 3.12 warns about it: the
+copy has one thread alone, and a lock that another thread held stays locked in it for ever. So a
+process begins in one of three ways (`StartMethod`):
+
+- FRESH, a new interpreter, is the rule: audits, ensembles, sweeps and the tour. It shares nothing
+  with our threads, be they of BLAS, heyoka (TBB, LLVM), asyncio or the caller.
+- SERVER, for the workers of the lab, which have to be ready within milliseconds although the lab
+  runs asyncio and threads. They are forks of a server process that has imported modules and done
+  nothing else; its only threads are those of OpenBLAS, which ends them before a fork and begins
+  them anew when they are needed.
+- COPY, a fork of this process, serves to check a claim: the equations, which may have taken
+  seconds to derive, are there at once. The copy reads LaTeX and computes with exact expressions.
+  It takes no lock of BLAS, heyoka or asyncio, keeps none of our files open, and never returns to
+  our stack; Python and the C library renew their own locks at a fork. If it did meet a lock that
+  stays locked, its time limit would end it, and the claim would be reported as undecided: the
+  caller never hangs. On macOS, whose own libraries do not survive a fork, it is not used.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from collections.abc import Callable, Collection, Generator, Iterator, Mapping
+from contextlib import closing, contextmanager, suppress
+from dataclasses import dataclass
+from threading import current_thread, main_thread
+from time import monotonic
+from typing import Any, Generic
+
+from polhode.base._errors import NumericError
+from polhode.base._processes import (
+    Message,
+    Question,
+    Reply,
+    Setup,
+    StartMethod,
+    Tell,
+    begin_process,
+    send_setup,
+)
+
+COPY_MEMORY = 4 << 30
+"""Bytes that a copy may take beyond what this process holds."""
+
+_PATIENCE = 6.0  # times the processor time, on a machine that has other work
+_AGAIN = 5.0  # s, where the first call to stop was taken for the failure of one attempt
+
+
+class WorkerEndedError(Exception):
+    """A worker process ended without an answer.
+
+    Attributes:
+        out_of_time: whether its time limit ended it.
+        was_ready: whether it had been ready to answer.
+    """
+
+    def __init__(self, *, out_of_time: bool, was_ready: bool) -> None:
+        super().__init__("a worker process ended without an answer")
+        self.out_of_time = out_of_time
+        self.was_ready = was_ready
+
+    def explained(self, seconds: float, advice: str) -> NumericError:
+        """The error of a computation that had some seconds of processor time."""
+        if self.out_of_time:
+            return _too_long(seconds, advice)
+        return NumericError(
+            "too much memory perhaps, for the process that computed ended",
+            expected="something that can be decided with less memory",
+            advice=advice,
+        )
+
+
+class Worker(Generic[Question, Reply]):
+    """A process that answers questions, one after another.
+
+    Args:
+        setup: run in the process; gives the function that answers, whose second argument reports
+            something before the answer. It is pickled, except for a copy.
+        start: how the process begins.
+        memory: bytes that it may hold, a copy beyond what this process holds; None for no limit.
+        environment: variables added to those of this process, for a new interpreter.
+        ready_within: seconds that it may take to get ready; None for no limit.
+    """
+
+    def __init__(
+        self,
+        setup: Setup[Question, Reply],
+        start: StartMethod = StartMethod.FRESH,
+        *,
+        memory: int | None = None,
+        environment: Mapping[str, str] | None = None,
+        ready_within: float | None = None,
+    ) -> None:
+        from multiprocessing.connection import Pipe  # needed by few, and slow to load
+
+        theirs, self._questions = Pipe(duplex=False)
+        self.replies, mine = Pipe(duplex=False)
+        self._is_ready = False
+        self._exit_code: int | None = None
+        self._deadline = None if ready_within is None else monotonic() + ready_within
+        with closing(theirs), closing(mine):
+            self._process = begin_process(start, setup, theirs, mine, memory, environment or {})
+        with suppress(BrokenPipeError):  # its end is noticed once a message is waited for
+            send_setup(self._process, setup, self._questions)
+
+    @property
+    def pid(self) -> int:
+        """The number of its process."""
+        return self._process.pid
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it may be asked more; its process may have been ended from outside."""
+        return self._exit_code is None and not self.replies.poll()
+
+    @property
+    def left(self) -> float | None:
+        """Seconds until it is out of time; None where it has no limit."""
+        return None if self._deadline is None else max(self._deadline - monotonic(), 0.0)
+
+    def ask(
+        self,
+        question: Question,
+        seconds: float | None = None,
+        heard: Tell[Reply] = lambda said: None,
+    ) -> Reply:
+        """The answer to a question. A worker that is interrupted at it is closed.
+
+        Args:
+            question: is pickled.
+            seconds: of processor time that it may take; None for no limit.
+            heard: called with whatever the worker reports before its answer.
+
+        Raises:
+            WorkerEndedError: where the process ended, or ran out of time; the worker is closed.
+            Exception: whatever was raised instead of an answer.
+        """
+        try:
+            ready: tuple[Message, Any] = (Message.READY, None)
+            kind, said = ready if self._is_ready else self.receive()
+            while kind in (Message.READY, Message.TOLD):
+                if kind is Message.READY:
+                    self.send(question, seconds)
+                else:
+                    heard(said)
+                kind, said = self.receive()
+        except BaseException:
+            self.close()
+            raise
+        if kind is Message.ERROR:
+            raise said
+        return said  # type: ignore[no-any-return]
+
+    def send(self, question: Question, seconds: float | None = None) -> None:
+        """Ask a worker that is ready; its messages are to be received."""
+        self._deadline = None if seconds is None else monotonic() + _PATIENCE * seconds
+        with suppress(OSError):  # its end is noticed once a message is waited for
+            self._questions.send((question, seconds or 0.0))
+
+    def receive(self) -> tuple[Message, Any]:
+        """The next message; waits for it as long as there is time.
+
+        Raises:
+            WorkerEndedError: where the process ended, or ran out of time; the worker is closed.
+        """
+        overdue = False
+        with suppress(EOFError, OSError):
+            if self.replies.poll(self.left):
+                kind, said = self.replies.recv()
+                self._is_ready = self._is_ready or kind is Message.READY
+                return kind, said
+            overdue = True
+        ended_by = -self.close()
+        out_of_time = overdue or ended_by == getattr(signal, "SIGPROF", None)
+        raise WorkerEndedError(out_of_time=out_of_time, was_ready=self._is_ready)
+
+    def kill(self) -> None:
+        """End the process, which whoever waits for its messages then notices."""
+        self._process.kill()
+
+    def close(self) -> int:
+        """End the process, whatever it does; its exit code, or minus the signal that ended it."""
+        if self._exit_code is None:
+            self._process.kill()
+            self._exit_code = self._process.exit_code()
+            self._questions.close()
+            self.replies.close()
+        return self._exit_code
+
+
+# -- several workers -------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Outcome(Generic[Question, Reply]):
+    """What came of a task.
+
+    Attributes:
+        task: that was given to a worker.
+        reply: its answer; None where there is none.
+        told: what it reported before.
+        lost: how the worker ended that was at it; None where there is an answer.
+    """
+
+    task: Question
+    reply: Reply | None
+    told: tuple[Reply, ...]
+    lost: WorkerEndedError | None = None
+
+
+def answers(
+    begin: Callable[[], Worker[Question, Reply]],
+    workers: int,
+    following: Callable[[Question | None], Question | None],
+    *,
+    seconds: float | None = None,
+    retries: int = 0,
+) -> Generator[Outcome[Question, Reply]]:
+    """Tasks done by several workers, in the order in which they are finished.
+
+    A worker that ends is replaced. All are ended with the generator, so it has to be closed; what
+    it gave before an interruption is done.
+
+    Args:
+        begin: begins a worker.
+        workers: how many there are at most.
+        following: gives the next task for a worker that was last at some task, or at none; None
+            where no task is left.
+        seconds: of processor time that a task may take; None for no limit.
+        retries: how often a task is begun again whose worker ended.
+
+    Raises:
+        WorkerEndedError: where a worker ends before it is ready.
+        Exception: whatever a worker raised instead of an answer.
+    """
+    seats: list[_Seat[Question, Reply]] = []
+    try:
+        while len(seats) < workers and (task := following(None)) is not None:
+            seats.append(_Seat(begin, task, seconds, retries))
+        while seats:
+            for seat in _due(seats):
+                outcome = seat.collected()
+                if outcome is None:
+                    continue
+                task = following(seat.task)
+                if task is None:
+                    seats.remove(seat)
+                    seat.worker.close()
+                else:  # now, so that the worker does not wait until the outcome is dealt with
+                    seat.take(task)
+                yield outcome
+    finally:
+        for seat in seats:
+            seat.worker.close()
+
+
+def _due(seats: Collection[_Seat[Question, Reply]]) -> list[_Seat[Question, Reply]]:
+    """Those whose worker has sent something, has ended, or is out of time."""
+    from multiprocessing.connection import wait
+
+    left = [seat.worker.left for seat in seats]
+    ready = wait(
+        [seat.worker.replies for seat in seats],
+        min((seconds for seconds in left if seconds is not None), default=None),
+    )
+    return [seat for seat in seats if seat.worker.replies in ready or seat.worker.left == 0]
+
+
+class _Seat(Generic[Question, Reply]):
+    """A task, and the worker that is at it or begins it once it is ready."""
+
+    def __init__(
+        self,
+        begin: Callable[[], Worker[Question, Reply]],
+        task: Question,
+        seconds: float | None,
+        retries: int,
+    ) -> None:
+        self._begin, self._seconds, self._retries = begin, seconds, retries
+        self.task = task
+        self._told: list[Reply] = []
+        self._losses = 0
+        self.worker = begin()
+
+    def collected(self) -> Outcome[Question, Reply] | None:
+        """What came of the task; None where nothing has come of it yet."""
+        try:
+            kind, said = self.worker.receive()
+        except WorkerEndedError as ended:
+            if not ended.was_ready:
+                raise
+            if self._losses == self._retries:
+                return Outcome(self.task, None, tuple(self._told), ended)
+            self._losses += 1
+            self._told.clear()
+            self.worker = self._begin()
+            return None
+        match kind:
+            case Message.READY:
+                self.worker.send(self.task, self._seconds)
+            case Message.TOLD:
+                self._told.append(said)
+            case Message.ERROR:
+                raise said
+            case Message.ANSWER:
+                return Outcome(self.task, said, tuple(self._told))
+        return None
+
+    def take(self, task: Question) -> None:
+        """Begin the next task, with another worker if this one has ended."""
+        self.task, self._told, self._losses = task, [], 0
+        if self.worker.is_open:
+            self.worker.send(task, self._seconds)
+        else:
+            self.worker.close()
+            self.worker = self._begin()
+
+
+# -- one task with a time limit --------------------------------------------------------------------
+
+
+def within(
+    seconds: float,
+    task: Callable[[Tell[Reply]], Reply],
+    *,
+    advice: str,
+    heard: Tell[Reply] = lambda said: None,
+) -> Reply:
+    """The result of a task that may take so much processor time and no more.
+
+    It is computed in a copy of this process, which the operating system ends even where it is
+    deep in compiled code. Where no copy can be made the task is interrupted instead, between
+    steps of Python.
+
+    Args:
+        seconds: of processor time.
+        task: may report something before it is done.
+        advice: what to do about a task that takes longer.
+        heard: called with all that the task reports.
+
+    Raises:
+        NumericError: once the time is over.
+        Exception: whatever the task raised.
+    """
+    if not can_copy():
+        with _interrupted(seconds, advice):
+            return task(heard)
+    with closing(
+        Worker[None, Reply](
+            lambda: lambda _, tell: task(tell), StartMethod.COPY, memory=COPY_MEMORY
+        )
+    ) as worker:
+        try:
+            return worker.ask(None, seconds, heard)
+        except WorkerEndedError as ended:
+            raise ended.explained(seconds, advice) from None
+
+
+def can_copy() -> bool:
+    """Whether a copy of this process may be made."""
+    debugged = os.environ.get("POLHODE_DEBUG") == "1"  # then tracebacks are wanted
+    return hasattr(os, "fork") and sys.platform != "darwin" and not debugged
+
+
+@contextmanager
+def _interrupted(seconds: float, advice: str) -> Iterator[None]:
+    """Give up what takes more processor time than this, where the system has a timer for it."""
+    if not hasattr(signal, "setitimer") or current_thread() is not main_thread():
+        yield
+        return
+
+    def stop(*_: Any) -> None:
+        raise _too_long(seconds, advice)
+
+    before = signal.signal(signal.SIGVTALRM, stop)
+    signal.setitimer(signal.ITIMER_VIRTUAL, seconds, _AGAIN)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
+        signal.signal(signal.SIGVTALRM, before)
+
+
+def _too_long(seconds: float, advice: str) -> NumericError:
+    return NumericError(
+        f"more than {seconds:g} s of computing",
+        expected="something that can be decided sooner",
+        advice=advice,
+    )

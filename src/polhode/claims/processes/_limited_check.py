@@ -1,0 +1,135 @@
+"""One claim checked against a model, in a process that is ended where it takes too long."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from functools import partial
+from math import inf
+from typing import TypeAlias
+
+from polhode.base import (
+    COPY_MEMORY,
+    NumericError,
+    ParseError,
+    StartMethod,
+    Tell,
+    Worker,
+    WorkerEndedError,
+    can_copy,
+    within,
+)
+from polhode.claims._check import CheckRequest
+from polhode.claims._verdict import Verdict
+from polhode.claims.meaning._mechanics import EquationsKey
+from polhode.derive import Equations, equations_only
+
+LONGEST = 60.0  # s of processor time
+
+_ADVICE = "judge its members one by one, restrict it with given, or allow more seconds"
+_KEPT = 2  # workers
+
+_ClaimWorker: TypeAlias = Worker[CheckRequest, Verdict]
+
+
+def check(
+    latex: str,
+    equations: Equations,
+    *,
+    context: str = "motion",
+    let: Iterable[str] = (),
+    given: Iterable[str] = (),
+    small: Iterable[str] = (),
+    read: Iterable[str] = (),
+    positive: Iterable[str] = (),
+    seconds: float | None = LONGEST,
+    tell: Callable[[Verdict], object] = lambda verdict: None,
+) -> Verdict:
+    r"""Judge a published equation against a model.
+
+    It is judged in a copy of this process, which is kept for the next claim on the same equations
+    and ended where it takes too long. On macOS and Windows, where a process cannot be copied, the
+    judgement is interrupted instead, between steps of Python and in the main thread alone.
+
+    Args:
+        latex: the equation, as printed.
+        equations: of the system.
+        context: where it is to hold: identity, motion, steady, threshold, limit, launch, number.
+        let: new symbols of the text, in published names or LaTeX: ``epsilon = theta - pi/2``.
+        given: restrictions, such as ``theta = pi/2``.
+        small: small quantities with the order to be kept, such as ``epsilon:1``.
+        read: letters that the field uses for several quantities, each with the one that is meant:
+            ``L = about pivot``.
+        positive: quantities that are positive, such as ``sin(alpha)``.
+        seconds: of processor time that it may take; None for as long as it takes, in this process.
+        tell: called with a failure as soon as it is found; a correction may take longer.
+
+    Returns:
+        The verdict with its evidence and with what its letters were taken to mean; ``unread`` for
+        what cannot be read or bound, ``ambiguous`` where readings that the field allows lead to
+        different verdicts. A failure for which no correction was found in time says so.
+
+    Raises:
+        ParseError: for an unknown context, a `let` of a known symbol, and unreadable restrictions.
+        NumericError: for what cannot be decided in time, or takes too much memory.
+    """
+    if not isinstance(latex, str):
+        raise ParseError(f"an equation of type {type(latex).__name__}", expected="LaTeX, as a str")
+    equations_only(equations, "a claim about the motion")
+    texts = ((t,) if isinstance(t, str) else tuple(t) for t in (let, given, small, read, positive))
+    request = CheckRequest(latex, context, *texts)
+    if seconds is None:
+        return request.judged(equations, tell)
+    if not isinstance(seconds, int | float) or not 0 < seconds < inf:
+        raise NumericError(f"{seconds!r} s to judge in", expected="some time, or None for no bound")
+    failures: list[Verdict] = []
+
+    def failed(failure: Verdict) -> None:
+        failures.append(failure)
+        tell(failure)
+
+    try:
+        if can_copy():
+            return _asked(request, equations, seconds, failed)
+        return within(seconds, partial(request.judged, equations), advice=_ADVICE, heard=failed)
+    except NumericError:
+        if not failures:
+            raise
+        return uncorrected(failures[-1], seconds)
+
+
+def uncorrected(failure: Verdict, seconds: float) -> Verdict:
+    """A failure for which no correction was found in some seconds."""
+    remark = f"looking for a correction took more than {seconds:g} s of computing"
+    return replace(failure, remarks=(*failure.remarks, remark))
+
+
+# Workers that judge claims on some equations, each while nobody asks it.
+_idle: dict[EquationsKey, _ClaimWorker] = {}
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_idle.clear)  # they answer the process that began them
+
+
+def _asked(
+    request: CheckRequest, equations: Equations, seconds: float, failed: Tell[Verdict]
+) -> Verdict:
+    """Ask the worker that judges claims on these equations, or a new one."""
+    worker = _idle.pop(EquationsKey(equations), None)
+    if worker is None or not worker.is_open:
+        worker = _ClaimWorker(
+            lambda: lambda asked, tell: asked.judged(equations, tell),
+            StartMethod.COPY,
+            memory=COPY_MEMORY,
+        )
+    try:
+        return worker.ask(request, seconds, failed)
+    except WorkerEndedError as ended:
+        raise ended.explained(seconds, _ADVICE) from None
+    finally:
+        if worker.is_open:
+            # Another thread may have kept one for the same equations meanwhile.
+            other, _idle[EquationsKey(equations)] = _idle.get(EquationsKey(equations)), worker
+            surplus = [_idle.pop(old) for old in list(_idle)[:-_KEPT]]
+            for old in filter(None, [other, *surplus]):
+                old.close()

@@ -1,0 +1,205 @@
+"""The claims of a document judged by several processes, each claim within limits."""
+
+from __future__ import annotations
+
+import gc
+import os
+import sys
+from collections.abc import Callable, Generator, Iterable
+from contextlib import closing
+from dataclasses import dataclass, replace
+from functools import cache, partial
+from time import perf_counter
+
+from polhode.base import (
+    DeclarationError,
+    Outcome,
+    PolhodeError,
+    Progress,
+    SilentProgress,
+    StopRequested,
+    Tell,
+    Worker,
+    WorkerEndedError,
+    answers,
+)
+from polhode.claims._audit import ClaimChecker, asked_for, reported
+from polhode.claims._verdict import Answer, Verdict
+from polhode.claims.document._document import Claim, Document, Part
+from polhode.claims.document._report import Report
+from polhode.derive import Equations, derive
+from polhode.model import System
+
+Declared = Callable[[str], System]
+
+_READY_WITHIN = 6.0  # times the limit on the processor time of a claim
+_ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # workers share the cores
+_RARELY = 50_000  # objects that wait for the collector; nearly all are freed without it
+
+
+@dataclass(frozen=True)
+class ClaimLimits:
+    """What one claim may cost.
+
+    Attributes:
+        seconds: of processor time.
+        memory: bytes, where the operating system has such a limit.
+    """
+
+    seconds: float = 30.0
+    memory: int = 4 << 30
+
+
+def audit_apart(
+    document: Document,
+    declared: Declared,
+    *,
+    only: Iterable[str] = (),
+    workers: int = 2,
+    limits: ClaimLimits | None = None,
+    progress: Progress | None = None,
+) -> Report:
+    """Judge every claim of a document, or those with some ids, in worker processes.
+
+    A claim that takes too long or too much memory is unread, with that as its reason; the others
+    go on. An interruption keeps what is judged by then, and names what is left.
+
+    Args:
+        document: what a text states, and how its symbols are meant.
+        declared: gives a system by its name.
+        only: ids of the claims to judge; all of them if empty.
+        workers: number of processes.
+        limits: what one claim may cost.
+        progress: told of every claim.
+
+    Raises:
+        ParseError: for an id that the document does not have.
+        DeclarationError: for fewer workers than one.
+    """
+    if workers < 1:
+        raise DeclarationError(f"{workers} workers", expected="one or more")
+    began, shown = perf_counter(), progress or SilentProgress()
+    asked, allowed = asked_for(document, only), limits or ClaimLimits()
+    tasks, verdicts = _tasks(document, asked, cache(declared))
+    shown.begin("audit", len(tasks))
+    try:
+        with closing(_judged(tasks, workers, allowed)) as judged:
+            for outcome in judged:
+                verdicts[outcome.task.claim.id] = _verdict(outcome, allowed)
+                shown.advance()
+    except (KeyboardInterrupt, StopRequested):
+        pass  # the report names what is left
+    except WorkerEndedError:
+        raise DeclarationError(
+            "a worker process that does not start",
+            expected=f"{sys.executable} to import polhode",
+            advice="judge in this process, with polhode.claims.audit",
+        ) from None
+    finally:
+        shown.finish()
+    return reported(document, asked, verdicts, perf_counter() - began)
+
+
+@dataclass(frozen=True)
+class _Task:
+    """A claim to be judged, and what it is about."""
+
+    claim: Claim
+    part: Part
+    system: System
+
+
+def _tasks(
+    document: Document, asked: Iterable[Claim], declared: Declared
+) -> tuple[list[_Task], dict[str, Verdict]]:
+    """What workers are to judge, and the verdicts on claims whose system is not there."""
+    tasks: list[_Task] = []
+    unread: dict[str, Verdict] = {}
+    for claim in asked:
+        part = document.part_of(claim)
+        try:
+            tasks.append(_Task(claim, part, declared(part.system)))
+        except PolhodeError as error:
+            unread[claim.id] = Verdict(Answer.UNREAD, claim.context, reason=str(error))
+    return tasks, unread
+
+
+def _judged(
+    tasks: Iterable[_Task], workers: int, limits: ClaimLimits
+) -> Generator[Outcome[_Task, Verdict]]:
+    waiting: dict[str, list[_Task]] = {}
+    for task in tasks:
+        waiting.setdefault(task.part.system, []).insert(0, task)
+
+    def following(last: _Task | None) -> _Task | None:
+        """One about the same system, which is derived there, or about that with most left."""
+        same = waiting.get(last.part.system) if last is not None else None
+        left = same or max(waiting.values(), key=len, default=[])
+        return left.pop() if left else None
+
+    begin = partial(
+        Worker[_Task, Verdict],
+        _claim_checker,
+        memory=limits.memory,
+        environment=_ONE_THREAD,
+        ready_within=_READY_WITHIN * limits.seconds,
+    )
+    return answers(begin, workers, following, seconds=limits.seconds)
+
+
+def _verdict(outcome: Outcome[_Task, Verdict], limits: ClaimLimits) -> Verdict:
+    """The verdict of a worker, or what is known of a claim whose worker ended."""
+    if outcome.lost is None:
+        assert outcome.reply is not None
+        return outcome.reply
+    why = "the process that looked further ended, for lack of memory perhaps"
+    if outcome.lost.out_of_time:
+        why = f"looking further took more than {limits.seconds:g} s of processor time"
+    if outcome.told:
+        return _remarked(outcome.told[-1], why)
+    why = f"it was read, but not decided: {why}"
+    return Verdict(Answer.UNREAD, outcome.task.claim.context, reason=why)
+
+
+def _remarked(failure: Verdict, remark: str) -> Verdict:
+    return replace(failure, remarks=(*failure.remarks, remark))
+
+
+# -- in a worker -----------------------------------------------------------------------------------
+
+
+def _claim_checker() -> Callable[[_Task, Tell[Verdict]], Verdict]:
+    """What judges claims in a worker; equations that it has derived are kept."""
+    gc.set_threshold(_RARELY)
+    nothing = os.open(os.devnull, os.O_WRONLY)
+    for stream in (sys.stdout, sys.stderr):  # compiled libraries print there
+        os.dup2(nothing, stream.fileno())
+    systems: dict[str, System] = {}
+    equations: dict[str, Equations] = {}
+
+    def resolved(name: str) -> Equations:
+        if name not in equations:
+            equations[name] = derive(systems[name])
+        return equations[name]
+
+    checker = ClaimChecker(resolved)
+
+    def judge(task: _Task, tell: Tell[Verdict]) -> Verdict:
+        systems[task.part.system] = task.system
+        failures: list[Verdict] = []
+
+        def failed(failure: Verdict) -> None:
+            failures.append(failure)
+            tell(failure)
+
+        try:
+            return checker.verdict(task.part, task.claim, failed)
+        except MemoryError:
+            why = "it was read, but not decided: it needs more memory than a claim is allowed"
+        except Exception as error:  # a fault of the program's is reported, and the others go on
+            why = f"unexpected {type(error).__name__}: {error}"[:500]
+        if failures:
+            return _remarked(failures[-1], why)
+        return Verdict(Answer.UNREAD, task.claim.context, reason=why)
+
+    return judge

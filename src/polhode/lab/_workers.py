@@ -1,0 +1,222 @@
+"""Worker processes of the lab: kept for the systems last asked about, and called off in between."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections import OrderedDict
+from collections.abc import Callable
+from contextlib import suppress
+from functools import partial
+from typing import TYPE_CHECKING, Protocol
+
+from polhode.base import (
+    PolhodeError,
+    StartMethod,
+    Tell,
+    Worker,
+    WorkerEndedError,
+    preload,
+    shared_flag,
+)
+from polhode.lab._offer import Own
+
+if TYPE_CHECKING:
+    from polhode.lab._task_handler import TaskHandler
+
+DONE, REFUSED, CALLED_OFF = b"D", b"R", b"C"  # first byte of a reply
+
+_MOST = 4  # workers
+_GRACE = 0.7  # s in which a task that is called off may end by itself
+
+
+class GoneError(Exception):
+    """The reply is no longer wanted."""
+
+
+class TooLongError(Exception):
+    """A task took longer than it may."""
+
+
+class BrokenError(Exception):
+    """A worker ended without a reply."""
+
+
+class LabWorker:
+    """A process that does one task at a time; one that will not stop is replaced."""
+
+    def __init__(self, own: Own | None) -> None:
+        self._own = own
+        self._turn = asyncio.Lock()
+        self._start()
+
+    @property
+    def busy(self) -> bool:
+        """Whether it is at work."""
+        return self._turn.locked()
+
+    @property
+    def pid(self) -> int:
+        """Number of its process."""
+        return self._process.pid
+
+    async def ask(self, request: bytes, seconds: float, gone: asyncio.Event) -> bytes:
+        """The reply to a request.
+
+        Args:
+            request: a task and its JSON, separated by a line break.
+            seconds: that it may take, once it is its turn.
+            gone: set where the reply is no longer wanted.
+
+        Raises:
+            GoneError, TooLongError, BrokenError: where there is no reply.
+        """
+        async with self._turn:
+            if gone.is_set():
+                raise GoneError
+            self._unwanted.value = 0
+            reply = asyncio.create_task(asyncio.to_thread(self._exchange, request))
+            left = asyncio.create_task(gone.wait())
+            await asyncio.wait({reply, left}, timeout=seconds, return_when="FIRST_COMPLETED")
+            left.cancel()
+            if not reply.done():
+                await self._call_off(reply)
+                raise GoneError if gone.is_set() else TooLongError
+            found = await reply
+            if found is None:
+                self._replace()
+                raise BrokenError
+            if found == CALLED_OFF:
+                raise GoneError
+            return found
+
+    def _exchange(self, request: bytes) -> bytes | None:
+        try:
+            return self._process.ask(request)
+        except WorkerEndedError:
+            return None
+
+    async def _call_off(self, reply: asyncio.Task[bytes | None]) -> None:
+        """A simulation sees the flag at its next step; what does not is ended."""
+        self._unwanted.value = 1
+        await asyncio.wait({reply}, timeout=_GRACE)
+        if not reply.done():
+            self._process.kill()
+            await reply
+        if reply.result() is None:
+            self._replace()
+
+    def _replace(self) -> None:
+        self.end()
+        with suppress(EOFError, OSError):  # no new process while the lab itself is ending
+            self._start()
+
+    def _start(self) -> None:
+        self._unwanted: Flag = shared_flag()
+        self._process = Worker[bytes, bytes](
+            partial(_task_worker, self._unwanted, self._own), StartMethod.SERVER
+        )
+
+    def end(self) -> None:
+        """End the process, whatever it does."""
+        self._process.close()
+
+
+class WorkerPool:
+    """Workers by what they are for; those not asked for longest make room.
+
+    Args:
+        own: a system of the user's own.
+    """
+
+    def __init__(self, own: Own | None) -> None:
+        self._own = own
+        preload(["polhode.lab._task_handler", __name__])
+        self._workers: OrderedDict[str, LabWorker] = OrderedDict()
+        self._spare: asyncio.Task[LabWorker] | None = None
+        self._assigning = asyncio.Lock()
+
+    def begin(self) -> None:
+        """Have a worker ready before the next request."""
+        self._spare = asyncio.create_task(asyncio.to_thread(LabWorker, self._own))
+
+    async def worker(self, purpose: str) -> LabWorker:
+        """The worker for a purpose, such as the motions of one system."""
+        async with self._assigning:
+            if purpose not in self._workers:
+                idle = [known for known, worker in self._workers.items() if not worker.busy]
+                for known in idle[: max(len(self._workers) - _MOST + 1, 0)]:
+                    self._workers.pop(known).end()
+                if self._spare is None:
+                    self.begin()
+                assert self._spare is not None
+                self._workers[purpose] = await self._spare
+                self.begin()
+            self._workers.move_to_end(purpose)
+            return self._workers[purpose]
+
+    async def end(self) -> None:
+        """End all of them."""
+        spare = [await self._spare] if self._spare else []
+        for worker in (*self._workers.values(), *spare):
+            worker.end()
+        self._workers.clear()
+        self._spare = None
+
+
+# -- in a worker -----------------------------------------------------------------------------------
+
+
+class Flag(Protocol):
+    """A number that two processes see."""
+
+    value: int
+
+
+class CalledOffError(Exception):
+    """The task is no longer wanted."""
+
+
+class CallOff:
+    """Progress of a simulation, which stops it once it is no longer wanted."""
+
+    def __init__(self, unwanted: Flag) -> None:
+        self._unwanted = unwanted
+
+    def begin(self, task: str, total: int | None = None) -> None:
+        """Stop before it begins, if need be."""
+        self.advance()
+
+    def advance(self, steps: int = 1) -> None:
+        """Stop, if need be.
+
+        Raises:
+            CalledOffError: where the task is no longer wanted.
+        """
+        if self._unwanted.value:
+            raise CalledOffError
+
+    def finish(self) -> None:
+        """Nothing is left to stop."""
+
+
+def _task_worker(unwanted: Flag, own: Own | None) -> Callable[[bytes, Tell[bytes]], bytes]:
+    """What does tasks in a worker; `unwanted` is set to 1 to call off the task at hand."""
+    from polhode.lab._task_handler import TaskHandler  # heavy, and of no use to the server
+
+    handler = TaskHandler(own, CallOff(unwanted))
+    return lambda request, tell: _reply(handler, request)
+
+
+def _reply(handler: TaskHandler, request: bytes) -> bytes:
+    task, _, body = request.partition(b"\n")
+    try:
+        return DONE + handler.do(task.decode("ascii"), body)
+    except CalledOffError:
+        return CALLED_OFF
+    except PolhodeError as error:
+        refused = {"given": error.given, "expected": error.expected, "advice": error.advice}
+    except Exception as error:  # a fault of the program's is reported, and the worker goes on
+        fault = f"unexpected {type(error).__name__}: {error}"[:500]
+        refused = {"given": fault, "expected": "", "advice": "please report it"}
+    return REFUSED + json.dumps(refused).encode()

@@ -1,0 +1,79 @@
+"""What is integrated in a contact mode besides coordinates and speeds: work, slips, heights, edges.
+
+These follow from the state, but near zero they would drown in its rounding; integrated by
+themselves they keep their digits, and events that they tell of are found exactly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from polhode.algebra import ZERO, Expr, Symbol, SymbolKind, sqrt
+from polhode.derive import Automaton, Mode
+from polhode.model import Contact, Coulomb, Sliding
+from polhode.simulate._dynamics import WORK, Dynamics
+
+
+def dynamics_of(
+    modes: Automaton,
+    mode: Mode,
+    prescribed: Mapping[Symbol, Expr],
+    constants: Mapping[Symbol, float],
+) -> Dynamics:
+    """The equations of a contact mode with its auxiliary states, and all shared states."""
+    auxiliary, meanings = _auxiliary(mode)
+    known = dict(mode.lifted)
+    # Reactions of open contacts are zero.
+    reactions, own = modes.together.equations.components, mode.equations.components
+    known |= {Symbol(name): ZERO for name in reactions if name not in own}
+    # Slip velocities of closed contacts follow from the state unless they are integrated.
+    for touch, phase in zip(mode.touches, mode.phases, strict=True):
+        slips = () if phase.flies else zip(slip_symbols(touch.contact), touch.slip, strict=True)
+        known |= {symbol: slip for symbol, slip in slips if symbol not in auxiliary}
+    return Dynamics(mode.equations, prescribed, tuple(constants), auxiliary, meanings, known)
+
+
+def slip_symbols(contact: Contact) -> tuple[Symbol, Symbol]:
+    """The slip velocity of a sliding contact."""
+    first, second = (
+        Symbol(f"slip_{label}_{contact.spelled}", SymbolKind.SPEED) for label in contact.on.tangents
+    )
+    return first, second
+
+
+def gap_symbol(contact: Contact) -> Symbol:
+    """The height of a body above its support."""
+    return Symbol(f"gap_{contact.spelled}", SymbolKind.COORDINATE)
+
+
+def room_symbol(contact: Contact) -> Symbol:
+    """The distance of a contact to the edge of its support."""
+    return Symbol(f"room_{contact.spelled}", SymbolKind.COORDINATE)
+
+
+def _auxiliary(mode: Mode) -> tuple[dict[Symbol, Expr], dict[Symbol, Expr]]:
+    """Rates of the auxiliary states; and slip speed and direction in terms of these."""
+    auxiliary: dict[Symbol, Expr] = {WORK: mode.equations.power}
+    meanings: dict[Symbol, Expr] = {}
+    motion = mode.equations.kinetics
+    for touch, phase in zip(mode.touches, mode.phases, strict=True):
+        contact = touch.contact
+        if phase.flies:
+            auxiliary[gap_symbol(contact)] = touch.closing
+        elif touch.reserve:
+            auxiliary[room_symbol(contact)] = touch.room.chain(motion.rate)
+        if phase.slides and isinstance(contact, Coulomb):
+            element = mode.element(contact)
+            if not isinstance(element, Sliding):
+                continue
+            slips = slip_symbols(contact)
+            auxiliary |= {
+                s: slip.chain(motion.rate) for s, slip in zip(slips, touch.slip, strict=True)
+            }
+            along, across = (Expr.generator(s) for s in slips)
+            speed = Expr.generator(element.slip_speed)
+            meanings[element.slip_speed] = sqrt(along * along + across * across)
+            meanings[element.direction[0]] = along / speed
+            meanings[element.direction[1]] = across / speed
+            meanings[element.slowness] = contact.slowness(speed)
+    return auxiliary, meanings

@@ -1,0 +1,290 @@
+"""Integrates a contact mode piece by piece: where slip ends, where a guard falls, where to look.
+
+What all types of numbers share is in `ModePieces`; `DoublePieces` integrates in double precision.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from polhode.algebra import Symbol
+from polhode.base import Progress
+from polhode.derive import Guard
+from polhode.simulate._absolute_values import (
+    Here,
+    SideChange,
+    Sides,
+    nearer,
+    overshoots,
+    refuse_vanishing,
+    sides_at,
+)
+from polhode.simulate._dynamics import WORK, Dynamics
+from polhode.simulate._mode_integration import PieceEnd, StateValues
+from polhode.simulate._segment import TrajectoryPiece, state_at
+from polhode.simulate.contact._auxiliary_states import gap_symbol, room_symbol, slip_symbols
+from polhode.simulate.contact._contact_kinematics import State, fall_of
+from polhode.simulate.contact._guard_monitor import GuardMonitor
+from polhode.simulate.contact._hybrid_system import CompiledMode, HybridSystem
+from polhode.simulate.contact._mode_state import ModeState, beyond, directions_of, state_on
+from polhode.simulate.contact._slip_onset import slip_onset_piece
+from polhode.simulate.contact._transition import ModeExit
+from polhode.simulate.integrate._arrays import Array
+from polhode.simulate.integrate._driver import integrate
+from polhode.simulate.integrate._stop_criteria import StepCount, Stop, StopCriteria
+
+#: Slip speed, relative to the velocities around, below which a slip has ended.
+VANISHED = 1e-14
+#: The same at an instant at which the slip velocity reverses: there its rounding is larger.
+LANDED = 1e-10
+_LOOK = 400  # steps after which the guards are looked at
+_INSTANT = 32  # units in the last place of the time: a shorter hop counts as none
+_BEGUN = 1e-9  # of the time: sooner, a slip that begins cannot be told from rounding
+
+
+class ModePieces(ABC):
+    """Pieces of a motion within one contact mode.
+
+    Args:
+        hybrid: the modes.
+        entry: where this one is entered.
+        near_flat: value at which an expression that must stay positive, such as sin θ, counts as
+            zero.
+
+    Attributes:
+        start: all states where the mode is entered.
+    """
+
+    def __init__(self, hybrid: HybridSystem, entry: ModeState, near_flat: float) -> None:
+        self._hybrid = hybrid
+        self._entry = entry
+        self._near_flat = near_flat
+        self._whole = hybrid.mode(entry.phases)
+        self.start: StateValues = state_on(hybrid, entry)
+        here = self._whole.here(self.start, entry.shared.time)
+        self.put_on(sides_at(self._whole.dynamics, here))
+        self._has_begun = False
+
+    @property
+    def name(self) -> str:
+        return self._whole.mode.name
+
+    @property
+    def whole(self) -> Dynamics:
+        return self._whole.dynamics
+
+    @property
+    def dynamics(self) -> Dynamics:
+        return self._mode.dynamics
+
+    def put_on(self, sides: Sides) -> None:
+        self._mode = self._whole.on(sides)
+        self._monitor = GuardMonitor(self._hybrid, self._near_flat, self._mode, self._entry)
+
+    def here(self, state: StateValues, time: Any) -> Here:
+        self._hybrid.move_on(time)
+        return self._whole.here(state, time)
+
+    @abstractmethod
+    def instant(self, time: Any) -> Any:
+        """A time in the numbers in which trajectories keep it."""
+
+    def next(
+        self, state: StateValues, now: Any, end: Any, before: TrajectoryPiece | None
+    ) -> PieceEnd:
+        drive = self._hybrid.drive
+        self._hybrid.move_on(now)
+        limit = drive.until(now, end)
+        if self._has_begun:
+            found = self._piece(state, (now, limit), before)
+        else:
+            limit = min(limit, now + max(self._hop(), self._shortest()))
+            first = self._slip_onset if self._entry.onset else self._piece
+            found = first(state, (now, limit), before)
+        self._has_begun = True
+        if now < found.time and found.time in drive.breaks and found.guard is not None:
+            # Where the forcing changes, slip and lift-off are up to the forces that follow.
+            kept = ("near-flat", "sticks") if found.time not in drive.jerks else ("near-flat",)
+            if not (isinstance(found.guard, SideChange) or found.guard.kind in kept):
+                found = replace(found, guard=None)
+        interrupted = found.piece.solution.stop is Stop.INTERRUPTED
+        return replace(found, is_last=interrupted or found.time in drive.jerks)
+
+    @abstractmethod
+    def _slip_onset(
+        self, state: StateValues, span: tuple[Any, Any], before: TrajectoryPiece | None
+    ) -> PieceEnd:
+        """The piece on which slips begin, as far as their directions have to be integrated."""
+
+    @abstractmethod
+    def _piece(
+        self, state: StateValues, span: tuple[Any, Any], before: TrajectoryPiece | None
+    ) -> PieceEnd:
+        """Any other piece: up to the first guard that falls, or to the end of a span."""
+
+    # -- the first piece must not leap over a contact that soon closes again ---------------------
+
+    def _shortest(self) -> Any:
+        return _INSTANT * self._hybrid.numbers.spacing(self._entry.shared.time)
+
+    def _hop(self) -> Any:
+        """How soon a contact that has opened may close again, or one return to an edge, s.
+
+        A short hop within a long step would be lost in the rounding of the long one.
+        """
+        entry, mode = self._entry, self._mode
+        if not (entry.gaps or entry.rooms):
+            return np.inf
+        rising = list[tuple[Any, Any, Any]]()  # heights or distances, with first and second rates
+        state, now = entry.state, entry.shared.time
+        points = self._hybrid.touching.at(entry.shared, beyond(entry.phases))
+        if entry.gaps:
+            falls = mode.closing_rates(state, now)
+            rising += [(gap, points[i].velocity[2], falls[i]) for i, gap in entry.gaps.items()]
+        if entry.rooms:
+            bends = mode.room_rates(state, now, directions_of(entry, self._hybrid.numbers))
+            for i, room in entry.rooms.items():
+                is_beyond = entry.phases[i].is_beyond
+                rising.append((room, points[i].leaving(is_beyond=is_beyond), bends[i]))
+        hops = [fall_of(*rise) for rise in rising if rise[2] < 0]
+        return 1.5 * min((hop for hop in hops if hop > 0), default=np.inf)
+
+    # -- what both ends and goes on from a piece --------------------------------------------------
+
+    def speed_scale(self, state: StateValues, now: Any) -> Any:
+        """Size of the velocities that slips are the difference of, m/s."""
+        shared = shared_state(self._mode, state, now)
+        return self._hybrid.touching.scale(shared, beyond(self._entry.phases))
+
+    def slips_in(self, symbols: Sequence[Symbol]) -> tuple[tuple[int, ...], ...]:
+        """Places of the slip velocities among some states, of those slips that are among them."""
+        contacts = self._hybrid.automaton.contacts
+        pairs = [slip_symbols(contacts[i]) for i in sorted(self._entry.slips)]
+        auxiliary = [pair for pair in pairs if set(pair) <= set(symbols)]
+        return tuple(tuple(symbols.index(s) for s in pair) for pair in auxiliary)
+
+    def exit(self, found: PieceEnd) -> ModeExit:
+        """How the mode is left."""
+        return mode_exit(self._mode, found.guard, found.state, found.time, self._entry.shared.work)
+
+
+class DoublePieces(ModePieces):
+    """Pieces in double precision.
+
+    Args:
+        hybrid, entry, near_flat: as in `ModePieces`.
+        progress: notified of every step.
+        tally: of the steps of the whole motion.
+    """
+
+    def __init__(
+        self,
+        hybrid: HybridSystem,
+        entry: ModeState,
+        near_flat: float,
+        progress: Progress,
+        tally: StepCount,
+    ) -> None:
+        super().__init__(hybrid, entry, near_flat)
+        self._progress = progress
+        self._tally = tally
+        self._scale = 0.0
+
+    def instant(self, time: float) -> float:
+        return time
+
+    def _shortest(self) -> float:
+        begin = self._entry.shared.time
+        return _BEGUN * begin if self._entry.onset else float(super()._shortest())
+
+    def _slip_onset(
+        self, state: StateValues, span: tuple[float, float], before: TrajectoryPiece | None
+    ) -> PieceEnd:
+        contacts = self._hybrid.automaton.contacts
+        piece = slip_onset_piece(self._mode, self._entry, state, span, contacts)
+        return _ended(*self._monitor.cut(piece))
+
+    def _piece(
+        self, state: StateValues, span: tuple[float, float], before: TrajectoryPiece | None
+    ) -> PieceEnd:
+        now = span[0]
+        rest = before.solution.rest(now) if before else self._mode.rest(state, now)
+        if self._entry.slips:
+            self._scale = max(self._scale, self.speed_scale(state, now))
+        criteria = self._criteria(self._scale or 1.0)
+        return _ended(*self._up_to(rest, span, criteria))
+
+    def _up_to(
+        self, rest: Array, span: tuple[float, float], criteria: StopCriteria
+    ) -> tuple[TrajectoryPiece, Guard | None]:
+        """Up to the end of a span, or to the first guard that falls."""
+        flow, constants = self._mode.flow, self._mode.parameters
+        solution = integrate(
+            flow, self._mode.stepper, constants, rest, span, self._progress, criteria
+        )
+        whole = TrajectoryPiece(span[0], float(solution.steps[-1]), solution, constants)
+        piece, guard = self._monitor.cut(whole)
+        again = nearer(solution.steps, piece.end) if isinstance(guard, SideChange) else None
+        if again is not None:
+            return self._up_to(rest, (span[0], again), criteria)
+        refuse_vanishing(self._mode.dynamics, piece)
+        return piece, guard
+
+    def _criteria(self, scale: float) -> StopCriteria:
+        """What stops an integration: slips that end, too many steps, or reason to look."""
+        mode, near_flat = self._mode, self._near_flat
+        if not (mode.mode.guards or mode.side_guards):
+            return StopCriteria(tally=self._tally)
+        looks = list[Callable[[float, Sequence[float]], bool]]()
+        # Beyond flat, or beyond the end of a side of an absolute value, the equations do not hold:
+        # what follows there may take any number of steps, and does not count.
+        if any(guard.kind == "near-flat" for guard in mode.mode.guards):
+            positive, constants = mode.sides, mode.parameters.tolist()
+            looks.append(lambda time, state: min(positive(*state, *constants, time)) < near_flat)
+        if mode.side_guards:
+            looks.append(overshoots(mode.dynamics, mode.side_guards, mode.flow, mode.parameters))
+
+        def over(time: float, state: Sequence[float]) -> bool:
+            return any(look(time, state) for look in looks)
+
+        vectors = self.slips_in(mode.flow.core.symbols)
+        return StopCriteria(_LOOK, vectors, VANISHED * scale, LANDED * scale, over, self._tally)
+
+
+def double_pieces(
+    hybrid: HybridSystem, near_flat: float, progress: Progress
+) -> Callable[[ModeState], DoublePieces]:
+    """What integrates the modes of one motion in double precision, from where each is entered."""
+    tally = StepCount()
+    return lambda entry: DoublePieces(hybrid, entry, near_flat, progress, tally)
+
+
+def _ended(piece: TrajectoryPiece, guard: Guard | None) -> PieceEnd:
+    return PieceEnd(piece, state_at(piece, piece.end), piece.end, guard)
+
+
+def mode_exit(
+    mode: CompiledMode,
+    guard: Guard | None,
+    state: StateValues,
+    time: Any,
+    work: Any,
+) -> ModeExit:
+    """How a mode is left in a state of it; the work is as before where none is done."""
+    contacts = [touch.contact for touch in mode.mode.touches]
+    gaps, rooms = (
+        {i: state[s] for i, contact in enumerate(contacts) if (s := symbol(contact)) in state}
+        for symbol in (gap_symbol, room_symbol)
+    )
+    return ModeExit(guard, shared_state(mode, state, time, work), gaps, rooms)
+
+
+def shared_state(mode: CompiledMode, state: StateValues, time: Any, work: Any = 0.0) -> State:
+    """The state that all modes share, of a state of one mode; the work if that has none."""
+    own = {s: state[s] for s in mode.dynamics.states if s not in mode.dynamics.auxiliary}
+    return mode.lifted(time, own, state.get(WORK, work))

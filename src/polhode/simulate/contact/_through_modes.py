@@ -1,0 +1,208 @@
+"""Follows a motion through all its contact modes: checks, the first mode, and the whole run."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from polhode.base import ConstraintError, DeclarationError, NumericError, Progress
+from polhode.derive import Automaton
+from polhode.model import FLIGHT, FRICTIONLESS, Apart, Contact, Coulomb, Phase
+from polhode.simulate._dynamics import Dynamics
+from polhode.simulate._names import published
+from polhode.simulate._start import read_start
+from polhode.simulate._task import Guarded, InitialState, MotionResult, Task, timed
+from polhode.simulate._values import idle_parameters, read_parameters
+from polhode.simulate.contact._contact_kinematics import STILL, State
+from polhode.simulate.contact._hybrid_integrator import HybridIntegrator
+from polhode.simulate.contact._hybrid_system import HybridSystem
+from polhode.simulate.contact._mode_pieces import double_pieces
+from polhode.simulate.contact._mode_state import ModeState
+from polhode.simulate.contact._select_mode import ContactStatus, select_mode
+from polhode.simulate.forcing._prescribed_motion import prescribed_motion
+
+_LEAST, _MOST = 1e-9, 1e9  # of friction: beyond, its forces drown in rounding, or drown all else
+
+
+def can_be_followed(modes: Automaton) -> bool:
+    """Whether the forces that tell when contacts change are determined.
+
+    Raises:
+        NumericError: where they are not, and friction makes the motion depend on them.
+    """
+    loose = set(modes.together.equations.undetermined)
+    held = []
+    for contact in modes.contacts:
+        labels = (*contact.on.tangents, contact.on.normal)
+        if loose & {contact.component(label) for label in labels}:
+            held.append(contact)
+    rubbing = [contact.name for contact in held if isinstance(contact, Coulomb)]
+    if rubbing:
+        raise NumericError(
+            f"undetermined forces at {', '.join(rubbing)}, on which friction depends",
+            expected="contacts whose normal and friction forces Newton's laws determine",
+            advice="declare the contacts Rolling or Smooth, or take one of them away",
+        )
+    return not held
+
+
+def check_numbers(hybrid: HybridSystem) -> None:
+    """Refuse coefficients that no contact can have.
+
+    Raises:
+        DeclarationError: with the contact and the value.
+    """
+    for contact in hybrid.automaton.contacts:
+        restitution = hybrid.value(contact.restitution)
+        if not 0 <= restitution <= 1:
+            raise _impossible("restitution", restitution, contact, "a number from 0 to 1")
+        if isinstance(contact, Coulomb):
+            kinetic, static = (hybrid.value(mu) for mu in (contact.mu, contact.mu_static))
+            if kinetic < 0:
+                raise _impossible("friction coefficient mu", kinetic, contact, "zero or more")
+            for what, value in (("mu", kinetic), ("mu_static", static)):
+                if value and not _LEAST <= value <= _MOST:
+                    expected = f"zero, or a number from {_LEAST:g} to {_MOST:g}"
+                    raise _impossible(f"friction coefficient {what}", value, contact, expected)
+            if static < kinetic:
+                expected = f"no less than mu = {kinetic:g}"
+                raise _impossible("friction coefficient mu_static", static, contact, expected)
+
+
+def _impossible(what: str, value: float, contact: Contact, expected: str) -> DeclarationError:
+    return DeclarationError(f"{what} = {value:g} of contact {contact.name!r}", expected=expected)
+
+
+# -- the first contact mode ------------------------------------------------------------------------
+
+_ROUNDING = 1e-12  # of the size of the coordinates: a height that counts as zero
+
+
+def begun_at(hybrid: HybridSystem, shared: State, apart: frozenset[int]) -> ModeState:
+    """The first mode of a motion.
+
+    Args:
+        apart: contacts that start at a given height. Zero height with zero vertical velocity
+            counts as contact.
+
+    Raises:
+        ConstraintError: for a body that starts within its support.
+        NumericError: where no mode is possible.
+    """
+    points = hybrid.touching.at(shared, hybrid.touching.beyond(shared))
+    rounding = _ROUNDING * max((abs(float(q)) for q in shared.coordinates), default=0.0)
+    for i in apart:
+        if points[i].gap < -rounding:
+            contact = hybrid.automaton.contacts[i]
+            height = contact.on.normal + contact.body.tag
+            raise ConstraintError(
+                f"{contact.body.name} starts {-points[i].gap:g} m below its support",
+                expected=f"a height {height} at which it touches or is above",
+                advice=f"leave out {height} to start in contact",
+            )
+    met = {i for i in apart if points[i].gap <= rounding}
+    resting = {i for i in met if abs(points[i].velocity[2]) <= STILL * points[i].scale}
+    entry = select_mode(hybrid, shared, ContactStatus(apart - resting))
+    return replace(entry, gaps={i: 0.0 for i in met if entry.phases[i].flies})
+
+
+# -- the whole motion ------------------------------------------------------------------------------
+
+
+class ThroughModes:
+    """Through all contact modes, as the forces demand."""
+
+    def __init__(self, modes: Automaton, task: Task) -> None:
+        with timed(task, "derive"):
+            self._drive = prescribed_motion(modes.functions, task.forcing, task.end)
+            idle = idle_parameters(modes.together.equations, task.given)
+            constants = (*modes.parameters, *idle)
+            equations = modes.together.equations
+            self._dynamics = Dynamics(equations, self._drive.expressions, constants)
+        self._modes = modes
+        self._hybrid: HybridSystem | None = None
+
+    def follow(self, task: Task, progress: Progress) -> MotionResult:
+        numbers = read_parameters(self._dynamics, task.given, self._drive.constants(0.0))
+        hybrid = self._hybrid or HybridSystem(
+            self._modes, self._drive, numbers, task.integrator, task.tolerance
+        )
+        self._hybrid = hybrid  # what it has compiled serves further runs
+        hybrid.take(numbers)
+        check_numbers(hybrid)
+        with timed(task, "compile"):
+            pieces = double_pieces(hybrid, task.near_flat, progress)
+            integrator = HybridIntegrator(hybrid, pieces, task.until)
+            shared, begun, apart = _begin(hybrid, task)
+            first = begun_at(hybrid, shared, apart)
+            hybrid.mode(first.phases).stepper  # noqa: B018
+        with timed(task, "integrate"):
+            solution = integrator.integrate(first, task.end)
+        return MotionResult(
+            solution.segments,
+            solution.changes,
+            solution.ending,
+            {symbol.published: value for symbol, value in numbers.items()},
+            begun.start.assumed,
+            unguarded=False,
+            begun=begun,
+            drive=self._drive,
+            guarded=Guarded(hybrid, apart),
+        )
+
+
+def first_entry(hybrid: HybridSystem, task: Task) -> tuple[ModeState, InitialState]:
+    """The first mode of a motion, and the start as it was read."""
+    shared, begun, apart = _begin(hybrid, task)
+    return begun_at(hybrid, shared, apart), begun
+
+
+def _begin(hybrid: HybridSystem, task: Task) -> tuple[State, InitialState, frozenset[int]]:
+    """Where it starts, and which contacts are apart there.
+
+    Contacts touch unless a height is given, and stick where they can unless that contradicts what
+    is given: to their supports, or to what is beyond the edges of those.
+    """
+    given = {published(name) for name in task.start}
+    modes = hybrid.automaton
+    apart = frozenset(
+        i
+        for i, option in enumerate(modes.options)
+        if isinstance(above := option[FLIGHT], Apart)
+        and given & {above.height.published, above.rise.published}
+    )
+    if apart:
+        return (*_read_on_surfaces(hybrid, apart, task, slips=True), apart)
+    try:
+        return (*_read_on_surfaces(hybrid, apart, task, slips=False), apart)
+    except ConstraintError:
+        if not any(isinstance(contact, Coulomb) for contact in modes.contacts):
+            raise
+        return (*_read_on_surfaces(hybrid, apart, task, slips=True), apart)
+
+
+def _read_on_surfaces(
+    hybrid: HybridSystem, apart: frozenset[int], task: Task, *, slips: bool
+) -> tuple[State, InitialState]:
+    """The start as it is read on the supports, or where they end on what is beyond their edges."""
+    phases = list[Phase]()
+    for i, option in enumerate(hybrid.automaton.options):
+        # A slip can be read without friction: start values do not depend on forces.
+        closed = FRICTIONLESS if slips and FRICTIONLESS in option else next(iter(option))
+        phases.append(FLIGHT if i in apart else closed)
+    shared, begun = _read(hybrid, tuple(phases), task)
+    beyond = hybrid.touching.beyond(shared) - apart
+    if not beyond:
+        return shared, begun
+    there = (p.beyond() if i in beyond else p for i, p in enumerate(phases))
+    return _read(hybrid, tuple(there), task)
+
+
+def _read(
+    hybrid: HybridSystem, phases: tuple[Phase, ...], task: Task
+) -> tuple[State, InitialState]:
+    mode = hybrid.mode(phases)
+    plain = mode.dynamics.without_auxiliary
+    numbers = dict(zip(plain.parameters, mode.parameters.tolist(), strict=True))
+    start = read_start(plain, task.start, numbers)
+    state = dict(zip(plain.states, (float(x) for x in start.state), strict=True))
+    return mode.lifted(0.0, state, 0.0), InitialState(plain, start)

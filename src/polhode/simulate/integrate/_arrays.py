@@ -1,0 +1,79 @@
+"""Arrays: values in rows, times in order, and piecewise polynomials at many places."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+_AT_ONCE = 4096  # places: the coefficients of more would fill the memory
+
+
+def rows(values: Sequence[Any], size: int, dtype: Any = float) -> Any:
+    """Values, each an array of a size or one number for all of it, shape (values, size)."""
+    found = np.empty((len(values), size), dtype)
+    for row, value in zip(found, values, strict=True):
+        row[:] = value
+    return found
+
+
+def ascending(times: Sequence[Array]) -> Array:
+    """All of them, in order and each once; `np.unique` would load all of `numpy.ma` for it."""
+    every: Array = np.sort(np.concatenate(times))
+    first: Array = every[np.append([True], every[1:] != every[:-1])]
+    return first
+
+
+def occurring(which: NDArray[np.signedinteger[Any]]) -> NDArray[np.intp]:
+    """Which of the whole numbers from 0 on occur, in order."""
+    return np.flatnonzero(np.bincount(which))
+
+
+# -- piecewise polynomials ---------------------------------------------------------------------
+
+
+def evaluated(coefficients: Array, which: NDArray[np.intp], places: Array) -> Array:
+    """Values of polynomials, shape (rows, places).
+
+    Neighbours that read the same polynomial, as the nodes of a quadrature do, are read together.
+
+    Args:
+        coefficients: by rising power, shape (polynomials, rows, powers).
+        which: the polynomial at each place.
+        places: what is raised to the powers.
+    """
+    found = np.empty((coefficients.shape[1], len(places)))
+    for begin in range(0, len(places), _AT_ONCE):
+        here = slice(begin, begin + _AT_ONCE)
+        asked = which[here]
+        changes = np.flatnonzero(np.diff(asked)) + 1
+        # the largest size of groups of neighbours, all alike, that read one polynomial each
+        together = int(np.gcd.reduce(np.append(changes, len(asked))))
+        chosen = coefficients[asked[::together]]
+        powers = powers_of(places[here], chosen.shape[2] - 1)
+        powers = powers.reshape(len(powers), -1, together).swapaxes(0, 1)
+        # what is added to the first term is summed up before, so that it is rounded only once
+        values = chosen[:, :, :1] + chosen[:, :, 1:] @ powers
+        found[:, here] = values.swapaxes(0, 1).reshape(len(found), -1)
+    return found
+
+
+def powers_of(values: Array, count: int) -> Array:
+    """The first, second, … power of each, shape (count, values)."""
+    powers = np.empty((count, len(values)))
+    powers[:1] = values
+    known = 1
+    while known < count:
+        new = powers[known : 2 * known]
+        np.multiply(powers[: len(new)], powers[known - 1], out=new)
+        known += len(new)
+    return powers
+
+
+def pieces_at(knots: Array, times: Array) -> NDArray[np.intp]:
+    """The piece that every time is in; beyond the ends, the outermost."""
+    return np.searchsorted(knots[1:-1], times, "right")

@@ -1,0 +1,132 @@
+"""A motion within one contact mode, as it is declared, in numbers of higher precision."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from polhode.simulate._absolute_values import (
+    Here,
+    SideChange,
+    SideChangeCount,
+    Sides,
+    from_zero,
+    guards_of_sides,
+    nearer,
+    refuse_vanishing,
+    sides_at,
+)
+from polhode.simulate._dynamics import CLOCK, WORK, Dynamics
+from polhode.simulate._mode_integration import PieceEnd, StateValues, integrate_mode
+from polhode.simulate._segment import TrajectoryPiece
+from polhode.simulate._task import AS_DECLARED
+from polhode.simulate.contact._hybrid_integrator import HybridSolution
+from polhode.simulate.integrate._arrays import Array, rows
+from polhode.simulate.integrate._crossing import first_fall
+from polhode.simulate.integrate._stepping import broken
+from polhode.simulate.integrate._stop_criteria import Stop, StopCriteria
+from polhode.simulate.precise._precise_piece import (
+    InDoubles,
+    PiecePoint,
+    SeriesPiece,
+    SeriesStepper,
+    fallen,
+)
+from polhode.simulate.precise._precise_start import Given
+
+_LOOK = 12  # steps after which absolute values are looked at
+
+
+def as_declared(dynamics: Dynamics, given: Given, steps: SeriesStepper) -> HybridSolution:
+    """The contacts as they are declared, and kept to.
+
+    Args:
+        dynamics: of which no sides of absolute values are known.
+
+    Raises:
+        NumericError: where the motion cannot be continued.
+    """
+    careful, begin = steps.numbers.careful, given.context.mpf(0)
+    constants = careful.array([given.parameters[s] for s in dynamics.parameters])
+    state: StateValues = given.state(dynamics.states) | {WORK: begin}
+    pieces = _PreciseDeclaredPieces(dynamics, constants, steps)
+    pieces.put_on(sides_at(dynamics, pieces.here(state, begin)))
+    run = integrate_mode(pieces, state, begin, steps.end, SideChangeCount())
+    return HybridSolution(run.segments, run.switches, AS_DECLARED)
+
+
+@dataclass(frozen=True)
+class _Equations:
+    """The equations on some sides of all absolute values, with numbers."""
+
+    dynamics: Dynamics
+    parameters: Any
+
+
+class _PreciseDeclaredPieces:
+    """Pieces of such a motion."""
+
+    name = AS_DECLARED
+
+    def __init__(self, whole: Dynamics, constants: Any, steps: SeriesStepper) -> None:
+        self.whole = whole
+        self.dynamics = whole
+        self._constants = constants
+        self._steps = steps
+
+    def put_on(self, sides: Sides) -> None:
+        self.dynamics = self.whole.on(sides)
+
+    def here(self, state: StateValues, time: Any) -> Here:
+        return Here(state, self._constants, time, self._steps.numbers.careful)
+
+    def instant(self, time: Any) -> Any:
+        return self._steps.numbers.array([time])[0]
+
+    def next(
+        self, state: StateValues, now: Any, end: Any, before: TrajectoryPiece | None
+    ) -> PieceEnd:
+        side_guards, careful = guards_of_sides(self.dynamics), self._steps.numbers.careful
+        criteria = StopCriteria(pause=_LOOK) if side_guards else StopCriteria()
+        equations = _Equations(self.dynamics, self._constants)
+        piece = self._steps.along(equations, state, (now, end), criteria)
+        found = _passed(self.dynamics, side_guards, piece)
+        stop = piece.solution.stop
+        if found is None:
+            if stop is Stop.STUCK:
+                raise broken(float(piece.end))
+            point, time, change = PiecePoint(piece.series.steps - 1, 1), piece.end, None
+        else:
+            point, change = found
+            time = piece.series.time(point.step, point.share)
+            again = nearer(piece.series.times, time, self._steps.numbers)
+            if again is not None:
+                return self.next(state, now, careful.array([again])[0], before)
+        cut = replace(piece, end=time)
+        refuse_vanishing(self.dynamics, cut.rounded())
+        there, then = cut.state(point, careful), careful.array([time])[0]
+        return PieceEnd(cut, there, then, change, is_last=stop is Stop.INTERRUPTED)
+
+
+def _passed(
+    dynamics: Dynamics, side_guards: Sequence[SideChange], piece: SeriesPiece
+) -> tuple[PiecePoint, SideChange] | None:
+    """Where the first side ends, and which."""
+    if not side_guards:
+        return None
+    seen = InDoubles(piece, piece.begin)
+    arguments = (*seen.symbols, *dynamics.parameters, CLOCK)
+    function = dynamics.function([change.positive for change in side_guards], arguments)
+
+    def values(places: Array) -> Array:
+        found = function(*seen.at(places), *seen.constants, seen.times(places))
+        return np.asarray(rows(found, len(places)))
+
+    fall = first_fall(from_zero(values, seen.knots), seen.knots)
+    if fall is None:
+        return None
+    change = side_guards[fall.guard]
+    return fallen(dynamics, change.positive, piece, fall.time), change

@@ -1,0 +1,131 @@
+"""Integrates a contact mode in numbers of higher precision."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from polhode.base import NumericError
+from polhode.simulate._absolute_values import SideChange, nearer, refuse_vanishing
+from polhode.simulate._dynamics import CLOCK
+from polhode.simulate._mode_integration import PieceEnd, StateValues
+from polhode.simulate._segment import TrajectoryPiece
+from polhode.simulate.contact._hybrid_system import HybridSystem
+from polhode.simulate.contact._mode_pieces import LANDED, VANISHED, ModePieces
+from polhode.simulate.contact._mode_state import ModeState
+from polhode.simulate.contact._slip_onset import polar_shape
+from polhode.simulate.integrate._flint import SlipSeries
+from polhode.simulate.integrate._stop_criteria import StepCount, Stop, StopCriteria
+from polhode.simulate.precise._precise_piece import (
+    InDoubles,
+    PiecePoint,
+    SeriesPiece,
+    SeriesStepper,
+    fallen,
+    landing,
+)
+
+_LOOK = 12  # steps after which the guards are looked at
+
+
+class PrecisePieces(ModePieces):
+    """Pieces in higher precision.
+
+    Args:
+        hybrid: the modes, in numbers with bits to spare.
+        entry, near_flat: as in `ModePieces`.
+        steps: what integrates them.
+        tally: of the steps of the whole motion.
+    """
+
+    def __init__(
+        self,
+        hybrid: HybridSystem,
+        entry: ModeState,
+        near_flat: float,
+        steps: SeriesStepper,
+        tally: StepCount,
+    ) -> None:
+        super().__init__(hybrid, entry, near_flat)
+        self._steps = steps
+        self._tally = tally
+
+    def instant(self, time: Any) -> Any:
+        return self._steps.numbers.array([time])[0]
+
+    def _piece(
+        self, state: StateValues, span: tuple[Any, Any], before: TrajectoryPiece | None
+    ) -> PieceEnd:
+        criteria = self._criteria(state, span[0])
+        piece = self._steps.along(self._mode, state, span, criteria)
+        found = self._cut(piece, criteria)
+        again = None
+        if isinstance(found.guard, SideChange):
+            again = nearer(piece.series.times, found.piece.end, self._steps.numbers)
+        if again is not None:
+            limit = self._hybrid.numbers.array([again])[0]
+            return self._piece(state, (span[0], limit), before)
+        refuse_vanishing(self._mode.dynamics, found.piece.rounded())
+        return found
+
+    def _slip_onset(
+        self, state: StateValues, span: tuple[Any, Any], before: TrajectoryPiece | None
+    ) -> PieceEnd:
+        """As far as a power series about the first instant of slip reaches."""
+        mode, entry, numbers = self._mode, self._entry, self._steps.numbers
+        contacts = self._hybrid.automaton.contacts
+        shape = polar_shape(mode, entry, contacts)
+        others = (*mode.dynamics.parameters, CLOCK)
+        program = mode.dynamics.program(shape.wanted, (*shape.symbols, *shape.given, *others))
+        constants, begin = mode.parameters.tolist(), entry.shared.time
+        start = [state[s] for s in shape.symbols]
+        angles = [entry.onset[i] for i in shape.starting]
+        series = SlipSeries(
+            program, others, numbers, constants, start, angles, begin, span[1]
+        ).series()
+        if series is None:
+            names = ", ".join(contacts[i].name for i in shape.starting)
+            raise NumericError(
+                f"slip that begins at {names} at t = {float(begin):.9g} s cannot be followed in "
+                f"{numbers.name} precision",
+                expected="a direction in which it grows steadily",
+                advice="compute the motion in doubles, or end it before that time",
+            )
+        piece = SeriesPiece.of((*shape.symbols, *shape.polars), series, constants, Stop.PAUSE)
+        return self._cut(piece, self._criteria(state, begin))
+
+    def _criteria(self, state: StateValues, now: Any) -> StopCriteria:
+        """What stops an integration: slips that end, too many steps, or reason to look."""
+        vectors = self.slips_in(self._steps.symbols(self._mode.dynamics))
+        scale = self.speed_scale(state, now) or 1 if self._entry.slips else 1
+        finer = self._steps.numbers.finer
+        least, passing = finer(VANISHED) * scale, finer(LANDED) * scale
+        return StopCriteria(_LOOK, vectors, float(least), float(passing), tally=self._tally)
+
+    def _cut(self, piece: SeriesPiece, criteria: StopCriteria) -> PieceEnd:
+        """A piece up to the first guard that falls."""
+        landed = landing(piece, criteria)
+        seen = InDoubles(piece, self._entry.shared.time)
+        fall = self._monitor.first_fall(seen)
+        point, guard = PiecePoint(piece.series.steps - 1, 1), None
+        if landed is not None:
+            point, guard = landed[0], self._monitor.landing(landed[1])
+        if fall is not None and fall[0] < point.step + float(point.share):
+            guard = fall[1]
+            positive = self._monitor.looked_at(guard)
+            point = fallen(self._mode.dynamics, positive, piece, fall[0])
+        if guard is None and piece.solution.stop is Stop.STUCK:
+            raise self._monitor.broken(seen)
+        time = piece.series.time(point.step, point.share)
+        careful = self._hybrid.numbers
+        state = piece.state(point, careful)
+        return PieceEnd(replace(piece, end=time), state, careful.array([time])[0], guard)
+
+
+def precise_pieces(
+    hybrid: HybridSystem, near_flat: float, steps: SeriesStepper
+) -> Callable[[ModeState], PrecisePieces]:
+    """What integrates the modes of one motion, from where each is entered."""
+    tally = StepCount()
+    return lambda entry: PrecisePieces(hybrid, entry, near_flat, steps, tally)

@@ -1,0 +1,219 @@
+"""Chunks of members computed in this process, by worker processes, or on a Dask cluster.
+
+A Dask cluster is not a pool of our own worker processes: it may span many machines, belongs to
+somebody else, gains and loses workers, and schedules the chunks itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Iterable, Iterator
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
+from functools import partial
+from itertools import islice
+from threading import local
+from typing import Any, Protocol, TypeAlias
+from uuid import uuid4
+
+import numpy as np
+
+from polhode.base import NumericError, StoreError, Tell, Worker, WorkerEndedError, answers, extra
+from polhode.study._columns import Members
+from polhode.study._ensemble_runner import EnsembleRunner, EnsembleSpec, ResultChunk, Tick
+
+Place: TypeAlias = tuple[int, ...]
+Chunk: TypeAlias = tuple[Place, Members]
+Computed: TypeAlias = Generator[tuple[Place, ResultChunk], None, None]
+
+_SHARES = 4  # chunks of an ensemble per worker process: members differ in what they take
+_SMALLEST = 8  # members of such a chunk
+_RETRIES = 3  # worker processes that one chunk may lose before it is given up
+_WAITING = 4  # chunks per worker of a cluster that are handed out at a time
+_REACHED_WITHIN = 10.0  # seconds for a scheduler to answer
+_LOST = 8  # workers of a cluster that one chunk may lose before it is given up
+
+
+class Compute(Protocol):
+    """A way of computing chunks."""
+
+    def __call__(self, spec: EnsembleSpec, chunks: Iterable[Chunk]) -> Computed:
+        """Every chunk once, in the order in which they are finished; to be closed."""
+        ...
+
+
+def one_after_the_other(tick: Tick) -> Compute:
+    """In this process.
+
+    Args:
+        tick: told the number of members that are done.
+    """
+
+    def compute(
+        spec: EnsembleSpec, chunks: Iterable[Chunk]
+    ) -> Generator[tuple[Place, ResultChunk]]:
+        runner = EnsembleRunner(spec)
+        for place, members in chunks:
+            yield place, runner.follow(members, tick)
+
+    return compute
+
+
+# -- worker processes ------------------------------------------------------------------------------
+
+
+def in_processes(workers: int, tick: Tick) -> Compute:
+    """By several processes of this machine; one that ends is replaced."""
+
+    def compute(
+        spec: EnsembleSpec, chunks: Iterable[Chunk]
+    ) -> Generator[tuple[Place, ResultChunk]]:
+        left = iter(chunks)
+
+        def following(last: Chunk | None) -> Chunk | None:
+            return next(left, None)
+
+        begin = partial(Worker[Chunk, ResultChunk], partial(_chunk_worker, spec))
+        try:
+            with closing(answers(begin, workers, following, retries=_RETRIES)) as outcomes:
+                for outcome in outcomes:
+                    if outcome.reply is None:
+                        raise _ended(f"at the chunk {outcome.task[0]}")
+                    tick(len(outcome.reply.reason))
+                    yield outcome.task[0], outcome.reply
+        except WorkerEndedError:
+            raise _ended("before they had begun") from None
+
+    return compute
+
+
+def _chunk_worker(spec: EnsembleSpec) -> Callable[[Chunk, Tell[ResultChunk]], ResultChunk]:
+    runner = EnsembleRunner(spec)
+    return lambda chunk, tell: runner.follow(chunk[1], _no_tick)
+
+
+def _no_tick(count: int) -> None:
+    """Members are counted where their chunk arrives."""
+
+
+def _ended(when: str) -> NumericError:
+    return NumericError(
+        f"worker processes that ended {when}",
+        expected="enough memory for all of them, and functions and classes that they can import",
+        advice="use fewer workers, or one to see what happens",
+        option="workers",
+    )
+
+
+def in_shares(spec: EnsembleSpec, members: Members, workers: int, tick: Tick) -> ResultChunk:
+    """Results of all members in their order, whatever number of processes shares the work."""
+    if workers == 1 or members.count == 1:
+        return EnsembleRunner(spec).follow(members, tick)
+    size = max(_SMALLEST, -(-members.count // (workers * _SHARES)))
+    shares = [
+        np.arange(first, min(first + size, members.count))
+        for first in range(0, members.count, size)
+    ]
+    chunks = (((number,), members.rows(rows)) for number, rows in enumerate(shares))
+    results = ResultChunk.empty(spec, members.count)
+    with closing(in_processes(workers, tick)(spec, chunks)) as computed:
+        for (number,), chunk in computed:
+            results = results.put(shares[number], chunk)
+    return results
+
+
+# -- a Dask cluster --------------------------------------------------------------------------------
+
+
+def on_cluster(client: Any, tick: Tick) -> Compute:
+    """On the workers of a Dask cluster, which repeats the chunks of workers that it loses.
+
+    Results are collected and kept here, so that a chunk computed twice counts once.
+    """
+
+    def compute(
+        spec: EnsembleSpec, chunks: Iterable[Chunk]
+    ) -> Generator[tuple[Place, ResultChunk]]:
+        library = _distributed()
+        task = _ClusterTask(uuid4().hex, spec)
+        waiting, places = library.as_completed(), dict[str, Place]()
+        left = iter(chunks)
+
+        def hand_out(count: int) -> None:
+            for place, members in islice(left, count):
+                future = client.submit(_on_worker, task, members, pure=False, retries=_LOST)
+                places[future.key] = place
+                waiting.add(future)
+
+        try:
+            hand_out(max(1, len(client.scheduler_info()["workers"])) * _WAITING)
+            for done in waiting:
+                place = places.pop(done.key)
+                chunk = _received(done, place)
+                tick(len(chunk.reason))
+                hand_out(1)
+                yield place, chunk
+        finally:
+            client.cancel(list(waiting.futures), force=True)
+
+    return compute
+
+
+def _received(done: Any, place: Place) -> ResultChunk:
+    try:
+        chunk: ResultChunk = done.result()
+    except Exception as error:
+        raise StoreError(
+            f"the cluster lost the chunk {place} ({type(error).__name__}: {error})"[:300],
+            expected="workers with polhode installed, in the same version, that stay alive",
+            advice="what is done is kept: go on with resume=True",
+            option="resume",
+        ) from error
+    return chunk
+
+
+@dataclass(frozen=True)
+class _ClusterTask:
+    """What is computed, with a name by which a worker recognises it.
+
+    It is sent with every chunk: one shared copy would be lost with the worker that holds it.
+    """
+
+    name: str
+    spec: EnsembleSpec
+
+
+_of_thread = local()
+
+
+def _on_worker(task: _ClusterTask, members: Members) -> ResultChunk:
+    """On a worker of a cluster; one runner per thread, compiled for its first chunk."""
+    if getattr(_of_thread, "name", None) != task.name:
+        _of_thread.name, _of_thread.runner = task.name, EnsembleRunner(task.spec)
+    runner: EnsembleRunner = _of_thread.runner
+    return runner.follow(members, _no_tick)
+
+
+@contextmanager
+def scheduler(address: str) -> Iterator[Any]:
+    """A client of a scheduler.
+
+    Raises:
+        StoreError: where it does not answer.
+    """
+    library = _distributed()
+    try:
+        client = library.Client(address, timeout=_REACHED_WITHIN)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise StoreError(
+            f"no scheduler answers at {address!r}",
+            expected="the address of a Dask scheduler, such as tcp://host:8786",
+            advice="start one with 'dask scheduler', and workers with 'dask worker ADDRESS'",
+        ) from error
+    with client:
+        yield client
+
+
+def _distributed() -> Any:
+    with extra("dask.distributed", "study"):
+        import distributed
+    return distributed

@@ -1,0 +1,20 @@
+"""Formulas as MathML, spaced as a text would print them."""
+
+import polhode as ph
+from polhode.view import inline, typeset
+
+
+def test_functions_stand_apart_from_what_they_are_of():
+    thin = '<mspace width="0.17em"></mspace>'
+    assert typeset(r"\sin\theta\cos\theta") == (
+        '<math display="inline"><mrow>'
+        f"<mi>sin</mi>{thin}<mi>θ</mi>{thin}<mi>cos</mi>{thin}<mi>θ</mi>"
+        "</mrow></math>"
+    )
+    assert thin not in typeset(r"a + b\omega")
+
+
+def test_a_bracket_stands_close_to_its_function():
+    a, b = ph.symbols("a b")
+    assert "mspace" not in inline(ph.sin(a + b))
+    assert "mspace" in inline(ph.sin(a))
