@@ -63,7 +63,7 @@ def _unpacked(node: str) -> Path:
     folder.mkdir(exist_ok=True)
     with (folder / "lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        told = subprocess.run(
+        unpacked = subprocess.run(
             [node, "unpack.mjs"],
             cwd=HERE,
             env={**os.environ, "TMPDIR": os.fspath(folder)},
@@ -72,7 +72,7 @@ def _unpacked(node: str) -> Path:
             text=True,
             timeout=600,
         )
-    return Path(told.stdout.strip())
+    return Path(unpacked.stdout.strip())
 
 
 def lacking_libraries(program: Path) -> list[str]:

@@ -113,7 +113,7 @@ def test_an_unknown_context_is_refused():
 
 
 @pytest.mark.parametrize(
-    ("latex", "told"),
+    ("latex", "message"),
     [
         (r"L_z = I_1\omega_1 cos\theta", r"\cos"),
         ("I_1*omega_1 = 0", r"\omega"),
@@ -122,10 +122,10 @@ def test_an_unknown_context_is_refused():
         (r"\mathbf{L} = M", "two scalars or two vectors"),
     ],
 )
-def test_what_cannot_be_read_says_what_to_do(latex, told):
+def test_what_cannot_be_read_says_what_to_do(latex, message):
     verdict = ph.check(latex, equations("gyroscope"))
     assert verdict.answer is Answer.UNREAD
-    assert told in verdict.reason
+    assert message in verdict.reason
 
 
 @pytest.mark.parametrize(
@@ -152,15 +152,15 @@ def test_a_power_of_e_is_an_exponential_unless_e_is_a_letter():
 
 
 def test_a_failure_is_reported_before_its_correction():
-    told = []
+    failures = []
     gyroscope = equations("gyroscope")
-    verdict = ph.check(r"F_z = Mg - Ma(\ddot\theta\sin\theta)", gyroscope, tell=told.append)
-    (failure,) = told
+    verdict = ph.check(r"F_z = Mg - Ma(\ddot\theta\sin\theta)", gyroscope, tell=failures.append)
+    (failure,) = failures
     assert failure.answer is verdict.answer is Answer.FAILS
     assert failure.correction is None
     assert verdict.correction is not None
-    ph.check(r"\dot\omega_1 = 0", gyroscope, tell=told.append)
-    assert told == [failure]
+    ph.check(r"\dot\omega_1 = 0", gyroscope, tell=failures.append)
+    assert failures == [failure]
 
 
 def test_a_verdict_is_shown_in_latex():

@@ -173,7 +173,7 @@ def test_parts_of_results_are_typeset():
     assert "phi_dot" in grown._repr_html_()
 
 
-def test_contact_modes_are_named_and_what_is_known_of_them_is_told():
+def test_contact_modes_are_named_with_what_is_known_of_them():
     modes = ph.automaton(ph.with_friction(CATALOGUE["rolling-disk"].build(), ph.symbol("mu")))
     assert "modes: rolling; sliding; frictionless; flight" in modes._repr_html_()
     assert "lasts while" not in modes._repr_html_()

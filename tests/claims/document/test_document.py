@@ -215,9 +215,9 @@ def test_every_part_treats_a_system_of_the_catalogue() -> None:
 
 def test_every_definition_says_where_the_text_has_it() -> None:
     found = document()
-    told = [d for owner in (*found.parts, *found.claims) for d in owner.definitions]
-    assert told
-    assert all(definition.where for definition in told)
+    definitions = [d for owner in (*found.parts, *found.claims) for d in owner.definitions]
+    assert definitions
+    assert all(definition.where for definition in definitions)
 
 
 def test_the_two_equations_without_number_are_those_of_the_contract() -> None:

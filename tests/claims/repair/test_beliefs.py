@@ -1,4 +1,4 @@
-"""What beginners believe of spinning things: each is told what holds instead, if that is short."""
+"""What beginners believe of spinning things: each is corrected, if that is short."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def test_a_quantity_that_a_claim_is_about_keeps_its_letter():
     assert verdict.correction.latex.startswith("T = ")
 
 
-def test_a_belief_about_what_nothing_determines_is_refuted_by_both_and_told_to_be_open():
+def test_a_belief_about_an_undetermined_force_is_refuted_by_both_and_called_undetermined():
     verdict = judged("gyroscope/held", "F_z = M g / 2", "motion")
     assert verdict.confirmation.agrees
     assert "do not determine F_z" in " ".join(verdict.remarks)

@@ -70,7 +70,7 @@ def _fails(t):
 
 
 @pytest.mark.parametrize(
-    ("function", "told"),
+    ("function", "message"),
     [
         (lambda t: abs(t - 1), r"not smooth near t = 1 s.*corner"),
         (lambda t: abs(t - 1.5), r"not smooth near t = 1.5 s"),
@@ -86,8 +86,8 @@ def _fails(t):
         (_fails, "no such time"),
     ],
 )
-def test_invalid_functions_are_refused(function, told):
-    with pytest.raises(NumericError, match=told):
+def test_invalid_functions_are_refused(function, message):
+    with pytest.raises(NumericError, match=message):
         approximated(function, 0.0, 3.0)
 
 
@@ -122,8 +122,8 @@ def test_a_box_is_never_missed(width):
         begin = rng.uniform(0, 1 - width)
         with pytest.raises(NumericError, match="not smooth near t") as refusal:
             approximated(box(begin, width), 0.0, 1.0)
-        told = float(str(refusal.value).split("t = ")[1].split(" s")[0])
-        assert min(abs(told - begin), abs(told - begin - width)) < 1e-5
+        reported = float(str(refusal.value).split("t = ")[1].split(" s")[0])
+        assert min(abs(reported - begin), abs(reported - begin - width)) < 1e-5
 
 
 @pytest.mark.parametrize("half", [0.02, 0.005, 0.001])

@@ -121,14 +121,14 @@ def test_noise_larger_than_the_motion_leaves_rest():
     assert np.max(np.abs(still.velocity(np.linspace(0, 1, 99)))) < 1e-4
 
 
-def test_noise_too_small_to_tell_leaves_the_samples():
+def test_noise_too_small_to_matter_leaves_the_samples():
     times = np.linspace(0, 1, 20)
     curve = sampled(times, np.sin(9 * times) ** 2, noise=1e-14)
     assert curve.value(times) == pytest.approx(np.sin(9 * times) ** 2, abs=1e-6)
 
 
 @pytest.mark.parametrize(
-    ("times", "values", "more", "told"),
+    ("times", "values", "more", "message"),
     [
         ([0, 1], [0, 1, 2], {}, "one value for each time"),
         ([0, 1, 1], [0, 1, 2], {}, "times that increase"),
@@ -145,8 +145,8 @@ def test_noise_too_small_to_tell_leaves_the_samples():
         ([0, 1e-200], [0, 1e200], {}, "moderate size"),
     ],
 )
-def test_invalid_samples_are_refused(times, values, more, told):
-    with pytest.raises(NumericError, match=told):
+def test_invalid_samples_are_refused(times, values, more, message):
+    with pytest.raises(NumericError, match=message):
         sampled(times, values, **more)
 
 
@@ -284,8 +284,8 @@ BAD = {
 
 @pytest.mark.parametrize("name", BAD)
 def test_bad_sheets_are_refused_in_a_few_words(written, name):
-    content, told = BAD[name]
-    with pytest.raises(PolhodeError, match=told) as refused:
+    content, message = BAD[name]
+    with pytest.raises(PolhodeError, match=message) as refused:
         read_sheet(written(content))
     assert len(str(refused.value)) < 300
 
