@@ -28,7 +28,7 @@ def hooks():
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_page_tells_the_truth(hooks, page, tmp_path, monkeypatch):
+def test_examples_print_what_the_page_says(hooks, page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     text = page.read_text("utf-8")
     hooks.run_page(text, page.name)
@@ -55,7 +55,7 @@ def test_every_page_is_in_the_table_of_contents():
     assert sorted(listed) == sorted(pages)
 
 
-def test_every_public_name_is_told_and_stands_in_the_reference(hooks):
+def test_every_public_name_is_described_and_stands_in_the_reference(hooks):
     """Under the place it lives at, so that the table of all names leads to it."""
     reference = "".join(p.read_text("utf-8") for p in (ROOT / "docs" / "reference").glob("*.md"))
     described = re.findall(r"^::: (\S+)$", reference, re.MULTILINE)
@@ -66,7 +66,7 @@ def test_every_public_name_is_told_and_stands_in_the_reference(hooks):
     assert len(described) == len(set(described))
 
 
-def test_everything_in_the_reference_exists_and_is_told():
+def test_everything_in_the_reference_exists_and_is_described():
     reference = "".join(p.read_text("utf-8") for p in (ROOT / "docs" / "reference").glob("*.md"))
     for path, options in re.findall(r"^::: (\S+)\n(?: +options: (.+)\n)?", reference, re.MULTILINE):
         room, _, name = path.rpartition(".")

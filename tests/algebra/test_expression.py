@@ -230,7 +230,7 @@ def test_only_a_symbol_can_be_replaced_or_differentiated_by():
         x.diff(2 * x)
 
 
-def test_an_expression_tells_what_it_is():
+def test_an_expression_says_what_it_is():
     assert x.symbol is not None
     assert x.symbol.published == "x"
     assert (2 * x).symbol is None

@@ -1,15 +1,10 @@
 """Catalogue systems derived once, with their symbols by name."""
 
-from functools import cache
-
+from catalogue.systems import equations
 from polhode.algebra import Expr
-from polhode.catalogue import CATALOGUE
-from polhode.derive import Equations, derive
+from polhode.derive import Equations
 
-
-@cache
-def equations(name: str) -> Equations:
-    return derive(CATALOGUE[name].build())
+__all__ = ["equations", "symbols"]
 
 
 def symbols(derived: Equations) -> dict[str, Expr]:

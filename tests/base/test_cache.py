@@ -14,7 +14,7 @@ def place(tmp_path, monkeypatch):
     return tmp_path / "cache"
 
 
-def test_clear_empties_and_tells_how_much():
+def test_clear_empties_and_returns_how_much():
     (cache.folder("compiled") / "object").write_bytes(bytes(500))
     assert cache.clear() >= 500
     assert cache.clear() == 0
@@ -39,7 +39,7 @@ def test_clear_of_no_cache_frees_nothing():
     assert cache.clear() == 0
 
 
-def test_a_folder_that_cannot_be_made_is_told(tmp_path, monkeypatch):
+def test_a_folder_that_cannot_be_made_is_reported(tmp_path, monkeypatch):
     (tmp_path / "file").write_text("in the way")
     monkeypatch.setenv("POLHODE_CACHE", str(tmp_path / "file"))
     with pytest.raises(StoreError, match="set POLHODE_CACHE"):

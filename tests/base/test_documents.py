@@ -1,4 +1,4 @@
-"""Objects in documents: shared parts once, unknown ones never, damage told in words."""
+"""Objects in documents: shared parts once, unknown ones never, damage named in words."""
 
 import json
 import platform
@@ -73,7 +73,7 @@ def test_true_is_not_one():
     assert CODEC.write(Pair(True, 0)) != CODEC.write(Pair(1, False))
 
 
-def test_digests_tell_documents_apart():
+def test_digests_distinguish_documents():
     assert digest(CODEC.write(Pair(1, 2))) == digest(CODEC.write(Pair(1, 2)))
     assert digest(CODEC.write(Pair(1, 2))) != digest(CODEC.write(Pair(2, 1)))
 
@@ -150,7 +150,7 @@ BAD = {
 
 
 @pytest.mark.parametrize("name", BAD)
-def test_damage_is_told_in_words(name):
+def test_damage_is_named_in_words(name):
     with pytest.raises(StoreError, match="a declaration that cannot be read: ") as refused:
         CODEC.read(BAD[name], Pair)
     assert len(str(refused.value)) < 500
@@ -172,7 +172,7 @@ def test_another_schema(schema):
         CODEC.read(document(ONE, schema=schema), Pair)
 
 
-def test_a_document_tells_what_it_was_made_with():
+def test_a_document_says_what_it_was_made_with():
     made = provenance(seed=7)
     assert made["schema"] == SCHEMA
     assert made["seed"] == 7
@@ -190,12 +190,12 @@ def test_what_is_not_installed_has_no_version():
     assert installed_version("no-such-distribution-anywhere") is None
 
 
-def test_telling_imports_no_library():
+def test_versions_are_found_without_imports():
     program = (
         "import sys; from polhode.base import provenance; provenance();"
         "print(sorted({'numpy', 'scipy', 'heyoka', 'sympy', 'flint'} & sys.modules.keys()))"
     )
-    told = subprocess.run(
+    done = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
-    assert told.stdout.strip() == "[]"
+    assert done.stdout.strip() == "[]"

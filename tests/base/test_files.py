@@ -21,7 +21,7 @@ def test_a_file_and_a_pipe(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("name", "told"),
+    ("name", "reason"),
     [
         ("/dev/zero", "there is no end to it"),
         ("/", "Is a directory"),
@@ -29,6 +29,6 @@ def test_a_file_and_a_pipe(tmp_path):
         ("a\0b", "null"),
     ],
 )
-def test_what_cannot_be_read(name, told):
-    with pytest.raises(StoreError, match=rf"cannot be read \(.*{told}.*expected a table"):
+def test_what_cannot_be_read(name, reason):
+    with pytest.raises(StoreError, match=rf"cannot be read \(.*{reason}.*expected a table"):
         read_whole(Path(name), "a table")

@@ -71,7 +71,7 @@ def test_an_angle_is_a_pure_number():
 
 
 @pytest.mark.parametrize("name", ["xyz", "mdeg", "kmin", "KG", "dm"])
-def test_a_name_outside_the_table_is_told(name):
+def test_a_name_outside_the_table_is_refused(name):
     with pytest.raises(UnitError, match=f"the unit '{name}' is not known; expected m g s rad"):
         read_unit(name)
 

@@ -63,21 +63,21 @@ def _unpacked(node: str) -> Path:
     folder.mkdir(exist_ok=True)
     with (folder / "lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        told = subprocess.run(
+        unpacked = subprocess.run(
             [node, "unpack.mjs"],
             cwd=HERE,
             env={**os.environ, "TMPDIR": os.fspath(folder)},
             check=True,
             capture_output=True,
             text=True,
-            timeout=120,
+            timeout=600,
         )
-    return Path(told.stdout.strip())
+    return Path(unpacked.stdout.strip())
 
 
 def lacking_libraries(program: Path) -> list[str]:
     """Shared libraries that the loader does not find."""
     ldd = subprocess.run(
-        ["ldd", os.fspath(program)], capture_output=True, text=True, check=False, timeout=60
+        ["ldd", os.fspath(program)], capture_output=True, text=True, check=False, timeout=600
     )
     return re.findall(r"(\S+) => not found", ldd.stdout)

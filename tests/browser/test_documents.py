@@ -37,12 +37,12 @@ def site(tmp_path_factory):
         shutil.copy(ROOT / "docs" / name, folder / "docs" / name)
     for name in ("theme", "pictures"):
         shutil.copytree(ROOT / "docs" / name, folder / "docs" / name)
-    told = (
+    settings = (
         f"INHERIT: {ROOT / 'mkdocs.yml'}\nhooks: [{ROOT / 'docs_hooks.py'}]\nstrict: false\n"
         f"docs_dir: {folder / 'docs'}\nsite_dir: {folder / 'site'}\nuse_directory_urls: false\n"
         f"nav: [{', '.join(CHOSEN)}]\n"
     )
-    (folder / "mkdocs.yml").write_text(told, "utf-8")
+    (folder / "mkdocs.yml").write_text(settings, "utf-8")
     command = [sys.executable, "-m", "mkdocs", "build", "--quiet", "-f", str(folder / "mkdocs.yml")]
     subprocess.run(command, check=True, cwd=ROOT, capture_output=True, timeout=120)
     server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=folder / "site"))
@@ -79,8 +79,8 @@ def test_axe_finds_no_serious_fault_of_the_documents(page):
         page.wait_for_selector(f"body[data-md-color-scheme={named}]", timeout=PATIENCE)
         page.wait_for_timeout(400)  # colours fade
         faults = page.evaluate("axe.run()")["violations"]
-        told = [(f["id"], f["nodes"][0]["html"]) for f in faults if f["impact"] != "minor"]
-        assert (scheme, told) == (scheme, [])
+        serious = [(f["id"], f["nodes"][0]["html"]) for f in faults if f["impact"] != "minor"]
+        assert (scheme, serious) == (scheme, [])
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
 
 

@@ -105,7 +105,7 @@ WATCH_TEXT = """(() => {
 
 
 @pytest.mark.parametrize("swing", [3e-5, 2e-3, 5.0])
-def test_the_numbers_at_an_axis_can_be_told_apart(opened, tmp_path, swing):
+def test_the_numbers_at_an_axis_differ(opened, tmp_path, swing):
     shown = ph.scene(run_of("gyrocompass"))
     values = 11.21 + swing * np.sin(np.linspace(0, 9, 400))
     panel = Panel("rad/s", (PlotSeries("q", "<math><mi>q</mi></math>", values),))

@@ -94,7 +94,7 @@ def audited(tmp_path_factory):
     path = tmp_path_factory.mktemp("audit") / "audit.html"
     only = [word for claim in ("1", "13", "66") for word in ("--only", claim)]
     command = [sys.executable, "-m", "polhode", "audit", *only, "--html", str(path)]
-    subprocess.run(command, check=False, capture_output=True, timeout=120)  # 1: some fail
+    subprocess.run(command, check=False, capture_output=True, timeout=600)  # 1: some fail
     html = path.read_text("utf-8")
     path.write_text(html.replace("<body ", "<body data-ready "), "utf-8")
     return path

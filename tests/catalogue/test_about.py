@@ -19,11 +19,11 @@ def test_as_declared_the_words_of_the_entry(name: str) -> None:
 @pytest.mark.parametrize("name", TOUCHING)
 def test_with_friction_it_is_not_said_to_roll_throughout(name: str) -> None:
     entry = CATALOGUE[name]
-    told = about_with(entry, with_friction(entry.build(), 0.1))
-    assert "μ = 0.1" in told
+    about = about_with(entry, with_friction(entry.build(), 0.1))
+    assert "μ = 0.1" in about
     assert entry.whatever_touches
-    assert told.startswith(entry.whatever_touches)
-    assert not any(words in told for words in ("without slipping", "throughout", "frictionless"))
+    assert about.startswith(entry.whatever_touches)
+    assert not any(words in about for words in ("without slipping", "throughout", "frictionless"))
 
 
 def test_numbers_of_the_declaration() -> None:

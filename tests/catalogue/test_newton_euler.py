@@ -34,7 +34,7 @@ IN_LAB = ["F_x", "F_y", "F_z"]
 
 
 def thin(state: dict[str, float]) -> dict[str, float]:
-    """The state of a uniform disk, with the moments of inertia that the oracle is told."""
+    """The state of a uniform disk, with the moments of inertia that the oracle has."""
     share = state["m"] * state["a"] ** 2 / 4
     return {**state, "I_1": share, "I_3": 2 * share}
 

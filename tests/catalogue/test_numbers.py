@@ -30,10 +30,10 @@ def test_the_defaults_are_a_run(name):
 def test_units_of_the_catalogue_are_those_that_follow_from_use(name):
     entry = CATALOGUE[name]
     inferred = ph.derive(entry.build()).dimensions
-    told = {p.name: read_unit(p.unit).dimension if p.unit else PURE for p in entry.parameters}
-    used = {s.published: d for s, d in inferred.items() if s.published in told}
+    declared = {p.name: read_unit(p.unit).dimension if p.unit else PURE for p in entry.parameters}
+    used = {s.published: d for s, d in inferred.items() if s.published in declared}
     assert used
-    assert used == {key: told[key] for key in used}
+    assert used == {key: declared[key] for key in used}
 
 
 def test_defaults_follow_what_they_are_made_of():

@@ -47,7 +47,7 @@ def dimension_powers(dimension: Dimension) -> tuple[float, float, float]:
 
 
 def input_dimensions(equations: Equations) -> Iterator[tuple[str, Dimension]]:
-    """Everything that the equations have to be told, by name."""
+    """Values of everything that the equations leave open, by name."""
     used = variables((*equations.rows, *equations.kinematics.values(), equations.energy))
     used |= variables((*equations.least.values(), equations.power))
     states = {*equations.coordinates, *equations.speeds}

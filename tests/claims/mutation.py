@@ -8,11 +8,12 @@ from dataclasses import dataclass, field
 from functools import cache, reduce
 from random import Random
 
+from catalogue.systems import equations
 from claims.mutants import Mutant, mutants
 from claims.oracle import JUDGED, Oracle
 from polhode.algebra import Expr, Symbol, Vector
 from polhode.base import PolhodeError
-from polhode.catalogue import CATALOGUE, problem_set
+from polhode.catalogue import problem_set
 from polhode.claims import Answer, Claim, Document, Notation, read_document
 from polhode.claims._check import judged_claim
 from polhode.claims._typed import with_start
@@ -22,17 +23,11 @@ from polhode.claims.meaning._meaning import Side
 from polhode.claims.meaning._relations import BoundRelation
 from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import AnyState
-from polhode.derive import Equations, derive
 
 
 @cache
 def document() -> Document:
     return read_document(problem_set())
-
-
-@cache
-def _equations(system: str) -> Equations:
-    return derive(CATALOGUE[system].build())
 
 
 @dataclass(frozen=True)
@@ -47,7 +42,7 @@ class Original:
     @classmethod
     def of(cls, claim: Claim) -> Original:
         part = document().part_of(claim)
-        notation = Notation.of_part(_equations(part.system), part).of_claim(claim)
+        notation = Notation.of_part(equations(part.system), part).of_claim(claim)
         start = (f"{name} = {value}" for name, value in claim.start.items())
         notation = reduce(with_start, start, notation)
         statement = read_latex(claim.formula)

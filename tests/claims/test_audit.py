@@ -7,7 +7,7 @@ import json
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from catalogue.systems import equations
 from polhode.claims import Answer, Claim, Definition, Document, Part
 from polhode.claims._audit import audit
 
@@ -20,12 +20,8 @@ CLAIMS = (
 DOCUMENT = Document("A text", "by hand", (PART,), CLAIMS)
 
 
-def equations_of(name: str) -> ph.Equations:
-    return ph.derive(CATALOGUE[name].build())
-
-
 def test_every_claim_gets_its_verdict_and_consequences_are_listed():
-    report = audit(DOCUMENT, equations_of)
+    report = audit(DOCUMENT, equations)
     answers = {j.claim.id: j.verdict.answer for j in report.judged}
     assert answers == {"a": Answer.HOLDS, "b": Answer.FAILS, "c": Answer.UNREAD}
     assert report.judged[2].fed_by == ("b",)
@@ -34,7 +30,7 @@ def test_every_claim_gets_its_verdict_and_consequences_are_listed():
 
 
 def test_the_consequences_of_a_failure_are_listed():
-    (drawn,) = audit(DOCUMENT, equations_of).consequences
+    (drawn,) = audit(DOCUMENT, equations).consequences
     assert (drawn.failed, drawn.feeds, drawn.results, drawn.surviving) == ("b", ("c",), ("c",), ())
     assert "(b) feeds (c); what does not: (c)" in str(drawn)
 
@@ -42,13 +38,13 @@ def test_the_consequences_of_a_failure_are_listed():
 def test_a_result_that_holds_survives_the_failure_it_was_derived_from():
     wrong = Claim("1", "7", latex=r"F_z = 2Mg")
     right = Claim("2", "7", latex=r"\dot\omega_1 = 0", follows_from=("1",))
-    report = audit(Document("A text", "", (PART,), (wrong, right)), equations_of)
+    report = audit(Document("A text", "", (PART,), (wrong, right)), equations)
     assert report.consequences[0].surviving == ("2",)
     assert "what survives: (2)" in report.table()
 
 
 def test_the_document_of_a_report_is_plain():
-    document = json.loads(json.dumps(audit(DOCUMENT, equations_of).to_json()))
+    document = json.loads(json.dumps(audit(DOCUMENT, equations).to_json()))
     assert document["counts"]["fails"] == 1
     claim = document["claims"][1]
     assert claim["verdict"] == "fails"
@@ -57,7 +53,7 @@ def test_the_document_of_a_report_is_plain():
 
 
 def test_the_short_table_counts_by_part_and_shows_what_fails():
-    short = audit(DOCUMENT, equations_of).short_table()
+    short = audit(DOCUMENT, equations).short_table()
     assert "Gyroscope  1 holds, 1 fails, 1 unread" in short
     assert "wrong sign" in short
 
@@ -69,7 +65,7 @@ def test_the_table_shows_what_was_read_and_by_which_convention():
         Claim("2", "7", words="the spin stays", means=r"\dot\omega_1 = 0"),
         Claim("3", "7", latex=r"\dot\phi = 0", given=(r"\dot\phi = 0",)),
     )
-    table = audit(Document("A text", "", (part,), claims), equations_of).table()
+    table = audit(Document("A text", "", (part,), claims), equations).table()
     lines = [line.strip() for line in table.splitlines()]
     assert lines[:2] == ["Gyroscope", "Axis 1 is the axle."]
     assert lines[3:6] == [
@@ -82,10 +78,10 @@ def test_the_table_shows_what_was_read_and_by_which_convention():
 
 
 def test_single_claims_can_be_judged():
-    report = audit(DOCUMENT, equations_of, only=["a"])
+    report = audit(DOCUMENT, equations, only=["a"])
     assert [j.claim.id for j in report.judged] == ["a"]
 
 
 def test_an_unknown_claim_is_refused():
     with pytest.raises(ph.ParseError):
-        audit(DOCUMENT, equations_of, only=["z"])
+        audit(DOCUMENT, equations, only=["z"])

@@ -2,19 +2,11 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from catalogue.systems import equations
 from polhode.claims import Answer
-
-
-@cache
-def equations(name: str) -> ph.Equations:
-    return ph.derive(CATALOGUE[name].build())
-
 
 HOLDING = [
     ("gyroscope", r"F_\phi = Ma(\ddot\phi\sin\theta + 2\dot\phi\dot\theta\cos\theta)", {}),
@@ -121,7 +113,7 @@ def test_an_unknown_context_is_refused():
 
 
 @pytest.mark.parametrize(
-    ("latex", "told"),
+    ("latex", "message"),
     [
         (r"L_z = I_1\omega_1 cos\theta", r"\cos"),
         ("I_1*omega_1 = 0", r"\omega"),
@@ -130,10 +122,10 @@ def test_an_unknown_context_is_refused():
         (r"\mathbf{L} = M", "two scalars or two vectors"),
     ],
 )
-def test_what_cannot_be_read_says_what_to_do(latex, told):
-    verdict = ph.check(latex, ph.derive(CATALOGUE["gyroscope"].build()))
+def test_what_cannot_be_read_says_what_to_do(latex, message):
+    verdict = ph.check(latex, equations("gyroscope"))
     assert verdict.answer is Answer.UNREAD
-    assert told in verdict.reason
+    assert message in verdict.reason
 
 
 @pytest.mark.parametrize(
@@ -147,7 +139,7 @@ def test_what_cannot_be_read_says_what_to_do(latex, told):
     ],
 )
 def test_other_ways_to_print_derivatives_and_vectors(latex):
-    verdict = ph.check(latex, ph.derive(CATALOGUE["gyroscope"].build()))
+    verdict = ph.check(latex, equations("gyroscope"))
     assert verdict.answer is Answer.HOLDS
 
 
@@ -160,19 +152,19 @@ def test_a_power_of_e_is_an_exponential_unless_e_is_a_letter():
 
 
 def test_a_failure_is_reported_before_its_correction():
-    told = []
-    gyroscope = ph.derive(CATALOGUE["gyroscope"].build())
-    verdict = ph.check(r"F_z = Mg - Ma(\ddot\theta\sin\theta)", gyroscope, tell=told.append)
-    (failure,) = told
+    failures = []
+    gyroscope = equations("gyroscope")
+    verdict = ph.check(r"F_z = Mg - Ma(\ddot\theta\sin\theta)", gyroscope, tell=failures.append)
+    (failure,) = failures
     assert failure.answer is verdict.answer is Answer.FAILS
     assert failure.correction is None
     assert verdict.correction is not None
-    ph.check(r"\dot\omega_1 = 0", gyroscope, tell=told.append)
-    assert told == [failure]
+    ph.check(r"\dot\omega_1 = 0", gyroscope, tell=failures.append)
+    assert failures == [failure]
 
 
 def test_a_verdict_is_shown_in_latex():
-    gyroscope = ph.derive(CATALOGUE["gyroscope"].build())
+    gyroscope = equations("gyroscope")
     verdict = ph.check(r"F_z = Mg - Ma(\ddot\theta\sin\theta)", gyroscope)
     assert verdict._repr_latex_().startswith(r"$\displaystyle \begin{array}{l} \text{fails}")
 
@@ -181,7 +173,7 @@ def test_a_verdict_is_shown_in_latex():
     "latex", [r"L_{cm,z} = I_1\omega_1", r"L_{cm,z} = \mathbf L_{cm}\cdot\hat{\mathbf z}"]
 )
 def test_every_verdict_says_how_letters_were_read(latex: str) -> None:
-    verdict = ph.check(latex, ph.derive(CATALOGUE["gyroscope"].build()))
+    verdict = ph.check(latex, equations("gyroscope"))
     meant = {reading.letter: reading.meaning for reading in verdict.readings}
     assert meant[r"\mathbf{L}_{\mathrm{cm}}"] == "angular momentum about cm"
     assert meant[r"\hat{\mathbf{z}}"] == "axis z of lab"

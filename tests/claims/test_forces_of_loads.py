@@ -1,4 +1,4 @@
-"""The force of a load has a letter of its own, whoever defined the load."""
+"""The force of a load has a letter of its own, also where a user defined the load."""
 
 import pytest
 

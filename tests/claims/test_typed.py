@@ -5,9 +5,9 @@ from functools import cache
 import pytest
 
 import polhode as ph
+from catalogue.systems import equations
 from polhode.algebra import Expr, pi
 from polhode.base import ParseError
-from polhode.catalogue import CATALOGUE
 from polhode.claims._notation import Notation, letter
 from polhode.claims._typed import typed, with_given, with_let, with_small
 from polhode.claims.latex import read_latex
@@ -18,7 +18,7 @@ THETA = ph.coordinate("theta")
 
 @cache
 def disk() -> Notation:
-    return Notation.of(ph.derive(CATALOGUE["rolling-disk"].build()))
+    return Notation.of(equations("rolling-disk"))
 
 
 @pytest.mark.parametrize("text", ["epsilon=theta-pi/2", r"\epsilon = \theta - \pi/2"])

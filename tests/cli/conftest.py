@@ -6,8 +6,7 @@ from polhode.cli import main
 
 
 @pytest.fixture(autouse=True)
-def _cache_of_its_own(tmp_path_factory, monkeypatch):
-    monkeypatch.setenv("POLHODE_CACHE", str(tmp_path_factory.getbasetemp() / "cache"))
+def _no_traceback(monkeypatch):
     monkeypatch.delenv("POLHODE_DEBUG", raising=False)
 
 

@@ -78,9 +78,9 @@ def test_a_failure_is_reported_even_if_no_correction_is_found_in_time(capsys, mo
     monkeypatch.setattr(CheckRequest, "judged", failing)
     monkeypatch.setattr(_check, "_LONGEST", 2.0)
     assert main(["check", "gyroscope", "F_z = M g"]) == 1
-    told = capsys.readouterr().out
-    assert "for a reason" in told
-    assert "looking for a correction took more than 2 s" in told
+    printed = capsys.readouterr().out
+    assert "for a reason" in printed
+    assert "looking for a correction took more than 2 s" in printed
 
 
 def test_a_process_that_dies_is_reported(capsys, monkeypatch):

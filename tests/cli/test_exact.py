@@ -36,23 +36,23 @@ SYSTEMS = {
 
 @pytest.mark.parametrize(("name", "expected"), SYSTEMS.items())
 def test_every_system_agrees_with_its_simulation(document, name, expected):
-    told = document("exact", name, "--duration", "1s")
-    assert list(misshapen(told, EXACT)) == []
-    assert (told["closed_form"], told["kind"]) == expected
-    rounding = 1e-14 * (1 + told["conditioning"]["data"] + told["conditioning"]["steps"])
-    assert told["max_difference"] < 100 * rounding
-    assert told["drift"]["energy"] < 1e-12
+    found = document("exact", name, "--duration", "1s")
+    assert list(misshapen(found, EXACT)) == []
+    assert (found["closed_form"], found["kind"]) == expected
+    rounding = 1e-14 * (1 + found["conditioning"]["data"] + found["conditioning"]["steps"])
+    assert found["max_difference"] < 100 * rounding
+    assert found["drift"]["energy"] < 1e-12
 
 
 def test_a_start_is_taken_exactly(document):
     """√3 is no double: on the separatrix only if it is kept as a root."""
     moments = [word for i in (1, 2, 3) for word in ("--set", f"I_{i}={i}")]
     start = ["--start", "omega_1=sqrt(3)", "--start", "omega_2=1", "--start", "omega_3=1"]
-    told = document("exact", "tennis-racquet", *moments, *start, "--duration", "1s")
-    assert told["kind"] == "separatrix"
-    assert told["period"] is None
-    assert told["conditioning"] == {"data": None, "steps": None}
-    assert told["max_difference"] < 1e-13
+    found = document("exact", "tennis-racquet", *moments, *start, "--duration", "1s")
+    assert found["kind"] == "separatrix"
+    assert found["period"] is None
+    assert found["conditioning"] == {"data": None, "steps": None}
+    assert found["max_difference"] < 1e-13
 
 
 def test_the_text_output(polhode):

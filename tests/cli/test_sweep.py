@@ -19,12 +19,12 @@ def store(tmp_path_factory):
 
 def test_a_sweep_reports_its_members(store, capsys):
     assert main([*SWEEP, *SHORT, "--keep", "theta", "--out", store, "--resume", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert told["members"] == 6
-    assert told["failed"] == 0
-    assert told["store"] == store
-    assert told["seconds"] > 0
-    assert told["schema"] == 2
+    found = json.loads(capsys.readouterr().out)
+    assert found["members"] == 6
+    assert found["failed"] == 0
+    assert found["store"] == store
+    assert found["seconds"] > 0
+    assert found["schema"] == 2
 
 
 def test_a_map_is_drawn(store, tmp_path, capsys):
@@ -36,7 +36,7 @@ def test_a_map_is_drawn(store, tmp_path, capsys):
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "message"),
     [
         ([*SWEEP, *SHORT], "--out"),
         (["sweep", "rolling-disk", "--axis", "theta=1:2", "--out", "x"], "FROM:TO:COUNT"),
@@ -51,11 +51,11 @@ def test_a_map_is_drawn(store, tmp_path, capsys):
         (["map", "nothing", "-o", "x.png"], "does not exist"),
     ],
 )
-def test_refusals(words, told, capsys, tmp_path, monkeypatch):
+def test_refusals(words, message, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("polhode.study._compute._REACHED_WITHIN", 0.5)
     assert main(words) == 2
-    assert told in capsys.readouterr().err
+    assert message in capsys.readouterr().err
 
 
 def test_a_map_needs_an_existing_output(store, tmp_path, capsys):

@@ -80,7 +80,7 @@ def by_hand(size: int, state: Mapping[str, float], *, hitch: bool = True) -> dic
             right[row] = (spin[k] ** 2 * front - spin[k - 1] ** 2 * rear)[i]
             row += 1
     found = np.linalg.solve(matrix, right)
-    told = dict(zip(names, found[accelerations:], strict=True))
+    named = dict(zip(names, found[accelerations:], strict=True))
     for k in range(size):
-        told[f"phi_{k}_ddot"] = found[3 * k + 2]
-    return {name: float(value) for name, value in told.items()}
+        named[f"phi_{k}_ddot"] = found[3 * k + 2]
+    return {name: float(value) for name, value in named.items()}

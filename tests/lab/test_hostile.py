@@ -28,11 +28,11 @@ def stays_up(ask):
 
 def refused(response, *, status=(400, 422), says=""):
     assert response.status_code in status
-    told = response.json()
-    assert set(told) == {"given", "expected", "advice"}
-    assert says in " ".join(told.values())
+    error = response.json()
+    assert set(error) == {"given", "expected", "advice"}
+    assert says in " ".join(error.values())
     assert "Traceback" not in response.text
-    return told
+    return error
 
 
 @pytest.mark.parametrize(
@@ -175,8 +175,8 @@ def test_paths_that_lead_elsewhere(client, path):
     "system", ["../../etc/passwd", "x.py:y", SCRIPT, "gyroscope\x00", "", "é" * 200]
 )
 def test_systems_that_are_not_on_offer(ask, system):
-    told = refused(ask("run", system=system))
-    assert "rolling-disk" in told["expected"]
+    error = refused(ask("run", system=system))
+    assert "rolling-disk" in error["expected"]
 
 
 @pytest.mark.parametrize(

@@ -63,9 +63,9 @@ def test_what_is_read_is_of_the_picture_and_not_computed_again():
     whole = scene(result.run, plots=plots_of(result.variant, result.run))
     seen = scenery(result.run)
     assert (seen.panels, seen.motion, seen.evidence) == ((), (), ())
-    told = summary_of(result.variant, result.run)
-    assert [p.unit for p in told.panels] == [p.unit for p in whole.panels]
-    assert (told.motion, told.start) == (whole.motion, whole.start)
+    found = summary_of(result.variant, result.run)
+    assert [p.unit for p in found.panels] == [p.unit for p in whole.panels]
+    assert (found.motion, found.start) == (whole.motion, whole.start)
     assert len(seen.arrows) == len(whole.arrows)
 
 
@@ -78,7 +78,7 @@ def test_without_friction_the_support_still_moves(name):
 
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
-def test_a_motion_beyond_all_numbers_is_told(ask):
+def test_a_motion_that_overflows_is_reported(ask):
     beyond = ask("run", system="ball-on-paper", settings={"X": "exp(exp(t))"})
     assert beyond.status_code == 422
     assert "is too large for a number" in beyond.json()["given"]
@@ -109,12 +109,12 @@ def test_without_friction_it_starts_as_if_it_rolled(ask):
 
 def test_a_start_without_friction_is_as_the_sliders_say(ask):
     described = answer(ask("describe", system="ball-on-paper", contact="smooth"))
-    told = {c["name"]: c["text"] for c in described["start"]}
+    found = {c["name"]: c["text"] for c in described["start"]}
     begun = opened(ask("read", system="ball-on-paper", contact="smooth"))["account"]["start"]
     values = {number["name"]: number["value"] for number in begun}
     assert abs(values["omega_y"]) > 1
-    assert float(told["omega_y"].split()[0]) == pytest.approx(values["omega_y"])
-    still = {**told, "omega_y": "0"}
+    assert float(found["omega_y"].split()[0]) == pytest.approx(values["omega_y"])
+    still = {**found, "omega_y": "0"}
     begun = opened(ask("read", system="ball-on-paper", contact="smooth", start=still))
     values = {number["name"]: number["value"] for number in begun["account"]["start"]}
     assert values["omega_y"] == 0
@@ -153,7 +153,7 @@ def test_where_the_ball_goes_while_the_sheet_is_pulled(ask):
     assert len(following.content) < 20_000
 
 
-def test_standing_tells_on_which_side_of_a_threshold(ask):
+def test_standing_says_on_which_side_of_a_threshold(ask):
     """A disk on edge keeps rolling where ω₃² exceeds g/3a."""
     limit = math.sqrt(9.81 / (3 * 0.03))
     sides = {}
@@ -192,9 +192,9 @@ def test_typed_equations_are_judged(ask):
     momentum = r"I_1 \dot\omega_1 = (I_2 - I_3)\,\omega_2\omega_3"
     assert answer(ask("check", system="tennis-racquet", latex=momentum))["verdict"] == "holds"
     wrong = momentum.replace("I_2 - I_3", "I_3 - I_2")
-    told = answer(ask("check", system="tennis-racquet", latex=wrong))
-    assert told["verdict"] == "fails"
-    assert told["correction"]["formula"].startswith("<math")
+    found = answer(ask("check", system="tennis-racquet", latex=wrong))
+    assert found["verdict"] == "fails"
+    assert found["correction"]["formula"].startswith("<math")
 
 
 @pytest.mark.parametrize(
@@ -215,7 +215,7 @@ def test_files_are_made(ask, kind, begins):
     assert called == f'attachment; filename="gyroscope.{KINDS[kind].ending}"'
 
 
-def test_the_table_is_of_the_motion_that_was_asked_for(ask):
+def test_the_table_is_of_the_requested_motion(ask):
     start = {"theta": "50 deg", "omega_1": "100 rad/s"}
     response = ask("export", system="gyroscope", start=start, duration="0.2 s", kind="csv")
     rows = list(csv.DictReader(io.StringIO(response.text.partition("\n")[2])))

@@ -51,7 +51,7 @@ def rod_between(distance: ph.Expr) -> Callable[[], object]:
 
 
 def unheld() -> ph.Body:
-    """A brick that is told to turn about an axis that is not a principal one."""
+    """A brick declared to turn about an axis that is not a principal one."""
     skew = (0, ph.Expr.of(3) / 5, ph.Expr.of(4) / 5)
     return body(axes=LAB.rotated(theta, skew))
 

@@ -14,7 +14,7 @@ def test_every_line_is_short_and_none_is_raw(part):
     assert not any("=" in line or "None" in line for line in lines)
 
 
-def test_a_contact_tells_what_touches_what():
+def test_a_contact_names_what_touches_what():
     lab = ph.Frame("lab")
     m, a = ph.symbols("m a", positive=True)
     ball = ph.sphere("ball", mass=m, radius=a, axes=lab)
@@ -55,7 +55,7 @@ def test_vectors_and_bodies() -> None:
     )
 
 
-def test_a_full_inertia_is_told_by_rows() -> None:
+def test_a_full_inertia_is_shown_by_rows() -> None:
     stone = ph.Body("stone", mass=m, inertia=((3, 1, 0), (1, 3, 0), (0, 0, 3)), axes=axes)
     assert "[[3, 1, 0], [1, 3, 0], [0, 0, 3]]" in repr(stone)
 

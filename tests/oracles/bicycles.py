@@ -37,8 +37,8 @@ def bicycle(**given: float) -> dict[str, float]:
         raw = _dependent(q)
         spins = _spins(q, raw)
         v_x, v_y, _ = parts["R"].velocity
-        told = {"psi": raw["psi_dot"], "phi": q.phi_dot, "theta": raw["theta_dot"]}
-        return told | {"delta": q.delta_dot, **spins, "x": v_x, "y": v_y}
+        known = {"psi": raw["psi_dot"], "phi": q.phi_dot, "theta": raw["theta_dot"]}
+        return known | {"delta": q.delta_dot, **spins, "x": v_x, "y": v_y}
 
     answer = Scenario(
         place=place,

@@ -58,7 +58,7 @@ def test_a_ball_bounces_on_a_floor_like_a_spring(integrator, stiffness):
 
 
 @pytest.mark.parametrize("precision", [None, 30])
-def test_events_that_were_asked_for_where_sides_change_are_seen_once(precision):
+def test_requested_events_where_sides_change_are_seen_once(precision):
     values = {"m": 1, "g": 9.81, "k": 1000}
     asked = {"ground": x, "within": x + 0.01, "turns": v}
     run = ph.simulate(FLOOR, values, {"x": 1}, 5, events=asked, precision=precision)

@@ -92,7 +92,7 @@ def silent(subject, *asked, **options):
 
 
 def test_long_runs_are_healthy(integrator):
-    turns = 2000 if integrator == "scipy" else 20_000
+    turns = 1000 if integrator == "scipy" else 20_000
     run = silent(pendulum(), UNITS, {"theta": 0, "theta_dot": 3}, turns * 2.5, samples=2)
     assert run.doubt == ""
 

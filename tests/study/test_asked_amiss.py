@@ -1,4 +1,4 @@
-"""What cannot be fitted, differentiated or mapped is told in words; one name needs no list."""
+"""What cannot be fitted, differentiated or mapped is refused in words; one name needs no list."""
 
 import resource
 from collections.abc import Iterator

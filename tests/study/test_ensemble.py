@@ -75,7 +75,7 @@ def test_members_agree_with_single_runs(rolling):
     assert np.all(np.isnan(found["when"][:, 3]))
 
 
-def test_side_by_side_and_one_by_one_tell_the_same(rolling):
+def test_side_by_side_and_one_by_one_agree(rolling):
     """An output that needs the whole path makes every member be followed by itself."""
     quick = ensemble(rolling, NUMBERS, STARTS, 1.0, outputs=EVERYTHING, count=8, seed=5, **HERE)
     slowly = {**EVERYTHING, "top": Maximum("theta")}
@@ -84,7 +84,7 @@ def test_side_by_side_and_one_by_one_tell_the_same(rolling):
         assert quick[name] == pytest.approx(slow[name], rel=1e-10, abs=1e-11, nan_ok=True), name
 
 
-def test_the_bits_of_a_member_do_not_depend_on_its_company(rolling):
+def test_the_bits_of_a_member_do_not_depend_on_the_other_members(rolling):
     """Lanes are taken up again one by one, in whatever order threads and motions come to it."""
     angles, spins = np.linspace(0.1, 1.5, 40), np.linspace(40.0, 0.0, 40)
     outputs = {"theta": Final("theta"), "when": TimeSeries("omega_3", (0.01, 0.02, 0.7))}
@@ -99,7 +99,7 @@ def test_the_bits_of_a_member_do_not_depend_on_its_company(rolling):
         assert np.array_equal(whole[name][33:2:-1], part[name], equal_nan=True)
 
 
-def test_motions_that_cannot_be_continued_hold_nobody_up():
+def test_motions_that_cannot_be_continued_do_not_stop_the_others():
     """Flat after a while, in equations that end there: beside them the others go on."""
     rolls = np.arange(24) % 3 > 0
     falling = {"theta": np.where(rolls, 1.2, 0.4), "omega_3": np.where(rolls, 30.0, 0.0)}
@@ -206,7 +206,7 @@ def test_processes_give_the_same(rolling):
         ({"tolerance": 2.0}, NumericError, "tolerance"),
     ],
 )
-def test_what_cannot_be_asked_is_refused(rolling, change, error, words):
+def test_invalid_arguments_are_refused(rolling, change, error, words):
     asked = {"parameters": NUMBERS, "start": {"theta": [1.0, 1.1]}, "duration": 0.1} | change
     with pytest.raises(error, match=words):
         ensemble(rolling, **asked)

@@ -1,4 +1,4 @@
-"""A mistake that all members share is told before any of them is followed, and leaves nothing."""
+"""A mistake that all members share is reported before any is followed, and leaves nothing."""
 
 import numpy as np
 import pytest
@@ -95,7 +95,7 @@ def test_units_that_members_have_in_common(rolling, angles):
         ({"X": 0, "Y": 0, "chi": "sin(t)"}, NumericError, "not an expression"),
     ],
 )
-def test_motions_of_supports_that_nobody_can_be_followed_on(sheet, error, words):
+def test_motions_of_supports_on_which_no_member_can_be_followed(sheet, error, words):
     case = rough_balls()
     with pytest.raises(error, match=words):
         ensemble(case.modes, case.parameters, {}, 0.1, count=9, forcing=sheet)

@@ -235,7 +235,7 @@ def test_uncertainties_are_those_of_the_noise():
     assert np.isnan(found.residuals["theta"][5])
 
 
-def test_what_cannot_be_determined_is_told():
+def test_what_cannot_be_determined_is_reported():
     equations, times, theta = measured(0.0)
     with pytest.raises(NumericError, match="do not determine"):
         fit(equations, NUMBERS, START, times, {"theta": theta}, vary=["m", "omega_3"])

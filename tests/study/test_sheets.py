@@ -68,12 +68,12 @@ def test_members_are_single_runs(subjects, subject, forcing):
     )
     assert len(alone) == 0
     found = ensemble(order.subject, numbers, starts, 0.7, outputs=asked, forcing=forcing)
-    told = np.reshape(found.named("kinds"), (MEMBERS, -1))
+    kinds = np.reshape(found.named("kinds"), (MEMBERS, -1))
     for i in (0, 7):
         own = [members.parameters_of(i), members.start_of(i)]
         run = simulate(order.subject, *own, 0.7, forcing=forcing)
         events = run.events[1:-1]
-        assert [kind for kind in told[i] if kind] == [event.kind for event in events]
+        assert [kind for kind in kinds[i] if kind] == [event.kind for event in events]
         times = [event.time for event in events]
         assert found["times"][i, : len(events)] == pytest.approx(times, abs=1e-10)
         for name in NAMES:

@@ -52,12 +52,12 @@ def test_members_that_fail_are_recorded(whole):
     store = open_store(path)
     assert store.failed() == 6
     assert set(np.unique(found["reason"][0])) <= {Reason.CONSTRAINT, Reason.NUMERIC}
-    told = [store.failures(place) for place in np.ndindex(*store.done.shape)]
-    assert sum(map(len, told)) == 6
+    failures = [store.failures(place) for place in np.ndindex(*store.done.shape)]
+    assert sum(map(len, failures)) == 6
     assert np.all(store.done)
 
 
-def test_the_store_tells_what_it_was_made_with(whole):
+def test_the_store_says_what_it_was_made_with(whole):
     path, _ = whole
     origin = open_store(path).origin
     assert origin["declaration"]["format"] == "polhode declaration"
@@ -111,7 +111,7 @@ def test_resuming_nothing_begins_anew(tmp_path, whole):
     assert same_bits(tmp_path / "new", whole[0])
 
 
-def test_a_full_disk_is_told_and_what_is_done_is_kept(tmp_path, whole, monkeypatch):
+def test_a_full_disk_is_reported_and_what_is_done_is_kept(tmp_path, whole, monkeypatch):
     path = tmp_path / "full"
     write, left = zarr.Array.__setitem__, [12]
 
@@ -177,7 +177,7 @@ def test_what_cannot_be_swept_is_refused(tmp_path, axes, options, words):
         sweep(disk(), axes, NUMBERS, {}, 0.1, out=tmp_path / "s", outputs=["mode"], **options)
 
 
-def test_an_unreachable_scheduler_is_told(tmp_path, monkeypatch):
+def test_an_unreachable_scheduler_is_reported(tmp_path, monkeypatch):
     monkeypatch.setattr("polhode.study._compute._REACHED_WITHIN", 0.5)
     with pytest.raises(StoreError, match="no scheduler answers"):
         fates(tmp_path / "far", address="tcp://127.0.0.1:9")
@@ -195,7 +195,7 @@ def test_a_map_shows_the_exact_threshold(whole):
     assert up == pytest.approx(np.sqrt(9.81 / (3 * 0.03)), rel=1e-3)
 
 
-def test_a_python_function_cannot_be_told_to_a_store(tmp_path):
+def test_a_python_function_cannot_be_kept_in_a_store(tmp_path):
     ball = CATALOGUE["ball-on-paper"].build()
     numbers = {"m": 0.05, "r": 0.02, "k": 0.4, "g": 9.81}
     forcing = {"X": lambda t: 0.0 * t, "Y": lambda t: 0.0 * t, "chi": lambda t: 0.0 * t}

@@ -23,7 +23,7 @@ from polhode.study._ensemble_runner import BatchRunner, EnsembleSpec, ResultChun
 from study.examples import NUMBERS, Case, disk, rough_balls, rough_disks
 
 MEMBERS, ALONE = 20, 5
-HAPPENINGS = {
+EVENT_OUTPUTS = {
     "mode": EndMode(),
     "kinds": EventKinds(16),
     "times": EventTimes(16),
@@ -42,7 +42,7 @@ def test_members_are_single_runs(case: Case):
     series = {f"{name} seen": TimeSeries(name, looks) for name in case.outputs}
     found = ensemble(
         case.modes, case.parameters, case.start, case.duration, seed=2, count=MEMBERS,
-        outputs={**case.outputs, **series, **HAPPENINGS}, **case.options,
+        outputs={**case.outputs, **series, **EVENT_OUTPUTS}, **case.options,
     )  # fmt: skip
     assert found.failed == 0
     assert np.sum(found["sticks"]) > MEMBERS / 10
@@ -50,8 +50,8 @@ def test_members_are_single_runs(case: Case):
         parameters, start = case.member(found, i)
         run = simulate(case.modes, parameters, start, case.duration, **case.options)
         happened = run.events[1:-1]
-        told = np.reshape(found.named("kinds"), (MEMBERS, -1))[i]
-        assert [kind for kind in told if kind] == [event.kind for event in happened]
+        kinds = np.reshape(found.named("kinds"), (MEMBERS, -1))[i]
+        assert [kind for kind in kinds if kind] == [event.kind for event in happened]
         times = found["times"][i, : len(happened)]
         assert times == pytest.approx([e.time for e in happened], abs=1e-11)
         slips = [event.time for event in happened if event.kind == "slips"]
@@ -67,8 +67,8 @@ def test_members_are_single_runs(case: Case):
 
 
 @pytest.mark.parametrize("case", [rough_disks(), rough_balls()], ids=lambda case: case.name)
-def test_nobody_is_followed_from_its_start_again(case: Case):
-    order = EnsembleSpec(case.modes, case.duration, {**case.outputs, **HAPPENINGS}, case.options)
+def test_no_member_is_followed_from_its_start_again(case: Case):
+    order = EnsembleSpec(case.modes, case.duration, {**case.outputs, **EVENT_OUTPUTS}, case.options)
     members = members_of(case.parameters, case.start, MEMBERS, 2)
     alone = BatchRunner(order).follow(members, ResultChunk.empty(order, MEMBERS), nobody)
     assert len(alone) == 0
@@ -81,8 +81,8 @@ def test_members_that_fly_land_and_roll_on():
     found = ensemble(rough, NUMBERS, starts, 0.1, outputs=outputs)
     for i in (1, 8):
         run = simulate(rough, NUMBERS, {**starts, "z": found["z_start"][i]}, 0.1)
-        told = np.reshape(found.named("kinds"), (9, -1))[i]
-        assert [kind for kind in told if kind] == [event.kind for event in run.events[1:-1]]
+        kinds = np.reshape(found.named("kinds"), (9, -1))[i]
+        assert [kind for kind in kinds if kind] == [event.kind for event in run.events[1:-1]]
         assert found["z"][i] == pytest.approx(run.final["z"], rel=1e-10)
         assert found["omega_3"][i] == pytest.approx(run.final["omega_3"], rel=1e-10)
 

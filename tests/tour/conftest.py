@@ -25,10 +25,10 @@ def worked_out():
 
 @pytest.fixture(scope="session")
 def tour(tmp_path_factory):
-    """The whole tour with a few claims, made once: its folder, pages, report, what it told."""
+    """The whole tour with a few claims, made once: its folder, pages, report and output."""
     folder = tmp_path_factory.mktemp("tour") / "deep" / "tour"
-    told = []
-    report = write_tour(folder, SilentProgress(), told.append, only=("1", "8", "85"))
+    printed = []
+    report = write_tour(folder, SilentProgress(), printed.append, only=("1", "8", "85"))
     texts = {path.stem: path.read_text("utf-8") for path in folder.glob("*.html")}
     pages = {name: text for name, text in texts.items() if not name.endswith("-3d")}
-    return SimpleNamespace(folder=folder, pages=pages, report=report, told=told)
+    return SimpleNamespace(folder=folder, pages=pages, report=report, printed=printed)

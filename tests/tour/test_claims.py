@@ -10,7 +10,7 @@ from polhode.tour._claims import JudgedClaim, counted, formula, judged, verdicts
 from polhode.view import Judgement
 
 
-def told(answer="holds", **changed):
+def claim_with(answer="holds", **changed):
     values = {
         "id": "12",
         "system": "gyroscope/held",
@@ -25,30 +25,30 @@ def told(answer="holds", **changed):
 
 
 def test_a_variant_belongs_to_its_problem():
-    assert told().problem == "gyroscope"
+    assert claim_with().problem == "gyroscope"
 
 
 def test_verdicts_are_counted():
-    claims = [told(), told(), told("fails"), told("unread")]
+    claims = [claim_with(), claim_with(), claim_with("fails"), claim_with("unread")]
     assert counted(claims) == "4 claims: 2 hold, 1 fails as printed, 1 could not be read"
 
 
 def test_a_failure_shows_its_correction_and_why():
-    text = verdicts([told("fails", correction="a > b", reason="the sign is wrong")])
+    text = verdicts([claim_with("fails", correction="a > b", reason="the sign is wrong")])
     assert text.count("<math") == 2
     assert "should read" in text
     assert "the sign is wrong" in text
 
 
 def test_words_and_reasons_are_text():
-    text = verdicts([told("fails", is_formula=False, stated="<b>x", reason="<i>")])
+    text = verdicts([claim_with("fails", is_formula=False, stated="<b>x", reason="<i>")])
     assert "<b>" not in text
     assert "<i>" not in text
 
 
 def test_what_was_read_stands_beside_the_verdict_unfolded():
     notes = (Note("read as", "a > b", is_formula=True), Note("because", "a <sign> is lost"))
-    text = verdicts([told(notes=notes)])
+    text = verdicts([claim_with(notes=notes)])
     assert text.count("<math") == 2
     assert "read as" in text
     assert "a &lt;sign&gt; is lost" in text
@@ -56,8 +56,8 @@ def test_what_was_read_stands_beside_the_verdict_unfolded():
 
 
 def test_the_convention_of_a_part_stands_once_before_its_claims():
-    first = told(part="Statement", convention="θ from 2")
-    other = told(part="Solution", convention="θ from 3")
+    first = claim_with(part="Statement", convention="θ from 2")
+    other = claim_with(part="Solution", convention="θ from 3")
     text = verdicts([first, first, other])
     assert [text.count(c) for c in ("θ from 2", "θ from 3", "<h3>")] == [1, 1, 2]
     assert text.index("θ from 2") < text.index("<article") < text.index("θ from 3")
@@ -65,7 +65,7 @@ def test_the_convention_of_a_part_stands_once_before_its_claims():
 
 def test_the_terminal_shows_convention_and_reading_of_what_fails():
     notes = (Note("read as", "a > b", is_formula=True), Note("because", "lost"))
-    claim = told("fails", notes=notes, part="Statement", convention="θ from 2", reason="odd")
+    claim = claim_with("fails", notes=notes, part="Statement", convention="θ from 2", reason="odd")
     lines = TourReport(Path("page"), (), (claim,)).audit_table().splitlines()[2:]
     assert lines[:2] == ["Statement", "  θ from 2"]
     assert [line.strip() for line in lines[3:]] == [
@@ -108,7 +108,11 @@ def test_judging_gives_text(id, system):
 
 
 def test_the_closing_table_counts_by_problem_and_shows_what_fails():
-    claims = (told(), told("fails", id="13", correction="a > b"), told("fails", reason="odd"))
+    claims = (
+        claim_with(),
+        claim_with("fails", id="13", correction="a > b"),
+        claim_with("fails", reason="odd"),
+    )
     lines = TourReport(Path("page"), (), claims).audit_table().splitlines()
     assert lines[0] == "gyroscope  3 claims: 1 holds, 2 fail as printed"
     assert lines[2].split() == ["13", "fails;", "holds", "as", "a", ">", "b"]

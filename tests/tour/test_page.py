@@ -169,7 +169,7 @@ def unescaped(expression):
 
 
 @pytest.mark.parametrize("name", SYSTEMS)
-def test_every_system_is_told_whole(tour, name):
+def test_every_system_has_all_sections(tour, name):
     entry, found = CATALOGUE[name], section(tour, name)
     headings = re.findall('<h[23] class="part">(.*?)</h[23]>', found)
     assert headings == [
@@ -222,9 +222,9 @@ def test_one_failed_check_spoils_the_report(tour):
     assert not spoilt.all_hold
 
 
-def test_every_system_is_told_to_the_terminal(tour):
-    assert len(tour.told) == len(SYSTEMS)
-    for name, text in zip(SYSTEMS, tour.told, strict=True):
+def test_every_system_is_printed_to_the_terminal(tour):
+    assert len(tour.printed) == len(SYSTEMS)
+    for name, text in zip(SYSTEMS, tour.printed, strict=True):
         equations = ph.derive(CATALOGUE[name].build())
         assert text.startswith(CATALOGUE[name].title)
         assert all(f"{row.pretty()} = 0" in text for row in equations.motion)

@@ -265,7 +265,7 @@ def test_reactions_of_one_joint(run_of):
     assert len(lines) == 3
 
 
-def test_open_reactions_are_told_apart(run_of):
+def test_undetermined_reactions_are_marked(run_of):
     bars = view.reaction_ranges(run_of("gyroscope/held"))
     faces = [line.get_markerfacecolor() for line in bars.axes.lines if line.get_marker() == "o"]
     assert faces.count("none") == 4
@@ -335,10 +335,10 @@ def bouncing():
 def test_the_ranges_are_of_the_forces_of_all_modes(bouncing):
     run = ph.simulate(*bouncing, {"z": 0.03, "v_x": 1.0}, 0.5)
     axes = view.reaction_ranges(run).axes
-    told = [text.get_text() for text in axes.get_yticklabels()]
-    assert sorted(told) == ["$F_x$", "$F_y$", "$F_z$"]
+    labels = [text.get_text() for text in axes.get_yticklabels()]
+    assert sorted(labels) == ["$F_x$", "$F_y$", "$F_z$"]
     (bars,) = axes.collections
-    ends = dict(zip(told, (bar[:, 0] for bar in bars.get_segments()), strict=True))
+    ends = dict(zip(labels, (bar[:, 0] for bar in bars.get_segments()), strict=True))
     np.testing.assert_allclose(ends["$F_z$"], [0, 0.981], rtol=1e-12)
     np.testing.assert_allclose(ends["$F_x$"], [-0.2 * 0.981, 0], rtol=1e-9, atol=1e-12)
 
@@ -377,20 +377,20 @@ def test_a_name_is_text_wherever_it_is_shown(name, tmp_path):
     numbers, start = {m: 0.1, a: 0.02, g: 9.81}, {"v_x": 1.0, "omega_y": 0.0}
     run = ph.simulate(ph.System(floor, ph.Gravity(g), name=name), numbers, start, 0.1)
     lines = view.power_balance(run)
-    told = lines[0].axes.get_legend().get_texts()[-1].get_text()
-    assert told.strip().replace(r"\$", "$") == name
+    labels = lines[0].axes.get_legend().get_texts()[-1].get_text()
+    assert labels.strip().replace(r"\$", "$") == name
     assert view.svg_of(lines[0].get_figure())
     ph.page(run, tmp_path / "named.html", title=name)
 
 
-def test_what_stands_for_the_direction_of_a_slip_is_told(bouncing):
+def test_what_stands_for_the_direction_of_a_slip_is_shown(bouncing):
     shown = ph.scene(ph.simulate(*bouncing, {"v_x": 1.0, "omega_y": 0.0}, 0.05))
     spoken = [formula.spoken for formula in shown.motion]
     assert "eₓ_floor = (vₓ − a ω_y)/vₛₗᵢₚ_floor" in spoken
     assert any(text.startswith("vₛₗᵢₚ_floor = √(vₓ²") for text in spoken)
 
 
-def test_a_motion_that_ends_as_it_begins_is_told():
+def test_a_motion_that_ends_as_it_begins_is_named():
     """A disk on its back is flat from the start."""
     entry = CATALOGUE["rolling-disk"]
     numbers, start = {"m": 0.2, "a": 0.03, "g": 9.81}, {"theta": np.pi, "phi_dot": 1, "omega_3": 40}
@@ -406,7 +406,7 @@ def test_rates_of_turning_have_no_thousands():
     assert scale_for("rad/s", 4e-3).unit == "mrad/s"
 
 
-def test_a_start_at_rest_is_told_as_rest():
+def test_a_start_at_rest_is_named_rest():
     """The evaluation leaves some 4e-15 rad/s of zero where 36 rad/s are reached."""
     m, r, g = ph.symbols("m r g", positive=True)
     lab = ph.Frame("lab")

@@ -142,9 +142,9 @@ def test_friction_needed_is_what_the_contact_gives(sliding):
 def test_modes_are_shaded_while_they_last(sliding):
     axes = figures.new_figure(2.0).subplots()
     shades = figures.modes(sliding, ax=axes)
-    told = {s.get_label(): s.get_bbox().intervalx for s in shades if s.get_label() != "_"}
-    assert list(told) == ["flight", "sliding", "rolling"]
-    ends = sorted(x for shade in told.values() for x in shade)
+    labels = {s.get_label(): s.get_bbox().intervalx for s in shades if s.get_label() != "_"}
+    assert list(labels) == ["flight", "sliding", "rolling"]
+    ends = sorted(x for shade in labels.values() for x in shade)
     assert ends[0] == 0
     assert ends[-1] == sliding.duration
     assert figures.modes(sliding, ax=axes)[0].get_hatch() != shades[1].get_hatch()
@@ -212,8 +212,8 @@ def test_the_threshold_of_a_map_is_named(rolling):
     drawn = figures.stability_map(
         rolling, ("omega_3", 0, "10 rad/s"), ("a", "2 cm", "20 cm"), {"g": 9.81, "m": 1}
     )
-    told = [text.get_text() for text in drawn.axes.get_legend().get_texts()]
-    assert told == [r"threshold: $3 a \omega_3^2 - g = 0$"]
+    labels = [text.get_text() for text in drawn.axes.get_legend().get_texts()]
+    assert labels == [r"threshold: $3 a \omega_3^2 - g = 0$"]
     assert drawn._repr_png_().startswith(b"\x89PNG")
 
 
@@ -244,10 +244,10 @@ def test_a_map_of_outcomes_has_symbols_degrees_and_names_for_all_it_shows(fates)
     assert drawn.axes.get_xlabel() == r"$\theta$ (deg)"
     assert drawn.axes.get_ylabel() == r"$\omega_3$ (rad/s)"
     assert drawn.axes.get_xlim() == pytest.approx((15, 105))
-    told = [text.get_text() for text in drawn.axes.get_legend().get_texts()]
-    assert told[:4] == ["goes flat", "stays up", "could not be followed", "no result"]
-    assert [t for t in told[4:] if not t.startswith("threshold")] == []
-    assert len(told) == 4 + len(drawn.thresholds) == 4 + len(drawn.conditions)
+    labels = [text.get_text() for text in drawn.axes.get_legend().get_texts()]
+    assert labels[:4] == ["goes flat", "stays up", "could not be followed", "no result"]
+    assert [t for t in labels[4:] if not t.startswith("threshold")] == []
+    assert len(labels) == 4 + len(drawn.thresholds) == 4 + len(drawn.conditions)
     hatched = [c for c in drawn.axes.collections if c.get_hatch()]
     assert [len(c.get_array().compressed()) for c in hatched] == [1, 1]
     up = np.concatenate(drawn.thresholds[0].allsegs[0])[:, 1]

@@ -28,7 +28,7 @@ CELLS = (
 @pytest.fixture(scope="module")
 def executed():
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(c) for c in CELLS])
-    NotebookClient(notebook, timeout=120, kernel_name="python3").execute()
+    NotebookClient(notebook, timeout=600, startup_timeout=600, kernel_name="python3").execute()
     return [cell.outputs[-1]["data"] for cell in notebook.cells]
 
 
@@ -173,7 +173,7 @@ def test_parts_of_results_are_typeset():
     assert "phi_dot" in grown._repr_html_()
 
 
-def test_contact_modes_are_named_and_what_is_known_of_them_is_told():
+def test_contact_modes_are_named_with_what_is_known_of_them():
     modes = ph.automaton(ph.with_friction(CATALOGUE["rolling-disk"].build(), ph.symbol("mu")))
     assert "modes: rolling; sliding; frictionless; flight" in modes._repr_html_()
     assert "lasts while" not in modes._repr_html_()

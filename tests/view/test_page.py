@@ -48,7 +48,7 @@ def test_licences_travel_with_the_page(text):
     assert text.count("Permission is hereby granted") == 2
 
 
-def test_a_page_that_cannot_be_written_is_told(run_of, tmp_path):
+def test_a_page_that_cannot_be_written_is_reported(run_of, tmp_path):
     with pytest.raises(StoreError, match="cannot be written"):
         ph.page(run_of("gyroscope/held"), tmp_path / "none" / "page.html")
 

@@ -37,8 +37,8 @@ def test_a_file_says_what_it_was_made_with(run, tmp_path):
     target = tmp_path / "run.svg"
     view.save_figure(drawn(run), target, origin=view.origin_of(run))
     text = target.read_text("utf-8").replace("&quot;", '"')
-    (told,) = re.findall(r"<dc:description>(.*?)</dc:description>", text, re.DOTALL)
-    origin = json.loads(told)
+    (description,) = re.findall(r"<dc:description>(.*?)</dc:description>", text, re.DOTALL)
+    origin = json.loads(description)
     assert origin["schema"] == SCHEMA
     assert origin["system"] == "gyroscope"
     assert origin["parameters"]["M"] == 0.5

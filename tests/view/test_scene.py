@@ -139,7 +139,7 @@ def test_the_trace_on_a_turntable_lies_under_the_marble(scene_of):
     assert np.allclose(turned(on_it.points, support.pose.turn), path.points, atol=1e-9)
 
 
-def test_the_sheet_moves_as_it_is_told(run_of, scene_of):
+def test_the_sheet_moves_as_prescribed(run_of, scene_of):
     run, scene = run_of("ball-on-paper"), scene_of("ball-on-paper")
     t = instants(run, scene)
     assert np.allclose(scene.supports[0].pose.place[:, 0], (1 - np.cos(2 * t)) / 20)
@@ -152,7 +152,7 @@ def test_a_tilted_support_is_tilted(scene_of):
     assert np.allclose(normal, normal[0])
 
 
-def test_panels_hold_what_was_asked_for(run_of):
+def test_panels_hold_what_was_requested(run_of):
     scene = ph.scene(run_of("rolling-disk"), plots=[["theta"]])
     theta, energy = scene.panels
     assert [series.name for series in theta.series] == ["theta"]
@@ -235,7 +235,7 @@ def test_particles_springs_and_dampers_are_seen():
     assert scene.as_json()["links"][0]["thick"] == spring.thick > 0
 
 
-def test_what_bodies_turn_on_is_told():
+def test_what_bodies_turn_on_is_shown():
     """A shaft on a cross at the ceiling, a bar welded to it, and a flap on a hinge."""
     m, l, g = ph.symbols("m l g", positive=True)
     alpha, beta, gamma = ph.coordinates("alpha beta gamma")
@@ -301,14 +301,14 @@ def test_every_contact_mode_is_followed():
     assert scene.happenings
 
 
-def test_angles_are_told_in_degrees_as_plots_have_them():
+def test_angles_are_in_degrees_as_in_plots():
     """Of the start and among the parameters; rates stay in rad/s."""
     marble = CATALOGUE["marble-on-turntable/tilted"]
     equations = ph.derive(marble.build())
     given = numbers_of(marble, equations)
     run = ph.simulate(equations, given.parameters, given.start, "0.1 s")
-    told = {n.name: (n.value, n.unit) for n in ph.scene(run).parameters}
-    assert told["alpha"] == (pytest.approx(2), "deg")
+    shown = {n.name: (n.value, n.unit) for n in ph.scene(run).parameters}
+    assert shown["alpha"] == (pytest.approx(2), "deg")
     top = ph.simulate(
         CATALOGUE["gyroscope"].build(),
         {"M": 0.5, "a": 0.06, "I_1": 6.25e-4, "I_2": 3.5e-4, "g": 9.81},

@@ -60,7 +60,7 @@ def test_a_still_is_vectors_and_always_the_same(shown, tmp_path, kind):
     assert b"rolling-disk" in first.read_bytes() or kind == "pdf"
 
 
-def test_arrows_are_drawn_where_asked_for(shown, tmp_path):
+def test_arrows_are_drawn_where_requested(shown, tmp_path):
     ph.still(shown, tmp_path / "without.png", size=SMALL)
     ph.still(shown, tmp_path / "with.png", size=SMALL, arrows=("omega",))
     change = pixels(tmp_path / "with.png") - pixels(tmp_path / "without.png")

@@ -11,11 +11,12 @@ from oracles.time_stepping import Slider, State
 from polhode.simulate.forcing._pieces import Pieces
 from simulate.contact.edges import KINDS, Edged, case, check, edged
 
-#: Of every kind, and where an edge is crossed 3e-14 s after slip has ended, 3e-15 s after it has
-#: turned round, and 1e-15 s after it has begun.
+#: One of every kind, of which `tests/proof/test_contact_paper.py` has a hundred, and where an edge
+#: is crossed 3e-14 s after slip has ended, 3e-15 s after it has turned round, and 1e-15 s after it
+#: has begun.
 CASES = [
-    *((seed, KINDS[seed % len(KINDS)]) for seed in range(2 * len(KINDS))),
-    *((seed, "many rows") for seed in range(100, 106)),
+    *((seed, KINDS[seed % len(KINDS)]) for seed in range(len(KINDS))),
+    *((seed, "many rows") for seed in range(100, 102)),
     *((seed, "instants") for seed in (14, 390, 574)),
     (1121, "to and fro"),  # a jerk that was passed over by the last digit of its instant
 ]

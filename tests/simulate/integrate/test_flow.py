@@ -35,7 +35,7 @@ def test_work_is_integrated_where_there_is_any():
     assert WORK not in flow_of(Dynamics(pendulum(), {}), reduced=True).states
 
 
-def test_angles_are_told_from_positions():
+def test_angles_are_distinguished_from_positions():
     flow = flow_of(Dynamics(pendulum(), {}), reduced=True)
     periods = {s.published: p for s, p in zip(flow.core.symbols, flow.periods, strict=True)}
     assert periods == {"theta": 2 * pi, "theta_dot": None}

@@ -7,6 +7,7 @@ from random import Random
 import pytest
 
 import polhode as ph
+from catalogue.systems import equations
 from polhode.algebra import Symbol
 from polhode.catalogue import CATALOGUE
 from polhode.claims.balance._declared import declared, reaction_symbol
@@ -25,29 +26,29 @@ def state_of(equations: ph.Equations, seed: int) -> dict[Symbol, float]:
 
 @pytest.mark.parametrize("name", CATALOGUE)
 def test_accelerations_and_least_reactions_agree_with_the_derived_ones(name):
-    equations = ph.derive(CATALOGUE[name].build())
-    found = true_motion(equations.system, state_of(equations, 5))
-    exact = {reaction_symbol(n): value for n, value in equations.least.items()}
-    for symbol, value in {**equations.accelerations, **exact}.items():
-        there = number(equations.on_shell(value), found)
+    derived = equations(name)
+    found = true_motion(derived.system, state_of(derived, 5))
+    exact = {reaction_symbol(n): value for n, value in derived.least.items()}
+    for symbol, value in {**derived.accelerations, **exact}.items():
+        there = number(derived.on_shell(value), found)
         assert found[symbol] == pytest.approx(there, rel=1e-9, abs=1e-9)
 
 
 def test_a_motion_may_have_any_acceleration_that_the_constraints_allow():
-    equations = ph.derive(CATALOGUE["rolling-disk"].build())
-    wanted = dict.fromkeys(equations.acceleration_symbols, 0.25)
-    found = constrained_motion(equations.system, state_of(equations, 7), wanted)
+    derived = equations("rolling-disk")
+    wanted = dict.fromkeys(derived.acceleration_symbols, 0.25)
+    found = constrained_motion(derived.system, state_of(derived, 7), wanted)
     assert {s: found[s] for s in wanted} == pytest.approx(wanted)
-    for speed, value in equations.dependent.items():
-        rate = value.chain(equations.kinetics.rate)
+    for speed, value in derived.dependent.items():
+        rate = value.chain(derived.kinetics.rate)
         assert found[speed.derivative()] == pytest.approx(number(rate, found))
 
 
 def test_a_redundant_support_may_be_known_to_supply_something():
-    equations = ph.derive(CATALOGUE["gyroscope/held"].build())
-    state = state_of(equations, 5)
+    derived = equations("gyroscope/held")
+    state = state_of(derived, 5)
     hand = reaction_symbol("Fprime_z")
-    found = true_motion(equations.system, state | {hand: 0.25})
+    found = true_motion(derived.system, state | {hand: 0.25})
     assert found[hand] == pytest.approx(0.25)
     weight = state[Symbol("M")] * state[Symbol("g")]
     assert found[reaction_symbol("F_z")] == pytest.approx(weight - 0.25)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-import polhode as ph
-from polhode.catalogue import CATALOGUE
+from catalogue.systems import equations
+from claims.judged import uncorrected
 from polhode.claims import Answer
 
 
 def judged(system, latex):
-    return ph.check(latex, ph.derive(CATALOGUE[system].build()))
+    return uncorrected(latex, equations(system))
 
 
 @pytest.mark.parametrize("system", ["rolling-disk", "spinning-coin"])

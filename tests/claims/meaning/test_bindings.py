@@ -9,6 +9,7 @@ from itertools import chain
 import pytest
 
 import polhode as ph
+from catalogue.systems import equations
 from claims.transcript import document
 from polhode.algebra import Expr, Vector, read_expression
 from polhode.base import ParseError
@@ -24,11 +25,6 @@ from polhode.claims.meaning._meaning import BindingError, Meaning
 from polhode.claims.meaning._mechanics import Mechanics
 from polhode.claims.meaning._phrases import quantity
 from polhode.derive import Equations
-
-
-@cache
-def equations(name: str) -> Equations:
-    return ph.derive(CATALOGUE[name].build())
 
 
 @cache
@@ -408,8 +404,8 @@ def test_binding_twice_says_the_same() -> None:
 def test_a_component_of_a_vector_of_the_text_overrides_that_of_the_model() -> None:
     own = notation("gyrocompass")
     assert str(own.scalar(r"\tau_2")) == "tau_2"
-    told = own.binding({r"\boldsymbol{\tau}": "Coriolis torque in Earth"})
-    assert told.scalar(r"\tau_2") != own.scalar(r"\tau_2")
+    redefined = own.binding({r"\boldsymbol{\tau}": "Coriolis torque in Earth"})
+    assert redefined.scalar(r"\tau_2") != own.scalar(r"\tau_2")
 
 
 def test_a_length_named_like_its_vector_leaves_the_vector_alone() -> None:

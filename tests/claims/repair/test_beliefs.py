@@ -1,11 +1,11 @@
-"""What beginners believe of spinning things: each is told what holds instead, if that is short."""
+"""What beginners believe of spinning things: each is corrected, if that is short."""
 
 from __future__ import annotations
 
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE
+from catalogue.systems import equations
 from polhode.claims import Answer
 
 #: The system, the belief, its context, and what the textbooks have instead.
@@ -59,7 +59,7 @@ HOPELESS = [
 
 
 def judged(system, latex, context):
-    return ph.check(latex, ph.derive(CATALOGUE[system].build()), context=context)
+    return ph.check(latex, equations(system), context=context)
 
 
 @pytest.mark.parametrize(("system", "belief", "context", "right"), BELIEFS)
@@ -84,7 +84,7 @@ def test_a_quantity_that_a_claim_is_about_keeps_its_letter():
     assert verdict.correction.latex.startswith("T = ")
 
 
-def test_a_belief_about_what_nothing_determines_is_refuted_by_both_and_told_to_be_open():
+def test_a_belief_about_an_undetermined_force_is_refuted_by_both_and_called_undetermined():
     verdict = judged("gyroscope/held", "F_z = M g / 2", "motion")
     assert verdict.confirmation.agrees
     assert "do not determine F_z" in " ".join(verdict.remarks)

@@ -8,7 +8,8 @@ from functools import cache
 import pytest
 
 import polhode as ph
-from polhode.catalogue import CATALOGUE, problem_set
+from catalogue.systems import equations
+from polhode.catalogue import problem_set
 from polhode.claims import Answer, Verdict, read_document
 from polhode.claims._audit import ClaimChecker
 
@@ -20,7 +21,7 @@ ORIGINAL = (
 
 @cache
 def verdict_on(latex: str) -> Verdict:
-    gyroscope = ph.derive(CATALOGUE["gyroscope"].build())
+    gyroscope = equations("gyroscope")
     return ph.check(latex, gyroscope, let=[r"I_{2p} = I_2 + Ma^2"])
 
 
@@ -52,7 +53,7 @@ def test_a_slip_is_named_and_corrected(right, wrong, slip):
 
 
 def test_two_equal_slips_are_corrected_together():
-    gyroscope = ph.derive(CATALOGUE["gyroscope/vertical-plane"].build())
+    gyroscope = equations("gyroscope/vertical-plane")
     verdict = ph.check(
         r"\frac{d\mathbf v_{\rm cm}}{dt} = a(\ddot\theta\cos\theta - 2\dot\theta^2\sin\theta)"
         r"\hat{\boldsymbol\rho}"
@@ -72,7 +73,7 @@ def test_two_equal_slips_are_corrected_together():
     ],
 )
 def test_claims_judged_as_a_whole_are_corrected(context, latex, what):
-    gyroscope = ph.derive(CATALOGUE["gyroscope"].build())
+    gyroscope = equations("gyroscope")
     given = [] if context == "threshold" else ["I_2 = M*a**2"]
     let = [r"I_{2p} = I_2 + Ma^2"]
     verdict = ph.check(latex, gyroscope, context=context, let=let, given=given)
@@ -84,7 +85,7 @@ def test_claims_judged_as_a_whole_are_corrected(context, latex, what):
 
 
 def test_a_dot_lost_throughout_is_one_slip():
-    coin = ph.derive(CATALOGUE["spinning-coin"].build())
+    coin = equations("spinning-coin")
     verdict = ph.check(
         r"P_\psi = \frac{\partial \mathcal L}{\partial \psi}"
         r" = \frac{\partial T_{\rm rot}}{\partial \psi}",
@@ -100,7 +101,7 @@ def _of_the_problem_set(name: str, formula: str | None = None) -> Verdict:
     claim = document.claim(name)
     part = document.part_of(claim)
     said = claim if formula is None else replace(claim, latex=formula, read_as="")
-    return ClaimChecker(lambda system: ph.derive(CATALOGUE[system].build())).verdict(part, said)
+    return ClaimChecker(equations).verdict(part, said)
 
 
 def test_a_vector_is_corrected_component_by_component():
@@ -125,14 +126,14 @@ def test_a_quantity_that_a_restriction_makes_vanish_need_not_be_positive():
 
 
 def test_no_correction_inserts_the_other_side():
-    gyroscope = ph.derive(CATALOGUE["gyroscope"].build())
+    gyroscope = equations("gyroscope")
     verdict = ph.check(r"\dot\theta = \sqrt{2Mga/I_2}", gyroscope)
     proposed = [c for c in (verdict.correction, *verdict.alternatives) if c is not None]
     assert all(r"\dot{\theta}" not in c.latex.partition("=")[2] for c in proposed)
 
 
 def test_what_only_repeats_the_other_side_is_no_correction():
-    gyroscope = ph.derive(CATALOGUE["gyroscope"].build())
+    gyroscope = equations("gyroscope")
     verdict = ph.check(r"L_{z} = I_1\omega_1\cos\theta", gyroscope, context="identity")
     assert verdict.correction is not None
     assert verdict.correction.latex.count("L_{z}") == 1

@@ -1,71 +1,40 @@
-"""`steady` and `invariants`: documents that SymPy reads, and answers a text would give."""
-
-import json
+"""`polhode steady`: documents that SymPy reads, and answers a text would give."""
 
 import pytest
 import sympy
 
+from cli.sympy_text import from_srepr
 from polhode.cli import main
 
 
-def document(capsys, *words: str) -> dict:
-    assert main([*words, "--json"]) == 0
-    return json.loads(capsys.readouterr().out)
-
-
-def read(text: str):
-    """srepr text back as SymPy's expression, with nothing but SymPy's names in reach."""
-    return eval(text, {"__builtins__": {}}, vars(sympy))
-
-
-def test_rolling_on_edge(capsys):
-    families = document(capsys, "steady", "rolling-disk", "--at", "theta=pi/2")["families"]
+def test_rolling_on_edge(document):
+    families = document("steady", "rolling-disk", "--at", "theta=pi/2")["families"]
     rolling = next(f for f in families if "phi_dot" in f["sympy"])
     (condition,) = rolling["stable_when"]
     a, g, spin = sympy.symbols("a g omega_3")
-    relation = read(condition["sympy"])
+    relation = from_srepr(condition["sympy"])
     assert sympy.simplify(relation.lhs.subs(spin, sympy.sqrt(g / (3 * a)))) == 0
     assert relation.subs({a: 1, g: 1, spin: 1}) == sympy.true
-    assert read(rolling["exists_when"]["sympy"]) == sympy.true
+    assert from_srepr(rolling["exists_when"]["sympy"]) == sympy.true
 
 
-def test_precession_has_branches_and_a_condition_of_existence(capsys):
-    families = document(capsys, "steady", "gyroscope")["families"]
+def test_precession_has_branches_and_a_condition_of_existence(document):
+    families = document("steady", "gyroscope")["families"]
     precession = next(f for f in families if f["branches"])
     assert len(precession["branches"]) == 2
-    relation = read(precession["sympy"])
+    relation = from_srepr(precession["sympy"])
     rate = sympy.Symbol("phi_dot")
     for branch in precession["branches"]:
-        assert sympy.simplify(relation.subs(rate, read(branch["sympy"]))) == 0
-    assert read(precession["stable_when"][0]["sympy"]) == sympy.true
+        assert sympy.simplify(relation.subs(rate, from_srepr(branch["sympy"]))) == 0
+    assert from_srepr(precession["stable_when"][0]["sympy"]) == sympy.true
     singular = [f for f in families if f["stable_when"] is None]
     assert all("not singular" in f["undecided"] for f in singular)
     assert singular
 
 
-def test_integrals_are_constant_by_sympys_own_calculus(capsys):
-    """dC/dt along Euler's equations, differentiated and substituted by SymPy."""
-    found = document(capsys, "invariants", "tennis-racquet")
-    assert "degree 2 in the speeds" in found["ansatz"]
-    energy = next(i for i in found["invariants"] if i["name"] == "E")
-    moments = sympy.symbols("I_1 I_2 I_3")
-    spins = sympy.symbols("omega_1 omega_2 omega_3")
-    rate = sum(
-        read(energy["sympy"]).diff(spins[i])
-        * (moments[(i + 1) % 3] - moments[(i + 2) % 3])
-        / moments[i]
-        * spins[(i + 1) % 3]
-        * spins[(i + 2) % 3]
-        for i in range(3)
-    )
-    assert sympy.simplify(rate) == 0
-
-
 def test_the_text_output(capsys):
     assert main(["steady", "gyroscope", "--at", "theta=60deg"]) == 0
     assert "exists when" in capsys.readouterr().out
-    assert main(["invariants", "marble-on-turntable"]) == 0
-    assert "Nothing outside it is excluded" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
@@ -75,7 +44,6 @@ def test_the_text_output(capsys):
         (["steady", "gyroscope", "--at", "thet=1"], "did you mean theta"),
         (["steady", "gyroscope", "--at", "theta=3kg"], "expected a pure number or an angle"),
         (["steady", "gyroscope/vertical-plane", "--at", "theta=pi/2"], "contradict"),
-        (["invariants", "nothing"], "is no system"),
     ],
 )
 def test_impossible_requests_are_explained(capsys, words, said):

@@ -1,4 +1,6 @@
-"""Python functions of time: what they do for longer than the resolution is never missed."""
+"""Python functions of time: approximated to rounding, with nothing missed that is longer than the
+resolution.
+"""
 
 import math
 import pickle
@@ -10,6 +12,92 @@ import pytest
 import polhode as ph
 from polhode.base import NumericError
 from polhode.simulate.forcing._approximation import approximated, sampling_times
+from simulate.forcing.taylor import derivatives_at_ends
+
+
+@pytest.mark.parametrize(
+    ("function", "rate"),
+    [
+        (lambda t: math.sin(3 * t) / 20, lambda t: 3 * math.cos(3 * t) / 20),
+        (lambda t: math.exp(-t) * math.sin(9 * t) + 5, None),
+        (lambda t: 1 / (1 + (t - 2) ** 2), lambda t: -2 * (t - 2) / (1 + (t - 2) ** 2) ** 2),
+        (lambda t: 0.25, lambda t: 0.0),
+        (lambda t: 0, None),
+    ],
+)
+def test_a_function_to_rounding(function, rate):
+    curve = approximated(function, 0.0, 6.0)
+    times = np.linspace(0, 5.999, 700)
+    assert curve.value(times) == pytest.approx([function(t) for t in times], abs=1e-12)
+    assert all(jump.time in (0.0, 6.0) for jump in curve.jumps)
+    if rate is not None:
+        assert curve.velocity(times) == pytest.approx([rate(t) for t in times], abs=1e-10)
+
+
+def test_large_terms_may_cancel():
+    """Where they do, the function's own rounding is larger than its values tell."""
+    random = np.random.default_rng(1)
+    for _ in range(60):
+        a, b, w, p = *random.normal(size=2), *random.uniform(0.1, 6.0, 2)
+        offset = 10 ** random.uniform(-2, 1)
+
+        def function(t, a=a, b=b, w=w, p=p, offset=offset):
+            return offset + a * math.sin(w * t + p) + b * math.exp(-t) * math.tanh(3 * (t - 1))
+
+        curve = approximated(function, 0.0, 6.0)
+        times = np.linspace(0, 5.999, 100)
+        assert curve.value(times) == pytest.approx([function(t) for t in times], abs=1e-12)
+
+
+def test_pieces_of_a_function_meet_with_equal_rates():
+    curve = approximated(lambda t: math.sin(5 * t), 0.0, 4.0)
+    reach = np.diff(curve.knots)[:-1]
+    for order in range(2):
+        ends = derivatives_at_ends(curve.coefficients[:-1], reach, order)
+        assert ends == pytest.approx(curve.coefficients[1:, order], abs=2e-14)
+
+
+def test_given_corners_are_jumps():
+    curve = approximated(lambda t: abs(t - 1) + (t >= 2), 0.0, 3.0, corners=[2, 1])
+    jerks = {jump.time: jump for jump in curve.jumps}
+    assert jerks[1.0].velocity == pytest.approx((-1.0, 1.0))
+    assert jerks[1.0].value == pytest.approx((0.0, 0.0), abs=1e-14)
+    assert jerks[2.0].value == pytest.approx((1.0, 2.0))
+
+
+def _fails(t):
+    raise KeyError("no such time")
+
+
+@pytest.mark.parametrize(
+    ("function", "message"),
+    [
+        (lambda t: abs(t - 1), r"not smooth near t = 1 s.*corner"),
+        (lambda t: abs(t - 1.5), r"not smooth near t = 1.5 s"),
+        (lambda t: t if t < 0.75 else 0.1 + t, r"not smooth near t = 0.75 s"),
+        (lambda t: math.sin(t) + (t >= 0.75) * 1e-9, r"not smooth near t = 0.75 s"),
+        (math.sqrt, "not smooth near t = 0"),
+        (lambda t: float(int(t * 1e6) % 7), "not smooth"),
+        (lambda t: 1 / (t - 1), "not smooth near t = 1|not smooth near t = 0.99"),
+        (lambda t: math.nan, "not finite at t"),
+        (lambda t: math.inf if t > 1 else 0.0, "not finite at t"),
+        (lambda t: "fast", "fails between"),
+        (lambda t: 1j, "fails between"),
+        (_fails, "no such time"),
+    ],
+)
+def test_invalid_functions_are_refused(function, message):
+    with pytest.raises(NumericError, match=message):
+        approximated(function, 0.0, 3.0)
+
+
+@pytest.mark.parametrize("span", [(0.0, 0.0), (1.0, 0.0), (0.0, math.inf), (math.nan, 1.0)])
+def test_spans_without_length(span):
+    with pytest.raises(NumericError, match="span"):
+        approximated(math.sin, *span)
+
+
+# -- resolution ------------------------------------------------------------------------------------
 
 
 def box(begin, width):
@@ -34,8 +122,8 @@ def test_a_box_is_never_missed(width):
         begin = rng.uniform(0, 1 - width)
         with pytest.raises(NumericError, match="not smooth near t") as refusal:
             approximated(box(begin, width), 0.0, 1.0)
-        told = float(str(refusal.value).split("t = ")[1].split(" s")[0])
-        assert min(abs(told - begin), abs(told - begin - width)) < 1e-5
+        reported = float(str(refusal.value).split("t = ")[1].split(" s")[0])
+        assert min(abs(reported - begin), abs(reported - begin - width)) < 1e-5
 
 
 @pytest.mark.parametrize("half", [0.02, 0.005, 0.001])

@@ -1,15 +1,156 @@
-"""Sheets read from files, and files that are no sheets."""
+"""Prescribed motions through samples, near noisy ones, and read from files."""
 
+import math
 import random
 from contextlib import suppress
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.interpolate import make_smoothing_spline
 
-from polhode.base import PolhodeError, StoreError
-from polhode.simulate.forcing._samples import read_sheet
+from polhode.base import NumericError, PolhodeError, StoreError
+from polhode.simulate.forcing._samples import _smoothed, read_sheet, sampled
+from simulate.forcing.taylor import derivatives_at_ends
 
 PLAIN = "t,x,y\n0,0,0\n1,0.5,0\n2,2,-1\n"
+
+
+@st.composite
+def samples(draw):
+    steps = draw(st.lists(st.floats(0.01, 1.0), min_size=1, max_size=20))
+    values = draw(st.lists(st.floats(-1, 1), min_size=len(steps) + 1, max_size=len(steps) + 1))
+    return np.cumsum([draw(st.floats(-5, 5)), *steps]), np.array(values)
+
+
+@given(samples())
+@settings(derandomize=True, max_examples=60)
+def test_a_curve_through_samples(drawn):
+    times, values = drawn
+    curve = sampled(times, values)
+    assert curve.value(times) == pytest.approx(values, abs=1e-9)
+    assert curve.velocity(times[0]) == 0.0
+    assert {jump.time for jump in curve.jumps} <= {times[-1]}
+    reach = np.diff(curve.knots)[:-1]
+    for order in range(3):
+        slopes = derivatives_at_ends(curve.coefficients[:-1], reach, order)
+        scale = 1 + np.max(np.abs(curve.coefficients)) * 10
+        assert slopes == pytest.approx(curve.coefficients[1:, order], abs=1e-9 * scale)
+
+
+def test_polynomials_of_low_degree_are_found_exactly():
+    times = np.array([0.0, 0.3, 0.7, 1.1, 2.0])
+    cubic = sampled(times, times**3 - 2 * times**2)
+    dense = np.linspace(0, 1.99, 50)
+    assert cubic.value(dense) == pytest.approx(dense**3 - 2 * dense**2, abs=1e-13)
+    assert sampled([0, 2], [1, 5]).value(1.0) == 2.0  # half the time, a quarter of the way
+
+
+def test_error_falls_with_the_fourth_power_of_the_step():
+    def error(count):
+        times = np.linspace(0, 2, count)
+        dense = np.linspace(0, 1.999, 500)
+        curve = sampled(times, 1 - np.cos(3 * times))
+        return np.max(np.abs(curve.value(dense) - 1 + np.cos(3 * dense)))
+
+    assert 10 < error(41) / error(81) < 25
+
+
+def test_the_rate_jumps_between_segments():
+    first, second = np.linspace(0, 1, 11), np.linspace(1, 2, 11)
+    times = np.concatenate([first, second])
+    values = np.concatenate([first**2, 1 - 3 * (second - 1)])
+    jerk, stop = sampled(times, values, starts=[11]).jumps
+    assert jerk.time == 1.0
+    assert jerk.value == pytest.approx((1.0, 1.0))
+    assert jerk.velocity == pytest.approx((2.0, -3.0))
+    assert stop.velocity == pytest.approx((-3.0, 0.0))
+
+
+def test_a_segment_starts_where_the_last_one_ended():
+    jerk, _ = sampled([0, 1, 2, 3], [0, 1, 0, -1], starts=[2]).jumps
+    assert (jerk.time, jerk.value) == (1.0, (1.0, 1.0))
+    assert jerk.velocity == pytest.approx((2.0, -1.0))
+
+
+def test_a_repeated_time_with_another_value_is_a_shift():
+    shift, _ = sampled([0, 1, 1, 2], [0, 1, 4, 5], starts=[2]).jumps
+    assert (shift.time, shift.value) == (1.0, (1.0, 4.0))
+
+
+def test_noise_is_smoothed_away():
+    rng = np.random.default_rng(6)
+    times = np.linspace(0, 3, 301)
+    true = 1 - np.cos(2 * times)
+    noisy = true + 0.01 * rng.standard_normal(len(times))
+    smooth, rough = sampled(times, noisy, noise=0.01), sampled(times, noisy)
+    within = times[20:-20]
+    assert np.max(np.abs(smooth.value(within) - true[20:-20])) < 0.01
+    speeds = 2 * np.sin(2 * within)
+    assert np.max(np.abs(smooth.velocity(within) - speeds)) < 0.2
+    assert np.max(np.abs(rough.velocity(within) - speeds)) > 1.0
+    distance = smooth.value(times[1:-1]) - noisy[1:-1]
+    assert np.sqrt(np.mean(distance**2)) == pytest.approx(0.01, rel=0.05)
+    assert smooth.velocity(0.0) == 0.0
+
+
+def test_smoothing_agrees_with_scipy():
+    rng = np.random.default_rng(9)
+    times = np.cumsum(rng.uniform(0.2, 2.0, 200))
+    values = np.sin(times / 20) + 0.1 * rng.standard_normal(200)
+    for stiffness in (1e-6, 1.0, 1e3):
+        ours, bend = _smoothed(times, values, stiffness)
+        theirs = make_smoothing_spline(times, values, lam=stiffness)
+        assert ours == pytest.approx(theirs(times), abs=1e-10)
+        assert bend == pytest.approx(theirs(times, 2), abs=1e-10)
+
+
+def test_smoothed_segments_stay_together():
+    rng = np.random.default_rng(7)
+    times = np.concatenate([np.linspace(0, 1, 51), np.linspace(1, 2, 51)])
+    values = np.minimum(times**2, 2 - times) + 0.001 * rng.standard_normal(len(times))
+    jerk, _ = sampled(times, values, starts=[51], noise=0.001).jumps
+    assert jerk.value[0] == pytest.approx(jerk.value[1], abs=1e-12)
+    assert jerk.velocity == pytest.approx((2.0, -1.0), abs=0.3)
+
+
+def test_noise_larger_than_the_motion_leaves_rest():
+    rng = np.random.default_rng(8)
+    still = sampled(np.linspace(0, 1, 50), 1e-3 * rng.standard_normal(50), noise=1e-2)
+    assert np.max(np.abs(still.velocity(np.linspace(0, 1, 99)))) < 1e-4
+
+
+def test_noise_too_small_to_matter_leaves_the_samples():
+    times = np.linspace(0, 1, 20)
+    curve = sampled(times, np.sin(9 * times) ** 2, noise=1e-14)
+    assert curve.value(times) == pytest.approx(np.sin(9 * times) ** 2, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("times", "values", "more", "message"),
+    [
+        ([0, 1], [0, 1, 2], {}, "one value for each time"),
+        ([0, 1, 1], [0, 1, 2], {}, "times that increase"),
+        ([0, 2, 1], [0, 1, 2], {}, "times that increase"),
+        ([0, 1, 0.5, 2], [0, 1, 2, 3], {"starts": [2]}, "times that increase"),
+        ([0], [0], {}, "at least 2"),
+        ([], [], {}, "at least 2"),
+        ([0, 1, 2], [0, 1, 2], {"starts": [2]}, "at least 2"),
+        ([0, 1], [0, 1], {"noise": 0.1}, "at least 3"),
+        ([0, 1], [0, math.nan], {}, "numbers"),
+        ([0, math.inf], [0, 1], {}, "numbers"),
+        ([0, 1], [0, 1], {"noise": -1.0}, "standard deviation"),
+        ([0, 1], [0, 1], {"noise": math.nan}, "standard deviation"),
+        ([0, 1e-200], [0, 1e200], {}, "moderate size"),
+    ],
+)
+def test_invalid_samples_are_refused(times, values, more, message):
+    with pytest.raises(NumericError, match=message):
+        sampled(times, values, **more)
+
+
+# -- sheets read from files ------------------------------------------------------------------------
 
 
 @pytest.fixture
@@ -143,8 +284,8 @@ BAD = {
 
 @pytest.mark.parametrize("name", BAD)
 def test_bad_sheets_are_refused_in_a_few_words(written, name):
-    content, told = BAD[name]
-    with pytest.raises(PolhodeError, match=told) as refused:
+    content, message = BAD[name]
+    with pytest.raises(PolhodeError, match=message) as refused:
         read_sheet(written(content))
     assert len(str(refused.value)) < 300
 

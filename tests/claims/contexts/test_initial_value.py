@@ -1,21 +1,26 @@
 """Claims along a motion: closed forms, starts, events, and a second opinion of their own."""
 
+from functools import partial
+
 import pytest
 
+from claims.judged import before_correction
 from claims.mutation import Original, document
 from polhode.claims import Answer, Verdict
 from polhode.claims._check import judged_claim
 
 
-def verdict_on(id: str, old: str = "", new: str = "", when: str | None = None) -> Verdict:
+def verdict_on(
+    id: str, old: str = "", new: str = "", when: str | None = None, *, corrected: bool = False
+) -> Verdict:
     """On a claim of the problem set, with something else put in."""
     original = Original.of(document().claim(id))
     claim = original.claim
     assert old in claim.formula
     formula = claim.formula.replace(old, new, 1) if old else claim.formula
-    return judged_claim(
-        formula, original.notation.choosing, "launch", claim.when if when is None else when
-    )
+    moments = claim.when if when is None else when
+    judge = partial(judged_claim, formula, original.notation.choosing, "launch", moments)
+    return judge() if corrected else before_correction(lambda stop: judge(tell=stop))
 
 
 @pytest.mark.parametrize("id", ["12", "13", "w51", "w65", "w71", "w75"])
@@ -46,7 +51,7 @@ def test_what_is_false_along_the_motion_fails(id, old, new):
     ],
 )
 def test_a_slip_in_a_closed_form_is_corrected(id, old, new, slip):
-    correction = verdict_on(id, old, new).correction
+    correction = verdict_on(id, old, new, corrected=True).correction
     assert correction is not None
     assert correction.what == slip
     original = Original.of(document().claim(id))
@@ -60,7 +65,9 @@ def test_letters_that_vanish_from_the_start_alone_have_a_number():
 
 
 def test_a_statement_on_single_moments_is_not_corrected():
-    assert verdict_on("w71", r"\ddot{\phi} > 0", r"\ddot{\phi} < 0").correction is None
+    assert (
+        verdict_on("w71", r"\ddot{\phi} > 0", r"\ddot{\phi} < 0", corrected=True).correction is None
+    )
 
 
 def test_a_motion_integrated_from_the_balance_of_every_body_agrees():

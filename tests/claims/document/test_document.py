@@ -215,9 +215,9 @@ def test_every_part_treats_a_system_of_the_catalogue() -> None:
 
 def test_every_definition_says_where_the_text_has_it() -> None:
     found = document()
-    told = [d for owner in (*found.parts, *found.claims) for d in owner.definitions]
-    assert told
-    assert all(definition.where for definition in told)
+    definitions = [d for owner in (*found.parts, *found.claims) for d in owner.definitions]
+    assert definitions
+    assert all(definition.where for definition in definitions)
 
 
 def test_the_two_equations_without_number_are_those_of_the_contract() -> None:
@@ -246,7 +246,7 @@ def test_a_formula_changed_by_one_letter_is_noticed() -> None:
 
 
 def test_the_example_of_the_format_is_a_document() -> None:
-    page = (Path(__file__).parents[2] / "docs" / "claims-format.md").read_text("utf-8")
+    page = (Path(__file__).parents[3] / "docs" / "claims-format.md").read_text("utf-8")
     found = read_document(page.split("```toml\n")[1].split("```")[0])
     assert [claim.id for claim in found.claims] == ["3", "4"]
     for claim in found.claims:
@@ -257,7 +257,7 @@ def test_the_example_of_the_format_is_a_document() -> None:
 
 
 def test_the_page_of_the_format_names_every_field() -> None:
-    page = (Path(__file__).parents[2] / "docs" / "claims-format.md").read_text("utf-8")
+    page = (Path(__file__).parents[3] / "docs" / "claims-format.md").read_text("utf-8")
     own = {name for owner in (Part, Claim) for name in owner.__dataclass_fields__}
     names = (own - {"definitions", "line"}) | {"let", "like"}
     assert [name for name in sorted(names) if f"`{name}`" not in page] == []
