@@ -22,8 +22,8 @@ from polhode.base import NumericError
 #: Primes p = 3 mod 4 from here downwards: in their fields d^((p + 1)/4) is a root of a square d.
 #: Products of two residues fit into 64 bits.
 _LARGEST = 2**31 - 1
-#: How many fields are tried, each until so many points in a row have no value. A constant such as √3
-#: has a value in half of all fields, several independent ones in few.
+#: How many fields are tried, each until so many points in a row have no value. A constant such as
+#: √3 has a value in half of all fields, several independent ones in few.
 _FIELDS = 4000
 _MISSES = 64
 

@@ -65,7 +65,7 @@ class Stability(Shown):
 
     @cached_property
     def conditions(self) -> tuple[Condition, ...]:
-        """Conditions that together are equivalent to linear stability, without those always true."""
+        """Together equivalent to linear stability; those that always hold are left out."""
         if self.is_marginal:
             return (Condition(-ONE),)
         demanded = (
@@ -312,9 +312,9 @@ def _undamped(coefficients: Row) -> tuple[Expr, ...]:
 def _hurwitz_determinants(coefficients: Row) -> tuple[Expr, ...]:
     """Leading minors of Hurwitz's matrix: positive where all roots have negative real parts.
 
-    The Routh-Hurwitz criterion: with a₀ > 0, entry (i, j) is a_{2j-i}, counted from one (Gantmacher,
-    The Theory of Matrices, vol. 2, ch. XV). All coefficients are multiplied by the leading one,
-    whose sign may be open.
+    The Routh-Hurwitz criterion: with a₀ > 0, entry (i, j) is a_{2j-i}, counted from one
+    (Gantmacher, The Theory of Matrices, vol. 2, ch. XV). All coefficients are multiplied by the
+    leading one, whose sign may be open.
     """
     degree = len(coefficients) - 1
     falling = tuple(c * coefficients[-1] for c in reversed(coefficients))

@@ -240,7 +240,7 @@ def cross(a: Vec, b: Vec) -> list[Any]:
 
 
 def _rotated(reals: Reals, axis: Vec, angle: Array, vector: Vec) -> list[Array]:
-    """A vector turned about a unit axis."""
+    """A vector rotated about a unit axis."""
     c, s = reals.cos(angle), reals.sin(angle)
     along, beside = scalar(axis, vector), cross(axis, vector)
     return [

@@ -51,7 +51,7 @@ class Reals(ABC):
 
     @abstractmethod
     def turns(self, times: Array, frequency: Any, offset: Any) -> WholeTurns:
-        """frequency · times + offset; the fraction is correct to rounding for any number of turns."""
+        """frequency · times + offset; the fraction is correct to rounding after any whole turns."""
 
     @abstractmethod
     def exact(self, number: Any) -> Fraction:

@@ -249,7 +249,7 @@ class SymmetricAttitude(AttitudeSolution):
 
     @cached_property
     def _initial_triad(self) -> tuple[list[Any], list[Any], list[Any]]:
-        """The horizontal towards which the axis leans at the start, the one across, the vertical."""
+        """The horizontal direction of the initial lean, the one across it, the vertical."""
         data = self.placed.data
         e, u = [data.number(c) for c in self.axis.e], [data.number(c) for c in self.axis.u]
         lean = [a - scalar(e, u) * b for a, b in zip(e, u, strict=True)]
