@@ -94,7 +94,7 @@ REFUSALS: dict[str, Refusal] = {
     "a motor on axes that precess": (
         system(ph.Pivot(wheel(), at=AXES["3"] * a), ph.Motor(wheel(), axis="3", rate=1)),
         DECLARATION,
-        ("'motor'", "moves with phi_dot", "not enough", "to=body"),
+        ("'motor'", "moves with phi_dot", "cannot keep", "to=body"),
     ),
     "a gear by a motor": (
         turning(
@@ -202,29 +202,29 @@ REFUSALS: dict[str, Refusal] = {
     "a disk with axes that spin with it": (
         lambda: wheel(axes=SPUN),
         DECLARATION,
-        ("body 'wheel'", "counted by psi", "spin=WithAxes()", "another angle"),
+        ("body 'wheel'", "spin angle psi", "spin=WithAxes()", "another angle"),
     ),
     "a hoop with axes that spin with it": (
         lambda: ph.hoop("hoop", mass=m, radius=a, axes=SPUN, spin=ph.Relative("3")),
         DECLARATION,
-        ("body 'hoop'", "counted by psi", "spin=WithAxes()"),
+        ("body 'hoop'", "spin angle psi", "spin=WithAxes()"),
     ),
     "a cylinder with axes that spin with it by another angle": (
         system(
             ph.Pivot(ph.cylinder("can", mass=m, radius=a, height=a, axes=SPUN_OTHERWISE)),
         ),
         DECLARATION,
-        ("body 'can'", "spins about 3", "likewise with s", "spin=WithAxes()"),
+        ("body 'can'", "spins about 3", "about the same axis with s", "spin=WithAxes()"),
     ),
     "the same by its spin relative to them": (
         system(ph.Pivot(wheel(axes=SPUN_OTHERWISE, spin=ph.Relative("3")))),
         DECLARATION,
-        ("body 'wheel'", "likewise with s", "leave out that rotation"),
+        ("body 'wheel'", "about the same axis with s", "leave out that rotation"),
     ),
     "a ball with axes that turn for nothing": (
         system(ph.Rolling(ph.sphere("ball", mass=m, radius=a, axes=TURNED), on=FLOOR)),
         DECLARATION,
-        ("body 'ball'", "about x, y, z", "likewise with phi"),
+        ("body 'ball'", "about x, y, z", "about the same axis with phi"),
     ),
 }
 
