@@ -180,7 +180,7 @@ def of_unlike_arguments(function, count):
 
 @pytest.mark.parametrize("function", [cos, cosh])
 def test_a_denominator_of_too_many_unlike_arguments_is_refused_before_it_is_worked_out(function):
-    with pytest.raises(NumericError, match="too many unlike arguments"):
+    with pytest.raises(NumericError, match="too many different arguments"):
         1 / of_unlike_arguments(function, 5)
     assert (1 / of_unlike_arguments(function, 3)) * of_unlike_arguments(function, 3) == 1
 

@@ -23,7 +23,7 @@ def test_a_file_and_a_pipe(tmp_path):
 @pytest.mark.parametrize(
     ("name", "reason"),
     [
-        ("/dev/zero", "there is no end to it"),
+        ("/dev/zero", "it does not end"),
         ("/", "Is a directory"),
         ("none", "No such file"),
         ("a\0b", "null"),

@@ -156,7 +156,7 @@ REFUSALS: dict[str, Refusal] = {
     "a frame for a support": (
         lambda: ph.Rolling(wheel(), on=LAB),
         DECLARATION,
-        ("with a Frame", "say on=Plane(lab)"),
+        ("with a Frame", "give on=Plane(lab)"),
     ),
     "no surface": (
         lambda: ph.Rolling(body(), on=FLOOR),
@@ -231,17 +231,17 @@ REFUSALS: dict[str, Refusal] = {
     "two bodies alike": (
         lambda: ph.System(wheel(), wheel(tag="2")),
         DECLARATION,
-        ("both called 'wheel'", "every body"),
+        ("named 'wheel'", "every body"),
     ),
     "two contacts alike": (
         lambda: ph.System(ph.Smooth(wheel(), on=FLOOR), ph.Pivot(wheel(), name="contact")),
         DECLARATION,
-        ("both called 'contact'", "every contact or joint"),
+        ("named 'contact'", "every contact or joint"),
     ),
     "two loads alike": (
         lambda: ph.System(wheel(), ph.Gravity(g), ph.Gravity(g)),
         DECLARATION,
-        ("both called 'gravity'", "every load"),
+        ("named 'gravity'", "every load"),
     ),
     "bodies from two roots": (
         lambda: ph.System(wheel(), ph.point_mass("moon", mass=1, axes=OTHER)),

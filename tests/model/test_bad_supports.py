@@ -84,17 +84,17 @@ REFUSALS: dict[str, Refusal] = {
             ph.Gravity(g),
         ),
         DECLARATION,
-        ("'pivot_f'", "moves with phi_dot", "not enough to keep the body"),
+        ("'pivot_f'", "moves with phi_dot", "cannot keep the body"),
     ),
     "a body on a light arm that nothing turns with it": (
         system(ph.Pivot(flywheel(), to=TURNED["x"] * a), ph.Gravity(g, up=LAB["x"])),
         DECLARATION,
-        ("'pivot_f'", "moves with phi_dot", "not enough to keep the body"),
+        ("'pivot_f'", "moves with phi_dot", "cannot keep the body"),
     ),
     "a motor on axes that precess": (
         system(ph.Pivot(wheel(), at=AXES["3"] * a), ph.Motor(wheel(), axis="3", rate=1)),
         DECLARATION,
-        ("'motor'", "moves with phi_dot", "not enough", "to=body"),
+        ("'motor'", "moves with phi_dot", "cannot keep", "to=body"),
     ),
     "a gear by a motor": (
         turning(
@@ -132,12 +132,12 @@ REFUSALS: dict[str, Refusal] = {
     "a coordinate that moves nothing": (
         system(ph.Pivot(bob(), only="z", to=LAB["z"] * s)),
         DECLARATION,
-        ("coordinate s", "no body is placed or turned", "functions(...)"),
+        ("coordinate s", "no body's position or attitude", "functions(...)"),
     ),
     "a force by a coordinate that moves nothing": (
         system(ph.Force(bob().point(), LAB["z"] * (s * x))),
         DECLARATION,
-        ("coordinate s, x", "no body is placed or turned"),
+        ("coordinate s, x", "no body's position or attitude"),
     ),
     # -- what must not vary
     "a place by a speed": (
@@ -202,12 +202,12 @@ REFUSALS: dict[str, Refusal] = {
     "a disk with axes that spin with it": (
         lambda: wheel(axes=SPUN),
         DECLARATION,
-        ("body 'wheel'", "counted by psi", "spin=WithAxes()", "another angle"),
+        ("body 'wheel'", "spin angle psi", "spin=WithAxes()", "another angle"),
     ),
     "a hoop with axes that spin with it": (
         lambda: ph.hoop("hoop", mass=m, radius=a, axes=SPUN, spin=ph.Relative("3")),
         DECLARATION,
-        ("body 'hoop'", "counted by psi", "spin=WithAxes()"),
+        ("body 'hoop'", "spin angle psi", "spin=WithAxes()"),
     ),
     "a cylinder with axes that spin with it by another angle": (
         system(

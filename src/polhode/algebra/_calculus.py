@@ -20,12 +20,12 @@ def linear_parts(expression: Expr, symbols: Sequence[Symbol]) -> tuple[tuple[Exp
     bound = (g for g in expression.generators if g not in wanted)
     if expression.denominator.symbols() & wanted or any(g.symbols() & wanted for g in bound):
         raise _not_linear(expression, symbols)
-    known = [symbol for symbol in symbols if symbol in ring.index]
+    present = [symbol for symbol in symbols if symbol in ring.index]
     parts: dict[Symbol | None, Expr] = {}
-    for powers, part in ring.grouped(expression.num, [ring.index[s] for s in known]).items():
+    for powers, part in ring.grouped(expression.num, [ring.index[s] for s in present]).items():
         if sum(powers) > 1:
             raise _not_linear(expression, symbols)
-        key = known[powers.index(1)] if any(powers) else None
+        key = present[powers.index(1)] if any(powers) else None
         parts[key] = Expr.fraction(ring, part, expression.den).trimmed()
     return tuple(parts.get(symbol, ZERO) for symbol in symbols), parts.get(None, ZERO)
 
@@ -53,7 +53,7 @@ def integrate(
 ) -> Expr:
     """Definite integral of a polynomial in a length, or of a trigonometric polynomial in an angle.
 
-    What remains may depend on anything but the symbol. Raises `NumericError` for other integrands.
+    Coefficients may depend on anything but the symbol. Raises `NumericError` for other integrands.
     """
     variable = as_symbol(symbol)
     primitive = _primitive(Expr.of(expression), variable)
@@ -62,7 +62,7 @@ def integrate(
 
 def _primitive(integrand: Expr, variable: Symbol) -> Expr:
     x = Expr.generator(variable)
-    # functions of the variable x must be those of kx, k being the unit
+    # Sines and cosines must be of one multiple kx of the variable; `unit` is k.
     unit = ONE
     for generator in integrand.generators:
         if generator == variable or variable not in generator.symbols():
@@ -76,15 +76,15 @@ def _primitive(integrand: Expr, variable: Symbol) -> Expr:
     if variable in integrand.denominator.symbols():
         raise _not_integrable(integrand, variable)
     for powers, coefficient in integrand.terms():
-        mine = {g: p for g, p in powers.items() if variable in g.symbols()}
-        others = (Expr.generator(g) ** p for g, p in powers.items() if g not in mine)
+        dependent = {g: p for g, p in powers.items() if variable in g.symbols()}
+        others = (Expr.generator(g) ** p for g, p in powers.items() if g not in dependent)
         rest = prod(others, start=Expr.constant(coefficient))
-        length = mine.pop(variable, 0)
-        if length and mine:
+        length = dependent.pop(variable, 0)
+        if length and dependent:
             raise _not_integrable(integrand, variable)
-        if mine:
-            sines = sum(p for g, p in mine.items() if not isinstance(g, Even))
-            cosines = sum(p for g, p in mine.items() if isinstance(g, Even))
+        if dependent:
+            sines = sum(p for g, p in dependent.items() if not isinstance(g, Even))
+            cosines = sum(p for g, p in dependent.items() if isinstance(g, Even))
             result = result + rest * _circular_primitive(sines, cosines, x * unit) / unit
         else:
             result = result + rest * x ** (length + 1) / (length + 1)
@@ -92,7 +92,7 @@ def _primitive(integrand: Expr, variable: Symbol) -> Expr:
 
 
 def _circular_primitive(sines: int, cosines: int, angle: Expr) -> Expr:
-    """Primitive of sin^m cos^n, n ≤ 1 (higher powers are reduced away)."""
+    """Primitive of sin^m cos^n; n ≤ 1, as normal form replaces cos² by 1 - sin²."""
     if cosines:
         return sin(angle) ** (sines + 1) / (sines + 1)
     if sines % 2:  # sin^(2k+1) = (1 - cos²)^k sin
@@ -103,6 +103,7 @@ def _circular_primitive(sines: int, cosines: int, angle: Expr) -> Expr:
         )
     if not sines:
         return angle
+    # m ∫ sin^m = (m - 1) ∫ sin^(m-2) - cos sin^(m-1), by parts
     lower = _circular_primitive(sines - 2, 0, angle) * (sines - 1)
     return (lower - cos(angle) * sin(angle) ** (sines - 1)) / sines
 
@@ -110,6 +111,6 @@ def _circular_primitive(sines: int, cosines: int, angle: Expr) -> Expr:
 def _not_integrable(integrand: Expr, variable: Symbol) -> NumericError:
     return NumericError(
         f"the integral of {integrand} over {variable.published}",
-        expected="a polynomial, or a polynomial in sine and cosine of one multiple of it",
+        expected="a polynomial in it, or one in the sine and cosine of one multiple of it",
         advice="integrate it numerically",
     )

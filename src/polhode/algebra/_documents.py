@@ -1,4 +1,8 @@
-"""Expressions in documents: how they are written as plain fields and read back."""
+"""Expressions in documents: written as plain fields and read back.
+
+A document may come from anyone. Reading therefore checks each part for the normal form in which
+equality is decided, and its size, instead of trusting the writer.
+"""
 
 from __future__ import annotations
 
@@ -41,7 +45,7 @@ _FUNCTIONS: Mapping[str, tuple[type[Elementary], Any]] = {
 # -- symbols ---------------------------------------------------------------------------------------
 
 
-def _symbol_apart(symbol: Symbol) -> dict[str, Any]:
+def _symbol_fields(symbol: Symbol) -> dict[str, Any]:
     return {
         "name": symbol.name,
         "kind": symbol.kind.value,
@@ -51,7 +55,8 @@ def _symbol_apart(symbol: Symbol) -> dict[str, Any]:
 
 
 def _symbol(name: str, kind: str, order: int, positive: bool) -> Symbol:
-    named = isinstance(name, str) and is_name(name.replace(" ", "_"))  # blanks: polhode's own
+    # polhode's own symbols may have blanks in their names, which users cannot declare
+    named = isinstance(name, str) and is_name(name.replace(" ", "_"))
     if not named or (name == "t") != (kind == "time"):
         raise ValueError(f"the name {name!r}")
     if type(order) is not int or not 0 <= order <= _HIGHEST_DERIVATIVE:
@@ -64,7 +69,7 @@ def _symbol(name: str, kind: str, order: int, positive: bool) -> Symbol:
 # -- functions -------------------------------------------------------------------------------------
 
 
-def _function_apart(function: Elementary) -> dict[str, Any]:
+def _function_fields(function: Elementary) -> dict[str, Any]:
     unit = function.unit
     return {
         "name": function.name,
@@ -91,7 +96,7 @@ def _root(of: Expr) -> SquareRoot:
 # -- expressions -----------------------------------------------------------------------------------
 
 
-def _expression_apart(expression: Expr) -> dict[str, Any]:
+def _expression_fields(expression: Expr) -> dict[str, Any]:
     return {
         "over": expression.generators,
         "above": _terms(expression, expression.num),
@@ -151,11 +156,11 @@ def _matrix(rows: tuple[tuple[Expr, ...], ...]) -> Matrix:
     return Matrix(rows)
 
 
-#: How expressions and what they are made of are written in documents.
+#: Document forms of expressions and of their parts.
 SHAPES = (
-    ShapeRecord("symbol", (Symbol,), _symbol_apart, _symbol),
-    ShapeRecord("function", (Odd, Even, Exponential), _function_apart, _function),
+    ShapeRecord("symbol", (Symbol,), _symbol_fields, _symbol),
+    ShapeRecord("function", (Odd, Even, Exponential), _function_fields, _function),
     ShapeRecord("root", (SquareRoot,), lambda root: {"of": root.radicand}, _root),
-    ShapeRecord("expression", (Expr,), _expression_apart, _expression),
+    ShapeRecord("expression", (Expr,), _expression_fields, _expression),
     ShapeRecord("matrix", (Matrix,), lambda matrix: {"rows": matrix.rows}, _matrix),
 )

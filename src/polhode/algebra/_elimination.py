@@ -2,8 +2,7 @@
 
 `eliminate` multiplies everything out. `eliminate_in_parts` puts long expressions under names and
 never divides by one that can vanish. Both use the same Gauss–Jordan elimination and differ in
-their choice of pivots. Programs, which solve equations for numbers, have an elimination of their
-own: see `programs._tape.solve_on`.
+their choice of pivots. Compiled programs solve their equations by `programs._tape.solve_on`.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ from polhode.base import NumericError
 Table = list[list[Expr]]
 
 LONGEST = 3000  # terms of an entry; the longest of the systems in the tests has half as many
-_STATE = 3  # the random state at which entries are compared
+_STATE = 3  # random state at which rank is decided; unlike those that decide whether one is zero
 
 
 class OutgrownError(NumericError):
@@ -46,7 +45,7 @@ class Elimination:
     """Outcome of Gauss–Jordan elimination of A x = b.
 
     `solved[j]` gives unknown j as (coefficients of the free unknowns, constant). `leftover[i]` is
-    what row i still demands to be zero when all unknowns are gone.
+    the right-hand side of row i once no unknown is left in it: the equations need it to be zero.
     """
 
     solved: dict[int, tuple[Row, Expr]]
@@ -66,11 +65,11 @@ def eliminate(
 ) -> Elimination:
     """Solve A x = b for as many unknowns as its rank.
 
-    `rank[j]` says how readily unknown j is solved for (low first); among equals the simplest
-    pivot is taken, so that no expression grows without need.
+    `rank[j]` is the preference for solving for unknown j (low first); among equals the simplest
+    pivot is taken, which keeps expressions short.
 
     Raises:
-        OutgrownError: where the exact solution grows beyond `LONGEST` terms all the same.
+        OutgrownError: where the exact solution grows beyond `LONGEST` terms nevertheless.
     """
     width = len(rows[0]) if rows else len(rank or ())
     ranks = rank or [0] * width
@@ -82,7 +81,7 @@ def eliminate(
     pivots = dict[int, int]()
     for j, i in _gauss_jordan(table, range(width), cost):
         pivots[j] = i
-        # Elimination multiplies lengths: what has grown this long takes hours two pivots later.
+        # Each step multiplies lengths: entries this long would take hours two pivots later.
         refuse_long((entry for row in table for entry in row), "linear equations")
     free = tuple(j for j in range(width) if j not in pivots)
     solved = {
@@ -110,9 +109,9 @@ def _gauss_jordan(
 
     Args:
         table: rows of coefficients with their right-hand sides.
-        columns: that may be cleared.
+        columns: those that may be cleared.
         cost: of a pivot, by its column and value; None for one that must not be divided by.
-        written: how a new entry is written.
+        written: the form in which a new entry is kept.
     """
     columns, found = set(columns), dict[int, int]()
     while places := [
@@ -122,6 +121,7 @@ def _gauss_jordan(
         for j in columns - found.keys()
         if (price := cost(j, row[j])) is not None
     ]:
+        # equal prices go to the lowest column, then row: the outcome must not depend on set order
         _, j, i = min(places)
         found[j] = i
         scale = ONE / table[i][j]
@@ -137,7 +137,11 @@ def _gauss_jordan(
 
 
 def _complexity(pivot: Expr) -> tuple[int, int]:
-    """Numbers first, then what cannot vanish, then parameters; short before long."""
+    """Numbers first, then positive or negative definite ones, then parameters; short before long.
+
+    A pivot that vanishes in some configuration, such as sin θ, would make the solution singular
+    there although the equations are not.
+    """
     if pivot.rational is not None:
         return (0, 0)
     if is_positive(pivot) or is_positive(-pivot):
@@ -149,9 +153,11 @@ def _complexity(pivot: Expr) -> tuple[int, int]:
 # -- with long expressions under names -------------------------------------------------------------
 #
 # Elimination divides by one entry after the other. Multiplied out, a factor that vanishes somewhere
-# cancels again; under names it would stay. So only numbers and what is positive serve as pivots,
-# and the block that remains is made symmetric, AᵀA x = Aᵀb, which is regular wherever A is. As AᵀA
-# is positive definite, LDLᵀ without pivoting solves it, and no pivot can vanish.
+# cancels again; under names it would stay. So only numbers and definite expressions serve as
+# pivots, and the remaining block is solved by its normal equations AᵀA x = Aᵀb, which are regular
+# wherever A has full column rank. As AᵀA is positive definite, LDLᵀ needs no pivoting and no pivot
+# can vanish (Golub and Van Loan, Matrix Computations, section 4.2). Squaring the condition number
+# costs nothing in exact arithmetic, but digits when the result is evaluated in doubles.
 
 
 def eliminate_in_parts(
@@ -165,7 +171,7 @@ def eliminate_in_parts(
     Args:
         rows: of the matrix.
         right: the column they equal.
-        rank: how readily each unknown is solved for, low first.
+        rank: the preference for solving for each unknown, low first.
         visible: symbols in which the right-hand sides are polynomials, and remain so explicitly.
     """
     width, shown = len(rows[0]) if rows else len(rank or ()), tuple(visible)
@@ -192,7 +198,7 @@ def eliminate_in_parts(
     values = dict(zip(block, _solved_definite(normal, shown), strict=True))
 
     def rest(i: int) -> Row:
-        """What is left of the right-hand sides of a row once the unknowns of the block are in."""
+        """The right-hand sides of a row less the terms of the block's unknowns."""
         row = table[i]
         return tuple(
             written(row[k] - dot((row[j] for j in values), (v[side] for v in values.values())))
@@ -200,6 +206,7 @@ def eliminate_in_parts(
         )
 
     found = values | {j: rest(i) for j, i in cleared.items()}
+    # rows that the block's unknowns do not use up are conditions on the right-hand side
     spare = set(pending) - set(_independent(table, pending, block).values())
     return Elimination(
         {j: (tuple(-c for c in found[j][:-1]), found[j][-1]) for j in sorted(found)},
@@ -223,7 +230,7 @@ def solve_definite(matrix: Sequence[Row], right: Row) -> Row:
 def _solved_definite(table: Table, visible: tuple[Symbol, ...]) -> list[Row]:
     """The solution for each of the right-hand sides at the end of the rows, by LDLᵀ.
 
-    What is below the diagonal is not read.
+    Entries below the diagonal are not read.
     """
     size = len(table)
     for r, row in enumerate(table):
@@ -244,7 +251,8 @@ def _solved_definite(table: Table, visible: tuple[Symbol, ...]) -> list[Row]:
 def _independent(table: Table, rows: Iterable[int], columns: Iterable[int]) -> dict[int, int]:
     """Linearly independent columns, the first ones preferred, each with a pivot row.
 
-    Decided by the values at a random state, with partial pivoting.
+    Decided by enclosures of their values at a random state, with partial pivoting: a ball that
+    excludes zero proves independence there, and hence at almost every state.
     """
     wanted = list(columns)
     pending = {i: [table[i][j].ball(_STATE) for j in wanted] for i in rows}

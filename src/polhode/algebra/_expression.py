@@ -1,4 +1,8 @@
-"""Exact expressions: rational functions of generators, each in one unique form."""
+"""Exact expressions: rational functions of generators, each in one normal form.
+
+Equal expressions have equal numerators and denominators, so comparison needs no simplification:
+`_ring` states the normal form and why it decides whether an expression is zero.
+"""
 
 from __future__ import annotations
 
@@ -27,17 +31,17 @@ from polhode.algebra._ring import (
 )
 from polhode.base import DeclarationError, NumericError, Shown
 
-#: What is accepted wherever an expression is wanted: also SymPy's expressions.
+#: Accepted wherever an expression is expected; SymPy expressions too.
 ExprLike: TypeAlias = Union["Expr", int, float, Fraction, Any]
 
 
 #: The derivative, or the image, of every symbol.
 Rate = Callable[[Symbol], "Expr"]
 
-#: A higher power is taken for a mistake that would fill the memory.
+#: Higher powers are refused as mistakes that would exhaust memory.
 _LARGEST_POWER = 1000
 
-_STATES = (1, 2)  # random ones, at which expressions with named parts are compared with zero
+_STATES = (1, 2)  # random states at which expressions with named parts are compared with zero
 _BITS = 448  # precision of the values there, 134 decimal digits
 
 
@@ -71,7 +75,7 @@ class Composite(Generator):
 
 @dataclass(frozen=True)
 class Facilities:
-    """Functions of modules built on `Expr`, which it offers as methods but must not import."""
+    """Functions of modules built on `Expr`, offered as its methods without importing them here."""
 
     square_root: Callable[[Expr], Expr]
     from_sympy: Callable[[Any], Expr]
@@ -155,10 +159,10 @@ class Expr(Shown):
 
     @property
     def is_zero(self) -> bool:
-        """Whether it vanishes identically; decided, up to the branch of a root.
+        """Whether it vanishes identically; decided exactly, up to the branch of a root.
 
         With named parts, which are not multiplied out, it is evaluated at random states instead.
-        A value whose ball excludes zero proves that it does not vanish; where all hold zero, to
+        An enclosure that excludes zero proves that it does not vanish; if all contain zero, to
         more than a hundred digits, it is taken to vanish.
         """
         return bool(self.num == 0) or (self.ring.has_parts and self._vanishes)
@@ -247,7 +251,7 @@ class Expr(Shown):
 
     def __mul__(self, other: ExprLike) -> Expr:
         if not Expr.reads(other):
-            return NotImplemented  # a vector knows how to multiply itself
+            return NotImplemented  # left to the other operand, such as a vector
         other = Expr.of(other)
         if other.ring is CONSTANTS:
             return self._scaled(other.num)
@@ -316,7 +320,7 @@ class Expr(Shown):
             return bool(self.num == other.num and self.den == other.den)
         try:
             a, b, _ = _together(self, other)
-        except DeclarationError:  # a coordinate and a parameter of one name are not equal
+        except DeclarationError:  # a coordinate and a parameter with the same name differ
             return False
         return bool(a.num == b.num and a.den == b.den)
 
@@ -354,7 +358,7 @@ class Expr(Shown):
         return self.facilities.pretty(self)
 
     def latex(self) -> str:
-        """LaTeX as a text would print it."""
+        """LaTeX as a textbook would print it."""
         return self.facilities.latex(self)
 
     def mathml(self) -> str:
@@ -394,11 +398,12 @@ class Expr(Shown):
         """Time derivative: coordinates, speeds and functions of time change, parameters do not."""
         if not self.ring.has_parts:
             return self.chain(time_rate)
-        changing = sorted(self.symbols(), key=lambda symbol: symbol.key)  # their rates stay visible
+        # symbol by symbol, so that rates stay outside the named parts and results linear in them
+        changing = sorted(self.symbols(), key=lambda symbol: symbol.key)
         return total(self.diff(s) * rate for s in changing if (rate := time_rate(s)))
 
     def subs(self, images: Mapping[Any, ExprLike]) -> Expr:
-        """With symbols replaced simultaneously, also inside functions."""
+        """With symbols replaced simultaneously, inside functions too."""
         table = {as_symbol(symbol): Expr.of(image) for symbol, image in images.items()}
         if not table.keys() & self.symbols():
             return self
@@ -426,7 +431,7 @@ def _rebuilt(generators: tuple[Generator, ...], num: PlainTerms, den: PlainTerms
 
 
 def _is_numpy_scalar(value: object) -> bool:
-    """Whether it is a single number of NumPy's, without importing that."""
+    """Whether it is a NumPy scalar, without importing NumPy."""
     return getattr(value, "shape", None) == () and hasattr(value, "item")
 
 
@@ -472,7 +477,7 @@ def _substituted(polynomial: Expr, images: Mapping[Generator, Expr]) -> Expr:
 
 
 def total(expressions: Iterable[Expr]) -> Expr:
-    """Their sum; many polynomials are added in one ring, which is quicker than one by one."""
+    """Their sum; many polynomials are added in one common ring, which is faster than in pairs."""
     terms = tuple(expressions)
     if len(terms) < 3 or not all(term.is_polynomial for term in terms):
         return sum(terms, ZERO)
@@ -509,12 +514,16 @@ def time_rate(symbol: Symbol) -> Expr:
 
 @lru_cache(maxsize=1024)
 def _along(wanted: Symbol) -> Rate:
-    """The same function for the same symbol, so that derivatives of parts are found again."""
+    """One function object per symbol: the derivatives of named parts are cached by it."""
     return lambda symbol: ONE if symbol == wanted else ZERO
 
 
 def _together(first: Expr, second: ExprLike) -> tuple[Expr, Expr, Ring]:
-    """Both in one ring; in one unit where one has sin θ and the other sin θ/2."""
+    """Both in one ring.
+
+    Where one has sin θ and the other sin θ/2, both are written in the smaller angle: sin θ and
+    sin θ/2 are algebraically dependent, and normal forms over both would not be unique.
+    """
     other = Expr.of(second)
     if first.ring is other.ring:
         return first, other, first.ring

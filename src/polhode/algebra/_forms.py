@@ -1,4 +1,4 @@
-"""Other forms of one polynomial: cos² for sin² where that is shorter, and products."""
+"""Alternative forms of a polynomial: cos² for sin² where that is shorter, and products."""
 
 from __future__ import annotations
 
@@ -43,8 +43,9 @@ Binary = dict[tuple[int, int], Any]
 def in_shortest_squares(ring: Ring, polynomial: Polynomial) -> Polynomial:
     """The form with fewest terms: I₁ sin²θ + I₃ cos²θ for I₃ + (I₁ - I₃) sin²θ.
 
-    The choice is made anew for everything that stands with a square; the result is in general
-    not reduced. Among equals one sign is preferred: 1 + 4 cos²θ for 5 - 4 sin²θ.
+    The choice is made separately for each cofactor of the squares; the result is in general not
+    reduced. Among equally short forms, one with a common sign is preferred: 1 + 4 cos²θ for
+    5 - 4 sin²θ.
     """
     polynomial = ring.reduce(polynomial)
     for even in ring.generators:
@@ -79,7 +80,7 @@ def _rewritten(
 
 
 def _terms_and_signs(coefficients: Iterable[Any]) -> tuple[int, int]:
-    """Terms in all, and those that break the common sign."""
+    """The number of terms, and of those whose sign differs from that of the majority."""
     signs = [coefficient > 0 for coefficient in coefficients if coefficient != 0]
     return len(signs), min(sum(signs), len(signs) - sum(signs))
 
@@ -108,7 +109,7 @@ def _in_both(parts: Sequence[Any], sign: int) -> Binary:
 #: Polynomials with their powers.
 Factors = list[tuple[Polynomial, int]]
 
-#: Longer polynomials are not worth the search for factors.
+#: Longer polynomials are not factorised: it would take longer than the shorter form is worth.
 _LONGEST_TO_FACTOR = 150
 
 
@@ -145,7 +146,7 @@ def terms(ring: Ring, polynomial: Polynomial) -> Iterator[Factored]:
 
 
 def products(ring: Ring, polynomial: Polynomial) -> list[Factored]:
-    """Its forms as a product: content taken out; factors over the sines, over the cosines."""
+    """Its forms as a product: content taken out; factorised in the sines, or in the cosines."""
     if len(polynomial) == 1:
         return list(terms(ring, polynomial))
     forms = [extracted(ring, polynomial), factorised(ring, polynomial)]
@@ -189,10 +190,10 @@ def over_cosines(ring: Ring, polynomial: Polynomial) -> Polynomial:
 
 def content(numbers: Iterable[Fraction]) -> Fraction:
     """The largest number of which all are whole multiples."""
-    found = list(numbers)
+    values = list(numbers)
     return Fraction(
-        gcd(*(n.numerator for n in found)),
-        lcm(*(n.denominator for n in found)),
+        gcd(*(n.numerator for n in values)),
+        lcm(*(n.denominator for n in values)),
     )
 
 
@@ -223,6 +224,7 @@ def _squares(ring: Ring, even: Generator) -> Iterator[tuple[list[Polynomial], Po
     if partner is None:
         return
     odd, sign = partner
+    # cos² = (1 - sin)(1 + sin), but cosh² = 1 + sinh² has no factors over the rationals
     e, o = ring.variable(even), ring.variable(odd)
     yield ([o - 1, o + 1], -(e**2)) if sign < 0 else ([o**2 + 1], e**2)
     yield [e - 1, e + 1], sign * o**2

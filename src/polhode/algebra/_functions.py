@@ -21,9 +21,10 @@ from polhode.base import NumericError
 pi = Expr.generator(PI)
 """The ratio of a circle's circumference to its diameter, exactly."""
 
-#: Multiples up to this one are expanded (sin 4θ); beyond it the multiple is a unit of its own.
+#: Multiples up to this one are expanded (sin 4θ); the terms of an expansion double with each step,
+#: so that a larger multiple is a unit in itself until it meets functions of the same angle.
 _LARGEST_MULTIPLE = 8
-_LARGEST_RATIO = 64  # of multiples of one angle that are written in a common unit
+_LARGEST_RATIO = 64  # between multiples of one angle that are still written in a common unit
 
 Pair = tuple[Expr, Expr]
 
@@ -82,7 +83,7 @@ class Elementary(Composite):
 
     @property
     def name(self) -> str:
-        """What the function is called."""
+        """The function's name."""
         return self.family.odd
 
     @cached_property
@@ -94,12 +95,12 @@ class Elementary(Composite):
 
     @cached_property
     def kin(self) -> tuple[int, str]:
-        """Shared by functions whose arguments may have a common unit."""
+        """The same for all functions whose arguments may have a common unit."""
         return self.family.sign, self.base.key
 
     @property
     def argument(self) -> Expr:
-        """What it is a function of."""
+        """The argument of the function."""
         return self.base * self.unit
 
     @property
@@ -134,9 +135,9 @@ class Elementary(Composite):
         return self.family.of(inside)[1]
 
     def finest(self, others: tuple[Generator, ...]) -> Fraction:
-        """The largest unit of which like functions among `others` take whole multiples.
+        """The largest unit of which this and the like functions in `others` are whole multiples.
 
-        Multiples without a common measure of sensible size are taken as unrelated.
+        Multiples without a common unit of reasonable size are treated as unrelated.
         """
         units = {g.unit for g in others if isinstance(g, Elementary) and g.kin == self.kin}
         return next(unit for group, unit in _related(units | {self.unit}) if self.unit in group)
@@ -207,6 +208,8 @@ class Exponential(Elementary):
         return exp(inside)
 
     def refined(self, others: tuple[Generator, ...]) -> Expr | None:
+        # beside cosh and sinh of the same argument it must be written as cosh + sinh: the three are
+        # linearly dependent
         kin = [g for g in others if isinstance(g, Even | Odd) and g.base == self.base]
         if any(g.family == HYPERBOLIC for g in kin):
             finest = self.finest(others)
@@ -274,7 +277,7 @@ def _terms(argument: Expr) -> Iterator[tuple[Expr, Fraction]]:
 
 
 def is_unit_argument(family: FunctionPair, base: Expr) -> bool:
-    """Whether functions of multiples of `base` are written in units of it and of nothing else."""
+    """Whether functions of multiples of `base` are written in units of `base` alone."""
     exact = family.sign < 0 and base == pi
     return not exact and list(_terms(base)) == [(base, Fraction(1))]
 
@@ -314,6 +317,7 @@ def _cosine_of_turn(multiple: Fraction) -> Expr:
             expected="a multiple of pi/12 (15 degrees), whose sine is a square root",
             advice="use a symbol for the angle and give it its value as a number",
         )
+    # cos(π/12) = (√6 + √2)/4 = √2 (√3 + 1)/4, and so on in steps of π/12
     root2, root3 = sqrt(2), sqrt(3)
     table = (
         ONE,
@@ -328,9 +332,9 @@ def _cosine_of_turn(multiple: Fraction) -> Expr:
 
 
 def exponentials(expression: Expr) -> list[tuple[Expr, Expr]] | None:
-    """An expression as a sum of factors times exp(exponent), where exps occur in it.
+    """An expression as a sum of factors times exp(exponent).
 
-    None where they do not, or where the denominator is a sum with exps in it.
+    None if no exponential occurs, or if its denominator has terms with different exponents.
     """
     if not any(isinstance(g, Exponential) for g in expression.ring.generators):
         return None
@@ -347,17 +351,17 @@ def exponentials(expression: Expr) -> list[tuple[Expr, Expr]] | None:
 
 
 def _exponent_of(denominator: Expr) -> tuple[Expr, Expr] | None:
-    """A denominator without the exps that all its terms have, and their exponent."""
-    found = [(*_without_exponentials(p), c) for p, c in denominator.terms()]
-    exponents = {exponent for _, exponent, _ in found}
+    """A denominator without the exponential common to its terms, and the exponent of that."""
+    terms = [(*_without_exponentials(p), c) for p, c in denominator.terms()]
+    exponents = {exponent for _, exponent, _ in terms}
     if len(exponents) != 1:
         return None
-    rest = sum((factor * Expr.constant(c) for factor, _, c in found), ZERO)
+    rest = sum((factor * Expr.constant(c) for factor, _, c in terms), ZERO)
     return rest, exponents.pop()
 
 
 def _without_exponentials(powers: dict[Generator, int]) -> tuple[Expr, Expr]:
-    """A product without its exps, and the exponent of those."""
+    """A product without its exponentials, and the sum of their exponents."""
     rest, exponent = ONE, ZERO
     for generator, power in powers.items():
         if isinstance(generator, Exponential):

@@ -1,8 +1,8 @@
-"""Trigonometric fractions in lowest terms, by way of the tangent of half the angle.
+"""Trigonometric fractions in lowest terms, by the tangent of half the angle.
 
 In normal form sin(θ - φ)/sin(θ + φ) has a denominator free of cosines, at the price of a common
-factor that vanishes somewhere. In t = tan θ/2 every sine and cosine is rational, and the common
-factor is an ordinary one of polynomials.
+factor that vanishes somewhere, where a program would compute 0/0. In t = tan θ/2 every sine and
+cosine is rational (Weierstrass), and that factor is found by the gcd of polynomials.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from polhode.algebra._forms import Factors
 from polhode.algebra._functions import CIRCULAR, Even
 from polhode.algebra._ring import Generator, Monomial, Polynomial, Ring
 
-#: Longer numerators take longer to divide than the digits are worth.
+#: Terms above which cancelling takes longer than the digits it saves are worth.
 _LONGEST = 3000
 
 
@@ -34,7 +34,7 @@ def lowest(expression: Expr) -> Lowest | None:
 
 @lru_cache(maxsize=512)
 def _lowest(expression: Expr, _generators: tuple[Generator, ...]) -> Lowest | None:
-    """Cached by the ring too, since equal expressions may lie in different rings."""
+    """Cached by the ring too: equal expressions may lie in rings with different generators."""
     ring, num, den = expression.ring, expression.num, expression.den
     angles = _angles_below(ring, den)
     if not angles or len(num) > _LONGEST:
@@ -47,7 +47,7 @@ def _lowest(expression: Expr, _generators: tuple[Generator, ...]) -> Lowest | No
     left = {a: 2 * degrees[a] - a.power(common) for a in angles}
     if common.is_constant() or _odd(left):
         return None
-    # back in sines and cosines, which takes even degrees
+    # t^k cos(θ/2)^n = sin(θ/2)^k cos(θ/2)^(n - k) is a polynomial in sin θ, cos θ for even n only
     number, parts = _by_multiplicity(below / common)
     missing = {
         angle: degree - sum(angle.power(part) * exponent for part, exponent in parts)
@@ -84,7 +84,10 @@ def _by_multiplicity(polynomial: Polynomial) -> tuple[Any, Factors]:
 
 @dataclass(frozen=True, eq=False)
 class _Angle:
-    """One angle: where its sine and cosine stand in the ring; its tangent stands for the sine."""
+    """One angle, by the positions of its sine and cosine in the ring.
+
+    The variable of the sine also serves for t, as no polynomial has both.
+    """
 
     ring: Ring
     sine: int
@@ -118,7 +121,10 @@ class _Angle:
         return total
 
     def back(self, polynomial: Polynomial, degree: int) -> Polynomial:
-        """Times the power `degree`, which is even, of the cosine of half the angle."""
+        """A polynomial in t times cos(θ/2)^degree, for an even degree.
+
+        Pairs sin(θ/2)², cos(θ/2)² are (1 ∓ cos θ)/2; an odd power leaves sin(θ/2) cos(θ/2).
+        """
         sine = self.ring.context.gen(self.sine)
         total = self.ring.zero
         for (power, _), part in self._parts(polynomial).items():
@@ -128,7 +134,7 @@ class _Angle:
         return total
 
     def _parts(self, polynomial: Polynomial) -> dict[Monomial, Polynomial]:
-        """Coefficients of the powers of the two."""
+        """Coefficients of the powers of sine and cosine."""
         return self.ring.grouped(polynomial, (self.sine, self.cosine))
 
 
@@ -136,7 +142,7 @@ Degrees = dict[_Angle, int]
 
 
 def _angles_below(ring: Ring, den: Polynomial) -> list[_Angle]:
-    """The angles that share a sum in the denominator with anything else."""
+    """The angles whose sine occurs in a factor of the denominator that is not a single term."""
     if den.is_constant():
         return []
     sums = [factor for factor, _ in den.factor()[1] if len(factor) > 1]

@@ -15,11 +15,11 @@ from polhode.base import PURE, TIME, Dimension, UnitError
 def dimension_of(expression: Expr, known: Mapping[Symbol, Dimension]) -> Dimension | None:
     """The dimension that all terms of an expression have; None for a bare number.
 
-    A bare number that is added to other terms is SI of whatever they are.
+    A bare number added to other terms is taken to be in their SI unit.
 
     Args:
         expression: any.
-        known: dimension of every symbol that has one; rates follow from what they are rates of.
+        known: dimension of every symbol that has one; those of time derivatives follow.
 
     Raises:
         UnitError: where terms of different dimensions are added.

@@ -1,7 +1,8 @@
 """Named parts: long expressions under one name each, which are not multiplied out.
 
-Arithmetic treats a part as a symbol. Derivatives, substitution, programs and printing look inside,
-once for all the places where it occurs.
+Arithmetic treats a part as a symbol, so results stay short, but no longer have a normal form:
+whether one is zero is decided by its values (`Expr.is_zero`). Derivatives, substitution, programs
+and printing look inside a part, once however often it occurs.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from polhode.algebra._expression import ONE, ZERO, Composite, Expr, Rate, chaine
 from polhode.algebra._ring import Ball, Generator, Symbol
 from polhode.algebra._roots import factors
 
-_SHORT = 3  # terms that cost no more written out than under a name
+_SHORT = 3  # terms up to which an expression costs no more written out than under a name
 _MEMORY = 65536  # derivatives and substitutions that are remembered
 
 
@@ -49,7 +50,7 @@ class NamedPart(Composite):
         return self.meaning.symbols()
 
     def slope(self, generator: Generator) -> Expr:
-        """Partial derivative by one of the generators of its meaning."""
+        """Partial derivative of its meaning with respect to one of its generators."""
         if generator not in self._slopes:
             self._slopes[generator] = named(self.meaning.partial(generator))
         return self._slopes[generator]
@@ -87,7 +88,7 @@ def _replaced(part: NamedPart, image: Rate) -> Expr:
 
 
 def named(expression: Expr, visible: Iterable[Symbol] = ()) -> Expr:
-    """An expression with its long coefficients under names, and without denominators.
+    """An expression with its long coefficients and its denominators' factors under names.
 
     Args:
         expression: any.
@@ -113,7 +114,7 @@ def _named(expression: Expr) -> Expr:
         return ZERO
     if len(expression.num) <= _SHORT:
         return expression
-    if expression.num.leading_coefficient() < 0:
+    if expression.num.leading_coefficient() < 0:  # f and -f share one name
         return -_part(-expression)
     return _part(expression)
 
@@ -128,16 +129,16 @@ def under_name(generator: Generator) -> Expr | None:
 
 
 def has_parts(expression: Expr) -> bool:
-    """Whether something in it stands under a name."""
+    """Whether a named part occurs in it, also within functions."""
     return any(map(_hides, expression.generators))
 
 
 def under_letters(
     expressions: Sequence[Expr], known: Iterable[Symbol] = ()
 ) -> tuple[tuple[Expr, ...], dict[Symbol, Generator]]:
-    """Expressions with a symbol z_1, z_2, ... for every part, for print; and what those stand for.
+    """Expressions to print, with a symbol z_1, z_2, ... for every part, and the parts themselves.
 
-    The letter is another one where a symbol in them, or one of those known, has such a name.
+    Another letter is used if a symbol in them, or one of `known`, already uses z.
     """
     parts = dict.fromkeys(g for e in expressions for g in e.generators if _hides(g))
     symbols = {*known, *(s for e in expressions for s in e.symbols())} if parts else set()

@@ -1,7 +1,7 @@
 """Expressions as people type them: ``2*m*a**2/5``, ``pi/2``, ``(1 - cos(2*t))/20``.
 
-The text is only ever taken apart here. What would take long to work out is refused before it is
-tried.
+The text is parsed here and never passed to Python's `eval` or SymPy's `sympify`. Operations that
+could take long are refused before they are tried, by upper bounds on the size of the result.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from polhode.algebra._roots import absolute, sqrt
 from polhode.algebra._symbols import time
 from polhode.base import NumericError, ParseError
 
-# -- arithmetic that refuses beforehand what would take long ---------------------------------------
+# -- arithmetic with bounds on the size of results -------------------------------------------------
 
 HIGHEST = 64  # power
 MOST_TERMS = 2000  # of an expression multiplied out
@@ -43,7 +43,7 @@ FUNCTIONS: dict[str, Callable[[Expr], Expr]] = {
 
 
 def add(first: Expr, second: Expr) -> Expr:
-    """The sum; like all that follows, raises `NumericError` for what may be too long."""
+    """The sum. This and the following operations raise `NumericError` if it may be too long."""
     _refuse_many(max(_size(first) * _below(second), _size(second) * _below(first)))
     return _small(first + second)
 
@@ -63,6 +63,7 @@ def raise_to(base: Expr, exponent: Expr) -> Expr:
             expected=f"one from -{HIGHEST} to {HIGHEST}",
         )
     times = abs(power.numerator)
+    # a sum of n terms to the power k has at most C(n + k - 1, k) terms
     _refuse_many(comb(_size(base) + times - 1, times))
     _refuse_long(_bits(base) * times, MOST_BITS)
     if power.denominator > 1:
@@ -74,7 +75,7 @@ def apply(name: str, argument: Expr) -> Expr:
     """A function of `FUNCTIONS`."""
     if name in ("sqrt", "abs"):
         _refuse_hard_root(argument)
-    else:  # sines of sums and multiples are written out in those of the parts
+    else:  # the addition theorems expand functions of sums and of multiples up to 8
         _refuse_many(prod(2 * min(abs(c.numerator), 8) for _, c in argument.terms()))
     return _small(FUNCTIONS[name](argument))
 
@@ -103,7 +104,7 @@ def _refuse_long(bits: int, most: int) -> None:
 
 
 def _size(expression: Expr) -> int:
-    """Number of terms above or below the bar, whichever is more."""
+    """Number of terms of the numerator or the denominator, whichever is more."""
     return max(sum(1 for _ in expression.terms()), _below(expression))
 
 
@@ -141,11 +142,11 @@ def read_expression(text: str, names: Mapping[str, Expr]) -> Expr:
     brackets, ``sin cos tan sqrt abs exp sinh cosh tanh``, ``pi``, the time ``t`` and names.
 
     Args:
-        text: what was typed.
-        names: what each name stands for.
+        text: as typed.
+        names: the meaning of each name.
 
     Raises:
-        ParseError: for anything else, pointing at the place, and for results too long.
+        ParseError: for anything else, with its position, and for results that are too long.
     """
     if len(text) > LONGEST:
         raise ParseError(
@@ -272,7 +273,7 @@ class _ExpressionParser:
 
     @contextmanager
     def _worked_out(self, token: _Token) -> Iterator[None]:
-        """Says where in the text an operation failed."""
+        """Report a failed operation with its position in the text."""
         try:
             yield
         except NumericError as error:
@@ -297,7 +298,7 @@ def _tokens(text: str) -> Iterator[_Token]:
 
 
 def _shown(text: str, place: int) -> str:
-    """The text, or of a long one what surrounds the place."""
+    """The text, or the surroundings of the place in a long one."""
     if len(text) <= SHOWN:
         return repr(text)
     start = max(0, min(place - SHOWN // 2, len(text) - SHOWN))

@@ -105,7 +105,7 @@ _DOTS = ("", "_dot", "_ddot", "_dddot")
 class Symbol(Generator):
     """A named quantity, or one of its time derivatives.
 
-    `positive` is what is known of its sign; it decides √(x²) = x and is not part of the identity.
+    `positive` says that its sign is known, so that √(x²) = x; it does not count in comparisons.
     """
 
     name: str
@@ -144,6 +144,10 @@ class Symbol(Generator):
     def ball(self, state: int) -> Ball:
         if self == PI:
             return acb.pi()
+        # Hashed rather than drawn: a symbol has the same value in every ring and every process, so
+        # that verdicts are reproducible. A polynomial that is not identically zero vanishes at such
+        # a point with negligible probability (Schwartz, J. ACM 27 (1980) 701). Values keep away
+        # from zero where the sign is known, so that no root or quotient of parameters fails.
         digest = blake2b(f"{state} {self.key}".encode(), digest_size=16).digest()
         drawn = fmpq(1, 8) + fmpq(int.from_bytes(digest, "big"), 2**128)  # from 1/8 to 9/8
         return acb(arb(drawn if self.positive else drawn - fmpq(1, 2)))
@@ -154,7 +158,7 @@ PI = Symbol("pi", SymbolKind.PARAMETER, 0, positive=True)
 
 
 def as_fraction(number: Any) -> Fraction:
-    """A rational number of flint's as one of Python's."""
+    """A FLINT rational as a Python one."""
     return Fraction(int(number.p), int(number.q))
 
 
@@ -213,7 +217,7 @@ class Ring:
         return polynomial
 
     def folded(self, polynomial: Polynomial, position: int, square: Polynomial) -> Polynomial:
-        """With `square` for every square of the generator at `position`."""
+        """With every square of the generator at `position` replaced by `square`."""
         by_power: dict[int, dict[Monomial, Any]] = defaultdict(dict)
         for monomial, coefficient in polynomial.to_dict().items():
             power, rest = divmod(monomial[position], 2)
@@ -226,7 +230,7 @@ class Ring:
     def grouped(
         self, polynomial: Polynomial, positions: Sequence[int]
     ) -> dict[Monomial, Polynomial]:
-        """Its coefficients over the generators at `positions`, by the powers of those."""
+        """Its coefficients as a polynomial in the generators at `positions`, by their powers."""
         parts: dict[Monomial, dict[Monomial, Any]] = defaultdict(dict)
         for monomial, coefficient in polynomial.to_dict().items():
             rest = list(monomial)
@@ -244,6 +248,8 @@ class Ring:
         """The same fraction with a denominator free of algebraic generators."""
         if den.is_constant():
             return num, den
+        # (C + D g)(C - D g) = C² - D² g² is free of g, as g² is a polynomial in generators lower in
+        # the tower. From the top down, no generator that has been removed can come back.
         for position, _ in self.algebraic:
             if den.degrees()[position]:
                 even, odd = self.split(den, position)
@@ -258,10 +264,12 @@ class Ring:
         """Lowest terms, with a monic denominator; `den` free of algebraic generators."""
         if den.is_constant():
             return num / den.leading_coefficient(), self.one
+        # The products of algebraic generators are linearly independent over the denominators, which
+        # are free of them. So a factor cancels exactly where it divides the coefficient of each.
         common = den
         positions = [position for position, _ in self.algebraic]
         parts = self.grouped(num, positions).values() if positions else (num,)
-        for part in parts:  # coefficients of the products of algebraic generators
+        for part in parts:
             common = common.gcd(part)
             if common.is_constant():
                 break
@@ -271,9 +279,9 @@ class Ring:
         return num / lead, den / lead
 
     def ball(self, polynomial: Polynomial, state: int) -> Ball:
-        """Its value at a random state, in the working precision, as a ball that holds it for sure.
+        """Its value at a random state in the working precision, as a rigorous enclosure.
 
-        In the same state a generator has the same value in every ring.
+        At one state a generator has the same value in every ring.
         """
         total = acb(0)
         for monomial, coefficient in polynomial.terms():
@@ -285,7 +293,7 @@ class Ring:
         return total
 
     def plain(self, generators: Sequence[Generator], polynomial: Polynomial) -> PlainTerms:
-        """The terms of a polynomial over some generators, which hold all that occur in it."""
+        """The terms of a polynomial over some generators, among them all that occur in it."""
         positions = [self.index[g] for g in generators]
         return tuple(
             (tuple(monomial[p] for p in positions), int(c.p), int(c.q))
@@ -310,11 +318,11 @@ def _ball(generator: Generator, state: int) -> Ball:
 
 
 def _refuse_if_hopeless(products: int) -> None:
-    """Each unlike cosine or root in a denominator squares the number of terms that it grows to."""
+    """Each further cosine or root in a denominator can square its number of terms."""
     if products > _MOST_PRODUCTS:
         raise NumericError(
-            f"a denominator with sines, exponentials or roots of too many unlike arguments: "
-            f"{products:.0e} products to bring it to its unique form",
+            f"a denominator with sines, exponentials or roots of too many different arguments: "
+            f"{products:.0e} products to bring it to normal form",
             expected=f"at most {_MOST_PRODUCTS:.0e}",
             advice="give some of its symbols values, or multiply the denominator out",
         )

@@ -80,6 +80,8 @@ def sqrt(x: ExprLike) -> Expr:
     x = Expr.of(x)
     if x.is_zero:
         return x
+    # √(f g) = √f √g holds only if one factor is not negative. So positive factors each have a
+    # root, squares become |f|, and the factors of unknown sign stay together under one root.
     number, powers = factors(x)
     known = {f: e for f, e in powers.items() if is_plainly_positive(f)}
     open_ = {f: e for f, e in powers.items() if f not in known and e % 2}
@@ -95,7 +97,7 @@ def sqrt(x: ExprLike) -> Expr:
 def principal_root(x: ExprLike) -> Expr:
     """A square root that is a plain expression wherever x is a perfect square.
 
-    √(sin²θ) is sin θ here: the branch on which it is positive. The caller must state that.
+    √(sin²θ) is sin θ here: the branch on which it is positive. Callers must state that choice.
     """
     x = Expr.of(x)
     number, powers = factors(x)
@@ -106,7 +108,7 @@ def principal_root(x: ExprLike) -> Expr:
 
 
 def absolute(x: ExprLike) -> Expr:
-    """|x|, resolved where the sign is known; of a product it is the product."""
+    """|x|, resolved where the sign is known; |f g| is written |f| |g|."""
     x = Expr.of(x)
     if x.is_zero:
         return x
@@ -121,7 +123,7 @@ def _size(factor: Expr) -> Expr:
 
 
 def is_positive(x: Expr) -> bool:
-    """Whether it is seen to be positive from the signs of its terms.
+    """Whether the signs of its terms show it to be positive; sufficient, not necessary.
 
     With cos² for sin² where that is shorter: 5 - 4 sin²θ is 1 + 4 cos²θ.
     """
@@ -129,7 +131,7 @@ def is_positive(x: Expr) -> bool:
 
 
 def is_plainly_positive(x: Expr) -> bool:
-    """The same from the terms as they stand; it decides what comes out of a root."""
+    """The same for the terms in normal form; decides which factors come out of a root."""
     return _all_positive(x.numerator) and _all_positive(x.denominator)
 
 
@@ -141,6 +143,7 @@ def _seen_positive(polynomial: Expr) -> bool:
 
 
 def _all_positive(polynomial: Expr) -> bool:
+    # a sum of non-negative terms is positive if one of them cannot vanish
     strict = False
     for powers, coefficient in polynomial.terms():
         if coefficient < 0 or any(p % 2 and not g.positive for g, p in powers.items()):
@@ -166,6 +169,7 @@ def factors(x: Expr) -> tuple[Fraction, dict[Expr, int]]:
 
 
 def _root_of_number(number: Fraction) -> Expr:
+    # √(p/q) = √(p q)/q; a root for each prime, so that √6 = √2 √3 has one form
     outside, inside = Fraction(1, number.denominator), ONE
     for prime, exponent in fmpz(number.numerator * number.denominator).factor():
         outside *= int(prime) ** (int(exponent) // 2)
@@ -186,23 +190,24 @@ def _root_of_unknown_sign(sign: int, powers: dict[Expr, int]) -> Expr:
     if len(powers) == 1:
         ((factor, exponent),) = powers.items()
         return _root(factor * sign) ** exponent
+    # all exponents e are odd: √(Π f^e) = √(Π f) / Π |f|^((1 - e)/2)
     below = prod((_size(f) ** ((1 - e) // 2) for f, e in powers.items()), start=ONE)
     return _root(prod(powers, start=Expr.constant(sign))) / below
 
 
 # -- roots replaced --------------------------------------------------------------------------------
 #
-# |x| is x on one side of zero and −x on the other. Put in, the sign cancels wherever it can: x/|x|
-# becomes 1 or −1, and 1/(1 + |x|) loses the denominator 1 − x² of its normal form.
+# |x| is x on one side of zero and −x on the other. Once that is substituted, x/|x| becomes 1 or −1,
+# and 1/(1 + |x|) loses the denominator 1 − x² of its normal form.
 
 
 def roots_in(expressions: Iterable[Expr]) -> tuple[SquareRoot, ...]:
     """Every square root that occurs, also within functions and named parts; inner ones first."""
-    found: dict[SquareRoot, None] = {}
+    roots: dict[SquareRoot, None] = {}
     seen: set[Generator] = set()
     for expression in expressions:
-        found |= dict.fromkeys(_roots_in(expression, seen))
-    return tuple(found)
+        roots |= dict.fromkeys(_roots_in(expression, seen))
+    return tuple(roots)
 
 
 def _roots_in(expression: Expr, seen: set[Generator]) -> Iterator[SquareRoot]:
@@ -227,7 +232,7 @@ def with_roots(expression: Expr, images: Mapping[SquareRoot, Expr]) -> Expr:
 
 
 class _RootReplacement:
-    """Replaces roots; remembers what became of each function and part."""
+    """Replaces roots, and caches the image of each function and part."""
 
     def __init__(self, images: Mapping[SquareRoot, Expr]) -> None:
         self._known: dict[Generator, Expr | None] = {r: e for r, e in images.items()}  # noqa: C416
@@ -238,7 +243,7 @@ class _RootReplacement:
         return expression.recast(images) if images else expression
 
     def _image(self, generator: Generator) -> Expr | None:
-        """What a generator becomes; None where it stays as it is."""
+        """The image of a generator; None where it is unchanged."""
         if generator not in self._known:
             image = None
             if isinstance(generator, Composite):

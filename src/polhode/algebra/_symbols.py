@@ -15,7 +15,7 @@ _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*_?")
 def symbols(names: str, *, positive: bool = False) -> tuple[Expr, ...]:
     """Constant parameters, from names separated by blanks: `M, a = symbols("M a")`.
 
-    `positive` tells the sign, which decides √(a²) = a.
+    `positive` declares the sign, so that √(a²) = a.
     """
     return tuple(_named(name, SymbolKind.PARAMETER, positive) for name in names.split())
 
@@ -46,12 +46,12 @@ def speed(name: str) -> Expr:
 
 
 def functions(names: str) -> tuple[Expr, ...]:
-    """Prescribed functions of time, such as the place X of a sheet that is pulled."""
+    """Prescribed functions of time, such as the position X of a sheet that is pulled."""
     return tuple(_named(name, SymbolKind.FUNCTION) for name in names.split())
 
 
 def is_name(name: str) -> bool:
-    """Whether it is made of letters, digits and underscores as names are."""
+    """Whether it is a name: letters, digits and single underscores, a letter first."""
     return _NAME.fullmatch(name) is not None
 
 
@@ -59,7 +59,7 @@ def _named(name: str, kind: SymbolKind, positive: bool = False) -> Expr:
     if not is_name(name) or name == "t" or iskeyword(name):
         raise DeclarationError(
             f"the name {name!r}",
-            expected="letters and digits with underscores, not t or a word of Python",
+            expected="letters and digits with underscores, not t or a Python keyword",
             advice="write lambda_ for λ and theta for θ",
         )
     if name.endswith(("_dot", "_ddot", "_dddot")):

@@ -1,4 +1,4 @@
-"""Expressions as SymPy's, and back, without loss."""
+"""Conversion to SymPy expressions and back, without loss."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ def to_sympy(expression: Expr, names: Mapping[str, Any] | None = None) -> Any:
 
     Args:
         expression: what to convert.
-        names: what to put for a published name; elsewhere a plain `sympy.Symbol` of that name.
+        names: SymPy objects for published names; any other becomes a `sympy.Symbol`.
 
     Raises:
         NumericError: for an expression in named parts.
     """
     if expression.ring.has_parts:
         raise NumericError(
-            f"{expression} for SymPy, where numbered letters are long expressions under names",
+            f"{expression} for SymPy, whose numbered letters stand for long expressions",
             expected="an expression that is written out",
             advice="evaluate it with compile_program",
         )
@@ -44,11 +44,11 @@ def from_sympy(value: Any, names: Names | None = None) -> Expr:
     Args:
         value: of numbers, symbols, +, *, powers by halves of whole numbers, circular and
             hyperbolic functions, exp, sqrt, Abs and dynamicsymbols with their derivatives.
-        names: what a name stands for. Any other symbol becomes a parameter, and any other
+        names: the meaning of names. Any other symbol becomes a parameter, and any other
             dynamicsymbol a coordinate.
 
     Raises:
-        NumericError: for anything else, naming it.
+        NumericError: for anything else, which the message names.
     """
     return _SympyReader(names or {}).read(value)
 
@@ -94,7 +94,7 @@ _DERIVATIVES = {"_dot": 1, "_ddot": 2, "_dddot": 3}
 
 
 class _SympyReader:
-    """Reads one SymPy expression; what to do is looked up by the name of its class."""
+    """Reads one SymPy expression, by the names of its classes so that SymPy is not imported."""
 
     def __init__(self, names: Names) -> None:
         self._names = names

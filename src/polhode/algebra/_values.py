@@ -1,7 +1,7 @@
 """The one reader of values: numbers, text with a unit, and formulas, read once to exact numbers.
 
-Doubles are rounded from what was read where an integrator begins, and numbers of any higher
-precision are worked out from the same exact ones.
+They are rounded to doubles only where an integrator starts; higher precisions are computed from
+the same exact numbers.
 """
 
 from __future__ import annotations
@@ -55,8 +55,8 @@ class GivenValue:
         name: of the quantity, for messages.
         given: the value as it was written.
         number: a number with the dimension of its unit, or an expression of other quantities.
-        double: the number in double precision; None for an expression. The power of π is rounded
-            apart from its coefficient, so that the last digit can differ from that of `exact`.
+        double: the number in double precision; None for an expression. The power of π and its
+            coefficient are rounded separately, so the last digit can differ from that of `exact`.
     """
 
     name: str
@@ -66,7 +66,7 @@ class GivenValue:
 
     @property
     def symbols(self) -> frozenset[Symbol]:
-        """The quantities that it is an expression of."""
+        """The quantities that occur in it, if it is an expression."""
         return (
             self.number.symbols() - pi.symbols() if isinstance(self.number, Expr) else frozenset()
         )
@@ -74,7 +74,7 @@ class GivenValue:
     def in_dimension(
         self, dimension: Dimension | None, dimensions: Mapping[Symbol, Dimension] | None = None
     ) -> GivenValue:
-        """The same value, once its dimension is checked.
+        """The same value, after a check of its dimension.
 
         Args:
             dimension: the one it must have; any if None.
@@ -104,8 +104,8 @@ class GivenValue:
     def rounded(self, known: Mapping[Symbol, float] = _NONE) -> float:
         """The value in double precision.
 
-        An expression is evaluated in doubles, from the doubles of what it is made of: the last
-        digit can differ from that of the exact value.
+        An expression is evaluated in doubles from the rounded values of its quantities, so the
+        last digit can differ from that of the exact value.
 
         Raises:
             DeclarationError: for an expression of quantities that are not `known`.
@@ -127,14 +127,14 @@ class GivenValue:
         return float(value)
 
     def exact(self, known: Mapping[Symbol, Expr] = _NONE) -> Expr:
-        """The value exactly, with the exact values of what it is made of put in."""
+        """The exact value, with the exact values of the quantities in it substituted."""
         if isinstance(self.number, Expr):
             return self.number.subs(dict(known))
         return Expr.constant(self.number.coefficient) * pi**self.number.pi_power
 
 
 def read_value(name: str, value: Any, names: Mapping[str, Symbol] | None = None) -> GivenValue:
-    """Read the value of a quantity; one that was read before is returned as it is.
+    """Read the value of a quantity; a `GivenValue` is returned unchanged.
 
     Numbers are SI; text is the decimal that it spells, a float its binary value.
 
@@ -177,9 +177,9 @@ def _formula(name: str, text: str, names: Mapping[str, Symbol]) -> Quantity | Ex
 
 
 def _unrounded(quantity: Quantity, value: Any) -> Quantity:
-    """A quantity with its magnitude exactly, where that is no double, such as a third.
+    """A quantity with its magnitude exact where that is not a double, such as a third.
 
-    Its double stays that of the rounded magnitude in its unit.
+    Its `double` remains that of the rounded magnitude in its unit.
     """
     match value:
         case (magnitude, str(unit)) if Fraction(float(magnitude)) != fraction_of(magnitude):
@@ -198,8 +198,8 @@ def _function(expression: Expr, symbols: tuple[Symbol, ...]) -> Compiled:
 
 
 def fraction_of(value: Any) -> Fraction:
-    """The fraction that a finite number of any sort is."""
-    if hasattr(value, "_mpf_"):
+    """A finite number of any type as an exact fraction."""
+    if hasattr(value, "_mpf_"):  # mpmath: sign, mantissa, exponent of two, bits of the mantissa
         sign, mantissa, exponent, _ = value._mpf_
         size = Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
         return -size if sign else size

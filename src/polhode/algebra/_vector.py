@@ -1,4 +1,4 @@
-"""Exact matrices, and vectors of space along a triad of unit vectors that may turn."""
+"""Exact matrices, and vectors in space resolved along a triad of unit vectors that may rotate."""
 
 from __future__ import annotations
 
@@ -70,7 +70,10 @@ class Matrix(Shown):
 
 
 def rotation(axis: Sequence[Expr], cosine: Expr, sine: Expr) -> Matrix:
-    """Rodrigues' rotation about a unit axis: components in the turned axes → in the old ones."""
+    """Rodrigues' rotation about a unit axis: from components in the rotated axes to the old ones.
+
+    R = cos α 1 + (1 - cos α) n nᵀ + sin α [n]×
+    """
     x, y, z = axis
     cross = ((ZERO, -z, y), (z, ZERO, -x), (-y, x, ZERO))
     return Matrix(
@@ -90,7 +93,7 @@ class Triad(Protocol):
     """Three right-handed orthonormal directions; a frame of `model` is one."""
 
     def rotation_to(self, other: Any, /) -> Matrix:
-        """Turns components along these directions into components along the other's."""
+        """The matrix from components along these directions to components along the other's."""
         ...
 
     @property
@@ -138,8 +141,8 @@ class Vector(Shown):
     def __add__(self, other: Vector) -> Vector:
         if self.is_zero:
             return other
-        there = other.express(self.triad).components
-        return Vector(tuple(a + b for a, b in zip(self.components, there, strict=True)), self.triad)
+        added = other.express(self.triad).components
+        return Vector(tuple(a + b for a, b in zip(self.components, added, strict=True)), self.triad)
 
     def __neg__(self) -> Vector:
         return Vector(tuple(-c for c in self.components), self.triad)
@@ -174,7 +177,10 @@ class Vector(Shown):
         return sqrt(self.dot(self))
 
     def dt(self, seen_from: Triad | None = None) -> Vector:
-        """Time derivative, in inertial space or as seen from a turning triad."""
+        """Time derivative, in inertial space or as seen from a rotating triad.
+
+        Transport theorem: the components' derivative plus the triad's angular velocity × vector.
+        """
         rate = Vector(tuple(c.dt() for c in self.components), self.triad)
         turning = self.triad.angular_velocity
         if seen_from is not None:

@@ -34,13 +34,13 @@ from polhode.analyse._reduced import reduced
 from polhode.base import NumericError
 from polhode.derive import Equations
 
-#: Points beyond the number of unknowns, so that no coincidence passes for an integral.
+#: Points beyond the number of unknowns: a coincidence at random would have to occur at each.
 _SPARE, _SEED = 4, 7
 
 
 @dataclass(frozen=True)
 class Ansatz:
-    """What a first integral may be made of.
+    """The class of expressions searched for first integrals.
 
     Attributes:
         speeds: highest degree in the speeds.
@@ -53,7 +53,7 @@ class Ansatz:
     lengths: int = 2
 
     def describe(self) -> str:
-        """In words."""
+        """The ansatz in words."""
         return (
             f"polynomials of degree {self.speeds} in the speeds and {self.trigonometric} in sines "
             f"and cosines of essential angles; of degree {self.speeds} in the speeds and "
@@ -178,8 +178,9 @@ def _is_angle(equations: Equations, coordinate: Symbol) -> bool:
 def _supports(equations: Equations, terms: AnsatzTerms) -> Iterator[list[int]]:
     """Positions of the monomials in each independent solution, at random parameters.
 
-    One row of a table over a prime field for every random state: the rates of all monomials there.
-    Combinations of the columns that vanish in all rows are integrals at these parameters.
+    Σ cⱼ dmⱼ/dt = 0 must hold at every state. Each random state gives one row of a table over a
+    prime field: the rates of all monomials there. Its null space is that of the integrals at these
+    parameters; no expression has to be multiplied out for it.
     """
     import numpy as np
 
@@ -190,7 +191,7 @@ def _supports(equations: Equations, terms: AnsatzTerms) -> Iterator[list[int]]:
     sample = points(needed, varying, width + _SPARE, _SEED)
     prime = sample[0].field.prime
     longest = max(map(len, terms.monomials), default=0)
-    one = len(terms.factors)  # stands for the factor 1, which does not change
+    one = len(terms.factors)  # position of a factor 1, which pads short monomials
     table = np.array([[*m, *[one] * (longest - len(m))] for m in terms.monomials])
     rows = []
     for point in sample:
@@ -203,6 +204,7 @@ def _supports(equations: Equations, terms: AnsatzTerms) -> Iterator[list[int]]:
         rows.extend(change.tolist())
     echelon, rank = nmod_mat(len(sample), width, rows, prime).rref()
     columns = range(width)
+    # in reduced echelon form each free column gives one null vector, on it and on pivot columns
     pivots = [next(j for j in columns if int(echelon[i, j])) for i in range(rank)]
     for free in (j for j in columns if j not in pivots):
         used = [pivots[i] for i in range(rank) if int(echelon[i, free])]
@@ -214,7 +216,10 @@ def _is_constant(generator: Generator) -> bool:
 
 
 def _coefficients(rates: Sequence[Expr]) -> Row | None:
-    """Constants, of the parameters alone, with which the rates add up to zero."""
+    """Coefficients c of the parameters alone with Σ c · rate = 0; None if not unique.
+
+    Terms that differ in a generator that varies are independent: each gives one linear equation.
+    """
     common = ONE
     for rate in rates:
         if (common / rate.denominator).denominator != ONE:

@@ -50,7 +50,7 @@ ALWAYS = Condition(ONE)
 
 
 def positive(expression: Expr, assumed: Collection[Expr] = ()) -> Condition:
-    """The condition that an expression is positive, `assumed` ones being so already."""
+    """The condition that an expression is positive, given that those in `assumed` are."""
     if expression.is_zero:
         return Condition(-ONE)
     number, powers = factors(expression)
@@ -69,9 +69,10 @@ def _is_surely_positive(factor: Expr, assumed: Collection[Expr]) -> bool:
 
 
 def _is_definite(factor: Expr, assumed: Collection[Expr]) -> bool:
-    """Whether it is quadratic in some speed or coordinate without real roots, and positive.
+    """Whether it is quadratic in some speed or coordinate, a x² + b x + c, and positive definite.
 
-    Where its discriminant vanishes it may still touch zero: stability is then marginal.
+    That is a > 0 and 4 a c - b² > 0. Where the latter vanishes it touches zero: stability is then
+    marginal.
     """
     for symbol in (s for s in factor.symbols() if s.kind is not SymbolKind.PARAMETER):
         slope, at_zero = factor.diff(symbol), {symbol: ZERO}

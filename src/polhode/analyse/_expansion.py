@@ -1,4 +1,4 @@
-"""Expansions in a small quantity, with the order of what is dropped."""
+"""Expansions in a small quantity, with the first term that is dropped."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 from polhode.algebra import Expr, Symbol, as_symbol, taylor
 from polhode.analyse._given import Given, images_given
 
-#: How many powers beyond the last one kept are searched for the first term left out.
+#: Powers beyond the last one kept in which the first dropped term is sought.
 _FURTHER = 6
 
 
@@ -46,8 +46,8 @@ def expand(
         expression: exact.
         small: the small quantity; it must not vary.
         order: highest power to keep.
-        about: quantities by name or symbol, as exact functions of the small one; also numbers and
-            text with a unit.
+        about: quantities by name or symbol, as exact functions of the small one, numbers or text
+            with a unit.
     """
     parameter = as_symbol(small)
     images = images_given(expression, about)

@@ -1,4 +1,4 @@
-"""Fictitious forces in a turning frame, and the forces that a contact needs."""
+"""Fictitious forces in a rotating frame, and the forces that a contact needs."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from polhode.model import Body, Contact, Frame
 
 @dataclass(frozen=True)
 class Fictitious(Shown):
-    """What the motion of a frame adds to Newton's laws.
+    """The terms that the motion of a frame adds to Newton's laws.
 
-    On an element they are forces per unit mass (N/kg); on a body, torques about its centre of
+    For an element they are forces per unit mass (N/kg); for a body, torques about its centre of
     mass (N m). All vanish for a frame at rest.
 
     Attributes:
@@ -134,7 +134,7 @@ def contact_forces(equations: Equations, name: str) -> ContactForces:
     element = equations.system.element(name)
     if not isinstance(element, Contact):
         raise DeclarationError(
-            f"friction needed at {name!r}, which is not a contact",
+            f"contact forces at {name!r}, which is not a contact",
             expected="a Rolling, Smooth or Coulomb contact",
         )
     force = equations.reactions[name].force

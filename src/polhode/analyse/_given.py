@@ -1,4 +1,4 @@
-"""Values given for exact analysis: expressions, numbers, and text or pairs with a unit."""
+"""Values supplied for exact analysis: expressions, numbers, and text or pairs with a unit."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from polhode.algebra import Expr, ExprLike, GivenValue, Symbol, as_symbol, read_
 from polhode.base import PURE, TIME, Quantity, Value, look_up
 from polhode.derive import Equations
 
-#: What may stand for a value: also text such as "70 deg" and pairs such as (12, "mm").
+#: Types accepted for a value, such as text "70 deg" and pairs (12, "mm").
 Given = ExprLike | Value
 
 #: Angles in these fractions of π have sines that are square roots; others are kept as decimals.
@@ -47,7 +47,7 @@ def values_given(
 
 
 def images_given(expression: Expr, about: Mapping[Any, Given] | None) -> dict[Symbol, Expr]:
-    """The same for the symbols of an expression, of whose dimensions nothing is known."""
+    """The same for the symbols of an expression, whose dimensions are not known."""
     named = _by_symbol(about or {}, expression.symbols(), "symbol of the expression")
     return {s: _exact(read_value(s.published, _in_decimals(v))) for s, v in named.items()}
 
@@ -61,7 +61,7 @@ def _by_symbol(given: Mapping[Any, Given], known: Iterable[Symbol], what: str) -
 
 
 def _in_decimals(value: Any) -> Any:
-    """A value with its float as the decimal that it prints as, which is what a person means."""
+    """A value whose floats are read as the decimals they print as, which is what users mean."""
     match value:
         case (magnitude, str(unit)) if Expr.reads(magnitude):
             number = Expr.of(magnitude).rational
@@ -70,10 +70,10 @@ def _in_decimals(value: Any) -> Any:
 
 
 def _exact(value: GivenValue) -> Expr:
-    """An exact value to work with.
+    """The exact value for analysis.
 
-    An angle in multiples of 15 degrees is exact: its sine is a square root. Any other would have a
-    sine that cannot be written down; it is the decimal that it prints as in radians.
+    An angle in multiples of 15 degrees is kept exact: its sine is a square root. The sine of any
+    other angle has no such form, so the angle becomes the decimal it prints as in radians.
     """
     number = value.number
     is_decimal = (

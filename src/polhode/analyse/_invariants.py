@@ -1,7 +1,7 @@
 """First integrals: energy, momenta and speeds first, then a search within a stated ansatz.
 
-The named momenta are taken about a stated point and along a stated direction. They are named as
-claims read them: `L_pivot_z` is printed as L with the subscripts pivot and z.
+Named momenta are about a stated point and along a stated direction. Their names are those that
+claims use: `L_pivot_z` is printed as L with the subscripts pivot and z.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class Invariant(Shown):
     """An expression of coordinates, speeds and time that keeps its value along every motion.
 
     Attributes:
-        name: what it is called; C_1, C_2, ... where it has no name.
+        name: C_1, C_2, ... for one without a common name.
         expression: verified exactly, by its derivative along the motion.
         meaning: in words.
     """
@@ -36,7 +36,7 @@ class Invariant(Shown):
 
     @property
     def letter(self) -> str:
-        """LaTeX of the name, as claims read it: `L_{\\mathrm{pivot},z}` for `L_pivot_z`."""
+        """LaTeX of the name, as used in claims: `L_{\\mathrm{pivot},z}` for `L_pivot_z`."""
         plain = self.name.removesuffix("_dot")
         letter = Expr.generator(Symbol(plain)).latex()
         return letter if plain == self.name else rf"\dot{{{letter}}}"
@@ -44,13 +44,13 @@ class Invariant(Shown):
 
 @dataclass(frozen=True, repr=False)
 class Invariants(Shown):
-    """All that was found.
+    """First integrals of a system.
 
     Attributes:
-        found: independent of one another.
-        ansatz: what was searched, in words; nothing outside it is excluded.
-        linear: a linear equation whose constants of integration are integrals too, where
-            not all of them were found: they are not elementary, or outside the ansatz.
+        found: functionally independent integrals.
+        ansatz: the class searched, in words; nothing outside it is excluded.
+        linear: a linear equation whose constants of integration are integrals too, if not all of
+            them were found: they are not elementary, or outside the ansatz.
     """
 
     found: tuple[Invariant, ...]
@@ -67,7 +67,7 @@ class Invariants(Shown):
             lines += [
                 f"and the {len(self.linear.speeds)} constants of integration of",
                 *(f"  {line}" for line in str(self.linear).splitlines()),
-                "which the ansatz does not contain (linear_integrals gives them in numbers)",
+                "which the ansatz does not contain (linear_integrals computes them numerically)",
             ]
         return "\n".join([*lines, f"Searched: {self.ansatz}. Nothing outside it is excluded."])
 
@@ -94,7 +94,7 @@ def invariants(equations: Equations, ansatz: Ansatz | None = None) -> Invariants
 
     Args:
         equations: derived equations.
-        ansatz: what to search besides energy and momenta; a modest default otherwise.
+        ansatz: the class to search besides energy and momenta; a modest one by default.
 
     Raises `NumericError` for equations in named parts.
     """
@@ -108,7 +108,7 @@ def invariants(equations: Equations, ansatz: Ansatz | None = None) -> Invariants
     candidates += momenta(equations)
     searched = search(equations, chosen)
     candidates += [Invariant("", e, "found within the ansatz") for e in searched]
-    # Integrals may vary with the state and with prescribed functions, but not with time itself.
+    # gradients are taken with respect to the state and to prescribed functions, not to time
     driven = [
         rate
         for f in equations.functions
@@ -131,10 +131,10 @@ def invariants(equations: Equations, ansatz: Ansatz | None = None) -> Invariants
 
 
 def _linear(equations: Equations, found: Iterable[Invariant]) -> LinearIntegrals | None:
-    """The linear equation of some speeds, unless its integrals have been found already."""
+    """The linear equation of some speeds, unless all its integrals have been found."""
     try:
         linear = linear_integrals(equations)
-    except NumericError:  # driven: no angle determines where the motion is
+    except NumericError:  # equations that depend on time have no such linear equation
         return None
     if linear is None or linear.known(i.expression for i in found) == len(linear.speeds):
         return None
@@ -142,7 +142,7 @@ def _linear(equations: Equations, found: Iterable[Invariant]) -> LinearIntegrals
 
 
 def momenta(equations: Equations) -> Iterator[Invariant]:
-    """Momenta of every body about its axes and its centre, of all about points, and Jellett's."""
+    """Momenta of each body about its axes and centre, of all about points; Jellett's integral."""
     yield from _spins(equations)
     places = tuple(_places(equations))
     for place in places:
@@ -167,9 +167,9 @@ def momenta(equations: Equations) -> Iterator[Invariant]:
 
 
 def _spins(equations: Equations) -> Iterator[Invariant]:
-    """Angular momenta of every body about its centre of mass: along its own axes, then at rest."""
+    """Angular momenta of each body about its centre of mass: along its own, then fixed axes."""
     bodies = equations.system.bodies
-    # L_cm is that of the whole system about one centre: of a single body's spin alone.
+    # L_cm is the momentum of the whole system, which is the spin for a single body only
     letter = "L_cm" if len(bodies) == 1 else "S"
     for body in bodies:
         spin = _spin(equations, body)
@@ -200,7 +200,7 @@ def _places(equations: Equations) -> Iterator[_Place]:
     for element in kinetics.elements:
         restraints = [r for r in kinetics.restraints[element.name] if not r.is_couple]
         name = element.name
-        if not name.isalnum():  # no subscript: take what texts call the first of its kind
+        if not name.isalnum():  # unfit as a subscript: use the kind, for the first of its kind
             kinds = ((Contact, "contact"), (Pivot, "pivot"))
             word = next((word for kind, word in kinds if isinstance(element, kind)), "")
             name = "" if word in taken else word
@@ -214,7 +214,7 @@ def _places(equations: Equations) -> Iterator[_Place]:
 
 
 def _directions(equations: Equations, axes: Frame) -> Iterator[tuple[str, str, Vector]]:
-    """Name, words and unit vector of directions at rest; no name where the letter is ambiguous."""
+    """Name, words and unit vector of fixed directions; no name if the letter is ambiguous."""
     root = equations.system.root
     moving: Sequence[str] = () if axes == root else axes.labels
     for label in reversed(root.labels):

@@ -59,7 +59,7 @@ class LinearIntegrals(Shown):
         )
 
     def known(self, integrals: Iterable[Expr]) -> int:
-        """How many of some integrals depend on u and θ alone."""
+        """How many of these integrals depend on u and θ alone."""
         own = {self.angle, *self.speeds}
         varying = ({s for s in i.symbols() if s.kind.varies} for i in integrals)
         return sum(bool(symbols) and symbols <= own for symbols in varying)
@@ -96,13 +96,13 @@ class LinearIntegrals(Shown):
         here = float(state[self.angle.published])
         if here == at:
             return start
-        # Tolerances close to the rounding of doubles.
+        # close to the rounding of doubles: the value serves as the constant that runs are held to
         done = solve_ivp(slope, (here, at), start, method="DOP853", rtol=1e-13, atol=1e-14)
         if not done.success:
             raise NumericError(
                 f"the integrals between {self.angle.published} = {here} and {at}",
-                expected="angles with no singular one between them",
-                advice="refer them to an angle that the motion passes",
+                expected="no singular angle between the two",
+                advice="refer them to an angle that the motion passes through",
             )
         return done.y[:, -1]
 
@@ -128,7 +128,10 @@ def linear_integrals(equations: Equations) -> LinearIntegrals | None:
 
 
 def _closed_set(equations: Equations, angle: Symbol, rate: Symbol) -> LinearIntegrals | None:
-    """The largest set of speeds whose slopes are linear in the set itself."""
+    """The largest set of speeds whose slopes are linear in the set itself.
+
+    Speeds whose slope fails are dropped until the rest is closed.
+    """
     slopes = {
         speed: equations.accelerations[speed.derivative()] / Expr.generator(rate)
         for speed in equations.speeds

@@ -1,4 +1,4 @@
-"""The reduced system: what is left of the equations when ignorable coordinates are dropped."""
+"""The reduced system: the equations without their ignorable coordinates."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def reduced(equations: Equations) -> Reduced:
         )
     used, done = variables(entries), set[Symbol]()
     while found := [q for q in equations.coordinates if q in used and q not in done]:
-        # What the rates of essential coordinates depend on is essential too.
+        # coordinates on which the rates of essential ones depend are essential too
         used |= variables(equations.kinematics[q.derivative()] for q in found)
         done.update(found)
     essential = tuple(q for q in equations.coordinates if q in used)

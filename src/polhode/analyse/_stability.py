@@ -1,4 +1,9 @@
-"""Linear stability of steady motions, on the reduced space and modulo the steady family itself."""
+"""Linear stability of steady motions, on the reduced space and modulo the steady family itself.
+
+Linearised about the family, B ẋ = A x has the characteristic polynomial det(λ B - A). Its roots at
+zero belong to the family and its parameters. Without dissipation the rest is a polynomial in λ²,
+whose roots must be real and negative; otherwise the Routh-Hurwitz criterion decides.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +21,7 @@ from polhode.base import NumericError, Shown
 
 _EXPONENT = Symbol("exponent")
 
-#: What linearisation can and cannot tell.
+#: What linearisation proves and what it leaves open.
 PROVES = (
     "Exponents with positive real part prove instability. Purely imaginary ones leave stability "
     "open to the terms of higher order; energy or numbers must decide."
@@ -33,8 +38,8 @@ class Stability(Shown):
         neutral: multiplicity of the exponent zero.
         directions: number of independent departures that neither grow nor oscillate: along the
             family itself and its parameters. Fewer than `neutral` means steady drift.
-        is_marginal: whether the values given bring to zero exponents that are not zero all along
-            the family, with departures that grow in proportion to time: exactly the threshold.
+        is_marginal: whether, at the values given, further exponents are zero than on the whole
+            family, with departures that grow in proportion to time: exactly the threshold.
     """
 
     family: SteadyMotion
@@ -111,7 +116,7 @@ class Stability(Shown):
 
     @property
     def loss(self) -> str | None:
-        """How stability is lost; None where no value of the parameters makes a difference."""
+        """How stability is lost; None if it does not depend on the parameters."""
         if self.truth is not Truth.OPEN:
             return None
         if not self.is_even:
@@ -147,14 +152,16 @@ def stability(family: SteadyMotion, at: Mapping[Any, Given] | None = None) -> St
         return _linearised_about(family)
     fixed = {s: v.subs(given) for s, v in family.fixed.items()} | dict(given)
     relations = tuple(r for e in family.relations if (r := e.subs(given)))
-    there = _linearised_about(SteadyMotion(family.reduced, fixed, relations))
-    if not there.drifts or there.neutral < 2:
-        return there
+    special = _linearised_about(SteadyMotion(family.reduced, fixed, relations))
+    if not special.drifts or special.neutral < 2:
+        return special
+    # Drift along the whole family (a change of speed shifts the phase) is no instability. Only a
+    # larger defect of the exponent zero than on the family in general marks the threshold.
     with suppress(NumericError):  # without the values the relations may not be linear
-        everywhere = _linearised_about(family)
-        shortfall = everywhere.neutral - everywhere.directions
-        return replace(there, is_marginal=there.neutral - there.directions > shortfall)
-    return there
+        general = _linearised_about(family)
+        shortfall = general.neutral - general.directions
+        return replace(special, is_marginal=special.neutral - special.directions > shortfall)
+    return special
 
 
 def _linearised_about(family: SteadyMotion) -> Stability:
@@ -179,6 +186,8 @@ def _linearised_about(family: SteadyMotion) -> Stability:
             expected="coordinates that are not singular there",
             advice="describe the attitude by other angles, such as two tilts for an upright top",
         )
+    # Algebraic multiplicity of the exponent zero, and below, from the rank of A, its geometric one:
+    # where they differ there is a Jordan block, and a departure grows in proportion to time.
     neutral = next(i for i, c in enumerate(polynomial) if not vanishes(c, family))
     frozen = [[_on(entry, family) for entry in row] for row in right]
     rank = len(eliminate(frozen, [ZERO] * len(frozen)).solved)
@@ -188,7 +197,8 @@ def _linearised_about(family: SteadyMotion) -> Stability:
 def _matrices(family: SteadyMotion) -> tuple[tuple[Row, ...], tuple[Row, ...]]:
     """Matrices B, A of B x' = A x for small departures x of the reduced state.
 
-    The accelerations vanish on the family, so that the mass matrix need not be varied.
+    In δ(M u̇) = M δu̇ + δM u̇ the last term vanishes, as u̇ = 0 on the family: only the forcing is
+    differentiated.
     """
     system = family.reduced
     flow = (*system.rates, *system.equations.forcing)
@@ -208,12 +218,12 @@ def _matrices(family: SteadyMotion) -> tuple[tuple[Row, ...], tuple[Row, ...]]:
 
 
 def _condition(expression: Expr, family: SteadyMotion, assumed: Collection[Expr]) -> Condition:
-    """The condition that it is positive, as it stands or by a relation of the family."""
+    """The condition that it is positive, directly or by a relation of the family."""
     plain = expression.subs(family.fixed)
     condition = positive(plain, assumed)
     for relation in family.relations:
         for symbol, value in _linear_in(relation):
-            # Solving may have divided by zero somewhere: only what holds throughout is used.
+            # solving may divide by zero somewhere: used only if it then holds always or never
             solved = positive(plain.subs({symbol: value}), assumed)
             if condition.truth is Truth.OPEN and solved.truth is not Truth.OPEN:
                 condition = solved
@@ -254,7 +264,10 @@ def _linear_in(relation: Expr) -> tuple[tuple[Symbol, Expr], ...]:
 
 
 def _determinant(matrix: Sequence[Row]) -> Expr:
-    """By minors along the rows, each computed once; exact and without division."""
+    """By minors along the rows, each computed once; exact and without division.
+
+    Laplace's expansion with at most 2ⁿ minors: without division no entry leaves polynomial form.
+    """
 
     @cache
     def minor(columns: tuple[int, ...]) -> Expr:
@@ -273,10 +286,10 @@ def _determinant(matrix: Sequence[Row]) -> Expr:
 
 
 def _undamped(coefficients: Row) -> tuple[Expr, ...]:
-    """Positive where all roots of a polynomial in the squared exponent are real and negative.
+    """Positive where all roots of a polynomial in λ² are real, distinct and negative.
 
-    Coefficients of one sign (Descartes) exclude positive roots, a positive discriminant complex
-    ones.
+    Coefficients of one sign (Descartes) exclude positive roots and zero. Up to degree three in λ²,
+    a positive discriminant excludes complex and double ones; beyond, it would not suffice.
     """
     lead = coefficients[-1]
     signs = tuple(c * lead for c in coefficients[:-1])
@@ -297,7 +310,12 @@ def _undamped(coefficients: Row) -> tuple[Expr, ...]:
 
 
 def _hurwitz_determinants(coefficients: Row) -> tuple[Expr, ...]:
-    """Leading minors of Hurwitz's matrix: positive where all roots have negative real parts."""
+    """Leading minors of Hurwitz's matrix: positive where all roots have negative real parts.
+
+    The Routh-Hurwitz criterion: with a₀ > 0, entry (i, j) is a_{2j-i}, counted from one
+    (Gantmacher, The Theory of Matrices, vol. 2, ch. XV). All coefficients are multiplied by the
+    leading one, whose sign may be open.
+    """
     degree = len(coefficients) - 1
     falling = tuple(c * coefficients[-1] for c in reversed(coefficients))
 

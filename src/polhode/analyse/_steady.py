@@ -1,4 +1,4 @@
-"""Steady motions: essential coordinates and all speeds constant; exact, and at given numbers."""
+"""Steady motions: essential coordinates and all speeds constant; exact, and for given numbers."""
 
 from __future__ import annotations
 
@@ -42,9 +42,9 @@ class Branch(Shown):
     """A relation solved for one quantity.
 
     Attributes:
-        quantity: what it is solved for: a speed, or the sine or cosine of an angle.
-        value: what it equals.
-        exists: conditions for it to be real.
+        quantity: solved for: a speed, or the sine or cosine of an angle.
+        value: of the quantity.
+        exists: conditions for the value to be real.
     """
 
     quantity: Expr
@@ -80,7 +80,7 @@ class SteadyMotion(Shown):
 
     @property
     def conditions(self) -> tuple[Expr, ...]:
-        """What vanishes on the family, each an expression equal to zero."""
+        """Expressions that vanish on the family."""
         fixed = (
             Expr.generator(symbol) - value
             for symbol, value in self.fixed.items()
@@ -89,7 +89,7 @@ class SteadyMotion(Shown):
         return (*fixed, *self.relations)
 
     def latex(self) -> str:
-        """LaTeX of what holds on the family."""
+        """LaTeX of the conditions on the family."""
         pieces = [
             f"{Expr.generator(symbol).latex()} = {value.latex()}"
             for symbol, value in self.fixed.items()
@@ -114,8 +114,8 @@ def steady(equations: Equations, at: Mapping[Any, Given] | None = None) -> tuple
 
     Args:
         equations: derived equations, autonomous.
-        at: coordinates, speeds or parameters that are given a value first: by name or symbol, as
-            an expression, an SI number or text with a unit.
+        at: values of coordinates, speeds or parameters: by name or symbol, as an expression, an SI
+            number or text with a unit.
 
     Raises:
         DeclarationError: for a name the system does not have.
@@ -132,6 +132,7 @@ def steady(equations: Equations, at: Mapping[Any, Given] | None = None) -> tuple
         for fixed, relations in _families(rows, system)
         if not _breaks_away(system, {**given, **fixed})
     ]
+    # from the widest family to the narrowest, which is dropped if it is a special case
     families: list[SteadyMotion] = []
     for family in sorted(found, key=lambda f: len(f.fixed)):
         if not any(_contains(other, family) for other in families):
@@ -146,7 +147,7 @@ def steady(equations: Equations, at: Mapping[Any, Given] | None = None) -> tuple
 
 
 def _check_values(equations: Equations, given: Values) -> None:
-    """Refuse values of unknown quantities, and of positive parameters values that are not."""
+    """Refuse values of unknown quantities, and non-positive values of positive parameters."""
     known = {*equations.coordinates, *equations.speeds, *equations.parameters}
     rates = {q.derivative() for q in equations.coordinates}
     unknown = [s.published for s in given if s not in known | rates]
@@ -168,10 +169,10 @@ def _check_values(equations: Equations, given: Values) -> None:
 def _families(
     rows: list[Expr], system: Reduced
 ) -> Iterator[tuple[dict[Symbol, Expr], tuple[Expr, ...]]]:
-    """Branch over the factors of the shortest condition that is not met yet.
+    """Branch over the factors of the shortest condition that is not yet satisfied.
 
-    A factor that gives a speed or an angle is substituted into the other conditions; any other
-    factor is kept as a relation.
+    A factor that determines a speed or an angle is substituted into the other conditions; any other
+    is kept as a relation. The shortest first, as every factor starts a branch of its own.
     """
     pending = [row.numerator for row in rows if row]
     if not pending:
@@ -198,7 +199,9 @@ def _families(
 def _breaks_away(system: Reduced, fixed: Values) -> bool:
     """Whether the conditions hold only because the coordinates are singular there.
 
-    Near a true steady motion the accelerations are small; near such a place they are unbounded.
+    The equations of motion may have been multiplied by a factor that vanishes there, as sin θ does
+    for an upright top. Near a true steady motion accelerations are small; near such a point they
+    are unbounded. Coordinates approach it at different rates, so that no cancellation is special.
     """
     mass = [[entry.subs(fixed) for entry in row] for row in system.equations.mass.rows]
     if not eliminate(mass, [ZERO] * len(mass)).free:
@@ -219,7 +222,7 @@ def _order(expression: Expr) -> int:
 
 
 def _solved(factor: Expr, system: Reduced) -> Iterator[tuple[Symbol, Expr]]:
-    """Where a factor vanishes: a speed, if its coefficient depends on no state, or an angle."""
+    """Zeros of a factor: a speed, if its coefficient depends on no state, or an angle."""
     for speed in system.speeds:
         slope = factor.diff(speed)
         if slope and not slope.symbols() & set(system.state):
@@ -248,7 +251,7 @@ def _contains(wide: SteadyMotion, narrow: SteadyMotion) -> bool:
 def _branches(relation: Expr, system: Reduced) -> tuple[Branch, ...]:
     """The relation solved for the first speed in which it is linear or quadratic.
 
-    Rates of ignorable coordinates come first: a text solves for the rate of precession.
+    Rates of ignorable coordinates come first: textbooks solve for the rate of precession.
     """
     inside = [s for s in system.speeds if s in relation.symbols()]
     for symbol in sorted(inside, key=lambda s: (s.kind is SymbolKind.SPEED, s.published)):
@@ -267,7 +270,7 @@ def _branches(relation: Expr, system: Reduced) -> tuple[Branch, ...]:
     return ()
 
 
-# At given numbers: all real roots of the one relation that is left.
+# For given numbers: all real roots of the one remaining relation.
 
 #: Relations of a higher degree in the unknown are refused.
 LARGEST_DEGREE = 24
@@ -289,7 +292,7 @@ class SteadyValues(Shown):
 
 
 def steady_values(family: SteadyMotion, at: Mapping[Any, Given]) -> SteadyValues:
-    """Every value that one quantity can have when all others are given numbers.
+    """All values of one quantity when all others are numbers.
 
     The roots are isolated in exact arithmetic: none is missed and none is spurious.
 
@@ -310,7 +313,8 @@ def steady_values(family: SteadyMotion, at: Mapping[Any, Given]) -> SteadyValues
         )
     (symbol,) = unknown
     polynomial, is_half_tangent = _polynomial(relations[0], symbol)
-    # Isolated in ball arithmetic: a root is real if its ball reaches the real axis.
+    # Isolated in ball arithmetic: non-real roots come in conjugate pairs with disjoint balls, so a
+    # ball that meets the real axis encloses a real root.
     isolated: Any = polynomial.complex_roots() if polynomial.degree() > 0 else []
     roots = [float(root.real.mid()) for root, _ in isolated if root.imag.contains(0)]
     if is_half_tangent:
@@ -321,7 +325,10 @@ def steady_values(family: SteadyMotion, at: Mapping[Any, Given]) -> SteadyValues
 
 
 def _polynomial(relation: Expr, symbol: Symbol) -> tuple[fmpq_poly, bool]:
-    """The relation as a polynomial in the symbol, or in the tangent of half of it."""
+    """The relation as a polynomial in the symbol, or in t = tan(symbol/2).
+
+    With cos = (1 - t²)/(1 + t²) and sin = 2t/(1 + t²).
+    """
     tangent = Expr.generator(Symbol("half_tangent"))
     below = 1 + tangent**2
     images = {}

@@ -7,9 +7,9 @@ from polhode.model import Body
 
 
 def symmetry_axes(body: Body) -> tuple[Vector, ...]:
-    """Unit vectors about which the inertia of a body is symmetric; none where it is not.
+    """Unit vectors about which the inertia of a body is symmetric; empty if there are none.
 
-    Every direction is one for a ball: those of its axes are given.
+    For a ball, for which every direction is one, those of its axes are given.
     """
     inertia, size = body.inertia, range(3)
     principal = [inertia[i, i] for i in size]
@@ -17,8 +17,9 @@ def symmetry_axes(body: Body) -> tuple[Vector, ...]:
         labels = body.axes.labels
         alike = (principal[i - 2] == principal[i - 1] for i in size)
         return tuple(body.axes[label] for label, same in zip(labels, alike, strict=True) if same)
-    # About an oblique axis n of symmetry I = A + (C - A) n nᵀ: with the moment A across the axis,
-    # I - A is of rank one, and its columns are along n.
+    # About an oblique axis of symmetry n, I = A 1 + (C - A) n nᵀ, so that I - A 1 has rank one and
+    # its columns are along n. From the products of inertia, I_ij I_ik/I_jk = (C - A) n_i², which
+    # gives A = I_ii - I_ij I_ik/I_jk.
     for i in size:
         j, k = (i + 1) % 3, (i + 2) % 3
         across = inertia[i, i]

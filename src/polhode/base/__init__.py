@@ -1,4 +1,4 @@
-"""What every package builds on: errors, units, files, the cache, progress, worker processes."""
+"""Foundations of all packages: errors, units, files, the cache, progress, worker processes."""
 
 from polhode.base import _cache as cache
 from polhode.base._bounds import bound_growth, bound_memory, bound_time, ended_with

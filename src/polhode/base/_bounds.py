@@ -11,7 +11,7 @@ from pathlib import Path
 
 
 def bound_time(seconds: float) -> None:
-    """End the process after so many seconds of processor time; 0 takes the limit away."""
+    """End the process after so many seconds of processor time; 0 removes the limit."""
     if hasattr(signal, "setitimer"):
         signal.setitimer(signal.ITIMER_PROF, seconds)
 
@@ -25,7 +25,7 @@ def bound_memory(most: int) -> None:
 
 
 def bound_growth(most: int) -> None:
-    """Limit the process to `most` bytes more than it has now, where the system can tell."""
+    """Limit the process to `most` bytes beyond its present size, where the system reports it."""
     with suppress(ImportError, OSError, ValueError):
         import resource
 
@@ -37,12 +37,12 @@ def bound_growth(most: int) -> None:
 def ended_with(descriptor: int) -> Iterator[None]:
     """End this process, whatever it is doing, when the other end of a pipe is closed.
 
-    A worker process then does not outlive the one that it computes for. Nothing may arrive through
-    the pipe meanwhile: that would end the process too. It has no effect where the system sends no
+    A worker process then does not outlive its parent. SIGIO ends the process also when data arrive,
+    so nothing may be sent through the pipe meanwhile. It has no effect on systems that send no
     signal about pipes.
 
     Args:
-        descriptor: of a pipe or socket that this process alone reads from.
+        descriptor: of a pipe or socket that only this process reads from.
     """
     try:
         import fcntl

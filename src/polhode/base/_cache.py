@@ -9,9 +9,10 @@ from pathlib import Path
 from polhode.base._errors import StoreError
 
 LIMIT = 2**30
-"""Bytes that a library should keep at most."""
+"""Largest size of one library's cache, in bytes."""
 
 _TAG_NAME = "CACHEDIR.TAG"
+# bford.info/cachedir: backup programs skip a directory with this file
 _TAG = b"Signature: 8a477f597d28d172789f06886806bc55\n# Made by polhode; safe to delete.\n"
 
 
@@ -46,7 +47,7 @@ def folder(name: str) -> Path:
         raise StoreError(
             f"the cache folder {path} cannot be made ({error.strerror})",
             expected="a folder that can be written",
-            advice="set POLHODE_CACHE to one",
+            advice="set POLHODE_CACHE to a writable folder",
         ) from error
     return path
 
@@ -54,7 +55,8 @@ def folder(name: str) -> Path:
 def clear() -> int:
     """Empty the cache; returns the bytes freed.
 
-    Only folders that polhode has tagged as its own are removed, and nothing beside them.
+    Only folders that polhode has tagged are removed: POLHODE_CACHE may name a folder with other
+    files in it.
     """
     root = directory()
     ours = [tag.parent for tag in root.glob(f"*/{_TAG_NAME}") if _is_ours(tag)]

@@ -1,4 +1,4 @@
-"""Notebook display: objects ask for HTML, and a higher layer installs what renders it."""
+"""Notebook display: objects request HTML from a renderer that a higher layer installs."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ _RENDERERS: list[Callable[[object], str]] = []
 
 
 def show_with(renderer: Callable[[object], str]) -> None:
-    """Install what renders objects as HTML for a notebook."""
+    """Install the function that renders objects as HTML for a notebook."""
     _RENDERERS[:] = [renderer]
 
 
 class Shown:
-    """Something that a notebook shows as HTML where a renderer is installed, otherwise as text."""
+    """Shown by a notebook as HTML if a renderer is installed, otherwise as text."""
 
     def _repr_html_(self) -> str | None:
         return _RENDERERS[0](self) if _RENDERERS else None

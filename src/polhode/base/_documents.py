@@ -1,9 +1,9 @@
 """Documents: the schema number and provenance that each carries, and declarations as plain JSON.
 
-A declaration is a list of parts, and nothing in it can run. A part names its shape and its fields;
-a field is a number, a text, null, a list, or {"#": k}, which stands for the k-th part before it.
-Each part is written once, so a reader needs no recursion, and it builds every object with the
-constructor that a user would call.
+A declaration is a list of parts, and contains no code. A part names its shape and its fields; a
+field is a number, a text, null, a list, or {"#": k}, a reference to the earlier part number k. Each
+part is written once, so a reader needs no recursion, and it builds every object with the same
+constructor, and hence the same checks, as a user's script.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ LIBRARIES = ("python-flint", "numpy", "scipy", "heyoka", "sympy", "matplotlib", 
 
 
 class Provenance(TypedDict):
-    """What a document was made with; a library that is not installed has the version None."""
+    """Versions and seed behind a document; a library that is not installed has the version None."""
 
     schema: int
     versions: dict[str, str | None]
@@ -33,7 +33,7 @@ class Provenance(TypedDict):
 
 
 def provenance(seed: int | None = None) -> Provenance:
-    """What the document being written is made with, found without importing any library.
+    """The provenance of a document being written, determined without importing any library.
 
     Args:
         seed: of the random numbers that went into it, None if none did.
@@ -65,7 +65,7 @@ T = TypeVar("T")
 
 _MOST_TEXT = 32 * 1024**2
 _MOST_PARTS = 100_000
-_DEEPEST = 200  # parts that each hold the next
+_DEEPEST = 200  # parts nested in one another
 _DEEPEST_LIST = 6
 _REFERENCE = "#"
 _FORMAT = "polhode declaration"
@@ -79,7 +79,7 @@ _UNFIT = (
     TypeError,
     ValueError,
 )
-"""What constructors may raise for nonsense."""
+"""Exceptions that constructors may raise for invalid fields."""
 
 
 @dataclass(frozen=True)
@@ -107,7 +107,7 @@ class Codec:
         self._by_kind = {kind: s for s in self._by_name.values() for kind in s.kinds}
 
     def write(self, value: object) -> str:
-        """An object as a JSON document, always the same for equal objects.
+        """An object as a JSON document, identical for equal objects.
 
         Raises:
             StoreError: for an object of an unknown class.
@@ -145,7 +145,7 @@ class Codec:
         if part["is"] not in self._by_name:
             raise StoreError(
                 f"a declaration that cannot be read: it has a part of class {part['is'][:80]!r}",
-                expected="a class of polhode, or one that is defined here",
+                expected="a class of polhode, or one defined in this session",
                 advice="import the module that defines it before reading the declaration",
             )
         fields = {name: reader.value(field) for name, field in part.items() if name != "is"}
@@ -155,7 +155,7 @@ class Codec:
 
 
 def digest(text: str) -> str:
-    """A short name for a document, different for every document: SHA-256 in hexadecimal."""
+    """A short identifier of a document: SHA-256 in hexadecimal."""
     return hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -167,7 +167,7 @@ class _PlainWriter:
         self._seen: dict[int, tuple[object, int]] = {}
 
     def reference(self, value: object) -> dict[str, int]:
-        """A reference to an object, which is written first if it has not been."""
+        """A reference to an object, which is written first if necessary."""
         if id(value) not in self._seen:
             shape = self._shapes.get(type(value))
             if shape is None:
@@ -180,7 +180,8 @@ class _PlainWriter:
             if part not in self._known:
                 self._known[part] = len(self.parts)
                 self.parts.append(part)
-            self._seen[id(value)] = (value, self._known[part])  # kept alive: ids are reused
+            # the object is kept alive, as the id of a deleted one may be reused
+            self._seen[id(value)] = (value, self._known[part])
         return {_REFERENCE: self._seen[id(value)][1]}
 
     def _field(self, value: object) -> object:

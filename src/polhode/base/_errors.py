@@ -11,16 +11,15 @@ from typing import TypeVar
 
 
 class PolhodeError(Exception):
-    """Something given to polhode, or met on the way, that it cannot work with.
+    """Input, or a situation in a computation, that polhode cannot handle.
 
     Prints as "given; expected ...; advice", without the parts that were left empty.
 
     Args:
         given: what was given, with the name of the quantity or declaration.
         expected: what would have been accepted, without the word "expected".
-        advice: what to do about it.
-        option: the command-line option that does it, such as "let"; only the command line prints
-            it.
+        advice: how to correct it.
+        option: the command-line option for that, such as "let"; only the command line prints it.
     """
 
     def __init__(
@@ -79,8 +78,8 @@ class Exit(IntEnum):
 def exit_code(error: BaseException) -> int:
     """The exit code of a command that `error` has ended.
 
-    It is never `Exit.FAILED`, since a failed check is an answer and not an error: bad input, what
-    cannot be read or decided, and unforeseen errors are all `Exit.REFUSED`.
+    It is never `Exit.FAILED`, since a failed check is an answer and not an error: bad input,
+    undecidable questions and unforeseen errors are all `Exit.REFUSED`.
     """
     return Exit.INTERRUPTED if isinstance(error, KeyboardInterrupt) else Exit.REFUSED
 
@@ -100,7 +99,7 @@ def extra(library: str, name: str) -> Iterator[None]:
     except ImportError as error:
         raise StoreError(
             f"{library} is not installed",
-            expected="the extra of polhode that brings it",
+            expected="the optional dependency of polhode that contains it",
             advice=f"pip install 'polhode[{name}]'",
         ) from error
 
@@ -119,6 +118,6 @@ def look_up(name: str, known: Mapping[str, Known], what: str) -> Known:
     near = get_close_matches(name, known, n=3, cutoff=0.5)
     raise DeclarationError(
         f"{name!r} is no {what}",
-        expected=f"one of {', '.join(known)}" if known else "none, since there are none",
+        expected=f"one of {', '.join(known)}" if known else "no name, since none is defined",
         advice=f"did you mean {' or '.join(near)}?" if near else "",
     )

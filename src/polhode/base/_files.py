@@ -23,7 +23,7 @@ def write_whole(path: Path, content: bytes) -> None:
         if path.exists() and not (path.is_file() or path.is_dir()):
             raise StoreError(
                 f"{path} cannot be written (it is a device or a pipe)",
-                expected="the name of a file",
+                expected="the name of a regular file",
             )
         descriptor, part = tempfile.mkstemp(suffix=".part", dir=path.parent)
         with os.fdopen(descriptor, "wb") as stream:
@@ -60,5 +60,5 @@ def read_whole(path: Path, expected: str) -> bytes:
         why = getattr(error, "strerror", None) or error
         raise StoreError(f"{path} cannot be read ({why})", expected=expected) from error
     if len(content) > _MOST:
-        raise StoreError(f"{path} cannot be read (there is no end to it)", expected=expected)
+        raise StoreError(f"{path} cannot be read (it does not end)", expected=expected)
     return content

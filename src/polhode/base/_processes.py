@@ -1,6 +1,6 @@
-"""How a worker process begins, and what it does: answer questions until no more come.
+"""How a worker process starts, and its loop: answer questions until the pipe is closed.
 
-The docstring of `_workers` says which start is safe, and when.
+The docstring of `_workers` explains which way of starting is safe, and when.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ Question = TypeVar("Question")
 Reply = TypeVar("Reply")
 #: Reports something before a task is done.
 Tell: TypeAlias = Callable[[Reply], object]
-#: What is run in a worker to get ready: it gives the function that answers questions.
+#: Run in a worker to prepare it: returns the function that answers questions.
 Setup: TypeAlias = Callable[[], Callable[[Question, Tell[Reply]], Reply]]
 
 
@@ -33,7 +33,7 @@ class StartMethod(Enum):
     """How a worker process begins."""
 
     COPY = auto()
-    """A fork of this process, which has all that this one has."""
+    """A fork of this process, with everything it has in memory."""
     FRESH = auto()
     """A new interpreter, which imports the caller's script only if its setup needs it."""
     SERVER = auto()
@@ -41,7 +41,7 @@ class StartMethod(Enum):
 
 
 class Message(Enum):
-    """What a worker sends, each with its content."""
+    """Kinds of messages from a worker."""
 
     READY = auto()
     TOLD = auto()
@@ -50,7 +50,7 @@ class Message(Enum):
 
 
 class Process(Protocol):
-    """A process that was started, in whatever way."""
+    """A process, however it was started."""
 
     @property
     def pid(self) -> int:
@@ -58,7 +58,7 @@ class Process(Protocol):
         ...
 
     def kill(self) -> None:
-        """End it, whatever it does."""
+        """End it, whatever it is doing."""
         ...
 
     def exit_code(self) -> int:
@@ -85,9 +85,9 @@ def begin_process(
 
 @contextmanager
 def _interrupts_withheld(start: StartMethod) -> Iterator[None]:
-    """Keep Ctrl-C, which a terminal sends to all processes, from what begins within this block.
+    """Keep Ctrl-C, which a terminal sends to all processes, from processes started in this block.
 
-    A process inherits the signals that the thread blocks which begins it.
+    A process inherits the blocked signals of the thread that starts it.
     """
     if not hasattr(signal, "pthread_sigmask"):
         yield
@@ -95,7 +95,7 @@ def _interrupts_withheld(start: StartMethod) -> Iterator[None]:
     if start is StartMethod.SERVER:
         from multiprocessing import resource_tracker
 
-        resource_tracker.ensure_running()  # begun later, it would unblock the signal again
+        resource_tracker.ensure_running()  # started later, it would unblock the signal
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
@@ -125,15 +125,14 @@ class _Copy:
 def _copied(
     setup: Setup[Any, Any], questions: Connection, replies: Connection, memory: int | None
 ) -> _Copy:
-    with warnings.catch_warnings():  # about threads
+    with warnings.catch_warnings():  # that of forking with threads: see `_workers`
         warnings.simplefilter("ignore", DeprecationWarning)
         pid = os.fork()
     if pid:
         return _Copy(pid)
     try:
         gc.freeze()  # memory stays shared as long as the collector does not touch it
-        # Keep no other file or pipe of ours open: its reader may be waiting for the last writer
-        # to close it.
+        # The copy must keep no other pipe open: a reader waits until the last writer closes it.
         nothing = os.open(os.devnull, os.O_RDWR)
         for name in os.listdir("/dev/fd"):
             if int(name) not in (questions.fileno(), replies.fileno()):
@@ -149,7 +148,7 @@ def _copied(
 
 
 class _Fresh:
-    """A new interpreter; `send_setup` tells it what to do."""
+    """A new interpreter, which waits for `send_setup`."""
 
     def __init__(
         self,
@@ -182,10 +181,10 @@ class _Fresh:
 
 
 def send_setup(process: Process, setup: Setup[Any, Any], questions: Connection) -> None:
-    """Send its setup to a process that does not have it from its start.
+    """Send its setup to a process that was started without it.
 
-    The caller's script is imported there, as multiprocessing does, if the setup refers to it. If
-    not, the script needs no `if __name__ == "__main__"`, and may come from standard input.
+    The caller's script is imported there, as multiprocessing does, only if the setup refers to it.
+    Otherwise the script needs no `if __name__ == "__main__"`, and may come from standard input.
     """
     if not isinstance(process, _Fresh):
         return
@@ -261,7 +260,7 @@ def _context(start: StartMethod) -> Any:
 
 
 def preload(modules: list[str]) -> None:
-    """Have the server process of `StartMethod.SERVER`, where there is one, import some modules."""
+    """Let the server process of `StartMethod.SERVER`, if there is one, import these modules."""
     _context(StartMethod.SERVER).set_forkserver_preload(modules)
 
 
@@ -274,14 +273,14 @@ def shared_flag() -> Any:
 
 
 def _serve(setup: Setup[Any, Any], questions: Connection, replies: Connection) -> None:
-    """Get ready, and answer until no more is asked."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the process that asks ends its workers
-    for name in ("SIGPROF", "SIGIO"):  # a copy has the handlers of its original
+    """Prepare the worker, then answer questions until the pipe is closed."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent process ends its workers
+    for name in ("SIGPROF", "SIGIO"):  # a copy inherits the handlers of its parent
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), signal.SIG_DFL)
 
-    def tell(said: Any) -> None:
-        replies.send((Message.TOLD, said))
+    def tell(report: Any) -> None:
+        replies.send((Message.TOLD, report))
 
     with suppress(BrokenPipeError, EOFError):
         with ended_with(questions.fileno()):
@@ -291,18 +290,18 @@ def _serve(setup: Setup[Any, Any], questions: Connection, replies: Connection) -
             question, seconds = questions.recv()
             with ended_with(questions.fileno()):
                 bound_time(seconds)
-                said, failure = _outcome(answer, question, tell)
-            replies.send((Message.ANSWER, said) if failure is None else (Message.ERROR, failure))
+                reply, failure = _outcome(answer, question, tell)
+            replies.send((Message.ANSWER, reply) if failure is None else (Message.ERROR, failure))
             bound_time(0.0)
 
 
 def _outcome(task: Callable[..., Any], *given: Any) -> tuple[Any, Exception | None]:
-    """What a task gives, or what it raised as an exception that can be sent."""
+    """The result of a task, or the exception it raised in a form that can be sent."""
     try:
         return task(*given), None
     except PolhodeError as error:
         return None, error
     except MemoryError:
-        os._exit(1)  # this process is of no more use, and its end says enough
+        os._exit(1)  # the process is not usable any more; the parent notices its end
     except Exception as error:
         return None, RuntimeError(f"{type(error).__name__}: {error}")

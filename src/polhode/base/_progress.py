@@ -1,4 +1,4 @@
-"""Progress of a long computation, reported to whatever listener it is given."""
+"""Progress of a long computation, reported to a listener."""
 
 import sys
 import time
@@ -36,7 +36,7 @@ class SilentProgress:
 
 
 class TerminalProgress:
-    """One line of a terminal, rewritten as the task advances and wiped when it ends."""
+    """One line of a terminal, rewritten as the task advances and cleared when it ends."""
 
     _INTERVAL = 0.1  # seconds between rewrites
     _WARM_UP = 2.0  # seconds before the remaining time is estimated
@@ -59,13 +59,13 @@ class TerminalProgress:
     def advance(self, steps: int = 1) -> None:
         """Count the steps, and show the count when it is time."""
         if not self._done:
-            self._before = steps  # the first may count what an earlier run had done
+            self._before = steps  # the first call may count the steps of an earlier run
         self._done += steps
         if time.monotonic() >= self._due:
             self._show()
 
     def finish(self) -> None:
-        """Wipe the line."""
+        """Clear the line."""
         self._write("")
 
     def _show(self) -> None:
@@ -74,7 +74,7 @@ class TerminalProgress:
         self._due = time.monotonic() + self._INTERVAL
 
     def _left(self) -> str:
-        """The estimated time to go, once there is an estimate."""
+        """The estimated remaining time, once there is an estimate."""
         passed, done = time.monotonic() - self._began, self._done - self._before
         if self._total is None or done <= 0 or passed < self._WARM_UP:
             return ""

@@ -13,7 +13,7 @@ from polhode.base._units import PURE, Dimension, Unit, read_unit
 
 @runtime_checkable
 class PintQuantity(Protocol):
-    """What is used of a pint quantity, so that pint need not be imported."""
+    """The part of a pint quantity that is used, so that pint need not be imported."""
 
     @property
     def magnitude(self) -> Any: ...
@@ -30,7 +30,8 @@ Value: TypeAlias = SupportsFloat | str | tuple[SupportsFloat, str] | PintQuantit
 class Quantity:
     """An exact value in SI units, ``coefficient * pi**pi_power``.
 
-    `dimension` is None where no unit was written: a bare number is SI of whatever it is for.
+    `dimension` is None where no unit was written: a bare number is in the SI unit of its quantity.
+    π is kept as a power, so that 80 deg is exact.
     """
 
     coefficient: Fraction
@@ -80,7 +81,7 @@ def to_si(value: Value, dimension: Dimension, name: str) -> float:
         value: a number (taken as SI), text with a unit, a magnitude and its unit, or a pint
             quantity.
         dimension: what the quantity must be; an angle is `PURE`.
-        name: what the quantity is called, for messages.
+        name: of the quantity, for messages.
 
     Raises:
         UnitError: if the value cannot be read, is not finite or has another dimension.
@@ -107,7 +108,7 @@ def quantity_of(value: Value, name: str) -> Quantity:
 
 
 def check_dimension(quantity: Quantity, dimension: Dimension, name: str, given: object) -> None:
-    """Check that a quantity, written as `given`, has a dimension; bare numbers have any.
+    """Check that a quantity, written as `given`, has this dimension; bare numbers pass.
 
     Raises:
         UnitError: if it has another one.
@@ -163,7 +164,10 @@ _PINT_BASES = {"[mass]": "kilogram", "[length]": "meter", "[time]": "second"}
 def _from_pint(value: PintQuantity) -> Quantity:
     powers = {base: Fraction(power) for base, power in value.dimensionality.items()}
     if not powers.keys() <= _PINT_BASES.keys():
-        raise UnitError(f"{value} is not mechanical", expected="only mass, length and time in it")
+        raise UnitError(
+            f"{value} has a dimension other than mass, length and time",
+            expected="a mechanical quantity",
+        )
     dimension = Dimension(*(powers.get(base, Fraction(0)) for base in _PINT_BASES))
     unit = " * ".join(f"{_PINT_BASES[base]}**({power})" for base, power in powers.items())
     return Quantity(_exact(value.to(unit).magnitude), 0, dimension)

@@ -114,7 +114,7 @@ UNITS: dict[str, Unit] = {
     for name, unit in PREFIXED.items()
     for prefix, factor in {"": Fraction(1), **PREFIXES}.items()
 } | PLAIN
-"""Every name, prefixes included."""
+"""All unit names, with prefixes."""
 
 
 # -- compound units as people write them -----------------------------------------------------------
@@ -125,7 +125,7 @@ def read_unit(text: str) -> Unit:
 
     Brackets group, as in ``kg/(m s^2)``. ``/`` divides by the next factor only, so ``N/m s`` is
     ``(N/m) s``. ``Hz`` is one per second, not one turn per second: write ``rev/s`` or ``rpm`` for
-    turning.
+    angular velocities.
 
     Raises:
         UnitError: for a name the table does not have, or text that is not a unit.

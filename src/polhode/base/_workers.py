@@ -1,27 +1,27 @@
 """Worker processes: they answer questions one after another, within limits, and end with us.
 
 Everything that polhode computes in another process of this machine goes through `Worker`, one
-process, or `answers`, which shares tasks out among several:
+process, or `answers`, which distributes tasks among several:
 
-- a question may have a limit on processor time, which the operating system keeps even deep in
-  compiled code, and on time by the clock, six times as long; a worker may have one on memory;
-- a worker that ends for whatever reason is noticed by its closed pipe, and reported;
-- Ctrl-C reaches this process alone, which ends its workers; what they have answered is kept;
+- a question may have a limit on processor time, which the operating system enforces even deep in
+  compiled code, and on wall time, six times as long; a worker may have one on memory;
+- a worker that ends for any reason is noticed by its closed pipe, and reported;
+- Ctrl-C reaches this process alone, which ends its workers; answers received are kept;
 - a worker ends by itself when this process ends, even by SIGKILL: at its next read if it waits
-  for a question, and by the signal that its pipe sends if it computes.
+  for a question, and by the signal of its pipe if it computes.
 
 Is it safe to fork while other threads run? Not in general, and Python 3.12 warns about it: the
-copy has one thread alone, and a lock that another thread held stays locked in it for ever. So a
-process begins in one of three ways (`StartMethod`):
+copy has only one thread, and a lock that another thread held stays locked in it for ever. So a
+process starts in one of three ways (`StartMethod`):
 
 - FRESH, a new interpreter, is the rule: audits, ensembles, sweeps and the tour. It shares nothing
-  with our threads, be they of BLAS, heyoka (TBB, LLVM), asyncio or the caller.
-- SERVER, for the workers of the lab, which have to be ready within milliseconds although the lab
-  runs asyncio and threads. They are forks of a server process that has imported modules and done
-  nothing else; its only threads are those of OpenBLAS, which ends them before a fork and begins
-  them anew when they are needed.
+  with our threads, whether of BLAS, heyoka (TBB, LLVM), asyncio or the caller.
+- SERVER, for the workers of the lab, which must be ready within milliseconds although the lab runs
+  asyncio and threads. They are forks of a server process that has imported modules and done nothing
+  else; its only threads are those of OpenBLAS, which ends them before a fork and restarts them when
+  they are needed.
 - COPY, a fork of this process, serves to check a claim: the equations, which may have taken
-  seconds to derive, are there at once. The copy reads LaTeX and computes with exact expressions.
+  seconds to derive, are already there. The copy reads LaTeX and computes with exact expressions.
   It takes no lock of BLAS, heyoka or asyncio, keeps none of our files open, and never returns to
   our stack; Python and the C library renew their own locks at a fork. If it did meet a lock that
   stays locked, its time limit would end it, and the claim would be reported as undecided: the
@@ -55,8 +55,8 @@ from polhode.base._processes import (
 COPY_MEMORY = 4 << 30
 """Bytes that a copy may take beyond what this process holds."""
 
-_PATIENCE = 6.0  # times the processor time, on a machine that has other work
-_AGAIN = 5.0  # s, where the first call to stop was taken for the failure of one attempt
+_PATIENCE = 6.0  # wall time over processor time, for a machine that has other work
+_AGAIN = 5.0  # s until the interrupt is repeated, in case code caught it as a failed attempt
 
 
 class WorkerEndedError(Exception):
@@ -77,7 +77,7 @@ class WorkerEndedError(Exception):
         if self.out_of_time:
             return _too_long(seconds, advice)
         return NumericError(
-            "too much memory perhaps, for the process that computed ended",
+            "the computing process ended unexpectedly, perhaps for lack of memory",
             expected="something that can be decided with less memory",
             advice=advice,
         )
@@ -118,12 +118,12 @@ class Worker(Generic[Question, Reply]):
 
     @property
     def pid(self) -> int:
-        """The number of its process."""
+        """Its process id."""
         return self._process.pid
 
     @property
     def is_open(self) -> bool:
-        """Whether it may be asked more; its process may have been ended from outside."""
+        """Whether it can take another question; its process may have been ended from outside."""
         return self._exit_code is None and not self.replies.poll()
 
     @property
@@ -135,14 +135,14 @@ class Worker(Generic[Question, Reply]):
         self,
         question: Question,
         seconds: float | None = None,
-        heard: Tell[Reply] = lambda said: None,
+        heard: Tell[Reply] = lambda report: None,
     ) -> Reply:
-        """The answer to a question. A worker that is interrupted at it is closed.
+        """The answer to a question. A worker interrupted while computing it is closed.
 
         Args:
             question: is pickled.
             seconds: of processor time that it may take; None for no limit.
-            heard: called with whatever the worker reports before its answer.
+            heard: called with each report of the worker before its answer.
 
         Raises:
             WorkerEndedError: where the process ended, or ran out of time; the worker is closed.
@@ -150,19 +150,19 @@ class Worker(Generic[Question, Reply]):
         """
         try:
             ready: tuple[Message, Any] = (Message.READY, None)
-            kind, said = ready if self._is_ready else self.receive()
+            kind, content = ready if self._is_ready else self.receive()
             while kind in (Message.READY, Message.TOLD):
                 if kind is Message.READY:
                     self.send(question, seconds)
                 else:
-                    heard(said)
-                kind, said = self.receive()
+                    heard(content)
+                kind, content = self.receive()
         except BaseException:
             self.close()
             raise
         if kind is Message.ERROR:
-            raise said
-        return said  # type: ignore[no-any-return]
+            raise content
+        return content  # type: ignore[no-any-return]
 
     def send(self, question: Question, seconds: float | None = None) -> None:
         """Ask a worker that is ready; its messages are to be received."""
@@ -171,7 +171,7 @@ class Worker(Generic[Question, Reply]):
             self._questions.send((question, seconds or 0.0))
 
     def receive(self) -> tuple[Message, Any]:
-        """The next message; waits for it as long as there is time.
+        """The next message, awaited until the time limit.
 
         Raises:
             WorkerEndedError: where the process ended, or ran out of time; the worker is closed.
@@ -179,20 +179,20 @@ class Worker(Generic[Question, Reply]):
         overdue = False
         with suppress(EOFError, OSError):
             if self.replies.poll(self.left):
-                kind, said = self.replies.recv()
+                kind, content = self.replies.recv()
                 self._is_ready = self._is_ready or kind is Message.READY
-                return kind, said
+                return kind, content
             overdue = True
         ended_by = -self.close()
         out_of_time = overdue or ended_by == getattr(signal, "SIGPROF", None)
         raise WorkerEndedError(out_of_time=out_of_time, was_ready=self._is_ready)
 
     def kill(self) -> None:
-        """End the process, which whoever waits for its messages then notices."""
+        """End the process; code that waits for its messages then notices."""
         self._process.kill()
 
     def close(self) -> int:
-        """End the process, whatever it does; its exit code, or minus the signal that ended it."""
+        """End the process, whatever it is doing; its exit code, or minus the signal number."""
         if self._exit_code is None:
             self._process.kill()
             self._exit_code = self._process.exit_code()
@@ -206,13 +206,13 @@ class Worker(Generic[Question, Reply]):
 
 @dataclass(frozen=True)
 class Outcome(Generic[Question, Reply]):
-    """What came of a task.
+    """The outcome of a task.
 
     Attributes:
-        task: that was given to a worker.
-        reply: its answer; None where there is none.
-        told: what it reported before.
-        lost: how the worker ended that was at it; None where there is an answer.
+        task: given to a worker.
+        reply: its answer; None if there is none.
+        told: reports before the answer.
+        lost: how its worker ended; None if there is an answer.
     """
 
     task: Question
@@ -231,16 +231,16 @@ def answers(
 ) -> Generator[Outcome[Question, Reply]]:
     """Tasks done by several workers, in the order in which they are finished.
 
-    A worker that ends is replaced. All are ended with the generator, so it has to be closed; what
-    it gave before an interruption is done.
+    A worker that ends is replaced. All are ended with the generator, so it must be closed. Outcomes
+    yielded before an interruption are complete.
 
     Args:
-        begin: begins a worker.
-        workers: how many there are at most.
-        following: gives the next task for a worker that was last at some task, or at none; None
-            where no task is left.
+        begin: starts a worker.
+        workers: their greatest number.
+        following: gives the next task for a worker, by its last task or None for a new worker; None
+            if no task is left.
         seconds: of processor time that a task may take; None for no limit.
-        retries: how often a task is begun again whose worker ended.
+        retries: how often a task whose worker ended is repeated.
 
     Raises:
         WorkerEndedError: where a worker ends before it is ready.
@@ -259,7 +259,7 @@ def answers(
                 if task is None:
                     seats.remove(seat)
                     seat.worker.close()
-                else:  # now, so that the worker does not wait until the outcome is dealt with
+                else:  # before the yield, so that the worker need not wait for the consumer
                     seat.take(task)
                 yield outcome
     finally:
@@ -268,7 +268,7 @@ def answers(
 
 
 def _due(seats: Collection[_Seat[Question, Reply]]) -> list[_Seat[Question, Reply]]:
-    """Those whose worker has sent something, has ended, or is out of time."""
+    """Seats whose worker has sent something, has ended, or is out of time."""
     from multiprocessing.connection import wait
 
     left = [seat.worker.left for seat in seats]
@@ -280,7 +280,7 @@ def _due(seats: Collection[_Seat[Question, Reply]]) -> list[_Seat[Question, Repl
 
 
 class _Seat(Generic[Question, Reply]):
-    """A task, and the worker that is at it or begins it once it is ready."""
+    """A task, and the worker that computes it or starts on it once ready."""
 
     def __init__(
         self,
@@ -296,9 +296,9 @@ class _Seat(Generic[Question, Reply]):
         self.worker = begin()
 
     def collected(self) -> Outcome[Question, Reply] | None:
-        """What came of the task; None where nothing has come of it yet."""
+        """The outcome of the task; None if there is none yet."""
         try:
-            kind, said = self.worker.receive()
+            kind, content = self.worker.receive()
         except WorkerEndedError as ended:
             if not ended.was_ready:
                 raise
@@ -312,15 +312,15 @@ class _Seat(Generic[Question, Reply]):
             case Message.READY:
                 self.worker.send(self.task, self._seconds)
             case Message.TOLD:
-                self._told.append(said)
+                self._told.append(content)
             case Message.ERROR:
-                raise said
+                raise content
             case Message.ANSWER:
-                return Outcome(self.task, said, tuple(self._told))
+                return Outcome(self.task, content, tuple(self._told))
         return None
 
     def take(self, task: Question) -> None:
-        """Begin the next task, with another worker if this one has ended."""
+        """Start the next task, with another worker if this one has ended."""
         self.task, self._told, self._losses = task, [], 0
         if self.worker.is_open:
             self.worker.send(task, self._seconds)
@@ -337,19 +337,18 @@ def within(
     task: Callable[[Tell[Reply]], Reply],
     *,
     advice: str,
-    heard: Tell[Reply] = lambda said: None,
+    heard: Tell[Reply] = lambda report: None,
 ) -> Reply:
-    """The result of a task that may take so much processor time and no more.
+    """The result of a task with a limit on its processor time.
 
-    It is computed in a copy of this process, which the operating system ends even where it is
-    deep in compiled code. Where no copy can be made the task is interrupted instead, between
-    steps of Python.
+    It is computed in a copy of this process, which the operating system ends even deep in compiled
+    code. If no copy can be made the task is interrupted instead, between Python instructions.
 
     Args:
         seconds: of processor time.
         task: may report something before it is done.
-        advice: what to do about a task that takes longer.
-        heard: called with all that the task reports.
+        advice: for the error, if the task takes longer.
+        heard: called with each report of the task.
 
     Raises:
         NumericError: once the time is over.
@@ -371,13 +370,13 @@ def within(
 
 def can_copy() -> bool:
     """Whether a copy of this process may be made."""
-    debugged = os.environ.get("POLHODE_DEBUG") == "1"  # then tracebacks are wanted
+    debugged = os.environ.get("POLHODE_DEBUG") == "1"  # a copy would lose the traceback
     return hasattr(os, "fork") and sys.platform != "darwin" and not debugged
 
 
 @contextmanager
 def _interrupted(seconds: float, advice: str) -> Iterator[None]:
-    """Give up what takes more processor time than this, where the system has a timer for it."""
+    """Interrupt a block after this processor time, where the system has a timer for it."""
     if not hasattr(signal, "setitimer") or current_thread() is not main_thread():
         yield
         return

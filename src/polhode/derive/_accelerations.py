@@ -1,4 +1,4 @@
-"""Accelerations, where the mass matrix splits into blocks small enough to invert exactly."""
+"""Accelerations from the mass matrix, inverted exactly block by block."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def solve_accelerations(speeds: tuple[Symbol, ...], mass: Matrix, forcing: Row) 
     Raises:
         NumericError: for a block of more than five speeds, and for speeds without inertia.
     """
-    found: dict[int, Expr] = {}
+    values: dict[int, Expr] = {}
     for block in _blocks(mass):
         if len(block) > LARGEST_SYMBOLIC:
             raise NumericError(
@@ -46,18 +46,18 @@ def solve_accelerations(speeds: tuple[Symbol, ...], mass: Matrix, forcing: Row) 
             [[mass[i, j] for j in block] for i in block], [forcing[i] for i in block]
         )
         if outcome.free:
-            loose = ", ".join(speeds[block[k]].published for k in outcome.free)
+            names = ", ".join(speeds[block[k]].published for k in outcome.free)
             raise NumericError(
-                f"accelerations of {loose}, which no mass or inertia resists",
+                f"accelerations of {names}, which no mass or inertia resists",
                 expected="a mass matrix that can be inverted",
-                advice="give the body its inertia, or hold it",
+                advice="give the body a mass and inertia, or constrain it",
             )
-        found |= {block[k]: value for k, (_, value) in outcome.solved.items()}
-    return tuple(found[i] for i in range(len(speeds)))
+        values |= {block[k]: value for k, (_, value) in outcome.solved.items()}
+    return tuple(values[i] for i in range(len(speeds)))
 
 
 def _blocks(mass: Matrix) -> Iterator[list[int]]:
-    """Speeds that the mass matrix couples, directly or by way of others."""
+    """Groups of speeds that the mass matrix couples, directly or through others."""
     pending = list(range(len(mass.rows)))
     while pending:
         block = [pending.pop(0)]

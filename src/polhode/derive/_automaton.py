@@ -31,7 +31,7 @@ from polhode.model import (
 
 @dataclass(frozen=True)
 class Touch:
-    """Where a body and a support are, or would be, in contact; along the axes of the support.
+    """Geometry and slip of a contact, closed or open, along the axes of the support.
 
     Attributes:
         contact: as declared.
@@ -58,7 +58,7 @@ class Touch:
 def touch_of(equations: Equations, declared: Contact, phase: Phase) -> Touch:
     """Gap, slip and distance to the edge of a contact that rolls, slides or is open."""
     motion = equations.kinetics
-    # Beyond the edge the body may touch what lies there: a table beside a sheet of paper.
+    # beyond the edge the body may touch another surface: a table beside a sheet of paper
     beyond = declared.on.beyond
     contact = declared.on_support(beyond) if phase.is_beyond and beyond is not None else declared
     place = motion.places[contact.body]
@@ -82,7 +82,8 @@ class Guard:
     """An expression whose reaching zero ends a mode.
 
     Attributes:
-        contact: what it belongs to; None for the side on which the equations hold.
+        contact: the contact it belongs to; None for an expression that the equations assume to be
+            positive.
         kind: "slips", "sticks", "lifts off", "touches down", "crosses the edge" or "near-flat".
         positive: greater than zero while the mode lasts.
     """
@@ -104,8 +105,7 @@ def guards_of(
         normal = equations.components[contact.component(contact.on.normal)]
         yield Guard(contact, "lifts off", normal)
         if phase.rolls and isinstance(contact, Coulomb):
-            # How far the square of the friction force is below its static limit, N². Squares keep
-            # the guard free of roots, and smooth where there is no friction force.
+            # (μₛ N)² - |F|², N²: squares keep the guard free of roots, and smooth where F = 0
             friction = (equations.components[name] for name, _ in contact.directions())
             limit = (contact.mu_static * normal) ** 2
             yield Guard(contact, "slips", limit - sum((f * f for f in friction), ZERO))
@@ -144,12 +144,12 @@ class Mode:
     lifted: Mapping[Symbol, Expr]
 
     def phase(self, contact: Contact) -> Phase:
-        """What a contact is doing."""
+        """The phase of a contact."""
         place = [touch.contact.name for touch in self.touches].index(contact.name)
         return self.phases[place]
 
     def element(self, contact: Contact) -> Element:
-        """What stands for a contact in this mode."""
+        """The element that replaces a contact in this mode."""
         return self.equations.system.element(contact.name)
 
 
@@ -170,7 +170,7 @@ class Automaton(Shown):
 
     @cached_property
     def options(self) -> tuple[Mapping[Phase, Element], ...]:
-        """For every contact the phases it can be in."""
+        """For each contact, the phases it can be in."""
         return tuple(phases(contact) for contact in self.contacts)
 
     @cached_property
@@ -180,7 +180,7 @@ class Automaton(Shown):
 
     @cached_property
     def beyond(self) -> Mode:
-        """The same, seen from beyond the edges of the supports that have one."""
+        """The same mode for bodies beyond the edges of their supports."""
         return self._derived(tuple(FLIGHT.beyond() for _ in self.contacts))
 
     @cached_property
@@ -230,7 +230,7 @@ class Automaton(Shown):
 
     @cached_property
     def names(self) -> tuple[str, ...]:
-        """Of all possible contact modes."""
+        """Names of all possible contact modes."""
         return tuple(self._name(chosen) for chosen in product(*self.options))
 
     def named(self, name: str) -> Phases:
@@ -244,8 +244,8 @@ class Automaton(Shown):
 
     def _derived(self, chosen: Phases) -> Mode:
         elements = {}
-        for contact, option, wanted in zip(self.contacts, self.options, chosen, strict=True):
-            phase = FLIGHT if wanted.flies else wanted
+        for contact, option, requested in zip(self.contacts, self.options, chosen, strict=True):
+            phase = FLIGHT if requested.flies else requested
             if phase not in option:
                 raise DeclarationError(
                     f"contact {contact.name!r} {phase.value}",
@@ -273,7 +273,7 @@ class Automaton(Shown):
         return ", ".join(f"{contact.name} {phase.value}" for contact, phase in pairs)
 
     def _lifted(self, equations: Equations) -> dict[Symbol, Expr]:
-        """Heights and their rates, which in contact are no coordinates but follow from the rest."""
+        """Heights and their rates, which in contact follow from the other coordinates."""
         motion = equations.kinetics
         lifted = {}
         for option, contact in zip(self.options, self.contacts, strict=True):

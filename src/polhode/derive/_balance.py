@@ -1,4 +1,4 @@
-"""Where constraints become forces: Newton's and Euler's equations of every body, with reactions.
+"""Constraints as forces: Newton's and Euler's equations of every body, with reactions.
 
 A restraint prescribes one component of relative velocity; a rolling contact has three, such as the
 problem set's eqs. (29) and (43). `derive._constraints` eliminates speeds with it. Here the same
@@ -53,7 +53,7 @@ class ReactionColumn:
         return self.direction != self.restraint.direction
 
     def on(self, body: Body) -> Wrench | None:
-        """What one unit does to a body."""
+        """The wrench of one unit on a body; None for a body it does not act on."""
         if body == self.restraint.body:
             direction, arm = self.direction, self.restraint.arm
         elif body == self.restraint.other:
@@ -66,13 +66,13 @@ class ReactionColumn:
 
     @property
     def wrenches(self) -> tuple[tuple[Body, Wrench], ...]:
-        """The bodies that one unit acts on, and what it does to each."""
+        """The bodies that one unit acts on, with its wrench on each."""
         bodies = (self.restraint.body, self.restraint.other)
         return tuple((b, w) for b in bodies if b is not None and (w := self.on(b)) is not None)
 
 
 def required_wrenches(motion: Kinematics) -> dict[Body, Wrench]:
-    """What the reactions on every body must add up to: m dv/dt - F and dL/dt - τ.
+    """The sum that the reactions on every body must have: m dv/dt - F and dL/dt - τ.
 
     Newton's and Euler's equations about the centre of mass, with F and τ the loads.
     """
@@ -82,7 +82,7 @@ def required_wrenches(motion: Kinematics) -> dict[Body, Wrench]:
         for load in system.loads
         for action in load.actions(system.bodies, motion.places, motion.velocities)
     ]
-    found = {}
+    wrenches = {}
     for body in system.bodies:
         velocity, _ = motion.velocities[body]
         force = motion.derivative(velocity) * body.mass
@@ -95,21 +95,21 @@ def required_wrenches(motion: Kinematics) -> dict[Body, Wrench]:
             form.kept(force, motion.accelerations), form.kept(couple, motion.accelerations)
         )
         form.refuse_outgrown((*wrench.force.components, *wrench.couple.components))
-        found[body] = wrench
-    return found
+        wrenches[body] = wrench
+    return wrenches
 
 
 def reaction_columns(motion: Kinematics) -> tuple[ReactionColumn, ...]:
     """One column for every restraint; sliding friction is inclined with its normal force."""
-    found = []
+    columns = []
     for element in motion.elements:
         frictions = {f.normal.name: f for f in element.friction(motion.places)}
         for restraint in motion.restraints[element.name]:
             direction = restraint.direction
             if restraint.name in frictions:
                 direction = direction + _friction(motion, frictions[restraint.name])
-            found.append(ReactionColumn(restraint, direction))
-    return tuple(found)
+            columns.append(ReactionColumn(restraint, direction))
+    return tuple(columns)
 
 
 def _friction(motion: Kinematics, friction: Friction) -> Vector:
@@ -123,7 +123,7 @@ def _friction(motion: Kinematics, friction: Friction) -> Vector:
     speed = (first * along + second * across).norm()
     if not speed:
         raise ConstraintError(
-            f"sliding friction at {friction.normal.name} of a contact that cannot slip",
+            f"sliding friction at {friction.normal.name}, a contact that cannot slip",
             expected="a slip velocity that is not identically zero",
             advice="declare the contact Rolling",
         )

@@ -1,4 +1,4 @@
-"""Checks after the kinematics: clashing names, unknown coordinates, forces nothing supplies."""
+"""Checks after the kinematics: clashing names, unknown coordinates, missing reactions."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from polhode.model import Body
 
 
 def refuse_shared_names(motion: Kinematics, required: Mapping[Body, Wrench]) -> None:
-    """Refuse two symbols of one name, and reactions named like another or like a symbol."""
+    """Refuse two symbols with one name, and reactions named like another or like a symbol."""
     owners: dict[str, str] = {}
     for element in motion.elements:
         names = [restraint.name for restraint in motion.restraints[element.name]]
@@ -43,20 +43,20 @@ def refuse_shared_names(motion: Kinematics, required: Mapping[Body, Wrench]) -> 
 def _shared(name: str, owners: str) -> DeclarationError:
     return DeclarationError(
         f"{name}, a reaction of {owners}",
-        expected="a name of its own for every reaction component and symbol",
+        expected="a different name for every reaction component and symbol",
         advice="give one another letter, such as force='G' or torque='sigma', or its body a tag",
     )
 
 
 def refuse_unknown_coordinates(motion: Kinematics, required: Mapping[Body, Wrench]) -> None:
-    """Refuse coordinates that place or turn no body: nothing says how they move."""
+    """Refuse coordinates on which no body's position or attitude depends: they have no equation."""
     wrenches = (c for w in required.values() for v in (w.force, w.couple) for c in v.components)
     used = variables((*wrenches, *motion.kinematics.values(), *motion.dependent.values()))
     coordinates = {s.base() for s in used if s.kind is SymbolKind.COORDINATE}
     unknown = sorted(s.published for s in coordinates - set(motion.coordinates))
     if unknown:
         raise DeclarationError(
-            f"the coordinate {', '.join(unknown)}, by which no body is placed or turned",
+            f"the coordinate {', '.join(unknown)}, on which no body's position or attitude depends",
             expected=f"one of {', '.join(s.published for s in motion.coordinates)}",
             advice="for a prescribed motion, use functions(...) or an expression of time",
         )
@@ -65,9 +65,9 @@ def refuse_unknown_coordinates(motion: Kinematics, required: Mapping[Body, Wrenc
 def refuse_unbalanced(equations: Equations) -> None:
     """Refuse moving supports whose reactions cannot keep the body in the motion they allow.
 
-    A support may move with coordinates of the body it holds, as along a light rod. The equations of
-    motion then hold by d'Alembert's principle, and so does the balance of every body, unless the
-    body would need more than is declared: a couple that turns it with the rod, say.
+    A support may move with coordinates of the body it holds, as at the end of a massless rod. The
+    equations of motion then hold by d'Alembert's principle, and so does the balance of every body,
+    unless a reaction is needed that is not declared, such as a couple that turns it with the rod.
 
     Raises:
         DeclarationError: naming the contact or joint.
@@ -82,8 +82,8 @@ def refuse_unbalanced(equations: Equations) -> None:
     if works and not _is_balanced(equations):
         name, speeds = next(iter(works.items()))
         raise DeclarationError(
-            f"{name!r}, whose support moves with {', '.join(s.published for s in speeds)}: what it "
-            "supplies is not enough to keep the body in that motion",
+            f"{name!r}, whose support moves with {', '.join(s.published for s in speeds)}: its "
+            "reactions cannot keep the body in that motion",
             expected="a support that moves with time alone, or a body",
             advice="name the body that carries it: to=body.point(offset), or to=body",
         )
@@ -106,6 +106,6 @@ def _is_balanced(equations: Equations) -> bool:
             )
             if equations.on_shell(sum(works, ZERO)):
                 return False
-    except NumericError:  # accelerations not solved for: it cannot be decided
+    except NumericError:  # without accelerations it cannot be decided; refused, to be safe
         return False
     return True

@@ -27,7 +27,7 @@ def elimination_ranks(
     translations: Mapping[Symbol, Body],
     independent: Iterable[Symbol],
 ) -> dict[Symbol, int]:
-    """In what order the constraints eliminate speeds: low ranks first.
+    """The order in which the constraints eliminate speeds: low ranks first.
 
         0  velocities of centres of mass
         1  angular velocities
@@ -35,10 +35,10 @@ def elimination_ranks(
         3  rates of coordinates, such as those of angles
         4  speeds declared independent
 
-    That is how a text eliminates: it describes a disk by its rotation and eliminates the velocity
-    of its centre (problem set, eq. (33)), but a ball, whose attitude does not matter, by the
-    velocity of its centre (eqs. (45) to (47)). Within a rank the simplest pivot is taken, so that
-    no expression grows without need.
+    Textbooks eliminate in this order: they describe a disk by its rotation and eliminate the
+    velocity of its centre (problem set, eq. (33)), but a ball, whose attitude does not matter, by
+    the velocity of its centre (eqs. (45) to (47)). Within a rank the simplest pivot is taken, which
+    keeps expressions short.
 
     Args:
         rates: speeds that are rates of coordinates.
@@ -119,7 +119,7 @@ def dependent_speeds(
         slip = relative_velocity(restraint, velocities, form, speeds) - restraint.velocity
         along = slip.dot(restraint.direction)
         coefficients, rest = linear_parts(form.keep(along.subs(rates), speeds), speeds)
-        if any(coefficients) or rest:  # else it holds whatever the speeds are
+        if any(coefficients) or rest:  # otherwise it holds for any speeds
             equations.append(_Constraint(restraint.name, coefficients, -rest))
     rows, right = [e.coefficients for e in equations], [e.right for e in equations]
     outcome = form.eliminate(rows, right, list(ranks.values()), ())
@@ -131,11 +131,12 @@ def dependent_speeds(
 
 def _contradiction(one: _Constraint, others: list[_Constraint]) -> ConstraintError:
     """The error for a constraint, naming those others whose combination contradicts it."""
+    # Σ shareⱼ · coefficientsⱼ = the constraint's own coefficients; the right-hand sides then differ
     columns = list(zip(*(other.coefficients for other in others), strict=True))
     shares = eliminate(columns, one.coefficients).solved if others else {}
     involved = [other.name for j, other in enumerate(others) if j in shares and shares[j][1]]
     return ConstraintError(
         f"constraints that contradict one another, at {', '.join([*involved, one.name])}",
         expected="constraints that some motion satisfies",
-        advice="remove one of them, or let the support move as the others require",
+        advice="remove one of them, or make the support move as the others require",
     )

@@ -44,7 +44,7 @@ def derive(system: System) -> Equations:
         raise DeclarationError(
             f"derive of {system!r}",
             expected="a System",
-            advice="put bodies, contacts and loads together in a System(...) first",
+            advice="collect bodies, contacts and loads in a System(...) first",
         )
     try:
         return _derived(system, CLOSED)
@@ -70,8 +70,8 @@ def _derived(system: System, form: Form) -> Equations:
         rows.append(motion.form.keep(row, motion.accelerations))
         motion.form.refuse_outgrown(rows)
     if any(column.has_friction for column in columns):
-        # Sliding friction does work, so that the projection keeps it. The normal forces follow from
-        # the other balances, and stand in the rows in terms of the accelerations.
+        # Sliding friction does work, so the projection does not remove it. The normal forces follow
+        # from the other balances and enter the rows in terms of the accelerations.
         values = solve_reactions(motion, required, columns).values
         for i, speed in enumerate(motion.speeds):
             works = ZERO
@@ -88,15 +88,16 @@ def _derived(system: System, form: Form) -> Equations:
 
 
 def _power(motion: Kinematics, body: Body, wrench: Wrench, speed: Symbol) -> Expr:
-    """Power of a wrench on a body that moves with one unit of a speed alone."""
+    """Virtual power of a wrench on a body, per unit of one speed."""
     velocity, angular = (partial_velocity(v, speed) for v in motion.velocities[body])
     return velocity.dot(wrench.force) + angular.dot(wrench.couple)
 
 
 def _mirrored(rows: Sequence[Row]) -> Matrix:
-    """The mass matrix, with equal entries across the diagonal written alike.
+    """The mass matrix, with equal entries across the diagonal written identically.
 
-    Equal entries may come out written differently; alike, they make `mass == mass.T` hold.
+    In named parts, equal entries may be different expressions. Once identical, `mass == mass.T`
+    holds and linear equations are solved by LDLᵀ. Sliding friction makes the matrix unsymmetric.
     """
 
     def entry(i: int, j: int) -> Expr:

@@ -28,7 +28,8 @@ def infer(uses: Iterable[Use]) -> dict[Symbol, Dimension]:
     """Dimension of every symbol that the uses determine.
 
     Every term of every expression must have the dimension of its role, and every argument of a
-    function must be dimensionless: a linear system for the exponents.
+    function must be dimensionless. In the exponents of mass, length and time that is a linear
+    system: Σ power · exponent(symbol) = exponent(role), one equation for each term.
 
     Raises `UnitError` where two uses contradict one another, naming both.
     """
@@ -51,7 +52,7 @@ def _terms(use: Use) -> Iterator[_Term]:
     parts = (use.expression.numerator, use.expression.denominator)
     monomials = [[_dimensional(powers) for powers, _ in part.terms()] for part in parts]
     for generator in use.expression.generators:
-        # Arguments of sines and exponentials are numbers; radicands are homogeneous.
+        # arguments of sines and exponentials are dimensionless; the terms of a radicand agree
         for argument in generator.arguments:
             if not generator.depth or generator.partner() is not None:
                 yield from _terms(Use(use.role, argument, PURE))
@@ -100,14 +101,14 @@ def _difference(
 
 
 class _Exponents:
-    """Gaussian elimination on exponents that remembers which role fixed which symbol."""
+    """Gaussian elimination on exponents, with the role that fixed each symbol."""
 
     def __init__(self) -> None:
         self._rows: dict[Generator, _Term] = {}
         self._roles: dict[Generator, str] = {}
 
     def add(self, term: _Term, role: str) -> None:
-        """A term whose dimension is known.
+        """Add a term whose dimension is known.
 
         Raises:
             UnitError: where that contradicts terms added before, or a bare number has a unit.
@@ -120,7 +121,7 @@ class _Exponents:
         elif not any(term.powers.values()) and term.dimension != PURE:
             raise UnitError(
                 f"a bare number as {role}",
-                expected=f"a symbol for it, since its unit is {term.dimension}",
+                expected=f"a symbol, since it has the unit {term.dimension}",
                 advice="write m = polhode.symbol('m') or the like, and give its value at run time",
             )
         elif reduced.dimension != PURE:
@@ -129,8 +130,8 @@ class _Exponents:
             names = ", ".join(s.published if isinstance(s, Symbol) else "a part" for s in involved)
             raise UnitError(
                 f"dimensions of {names}: as {role} they are off by {reduced.dimension}",
-                expected="one dimension for each quantity; before, it followed from "
-                + (" and from ".join(earlier) or "the role alone"),
+                expected="one dimension for each quantity, as already fixed by "
+                + (" and by ".join(earlier) or "the role alone"),
                 advice="look for a missing length, mass or time, or a bare number in place of one",
             )
 
@@ -159,7 +160,10 @@ def uses_of(
     energies: Mapping[str, Expr],
     reactions: Mapping[str, tuple[Expr, Dimension]],
 ) -> Iterator[Use]:
-    """Every role that a system gives to expressions, the most informative in errors first."""
+    """Every role that a system gives to expressions.
+
+    The plainest come first: a contradiction is reported against the roles added before it.
+    """
     yield Use("time", time, TIME)
     for body in motion.system.bodies:
         yield Use(f"mass of {body.name}", body.mass, MASS)

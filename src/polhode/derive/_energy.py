@@ -1,4 +1,4 @@
-"""Energies, momenta, and the power of what is not in the potential."""
+"""Energies, momenta, and the power of forces that have no potential."""
 
 from __future__ import annotations
 
@@ -54,9 +54,10 @@ def supplied_power(
 
 
 def _supplied_by(motion: Kinematics, load: Load) -> Expr:
-    """The energy per time that a load adds: all its work, less what its own potential loses.
+    """The rate at which a load changes T + V: its power plus the rate of change of its potential.
 
-    With a potential that is only the work of moving its sources, such as the far end of a spring.
+    For a load with a potential that is only the work of moving its sources, such as the far end of
+    a spring.
     """
     potential = load.potential(motion.system.bodies, motion.places)
     if potential is None:

@@ -36,7 +36,7 @@ from polhode.model import Body, Contact, System
 
 @dataclass(frozen=True, repr=False)
 class Reaction(Shown):
-    """What one contact or joint does to its body.
+    """The force and couple of one contact or joint on its body.
 
     Attributes:
         name: of the contact or joint.
@@ -177,8 +177,8 @@ class Equations(Shown):
     def accelerations(self) -> dict[Symbol, Expr]:
         """Every acceleration, solved for.
 
-        Raises `NumericError` beyond five coupled speeds, where only mass and forcing are kept, and
-        for speeds that no inertia resists.
+        Raises `NumericError` beyond five coupled speeds, for which only mass and forcing are
+        available, and for speeds that no inertia resists.
         """
         if self.motion_in_parts:
             solved = accelerations_in_parts(self.mass, self.forcing)
@@ -187,7 +187,7 @@ class Equations(Shown):
         return dict(zip(self.acceleration_symbols, solved, strict=True))
 
     def on_shell(self, expression: Expr) -> Expr:
-        """An expression along true motions: rates and accelerations replaced."""
+        """An expression along true motions: dependent rates and accelerations substituted."""
         once = self.kinetics.on_speeds(expression)
         if not once.symbols() & set(self.acceleration_symbols):
             return once
@@ -212,13 +212,13 @@ class Equations(Shown):
     def components(self) -> dict[str, Expr]:
         """Every scalar reaction component by name, in terms of accelerations too.
 
-        Undetermined ones appear as symbols of their own names.
+        Undetermined ones appear as symbols with their names.
         """
         return {**self._solved.values, **self._friction(self._solved.values)}
 
     @cached_property
     def least(self) -> dict[str, Expr]:
-        """The same, with the smallest sum of squares where they are not determined."""
+        """The same, with undetermined components chosen for the smallest sum of squares."""
         return {**self._solved.least, **self._friction(self._solved.least)}
 
     def _friction(self, values: Mapping[str, Expr]) -> dict[str, Expr]:
@@ -237,7 +237,7 @@ class Equations(Shown):
 
     @property
     def unexplained(self) -> tuple[Expr, ...]:
-        """Balances of bodies that no reaction supplies; they vanish along the motion."""
+        """Components of the balances that no reaction enters; they vanish along the motion."""
         return self._solved.unexplained
 
     @cached_property
@@ -312,7 +312,7 @@ class Equations(Shown):
         return energies.linear_momentum(self.kinetics)
 
     def angular_momentum(self, about: Vector | None = None) -> Vector:
-        """Angular momentum about a place (from the origin, m; the origin itself), kg m²/s."""
+        """Angular momentum about a place (from the origin, m), by default the origin, kg m²/s."""
         place = about if about is not None else self.system.root.zero
         return energies.angular_momentum(self.kinetics, place)
 
@@ -335,7 +335,7 @@ class Equations(Shown):
 
     @cached_property
     def assumed_positive(self) -> tuple[Expr, ...]:
-        """Expressions whose sign had to be taken as positive, such as sin θ for a disk."""
+        """Expressions assumed to be positive to choose a root, such as sin θ for a disk."""
         found = (e for element in self.kinetics.elements for e in element.assumed_positive())
         return tuple(dict.fromkeys(found))
 
@@ -352,7 +352,7 @@ class Equations(Shown):
 
     @cached_property
     def dimensions(self) -> dict[Symbol, Dimension]:
-        """Dimension of every symbol, inferred from its uses; rates have that of their own order.
+        """Dimension of every symbol, inferred from its uses.
 
         Raises `UnitError` where two uses contradict one another.
         """
@@ -372,7 +372,9 @@ class Equations(Shown):
         rates = self.kinematics.values()
         own = [*self.rows, *balances, self.energy, *rates, *self.closures]
         for element in self.kinetics.elements:
-            if isinstance(element, Contact):  # how its support moves, whether it is felt or not
+            if isinstance(
+                element, Contact
+            ):  # its support's motion, even where no force depends on it
                 own += (element.on.turning, *element.on.drift.components)
         used = variables(own)
         found = (s for s in used if s.kind is kind and s.name != "pi")
@@ -396,7 +398,7 @@ def equations_only(given: object, what: str) -> None:
 def without_idle_factors(row: Expr) -> Expr:
     """Numerator without the number, parameters and sines common to all terms.
 
-    What is left vanishes wherever the sine does not, and by continuity there too.
+    The quotient vanishes on every motion where the sine is not zero, and by continuity elsewhere.
     """
     numerator = lowest_numerator(row)
     terms = list(numerator.terms())
@@ -416,10 +418,10 @@ def without_idle_factors(row: Expr) -> Expr:
 
 
 def is_angle(equations: Equations, symbol: Symbol) -> bool:
-    """Whether a quantity is an angle, which people read in degrees.
+    """Whether a quantity is an angle, to be shown in degrees.
 
-    A dimensionless coordinate is one, and so is a dimensionless parameter that stands as such, or
-    as a term of a sum, in the argument of a sine or cosine.
+    Dimensionless coordinates are, and so is a dimensionless parameter that occurs linearly with a
+    numeric coefficient in the argument of a sine or cosine.
     """
     if dimension_of(Expr.generator(symbol), equations.dimensions) not in (PURE, None):
         return False
@@ -437,9 +439,9 @@ def is_angle(equations: Equations, symbol: Symbol) -> bool:
 def lettered(
     equations: Equations, expressions: Iterable[Expr]
 ) -> tuple[tuple[Expr, ...], tuple[str, ...]]:
-    """Expressions with a letter for every long part, and a line that explains the letters.
+    """Expressions with a letter for every long part, and a line that explains the letters, if any.
 
-    The letters differ from all symbols of the equations. Without letters there is no such line.
+    The letters differ from all symbols of the equations.
     """
     known = (*equations.coordinates, *equations.kinetics.dependent, *equations.parameters)
     written, parts = under_letters(tuple(expressions), known)

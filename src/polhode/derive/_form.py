@@ -38,10 +38,10 @@ class Solver(Protocol):
 
 @dataclass(frozen=True)
 class Form:
-    """What is done with expressions as they grow.
+    """How long expressions are handled.
 
     Attributes:
-        name: what the form is called.
+        name: of the form.
         keep: brings an expression to this form; polynomials in the visible symbols stay such.
         refuse_outgrown: raises `OutgrownError` for equations too long for this form.
         eliminate: solves linear equations.
@@ -62,8 +62,8 @@ class Form:
 
     def kept(self, vector: Vector, visible: Iterable[Symbol] = ()) -> Vector:
         """A vector in this form."""
-        wanted = tuple(visible)
-        return Vector(tuple(self.keep(c, wanted) for c in vector.components), vector.triad)
+        symbols = tuple(visible)
+        return Vector(tuple(self.keep(c, symbols) for c in vector.components), vector.triad)
 
 
 CLOSED = Form(

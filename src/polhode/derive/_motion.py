@@ -1,9 +1,9 @@
 """Kinematics: coordinates, independent speeds, and the velocity of every body in terms of them.
 
-Order of the work: contacts and joints place the bodies; coordinates and speeds are gathered; every
-velocity is written in all of these speeds; the constraints eliminate the dependent speeds
-(`derive._constraints`, which also says in what order and why); velocities are resolved along the
-axes of their bodies in the independent speeds alone.
+Steps: contacts and joints place the bodies; coordinates and speeds are collected; every velocity is
+written in all of these speeds; the constraints eliminate the dependent speeds
+(`derive._constraints`, which also gives their order); velocities are resolved along the axes of
+their bodies in the independent speeds alone.
 """
 
 from __future__ import annotations
@@ -69,12 +69,12 @@ class Kinematics:
         return Expr.constant(1 if symbol.kind is SymbolKind.TIME else 0)
 
     def on_speeds(self, expression: Expr) -> Expr:
-        """With rates and dependent speeds put in terms of the independent speeds."""
+        """With rates and dependent speeds expressed in the independent speeds."""
         table = {**self.kinematics, **self.dependent}
         return expression.subs({s: e for s, e in table.items() if s not in self.speeds})
 
     def resolve(self, vector: Vector) -> Vector:
-        """A vector with rates and dependent speeds put in terms of the independent speeds."""
+        """A vector with rates and dependent speeds expressed in the independent speeds."""
         resolved = Vector(tuple(self.on_speeds(c) for c in vector.components), vector.triad)
         return self.form.kept(resolved, self.speeds)
 
@@ -108,7 +108,7 @@ def motion_of(system: System, form: Form) -> Kinematics:
 
     Speeds are rates of coordinates or, where a body or contact declares them, quasi-velocities
     (generalized speeds of Kane and Levinson): angular velocities along the body's axes, velocities
-    of centres of mass. Where points of contact are in named parts, so is all that follows.
+    of centres of mass. If points of contact are in named parts, so are all results.
 
     Raises:
         DeclarationError: for bodies that share coordinates, or unknown independent speeds.
@@ -164,7 +164,7 @@ ContactRates = Mapping[Symbol, tuple[Body, Expr]]
 
 
 def _placed(system: System) -> tuple[tuple[Element, ...], dict[Body, Vector], ContactRates]:
-    """Centres of mass by contacts and joints, in whatever order works; other bodies fly freely."""
+    """Centres of mass by contacts and joints, in any order that works; other bodies fly freely."""
     places: dict[Body, Vector] = {}
     contact_rates: dict[Symbol, tuple[Body, Expr]] = {}
     flights: tuple[Element, ...] = ()
@@ -198,15 +198,15 @@ def _refuse_open_loops(elements: Iterable[Element], places: Mapping[Body, Vector
             if not any(s.kind is SymbolKind.COORDINATE for s in gap.symbols()):
                 raise ConstraintError(
                     f"{element.name!r}, which never closes: {gap} would have to vanish",
-                    expected="bodies that can be where all contacts and joints require them",
-                    advice="check lengths and places, or leave this one out",
+                    expected="a configuration that satisfies all contacts and joints",
+                    advice="check lengths and positions, or leave this one out",
                 )
 
 
 def _shared(what: str, first: Body, second: Body) -> DeclarationError:
     return DeclarationError(
         f"the {what} of both {first.name!r} and {second.name!r}",
-        expected="coordinates and speeds of its own for every body that moves by itself",
+        expected="separate coordinates and speeds for every body that moves independently",
         advice="give one of them a tag, such as tag='2'",
     )
 

@@ -1,8 +1,8 @@
 """Reactions: solved from the balances of the bodies, component by component.
 
-There are six balances for every body and as many unknowns as restraints. As many balances as there
-are independent speeds are left over: they are the equations of motion. Components that Newton's
-laws leave open (a body on more supports than needed) stay as symbols.
+Each body has six balances, and each restraint one unknown. As many balances as there are
+independent speeds are left over: the equations of motion. Components that Newton's laws leave
+undetermined (a body on redundant supports) remain as symbols.
 """
 
 from __future__ import annotations
@@ -37,10 +37,10 @@ class Reactions:
 
     Attributes:
         values: each component in terms of coordinates, speeds and accelerations; components that
-            are not determined appear in the others as symbols of their own names.
-        undetermined: components that Newton's laws leave open, or that depend on open ones.
-        least: the values with the smallest sum of squares of all forces and, where these leave
-            couples open, with the smallest sum of squares of all couples.
+            are not determined appear in the others as symbols with their names.
+        undetermined: components that Newton's laws leave open, or that depend on such components.
+        least: the values with the smallest sum of squares of all forces and, if couples are still
+            undetermined, with the smallest sum of squares of all couples.
         unexplained: remainders of balances that no component can supply.
     """
 
@@ -55,14 +55,14 @@ def solve_reactions(
 ) -> Reactions:
     """Every reaction component, from the balances of all bodies, the last declared first.
 
-    A body that hangs on others is mostly declared after them, and the reactions that carry it
-    follow from its own balance.
+    A body that hangs from others is usually declared after them, and the reactions that carry it
+    follow from its own balance: starting at the end of a chain keeps expressions short.
     """
     balances, spare = list(_balances(motion, required, columns)), len(motion.speeds)
     if any(column.has_friction for column in columns):
-        # The equations of motion contain the normal force now, so it must not be solved from the
-        # balances that they are made of: as many balances are left out as there are independent
-        # speeds, those along which the bodies can move.
+        # With friction the equations of motion contain the normal force, which must therefore be
+        # solved from other balances. The matrix of ∂(velocity)/∂(speed) selects, by elimination,
+        # one balance per independent speed along which the bodies can move; these are left out.
         rates = [_component(b.moved, b.triad, b.axis) for b in balances]
         partial = [tuple(rate.diff(speed) for rate in rates) for speed in motion.speeds]
         zeros, equal = [ZERO] * len(partial), [0] * len(balances)
@@ -82,8 +82,8 @@ class _Balance:
         body: that body.
         row: the component of every reaction column.
         required: the component of the required wrench.
-        moved: the velocity it does work on: the body's, or its angular velocity.
-        triad: along one of whose axes it is taken.
+        moved: the conjugate velocity: of the centre of mass, or angular.
+        triad: the component is along one of its axes.
         axis: index of that axis.
     """
 
@@ -124,7 +124,7 @@ def _solved(
     columns: tuple[ReactionColumn, ...],
     spare: int,
 ) -> Reactions:
-    """From balances of which no more than `spare` may be left over as equations of motion."""
+    """Solve balances of which at most `spare` may be left over as equations of motion."""
 
     def solve(table: Sequence[Row], values: Sequence[Expr]) -> Elimination:
         ranks = [0] * (len(table[0]) if table else len(columns))
@@ -158,7 +158,7 @@ def _missing_support(motion: Kinematics, unbalanced: list[Body]) -> ConstraintEr
     return ConstraintError(
         f"nothing supplies the couple that keeps the axes of {names} as they are declared",
         expected="a Hinge, Guide, Universal or Motor for every rotation that is ruled out",
-        advice="add it, or turn the axes by one more coordinate",
+        advice="add one, or let the axes turn with one more coordinate",
     )
 
 
@@ -184,26 +184,27 @@ def _unit(place: int, size: int) -> Row:
 def _least_squares(
     general: Mapping[int, Linear], columns: tuple[ReactionColumn, ...], solve: Solve
 ) -> Row:
-    """Open components that make the sum of squares of all forces smallest, then of all couples.
+    """Undetermined components that minimise the sum of squares of all forces, then of all couples.
 
     A force and a couple differ in dimension: a sum of squares of both would depend on the unit of
-    length. The normal equations of the couples are solved in what those of the forces leave free.
+    length. The couples are minimised over the components that the forces leave free.
     """
     size = len(general[0][0])
-    found: list[Linear] = [(_unit(k, size), ZERO) for k in range(size)]
+    chosen: list[Linear] = [(_unit(k, size), ZERO) for k in range(size)]
     for couples in (False, True):
         group = [general[j] for j, c in enumerate(columns) if c.restraint.is_couple is couples]
-        unknowns = range(len(found[0][0]))
+        unknowns = range(len(chosen[0][0]))
         if group and unknowns:
-            terms = [_composed(one, found) for one in group]
+            # normal equations Σ r rᵀ x = -Σ r c of the components r · x + c in this group
+            terms = [_composed(one, chosen) for one in group]
             normal = [
                 tuple(sum((row[i] * row[j] for row, _ in terms), ZERO) for j in unknowns)
                 for i in unknowns
             ]
             right = [-sum((row[i] * constant for row, constant in terms), ZERO) for i in unknowns]
             best = _in_terms_of_free(solve(normal, right))
-            found = [_composed(one, [best[j] for j in unknowns]) for one in found]
-    return tuple(constant for _, constant in found)
+            chosen = [_composed(one, [best[j] for j in unknowns]) for one in chosen]
+    return tuple(constant for _, constant in chosen)
 
 
 def _composed(linear: Linear, inner: Sequence[Linear]) -> Linear:

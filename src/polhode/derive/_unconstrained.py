@@ -1,4 +1,4 @@
-"""How everything moves before any constraint is imposed, and what is refused on that ground."""
+"""Velocities before any constraint is imposed, and declarations refused because of them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from polhode.model import Body, Element, Places, Restraint, System, Velocities
 
 @dataclass(frozen=True)
 class Unconstrained:
-    """How everything moves as long as no constraint is imposed.
+    """Velocities of all bodies before any constraint is imposed.
 
     Attributes:
         system: the declaration.
@@ -51,22 +51,22 @@ class Unconstrained:
 
     def slope(self, velocity: Vector, speed: Symbol) -> Vector:
         """The partial velocity of a place, with its rates in terms of the speeds."""
-        given = tuple(c.subs(self.rates) for c in velocity.components)
-        return partial_velocity(Vector(given, velocity.triad), speed)
+        in_speeds = tuple(c.subs(self.rates) for c in velocity.components)
+        return partial_velocity(Vector(in_speeds, velocity.triad), speed)
 
     def bodies_moved(self, speeds: Iterable[Symbol]) -> list[Body]:
         """The bodies that move, or turn against inertia, with one of these speeds."""
-        wanted, found = set(speeds), []
+        chosen, moved = set(speeds), []
         for body in self.system.bodies:
             velocity, angular = self.velocities[body]
             resists = any(entry for row in body.inertia.rows for entry in row)
             moving = (*velocity.components, *(angular.components if resists else ()))
-            if wanted & variables(moving):
-                found.append(body)
-        return found
+            if chosen & variables(moving):
+                moved.append(body)
+        return moved
 
     def carried(self, *bodies: Body | None) -> set[Body]:
-        """Some bodies, and all that hang on them."""
+        """Some bodies, and all that hang from them."""
         found = {body for body in bodies if body is not None}
         while True:
             more = []
@@ -81,7 +81,7 @@ class Unconstrained:
 
 
 def depends_on_motion(velocity: Vector) -> bool:
-    """Whether a velocity depends on how the system moves, and not on places and time alone."""
+    """Whether a velocity depends on the speeds of the system, not on positions and time alone."""
     return any(
         s.kind is SymbolKind.SPEED or (s.kind is SymbolKind.COORDINATE and s.order > 0)
         for s in variables(velocity.components)
@@ -90,9 +90,9 @@ def depends_on_motion(velocity: Vector) -> bool:
 
 # Supports carried by bodies that do not feel the reaction.
 #
-# The reaction to what holds a body acts on whatever owns the supporting point. Where other bodies
-# carry that point, because it is given by their coordinates and not as a point of theirs, the
-# motion would come out right, but their balance would lack that force.
+# The reaction to a supporting force acts on the body to which the supporting point belongs. If the
+# point is given by the coordinates of other bodies, but not declared as a point of theirs, the
+# equations of motion are correct, but the balance of those bodies lacks that force.
 
 
 def refuse_unfelt_forces(motion: Unconstrained) -> None:
@@ -121,8 +121,8 @@ def refuse_unfelt_forces(motion: Unconstrained) -> None:
             _refuse_unfelt(load.name, moving, others or motion.bodies_moved(works))
 
 
-def _refuse_unfelt(name: str, moving: Iterable[Symbol], unfeeling: Iterable[Body]) -> None:
-    bodies = ", ".join(body.name for body in unfeeling)
+def _refuse_unfelt(name: str, moving: Iterable[Symbol], carriers: Iterable[Body]) -> None:
+    bodies = ", ".join(body.name for body in carriers)
     if bodies:
         speeds = ", ".join(s.published for s in dict.fromkeys(moving))
         raise DeclarationError(
@@ -133,7 +133,8 @@ def _refuse_unfelt(name: str, moving: Iterable[Symbol], unfeeling: Iterable[Body
         )
 
 
-# Bodies whose axes already turn about the axis of spin.
+# Axes that already turn about the axis of spin: the rotation of the axes and the spin would then be
+# one motion described by two coordinates, and the mass matrix singular.
 
 
 def refuse_second_spins(motion: Unconstrained) -> None:
@@ -157,7 +158,7 @@ def refuse_second_spins(motion: Unconstrained) -> None:
 
 
 def _is_idle(motion: Unconstrained, body: Body, angle: Symbol) -> bool:
-    """Whether a coordinate moves the system no differently than the spin of a body does."""
+    """Whether a coordinate moves the system in the same way as the spin of a body."""
     rate = angle.derivative()
     if rate not in motion.speeds or set(motion.bodies_moved([rate])) - {body}:
         return False

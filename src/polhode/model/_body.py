@@ -1,4 +1,4 @@
-"""Rigid bodies: mass, inertia, axes, and the surface they touch with."""
+"""Rigid bodies: mass, inertia, axes, and the surface that touches supports."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ from polhode.model._surface import Rim, Surface
 
 InertiaLike = Sequence[ExprLike] | Sequence[Sequence[ExprLike]]
 
-#: Share by which rounded numbers may break an inequality that is sharp for thin bodies.
+#: Relative violation allowed of an inequality that is an equality for thin bodies: rounded moments
+#: of a disk break it in their last digits.
 ROUNDING = 1e-12
 
 
@@ -34,22 +35,22 @@ class Body(Declared):
     """A rigid body.
 
     Args:
-        name: what to call it.
+        name: of the body.
         mass: kg.
         inertia: about the centre of mass along `axes`, kg m²: three principal moments, or the
             full symmetric 3 × 3 matrix.
-        axes: the frame that inertia and surface are given along. They may follow the body
-            without spinning with it if it is symmetric about the axis it spins on.
+        axes: the frame along which inertia and surface are given. They need not spin with a body
+            that is symmetric about its axis of spin.
         spin: how the body turns relative to its axes; with them by default.
         spin_about: short for `spin=About(axis)`.
         rim: short for a thin circular edge of this radius about the spin axis, m.
-        surface: what it touches supports with.
-        tag: appended to the names of its coordinates and speeds; tells bodies apart.
+        surface: that touches supports.
+        tag: appended to the names of its coordinates and speeds, to distinguish bodies.
 
     Raises:
-        DeclarationError: for a mass or inertia that no body can have, for a body that is not
-            symmetric about an axis that it spins on while its axes do not, and for one whose axes
-            turn with the angle of its spin.
+        DeclarationError: for a mass or inertia that no body can have, for a body that spins
+            relative to its axes about an axis of no symmetry, and for one whose axes turn with the
+            angle of its spin.
     """
 
     name: str
@@ -75,7 +76,7 @@ class Body(Declared):
     ) -> None:
         of_type(axes, Frame, f"axes of body {name!r}", "give the frame of its inertia")
         chosen = spin or (About(spin_about) if spin_about else WithAxes())
-        of_type(chosen, Spin, f"spin of body {name!r}", "to spin about axis 3 say spin_about='3'")
+        of_type(chosen, Spin, f"spin of body {name!r}", "for spin about axis 3: spin_about='3'")
         if rim is not None:
             radius = quantity(rim, f"rim of body {name!r}")
             surface = Rim(radius, spin_about or _symmetry_axis(chosen, name))
@@ -96,14 +97,13 @@ class Body(Declared):
             self._refuse_second_spin()
 
     def _refuse_second_spin(self) -> None:
-        """Refuse to count turns by a coordinate that turns the axes already."""
+        """Refuse a spin angle that is already an angle of the axes."""
         turning = variables(frame.angle for frame in self.axes.lineage)
         if twice := [str(q) for q in self.rates if q.symbols() & turning]:
             raise DeclarationError(
-                f"body {self.name!r}, the turns of whose spin are counted by {', '.join(twice)}, "
-                "which turns its axes already",
-                expected="an angle of its own for the spin relative to the axes",
-                advice="say spin=WithAxes() if the axes are fixed in the body; otherwise name "
+                f"body {self.name!r}, whose spin angle {', '.join(twice)} already turns its axes",
+                expected="a separate angle for the spin relative to the axes",
+                advice="use spin=WithAxes() if the axes are fixed in the body; otherwise name "
                 "another angle, as in spin=About('3', 'chi')",
             )
 
@@ -113,7 +113,7 @@ class Body(Declared):
         if not (round_ and is_symmetric(self.inertia, position)):
             what = "inertia" if round_ else "surface"
             raise DeclarationError(
-                f"body {self.name!r}, which turns about {axis} while its axes do not",
+                f"body {self.name!r}, which spins about {axis} relative to its axes",
                 expected=f"its {what} to be symmetric about that axis",
                 advice="turn the axes with the body by one more angle, or use spin=Components()",
             )
@@ -134,7 +134,7 @@ class Body(Declared):
 
     @property
     def parts(self) -> Iterator[tuple[str, object]]:
-        """What it was made with; principal moments where there are such."""
+        """Its fields for printing, with principal moments if the axes are principal."""
         yield "mass", self.mass
         yield "inertia", self._moments
         yield "axes", self.axes
@@ -164,7 +164,7 @@ class Body(Declared):
 
     @property
     def fixed_axes(self) -> Frame | None:
-        """Axes fixed in the body, if its attitude is kept account of."""
+        """Axes fixed in the body, if its attitude is described by coordinates."""
         return self.spin.fixed_axes(self.axes, self.tag)
 
     @property
@@ -176,7 +176,7 @@ class Body(Declared):
     def keeps(self, vector: Vector) -> bool:
         """Whether a vector is fixed in the body.
 
-        In a body that spins while its axes do not, only one along the axis of spin is.
+        In a body that spins relative to its axes, only vectors along the axis of spin are.
         """
         axes = self.fixed_axes
         parts = vector.components if axes is None else vector.express(axes).components
@@ -184,7 +184,7 @@ class Body(Declared):
         return not moving and (axes is not None or not any(parts))
 
     def point(self, offset: Vector | None = None) -> BodyPoint:
-        """A point fixed in the body's axes, by its vector from the centre of mass (m), or that."""
+        """The point at this vector from the centre of mass (m); by default the centre of mass."""
         return BodyPoint(self, self.axes.zero if offset is None else offset)
 
 
@@ -203,7 +203,7 @@ class BodyPoint(Declared):
     def require_fixed(self, what: str) -> None:
         """Refuse a point that moves through the body.
 
-        On a body that spins while its axes do not, that is every point off the axis of spin.
+        On a body that spins relative to its axes, every point off the axis of spin does.
         """
         if not self.body.keeps(self.offset):
             raise DeclarationError(
@@ -220,7 +220,7 @@ def _symmetry_axis(spin: Spin, name: str) -> str:
         raise DeclarationError(
             f"a rim on body {name!r}, which has no spin axis",
             expected="spin_about together with rim",
-            advice="say spin_about='3', or give surface=Rim(radius, axis)",
+            advice="give spin_about='3', or surface=Rim(radius, axis)",
         )
     return str(axis)
 
@@ -267,7 +267,7 @@ def check_inertia(name: str, given: InertiaLike | Matrix) -> Matrix:
 
 
 def is_symmetric(inertia: Matrix, axis: int) -> bool:
-    """Whether it is the same however the body is turned about this one of its axes."""
+    """Whether the inertia is symmetric about this axis."""
     first, second = ((axis + 1) % 3, (axis + 2) % 3)
     mixed = (inertia[first, second], inertia[axis, first], inertia[axis, second])
     return not any(mixed) and inertia[first, first] == inertia[second, second]

@@ -29,7 +29,7 @@ from polhode.model._element import Element, Friction, Places, Restraint
 from polhode.model._supports import Plane
 from polhode.model._surface import Surface
 
-_ODD = re.compile(r"[^A-Za-z0-9_ ]")  # in a name that is to be part of a symbol's
+_ODD = re.compile(r"[^A-Za-z0-9_ ]")  # characters not allowed in the name of a symbol
 
 
 @dataclass(frozen=True, init=False)
@@ -42,10 +42,10 @@ class Contact(Element):
     Args:
         body: the body, with a surface.
         on: the support.
-        name: what to call the contact; contact, with the tag of the body, by default.
+        name: of the contact; "contact" with the tag of the body by default.
         force: letter of the reaction's components: F_x, F_y, F_z.
-        restitution: square root of the share of the energy of compression that an impact gives
-            back, from 0 to 1 (Stronge's coefficient).
+        restitution: from 0 to 1, the square root of the fraction of the compression energy that an
+            impact returns (Stronge's energetic coefficient).
     """
 
     body: Body
@@ -63,13 +63,13 @@ class Contact(Element):
         force: str = "F",
         restitution: ExprLike = 0,
     ) -> None:
-        of_type(body, Body, "what touches", "name the body first: Rolling(disk, on=Plane(lab))")
+        of_type(body, Body, "body of a contact", "give it first: Rolling(disk, on=Plane(lab))")
         called = name or f"contact{body.tag}"
         if not isinstance(on, Plane):
             raise DeclarationError(
                 f"contact {called!r} of body {body.name!r} with {_described(on)}",
                 expected="a support: Plane, Turntable or Sheet",
-                advice="say on=Plane(lab)",
+                advice="give on=Plane(lab)",
             )
         values = {
             "body": body,
@@ -86,7 +86,7 @@ class Contact(Element):
         if self.body.surface is None:
             raise DeclarationError(
                 f"contact {self.name!r} of body {self.body.name!r}, which has no surface",
-                expected="a body that can touch something",
+                expected="a body with a surface",
                 advice="give it rim= or surface=, or make it with disk, hoop or sphere",
             )
         return self.body.surface
@@ -99,7 +99,7 @@ class Contact(Element):
         """The same contact on another support."""
         moved = copy(self)
         object.__setattr__(moved, "on", support)
-        moved.__dict__.pop("arm", None)
+        moved.__dict__.pop("arm", None)  # cached for the old support
         return moved
 
     @cached_property
@@ -133,7 +133,7 @@ class Contact(Element):
 
     @property
     def spelled(self) -> str:
-        """Its name as part of a symbol's, in ASCII: other letters are spelled as code points."""
+        """Its name for use in symbols, in ASCII: other characters become code points."""
         return _ODD.sub(lambda found: f"u{ord(found[0]):04x}", self.name)
 
     def component(self, label: str) -> str:
@@ -141,7 +141,7 @@ class Contact(Element):
         return f"{self.force}_{label}{self.body.tag}"
 
     def restraint(self, label: str, places: Places) -> Restraint:
-        """The point of contact kept to the support along one of its directions."""
+        """The restraint of the point of contact along one direction of the support."""
         arm = self.arm
         velocity = self.on.velocity(places[self.body] + arm)
         return Restraint(self.component(label), self.body, self.on.axes[label], velocity, arm)
@@ -150,7 +150,7 @@ class Contact(Element):
         return (self.restraint(self.on.normal, places), *self.couples())
 
     def couples(self) -> tuple[Restraint, ...]:
-        """The couples by which a face on the support holds the body's attitude."""
+        """The couples that hold the attitude of a body lying on a face."""
         if not self._surface().is_face:
             return ()
         body, axes = self.body, self.on.axes
@@ -176,12 +176,12 @@ class Smooth(Contact):
 class Coulomb(Contact):
     """Contact with dry friction: it sticks up to a limit, and slides against a friction force.
 
-    Sliding, the friction is the normal force times a coefficient, against the slip velocity. The
+    Sliding friction is the normal force times a coefficient, opposite to the slip velocity. The
     coefficient may depend on the slip speed v: mu + viscous·v + (mu_static − mu) exp(−v/stribeck).
 
     Args:
         mu: coefficient of kinetic friction.
-        mu_static: of the largest friction force at rest; that of kinetic friction by default.
+        mu_static: coefficient of static friction; the kinetic one by default.
         viscous: rise of the coefficient with the slip speed, s/m.
         stribeck: slip speed over which friction falls from static to kinetic, m/s; zero by
             default.
@@ -225,12 +225,12 @@ class Coulomb(Contact):
 
         Args:
             slip: speed, m/s.
-            slowness: exp(−slip/stribeck), the share of the excess static friction that is left.
+            slowness: exp(−slip/stribeck), the remaining fraction of the excess static friction.
         """
         return self.mu + self.viscous * slip + (self.mu_static - self.mu) * slowness
 
     def slowness(self, slip: Expr) -> Expr:
-        """Share of the excess of static over kinetic friction that is left at a slip speed."""
+        """Remaining fraction of the excess of static over kinetic friction at a slip speed."""
         return ZERO if self.stribeck is None else exp(-slip / self.stribeck)
 
     def directions(self) -> tuple[tuple[str, Vector], tuple[str, Vector]]:
@@ -255,12 +255,12 @@ def _described(support: object) -> str:
     return "nothing" if support is None else f"a {type(support).__name__}"
 
 
-# -- the phases of a contact, and the element that stands for it in each ---------------------------
+# -- the phases of a contact, and the element that replaces it in each -----------------------------
 
 
 @dataclass(frozen=True)
 class Phase:
-    """What a contact is doing, on its support or on the table beyond the edge."""
+    """The state of a contact, on its support or on the table beyond the edge."""
 
     kind: str
     is_beyond: bool = False
@@ -296,9 +296,9 @@ FRICTIONLESS, FLIGHT = Phase("frictionless"), Phase("flight")
 
 @dataclass(frozen=True)
 class Apart(Element):
-    """A body above the support that it touches in other phases.
+    """A body off the support that it touches in other phases.
 
-    Its centre of mass has the coordinates it has in contact, and its height besides.
+    Its centre of mass has the coordinates it has in contact, and its height in addition.
     """
 
     contact: Contact
@@ -344,8 +344,8 @@ class Apart(Element):
 class Sliding(Contact):
     """A contact that slides in a direction given by symbols instead of by its slip velocity.
 
-    At the instant at which slipping begins the slip velocity has no direction yet, and near it
-    the direction is known far better than from rounded velocities.
+    When slipping starts the slip velocity has no direction yet, and shortly after it the direction
+    is known far better than rounded velocities would give it.
     """
 
     law: Coulomb
@@ -371,7 +371,7 @@ class Sliding(Contact):
 
     @property
     def slowness(self) -> Symbol:
-        """Share of the excess static friction that Stribeck's law leaves."""
+        """Remaining fraction of the excess static friction in Stribeck's law."""
         return Symbol(f"slowness_{self.spelled}", SymbolKind.SPEED)
 
     def friction(self, places: Places) -> tuple[Friction, ...]:
@@ -383,16 +383,17 @@ class Sliding(Contact):
 
 
 def phases(contact: Contact) -> Mapping[Phase, Element]:
-    """The element that stands for a contact in each phase it can be in, sticking ones first."""
-    found = _touching(contact)
+    """The element that replaces a contact in each phase it can be in, sticking ones first."""
+    elements = _touching(contact)
     if contact.on.beyond is not None:
-        there = _touching(contact.on_support(contact.on.beyond))
-        found |= {phase.beyond(): element for phase, element in there.items()}
-    return {**found, FLIGHT: Apart(contact)}
+        outside = _touching(contact.on_support(contact.on.beyond))
+        elements |= {phase.beyond(): element for phase, element in outside.items()}
+    return {**elements, FLIGHT: Apart(contact)}
 
 
 def _touching(contact: Contact) -> dict[Phase, Element]:
     if isinstance(contact, Coulomb):
+        # frictionless: at zero slip with no friction force the direction of sliding is undefined
         bare: Any = {"on": contact.on, "name": contact.name, "force": contact.force}
         return {
             ROLLING: Rolling(contact.body, **bare),

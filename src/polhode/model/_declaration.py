@@ -23,22 +23,22 @@ _SOURCE = "source of its class"
 
 
 def write_declaration(system: System) -> str:
-    """A system as a JSON document, always the same for equal declarations.
+    """A system as a JSON document, identical for equal declarations.
 
     Raises:
-        StoreError: for a system with parts that are no dataclasses, or hold other values than
+        StoreError: for a system with parts that are not dataclasses, or hold values other than
             expressions, vectors, text, whole numbers, and parts of declarations.
     """
     return _codec().write(system)
 
 
 def read_declaration(text: str) -> System:
-    """The system that a document declares, made and checked as if declared anew.
+    """The system that a document declares, constructed and checked as in a script.
 
-    Nothing in the document is run.
+    Nothing in the document is executed.
 
     Raises:
-        StoreError: for a document that is damaged, or declares what cannot be.
+        StoreError: for a document that is damaged, or declares something impossible.
     """
     return _codec().read(text, System)
 
@@ -46,7 +46,7 @@ def read_declaration(text: str) -> System:
 def _codec() -> Codec:
     special = (
         ShapeRecord("Frame", (Frame,), _fields, _frame),
-        ShapeRecord("vector", (Vector,), _vector_apart, _vector),
+        ShapeRecord("vector", (Vector,), _vector_fields, _vector),
         ShapeRecord("Body", (Body,), _fields, _body),
         ShapeRecord("System", (System,), _fields, _system),
     )
@@ -55,7 +55,7 @@ def _codec() -> Codec:
 
 
 def _record(kind: type[Declared]) -> ShapeRecord:
-    """How objects of a class are written; a user's class with its source, which may change."""
+    """How objects of a class are written; for a user's class with a digest of its source."""
     if is_own(kind):
         return ShapeRecord(kind.__name__, (kind,), _fields, lambda **given: _declared(kind, given))
 
@@ -66,8 +66,8 @@ def _record(kind: type[Declared]) -> ShapeRecord:
         if given.pop(_SOURCE, None) != source_digest(kind):
             raise StoreError(
                 f"a {kind.__name__}, whose class has changed since this was written",
-                expected="the class as it was: with another one, the motion would be another",
-                advice=f"define {kind.__name__} as it was, or compute the motion again",
+                expected="the same class: with another, the motion would differ",
+                advice=f"restore {kind.__name__}, or compute the motion again",
             )
         return _declared(kind, given)
 
@@ -75,9 +75,9 @@ def _record(kind: type[Declared]) -> ShapeRecord:
 
 
 def source_digest(kind: type) -> str:
-    """A digest of what a class does, whatever its comments and docstrings say.
+    """A digest of the source of a class without comments and docstrings.
 
-    Where there is no source, as for a class defined in a notebook, it is that of the compiled
+    If there is no source, as for a class typed into an interpreter, it is that of the compiled
     methods, which also depends on the version of Python.
     """
     try:
@@ -101,7 +101,7 @@ def _fields(value: Any) -> dict[str, Any]:
 
 
 def _declared(kind: type, given: Mapping[str, Any]) -> Any:
-    """An object made by its constructor; refused unless its fields are those given."""
+    """An object made by its constructor; refused unless its fields then equal those given."""
     words = {**given, "only": " ".join(given["only"])} if "only" in given else given
     known = _words(kind)
     return _confirmed(kind(**{name: words[name] for name in words if name in known}), given)
@@ -133,8 +133,8 @@ def _fits(value: Any, hint: Any) -> bool:
         return isinstance(value, hint)
     if not isinstance(value, tuple):
         return False
-    wanted = among[:1] * len(value) if among[-1] is Ellipsis else among
-    return len(value) == len(wanted) and all(map(_fits, value, wanted))
+    types = among[:1] * len(value) if among[-1] is Ellipsis else among
+    return len(value) == len(types) and all(map(_fits, value, types))
 
 
 def _frame(**given: Any) -> Frame:
@@ -146,7 +146,7 @@ def _frame(**given: Any) -> Frame:
     return frame
 
 
-def _vector_apart(vector: Vector) -> dict[str, Any]:
+def _vector_fields(vector: Vector) -> dict[str, Any]:
     return {"components": vector.components, "frame": vector.triad}
 
 

@@ -1,4 +1,4 @@
-"""What all declarations share: how they print, and the checks of what they are given."""
+"""Common to all declarations: printing, registration, and checks of arguments."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from polhode.base import DeclarationError, NumericError, Shown
 class Declared(Shown):
     """A part of a declaration: a frozen dataclass that prints its fields and can be saved.
 
-    Every subclass is registered under its name, so that a load or a surface that a user defines
-    is written to documents, and read from them, like one of polhode's own.
+    Every subclass is registered under its name, so that a user's load or surface is written to
+    documents, and read from them, like those of polhode.
 
     Raises:
-        DeclarationError: for a subclass with the name of one of polhode's own.
+        DeclarationError: for a user's subclass with the name of a class of polhode.
     """
 
     def __init_subclass__(cls, **options: Any) -> None:
@@ -28,19 +28,19 @@ class Declared(Shown):
             raise DeclarationError(
                 f"a class {cls.__name__!r}, derived from {cls.__base__.__name__}",  # type: ignore[union-attr]
                 expected="a name that polhode does not use itself",
-                advice="choose another name, by which saved files can tell the two apart",
+                advice="choose another name: saved files refer to classes by name",
             )
         _REGISTERED[cls.__name__] = cls
 
     @property
     def brief(self) -> str:
-        """What it is called within another declaration."""
+        """Its short form within another declaration."""
         name = getattr(self, "name", "")
         return f"{type(self).__name__} {name!r}" if name else type(self).__name__
 
     @property
     def parts(self) -> Iterator[tuple[str, object]]:
-        """Its fields by name, except its own name and those left empty."""
+        """Its fields by name, except `name` and those left empty."""
         named: Any = self
         for field in fields(named):
             value = getattr(self, field.name)
@@ -57,7 +57,7 @@ _REGISTERED: dict[str, type[Declared]] = {}
 
 
 def registered() -> tuple[type[Declared], ...]:
-    """The concrete classes of declarations, with the latest definitions of the user's own."""
+    """The concrete classes of declarations, with the latest definitions of users' classes."""
     return tuple(
         kind
         for kind in _REGISTERED.values()
@@ -66,7 +66,7 @@ def registered() -> tuple[type[Declared], ...]:
 
 
 def is_own(kind: type) -> bool:
-    """Whether a class is polhode's and not a user's."""
+    """Whether a class is part of polhode."""
     return kind.__module__.partition(".")[0] == __name__.partition(".")[0]
 
 
@@ -77,7 +77,7 @@ def brief(value: object) -> str:
     return str(getattr(value, "brief", value))
 
 
-# -- checks, whose messages name the quantity that they are about ----------------------------------
+# -- checks, whose messages name the quantity ------------------------------------------------------
 
 
 def quantity(value: ExprLike, what: str) -> Expr:
@@ -121,7 +121,7 @@ def constant(expression: Expr, what: str) -> Expr:
 
 
 def is_varying(symbol: Symbol) -> bool:
-    """Whether it changes as time goes on."""
+    """Whether it changes with time."""
     return symbol.kind.varies or symbol.kind is SymbolKind.TIME
 
 
@@ -132,12 +132,12 @@ def without_rates(expressions: Iterable[Expr], what: str) -> None:
         raise DeclarationError(
             f"{what}, which depends on {', '.join(rates)}",
             expected="an expression of coordinates, parameters and time",
-            advice="a speed may stand in a load, or in the rate of a Motor or a Turntable",
+            advice="speeds may occur in loads, and in the rate of a Motor or a Turntable",
         )
 
 
 def without_coordinates(expressions: Iterable[Expr], what: str, advice: str) -> None:
-    """Refuse coordinates and speeds in what must be prescribed."""
+    """Refuse coordinates and speeds in a quantity that must be prescribed."""
     found = (
         s for s in variables(expressions) if s.kind in (SymbolKind.COORDINATE, SymbolKind.SPEED)
     )
@@ -173,5 +173,5 @@ def of_type(value: object, kind: type, what: str, advice: str) -> None:
 
 
 def is_negative(expression: Expr) -> bool:
-    """Whether it is seen to be negative, as a number or from the signs of its symbols."""
+    """Whether it is known to be negative, as a number or from the signs of its symbols."""
     return is_positive(-expression)

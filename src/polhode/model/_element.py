@@ -1,4 +1,4 @@
-"""What contacts and joints have in common: they place bodies, and they restrain them."""
+"""Common to contacts and joints: they place bodies, and they restrain them."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Restraint:
         velocity: prescribed velocity of the point (m/s), or angular velocity (rad/s) for a
             couple; relative to `other` where there is one.
         arm: from the centre of mass to the point, m.
-        other: the body that holds, if not the ground.
+        other: the body that supports, if not the ground.
         other_arm: from its centre of mass to the point, m.
     """
 
@@ -81,14 +81,14 @@ class Element(Declared, ABC):
 
     @abstractmethod
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
-        """What it prescribes, given where the bodies are."""
+        """Its restraints, given the positions of the bodies."""
 
     def centre(self, places: Places) -> Mapping[Body, Vector]:
-        """Where it puts the centre of mass of a body that is not placed yet."""
+        """The position it gives to the centre of mass of a body that is not yet placed."""
         return {}
 
     def rates(self) -> Mapping[Expr, Expr]:
-        """Rates of the coordinates it brings, in terms of the speeds it brings."""
+        """Rates of the coordinates it introduces, in terms of the speeds it introduces."""
         return {}
 
     def closures(self, places: Places) -> tuple[Expr, ...]:
@@ -96,7 +96,7 @@ class Element(Declared, ABC):
         return ()
 
     def friction(self, places: Places) -> tuple[Friction, ...]:
-        """Friction laws at work."""
+        """Laws of sliding friction."""
         return ()
 
     def assumed_positive(self) -> tuple[Expr, ...]:

@@ -1,4 +1,4 @@
-"""Frames: right-handed triads of directions, each turned out of another in steps."""
+"""Frames: right-handed triads of directions, each rotated from its parent."""
 
 from __future__ import annotations
 
@@ -31,17 +31,17 @@ _FREE = (SymbolKind.COORDINATE, SymbolKind.SPEED)  # not prescribed
 
 @dataclass(frozen=True)
 class Frame(Shown):
-    """Three orthonormal directions, for vectors to be resolved along.
+    """Three orthonormal directions, along which vectors are resolved.
 
     A frame without a parent is a root: the laboratory. `turned` is the angular velocity of a root
-    in inertial space (rad/s, components along its own directions): zero but for the Earth.
+    in inertial space (rad/s, components along its own directions): zero except for the Earth.
 
     Args:
-        name: what to call it.
-        parent: the frame it is turned out of.
-        angle: by how much, in radians.
-        axis: about which direction: components along either frame.
-        labels: what its directions are called.
+        name: of the frame.
+        parent: the frame it is rotated from.
+        angle: of the rotation, rad.
+        axis: of the rotation, by components along either frame, in which they are equal.
+        labels: of its directions.
         turned: for a root, its angular velocity in inertial space.
     """
 
@@ -72,7 +72,7 @@ class Frame(Shown):
     def rotated(
         self, angle: ExprLike, about: str | Sequence[ExprLike], labels: str = "", name: str = ""
     ) -> Frame:
-        """The frame turned out of this one by an angle (rad) about one of its directions.
+        """The frame rotated from this one by an angle (rad) about one of its directions.
 
         Args:
             angle: an expression of coordinates, parameters, time.
@@ -101,12 +101,12 @@ class Frame(Shown):
         return axis
 
     def __getitem__(self, label: str) -> Vector:
-        """Unit vector along the direction with this label; 1, 2, 3 also count the directions."""
+        """Unit vector along the direction with this label; 1, 2, 3 are labels in any frame."""
         position = self.position(label)
         return Vector(tuple(ONE if i == position else ZERO for i in range(3)), self)
 
     def position(self, label: str) -> int:
-        """Which direction a label stands for: 0, 1 or 2."""
+        """The index of the direction with a label: 0, 1 or 2."""
         for names in (self.labels, ("1", "2", "3")):
             if label in names:
                 return names.index(label)
@@ -137,12 +137,12 @@ class Frame(Shown):
 
     @property
     def lineage(self) -> tuple[Frame, ...]:
-        """This frame, the one it is turned out of, and so on to the root."""
+        """This frame, its parent, and so on to the root."""
         return (self,) if self.parent is None else (self, *self.parent.lineage)
 
     @property
     def root(self) -> Frame:
-        """The frame without a parent that this one is turned out of in the end."""
+        """The frame without a parent from which this one descends."""
         return self.lineage[-1]
 
     @property
@@ -157,24 +157,23 @@ class Frame(Shown):
 
     @property
     def turns_freely(self) -> bool:
-        """Whether it turns as coordinates change, and not by time alone."""
+        """Whether its rotation depends on coordinates or speeds, not on time alone."""
         return any(s.kind in _FREE for s in variables(self.turning))
 
     def rotation_to(self, other: Frame) -> Matrix:
-        """Turns components along these directions into components along the other's."""
+        """The matrix from components along these directions to components along the other's."""
         return _rotation_between(self, other)
 
 
 def earth(Omega: ExprLike, *, colatitude: ExprLike, directions: str = "east north up") -> Frame:
-    """The laboratory on the turning Earth: a root frame with the Earth's angular velocity.
+    """The laboratory on the rotating Earth: a root frame with the Earth's angular velocity.
 
-    The origin moves with the ground; its centripetal acceleration is part of what is called g.
+    The origin moves with the ground; its centripetal acceleration is included in g.
 
     Args:
         Omega: angular velocity of the Earth, rad/s.
         colatitude: angle between the vertical and the Earth's axis, rad.
-        directions: which way the x, y, z of the frame point, as three of
-            east, west, north, south, up, down, right-handed.
+        directions: of x, y and z, right-handed: three of east, west, north, south, up, down.
     """
     spin = {"north": sin(colatitude) * Omega, "up": cos(colatitude) * Omega, "east": ZERO}
     opposite = {"south": "north", "down": "up", "west": "east"}
@@ -210,6 +209,7 @@ def _turning(frame: Frame) -> Row:
     if frame.parent is None:
         return frame.turned
     carried = _step(frame).T.times(frame.parent.turning)
+    # angular velocities add: that of the parent, and the rate about an axis common to both frames
     rate = frame.angle.dt()
     return tuple(w + rate * axis for w, axis in zip(carried, frame.axis, strict=True))
 
@@ -223,7 +223,7 @@ def _rotation_between(source: Frame, target: Frame) -> Matrix:
     if shared is None:
         raise DeclarationError(
             f"frames {source.name!r} and {target.name!r} in one system",
-            expected="frames turned out of one root",
+            expected="frames that descend from one root",
             advice="build both from the same Frame with rotated",
         )
     matrix = IDENTITY

@@ -1,4 +1,4 @@
-"""Joints: couples that hold a body to an axis, in a plane or at a rate; pivots and welds."""
+"""Joints: couples that keep a body to an axis, a plane or a rate; pivots and welds."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class _Couple(Element):
         return Restraint(name, self.body, direction, velocity, other=self.to)
 
     def _support(self) -> Vector:
-        """The angular velocity prescribed: that of the ground, or none relative to another body."""
+        """The prescribed angular velocity: the ground's, or zero relative to another body."""
         root = self.body.axes.root
         return root.zero if self.to is not None else root.angular_velocity
 
@@ -47,7 +47,7 @@ class Hinge(_Couple):
 
     Args:
         body: the body held.
-        axis: label of the direction of the body's axes that it may turn about.
+        axis: label of the body's axis about which it may turn.
         to: the body it is hinged to, or the ground.
         torque: letter of the components of the reaction couple.
     """
@@ -114,6 +114,7 @@ class Universal(_Couple):
             )
 
     def restraints(self, places: Places) -> tuple[Restraint, ...]:
+        # d(arm · other_arm)/dt = 0 leaves one component of ω relative to the other body to zero
         across = self.arm.cross(self.other_arm)
         carried = _carrying(self.other_arm) if self.to is None else self._support()
         return (self._restraint("cross", across, carried),)
@@ -133,7 +134,7 @@ class Guide(_Couple):
         body: the body held.
         axis: label of the axis that is kept in the plane.
         normal: unit vector perpendicular to the plane; it may turn with time.
-        label: names the component of the couple: tau_2.
+        label: of the couple's component, as 2 in tau_2.
     """
 
     axis: str
@@ -215,7 +216,7 @@ class Motor(_Couple):
 
 
 def _carrying(direction: Vector) -> Vector:
-    """The least angular velocity in inertial space that a unit vector turns at, rad/s."""
+    """The angular velocity of a unit vector without rotation about itself, rad/s: e × ė."""
     return direction.cross(direction.dt())
 
 
@@ -229,13 +230,14 @@ class Pivot(Element):
     Args:
         body: the body held.
         at: from its centre of mass to the point, m.
-        to: the point: from the origin of the root frame (m; it may move with time), or a point of
-            another body; the origin by default. A place may contain coordinates of this body
-            alone: derivation refuses those that move other bodies, which would feel the force.
+        to: the point: a vector from the origin of the root frame (m; it may move with time), or a
+            point of another body; the origin by default. The vector may contain coordinates of
+            this body alone: derivation refuses those that move other bodies, which would feel the
+            force.
         along: frame whose directions name the components of the reaction.
         only: labels of the directions in which it holds; all three by default. These directions
-            may turn: with two of three along axes of the other body, the point slides in a slot
-            of that body; along axes of its own body, it is the slot that slides over the place.
+            may turn: two of three along axes of the other body make a slot of that body in which
+            the point slides; along axes of its own body, a slot that slides over a fixed pin.
         force: letter of the components.
 
     Raises:
@@ -283,7 +285,7 @@ class Pivot(Element):
 
     @property
     def other(self) -> Body | None:
-        """The body that holds, if it is not the ground."""
+        """The supporting body, if it is not the ground."""
         return self.to.body if isinstance(self.to, BodyPoint) else None
 
     @property
@@ -318,9 +320,10 @@ class Pivot(Element):
         velocity = self.body.axes.zero if held else self._target(places).dt()
         arm, other_arm = self.at, self.to.offset if isinstance(self.to, BodyPoint) else None
         if self.is_partial:
-            # The point is held by whatever is there, some way from the place: a slot of the other
-            # body, a pin at the place in a slot of its own body, or a slot that turns with the
-            # directions. The velocity and the arms are those of that point.
+            # In the free directions the held point is at a distance from the declared place. It is
+            # held there by a slot of the other body, by a pin at the place in a slot of its own
+            # body, or by a slot that turns with the directions: velocity and arms are for that
+            # material point.
             gap = self._gap(places)
             turns = self.along.turns_freely
             if turns and other_arm is not None and _turns_with(self.along, self.other):
@@ -350,10 +353,10 @@ def _turns_with(frame: Frame, body: Body | None) -> bool:
 
 @dataclass(frozen=True, init=False)
 class Weld(Pivot):
-    """Two bodies made one: held at a point as by a `Pivot`, and kept from turning.
+    """Joins two bodies rigidly: held at a point as by a `Pivot`, and kept from turning.
 
-    Give both the same axes and the same spin, so that they turn together; or weld a body whose
-    axes are at rest to the ground.
+    Give both the same axes and the same spin, so that they turn together; or weld a body with axes
+    at rest to the ground.
 
     Args:
         torque: letter of the components of the reaction couple; the others are those of `Pivot`.
@@ -383,7 +386,7 @@ class Weld(Pivot):
 
 @dataclass(frozen=True, init=False)
 class Hold(Element):
-    """A point of a body kept at rest wherever it happens to be, along some directions or all.
+    """A point of a body kept at rest wherever it is, along some or all directions.
 
     Args:
         body: the body held.

@@ -52,7 +52,7 @@ class Action:
 
 @dataclass(frozen=True)
 class Push:
-    """A force (N) on a place, and the velocity (m/s) at which the place is moved."""
+    """A force (N) on a place, and the velocity (m/s) of that place."""
 
     force: Vector
     velocity: Vector
@@ -73,10 +73,10 @@ class TwoPointLink:
 class Load(Declared, ABC):
     """A load: forces and couples on bodies; conservative if it has a potential.
 
-    A load of your own is a frozen dataclass derived from this class. Its fields, one of which is
-    `name`, are bodies, points of bodies, vectors, expressions and text; it has to give `bodies`
-    and `actions`, and may give `potential`. It can then be derived, simulated, drawn and saved like
-    polhode's own.
+    To define another load, derive a frozen dataclass from this class. Its fields, one of which is
+    `name`, are bodies, points of bodies, vectors, expressions and text; it must define `bodies` and
+    `actions`, and may define `potential`. It can then be derived, simulated, drawn and saved like
+    those of polhode.
     """
 
     name: str
@@ -109,7 +109,7 @@ class Load(Declared, ABC):
 
     @property
     def link(self) -> TwoPointLink | None:
-        """How it is drawn between two points; None for arrows alone."""
+        """Its drawing between two points; None for a load drawn as arrows."""
         return None
 
 
@@ -119,7 +119,7 @@ class Gravity(Load):
 
     Args:
         g: its acceleration, m/s².
-        up: unit vector against it; the third direction of the root frame by default.
+        up: unit vector opposite to it; the third direction of the root frame by default.
     """
 
     g: Expr
@@ -178,7 +178,7 @@ class Force(Load):
 
 @dataclass(frozen=True)
 class Torque(Load):
-    """A given couple (N m) on a body, and its opposite on another if named."""
+    """A given couple (N m) on a body, and its opposite on `reaction_on`, if any."""
 
     body: Body
     torque: Vector
@@ -260,7 +260,7 @@ class Spring(Load):
         self, bodies: tuple[Body, ...], places: Places, velocities: Velocities
     ) -> tuple[Action, ...]:
         between = self._stretch(places)
-        rate = self.stiffness  # tension over distance, N/m
+        rate = self.stiffness  # tension divided by distance, N/m
         if self.length:
             rate = rate * (1 - self.length / between.norm())
         return _pair(self.start, self.end, between * -rate)
@@ -320,7 +320,7 @@ class Damper(Load):
         return _pushes(self.end, self.actions((), places, velocities))
 
 
-_NO_POTENTIAL = "say the force itself with Force or Torque, which may depend on anything"
+_NO_POTENTIAL = "declare the force itself as Force or Torque, which may depend on anything"
 _POINT = "body.point() is its centre of mass, body.point(offset) any other point"
 
 

@@ -51,9 +51,9 @@ def sphere(
     inertia: ExprLike | None = None,
     **more: Any,
 ) -> Body:
-    """A ball: 2 m a²/5 if uniform, or the given moment of inertia about any axis through it.
+    """A ball: 2 m a²/5 if uniform, or the given moment of inertia about its diameters.
 
-    `axes` are directions that need not follow it, such as those of its support.
+    `axes` need not turn with it; they may be those of its support.
     """
     moment = Fraction(2, 5) * Expr.of(mass) * Expr.of(radius) ** 2 if inertia is None else inertia
     surface = Round(Expr.of(radius))
@@ -107,5 +107,5 @@ def cylinder(
 
 
 def point_mass(name: str, *, mass: ExprLike, axes: Frame, **more: Any) -> Body:
-    """A particle: no inertia and no rotation of its own."""
+    """A particle: no moment of inertia and no rotation."""
     return Body(name, mass=mass, inertia=(0, 0, 0), axes=axes, **more)

@@ -1,4 +1,4 @@
-"""How a body turns relative to the axes its inertia is given along, and by which speeds."""
+"""The rotation of a body relative to the axes of its inertia, and the speeds that describe it."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ class Spin(Declared, ABC):
         return {}
 
     def fixed_axes(self, axes: Frame, tag: str) -> Frame | None:
-        """Axes that are fixed in the body, where its attitude is known."""
+        """Axes that are fixed in the body; None if its attitude has no coordinates."""
         return axes
 
     def loose(self, axes: Frame) -> tuple[str, ...]:
-        """Labels of the axes about which the body turns while they do not."""
+        """Labels of the axes about which the body turns relative to them."""
         return ()
 
 
@@ -45,9 +45,9 @@ class WithAxes(Spin):
 
 @dataclass(frozen=True)
 class About(Spin):
-    """The body spins about one of its axes, which only follow it.
+    """The body spins about one of its axes, which follow its tilt but not its spin.
 
-    The speed is the whole angular velocity along that axis: omega_3 = psi_dot + ω(axes)·3.
+    The speed is the total angular velocity along that axis: omega_3 = psi_dot + ω(axes)·3.
 
     Args:
         axis: label of the axis.
@@ -128,6 +128,7 @@ class Components(Spin):
         return Vector(self.speeds(axes, tag), axes)
 
     def rates(self, axes: Frame, tag: str) -> dict[Expr, Expr]:
+        # ω = J q̇ + ω₀, solved for the rates q̇ of the angles; ω₀ is due to prescribed rotations
         angles = tuple(coordinate(name + tag) for name in self.angles)
         columns = [[w.diff(angle.dt()) for angle in angles] for w in axes.turning]
         still = {angle.dt(): 0 for angle in angles}
@@ -137,16 +138,16 @@ class Components(Spin):
             return dict(zip(angles, solve(columns, right), strict=True))
         except ZeroDivisionError:
             raise DeclarationError(
-                f"spin by components along {axes.name!r}, whose rotations do not turn it freely by "
+                f"spin by components along {axes.name!r}, whose attitude is not determined by "
                 + ", ".join(map(str, angles)),
                 expected="axes turned by three angles with these names",
-                advice="say spin=Components(angles=...) with the names that the axes have",
+                advice="give the names of the axes' angles: spin=Components(angles=...)",
             ) from None
 
 
 @dataclass(frozen=True)
 class Free(Spin):
-    """Components along axes that do not follow the body: for spheres, whose attitude is idle."""
+    """Components along axes that do not follow the body: for balls, whose attitude is idle."""
 
     def speeds(self, axes: Frame, tag: str) -> tuple[Expr, ...]:
         return tuple(speed(f"omega_{label}{tag}") for label in axes.labels)

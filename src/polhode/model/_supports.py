@@ -18,8 +18,8 @@ class Plane(Declared):
     Args:
         axes: the frame.
         normal: label of the direction that points away from the support.
-        tilt: angle (rad) by which the plane is first turned about the direction that follows its
-            normal, so that the next one points up the slope.
+        tilt: angle (rad) by which the plane is turned about the first direction after the normal,
+            so that the second points up the slope.
     """
 
     axes: Frame
@@ -63,7 +63,7 @@ class Plane(Declared):
 
     @property
     def beyond(self) -> Plane | None:
-        """What lies beyond its edge, if it has one."""
+        """The support beyond its edge, if it has an edge."""
         return None
 
     def reserve(self, point: Vector) -> Expr:
@@ -105,11 +105,11 @@ class Sheet(Plane):
 
     Args:
         axes: the frame it moves in.
-        motion: place (X, Y) of the sheet's own origin along the two directions in the plane, m:
-            functions of time.
+        motion: position (X, Y) of the sheet's own origin along the two directions in the plane, m,
+            as functions of time.
         angle: angle by which the sheet has turned about its origin, rad.
-        edge: where the sheet ends along the first direction, measured from its own origin, m;
-            beyond lies a table at rest.
+        edge: distance of the sheet's edge from its own origin along the first direction, m; beyond
+            it is a table at rest.
     """
 
     motion: tuple[Expr, Expr]
@@ -132,7 +132,7 @@ class Sheet(Plane):
         moved = tuple(quantity(place, "motion of the sheet") for place in motion)
         if len(moved) != 2:
             raise DeclarationError(
-                f"motion of the sheet: {motion!r}", expected="its place along two directions"
+                f"motion of the sheet: {motion!r}", expected="its position along two directions"
             )
         object.__setattr__(self, "motion", moved)
         object.__setattr__(self, "angle", quantity(angle, "angle of the sheet"))

@@ -1,4 +1,4 @@
-"""Surfaces that bodies touch with: where the point of contact with a plane lies."""
+"""Surfaces of bodies, with the position of their point of contact with a plane."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from polhode.algebra import ZERO, Expr, Vector, named, principal_root
 from polhode.model._declared import Declared, constant, not_negative, positive, quantity
 from polhode.model._frame import Frame
 
-#: Terms of a squared length beyond which what follows from its root is too long to be written out.
+#: Terms of a squared length above which it is kept as a named part: its root enters every velocity.
 _LONG = 10
 
 
 @dataclass(frozen=True)
 class Profile:
-    """What a body of revolution looks like: its outline, turned about one of the body's axes.
+    """The shape of a body of revolution: its outline, rotated about one of the body's axes.
 
     Attributes:
         axis: label of the axis.
-        outline: height along the axis, from the centre of mass, and radius of points in the order
-            in which they go down on the outside, m; closed if the last point is the first.
+        outline: height along the axis, from the centre of mass, and radius of points from the top
+            down along the outside, m; closed if the last point is the first.
     """
 
     axis: str
@@ -32,7 +32,7 @@ class Surface(Declared, ABC):
 
     @property
     def is_face(self) -> bool:
-        """Whether it lies on a support with a whole face, which keeps the body from tilting."""
+        """Whether it lies on a support with a flat face, which prevents tilting."""
         return False
 
     @abstractmethod
@@ -41,12 +41,12 @@ class Surface(Declared, ABC):
 
     @property
     def profile(self) -> Profile | None:
-        """What a body with it looks like; None for the uniform body of the same inertia."""
+        """The shape to be drawn; None for the uniform body with the same inertia."""
         return None
 
     @abstractmethod
     def is_symmetric(self, axes: Frame, axis: int) -> bool:
-        """Whether it looks the same however it is turned about this one of the axes."""
+        """Whether it is symmetric about this axis."""
 
     def assumed_positive(self, axes: Frame, normal: Vector) -> tuple[Expr, ...]:
         """Expressions whose sign is assumed to be positive."""
@@ -96,6 +96,7 @@ class Rim(Surface):
         return axes.position(self.axis) == axis
 
     def _steepest(self, axes: Frame, normal: Vector) -> Vector:
+        # the normal's projection on the plane of the circle, of length sin θ for a tilted disk
         along = axes[self.axis]
         upright = normal.express(axes)
         return upright - along * upright.dot(along)
@@ -125,6 +126,7 @@ class Ellipsoidal(Surface):
         return self.half_axes[(axis + 1) % 3] == self.half_axes[(axis + 2) % 3]
 
     def lowest(self, axes: Frame, normal: Vector) -> Vector:
+        # on Σ x²/h² = 1 the normal is along x/h²: the lowest point is -h² n/√(Σ h² n²)
         upright = normal.express(axes).components
         stretched = [h * h * n for h, n in zip(self.half_axes, upright, strict=True)]
         support = sum((s * n for s, n in zip(stretched, upright, strict=True)), ZERO)
@@ -136,7 +138,7 @@ class Ellipsoidal(Surface):
 class Face(Surface):
     """A flat face that stays on the support: the body slides but neither tilts nor turns.
 
-    `height` is that of the centre of mass above the face.
+    `height` is the distance of the centre of mass above the face.
     """
 
     height: Expr

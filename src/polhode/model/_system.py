@@ -1,4 +1,4 @@
-"""A system: bodies, what touches and holds them, and what loads them."""
+"""A system: bodies, their contacts and joints, and their loads."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class System(Shown):
         parts: bodies, contacts, joints and loads, in any order. Bodies that another
             part names need not be listed again.
         name: short name.
-        independent: speeds to keep as independent ones, where the constraints leave a choice.
+        independent: speeds to be kept as independent where the constraints leave a choice.
     """
 
     bodies: tuple[Body, ...]
@@ -51,7 +51,7 @@ class System(Shown):
             names = ", ".join(sorted(frame.name for frame in roots))
             raise DeclarationError(
                 f"bodies whose axes start from different frames: {names}",
-                expected="frames turned out of one root",
+                expected="frames that descend from one root",
                 advice="build all axes from the same Frame",
             )
         kept = tuple(as_symbol(speed) for speed in independent)
@@ -72,7 +72,7 @@ class System(Shown):
 
     @property
     def root(self) -> Frame:
-        """The laboratory frame that everything is turned out of."""
+        """The laboratory frame from which all axes descend."""
         return self.bodies[0].axes.root
 
     def body(self, name: str) -> Body:
@@ -120,8 +120,8 @@ def _refuse_same_names(what: str, names: list[str]) -> None:
     for name in names:
         if names.count(name) > 1:
             raise DeclarationError(
-                f"two different things both called {name!r}",
-                expected=f"every {what} with a name of its own",
+                f"two parts of the system named {name!r}",
+                expected=f"a different name for every {what}",
                 advice="give one of them another name=",
             )
 

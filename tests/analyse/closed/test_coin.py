@@ -84,7 +84,7 @@ def test_falling_flat_is_refused():
 
 
 def test_near_an_unstable_equilibrium_the_quadrature_gives_up():
-    with pytest.raises(NumericError, match="too sharp for a series"):
+    with pytest.raises(NumericError, match="too sharply peaked for a series"):
         _ = spun(theta=np.pi / 2, phi_dot=1).period
 
 

@@ -206,7 +206,7 @@ def test_rising_to_the_vertical_takes_for_ever():
 
 
 def test_sleeping_top_is_refused():
-    with pytest.raises(NumericError, match="a sleeping top: theta at the vertical at the start"):
+    with pytest.raises(NumericError, match="a sleeping top: theta is vertical at the start"):
         spun(omega_1=6)
 
 

@@ -1,4 +1,4 @@
-"""An expression as a text would set it: the display tree that all printers share."""
+"""An expression as a textbook would set it: the display tree that all printers share."""
 
 from __future__ import annotations
 
@@ -54,10 +54,10 @@ from polhode.algebra.printing._order import (
 )
 from polhode.algebra.printing._shorter import in_sums_of_angles, shortest_quotient
 
-#: Terms are collected by constants, as in I₁(θ̇² + φ̇² sin²θ), only if so much is saved by it.
+#: Terms are collected by constants, as in I₁(θ̇² + φ̇² sin²θ), only if the size shrinks to this.
 _MUCH = 0.85
 
-#: A factor, where it stands among the others, and its power.
+#: A factor with its rank among the others and its power.
 Placed = tuple[Rank, PrintNode, int]
 
 
@@ -87,7 +87,7 @@ def _quotients(ring: Ring, num: Polynomial, den: Polynomial) -> list[PrintNode]:
 
 
 def _split(ring: Ring, num: Polynomial, below: Factored) -> Iterator[PrintNode]:
-    """Every term over its own denominator; what no term cancels stays common to all."""
+    """Each term over its own denominator; divisors that no term cancels are put outside."""
     if below.sums:
         return
     degrees = dict(zip(ring.generators, map(int, num.degrees()), strict=True))
@@ -189,7 +189,7 @@ def _product(factored: Factored, sums: list[Placed]) -> PrintNode:
 def _turned(
     number: Fraction, sums: list[Placed], wrong: Callable[[Fraction, list[bool]], bool]
 ) -> tuple[Fraction, list[Placed]]:
-    """With the signs of sums turned where they are wrong, and the number's to match.
+    """Sums negated where `wrong` says so, and the number's sign changed to match.
 
     `wrong` decides by the number and by which terms of the sum are negative.
     """
@@ -250,9 +250,9 @@ class _Radicals:
 
 
 def _gathered(number: Fraction, powers: Mapping[Generator, int]) -> _Radicals:
-    """The roots of a term, as far as their product is a root whatever the signs.
+    """The roots of a term under one root, where that is valid whatever the signs.
 
-    That is so for all whose radicands are positive, and for one more of unknown sign.
+    It is for roots of positive radicands, and for one more of unknown sign.
     """
     roots = {g: p for g, p in powers.items() if isinstance(g, SquareRoot)}
     others = {g: p for g, p in powers.items() if g not in roots}

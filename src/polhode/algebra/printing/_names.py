@@ -1,4 +1,4 @@
-"""How a published ASCII name is taken apart for print: letter, primes, subscripts, dots."""
+"""A published ASCII name split up for printing: letter, primes, subscripts, dots."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _PRIME = "prime"
 
 @dataclass(frozen=True)
 class Spelling:
-    """A name taken apart: `Fprime_rho` of order 1 is F, one prime, subscript ρ, one dot."""
+    """The parts of a name: `Fprime_rho` of order 1 is F, one prime, subscript ρ, one dot."""
 
     stem: str
     primes: int

@@ -209,7 +209,7 @@ class PrintRadical(PrintNode):
 
 
 def product(number: int, factors: list[PrintNode]) -> PrintNode:
-    """A number times factors that are not numbers, without idle ones."""
+    """A number times factors, with numbers multiplied together and no factor 1."""
     whole = [f for f in factors if isinstance(f, PrintNumber)]
     number = number * prod(f.value for f in whole)
     rest = [f for f in factors if not isinstance(f, PrintNumber)]

@@ -1,4 +1,4 @@
-"""The order in which a text writes the factors of a term, and the terms of a sum."""
+"""The order in which a textbook writes the factors of a term and the terms of a sum."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Rank = tuple[object, ...]
 
 _MASSES, _INERTIAS, _GRAVITY = ("m", "M"), ("I",), ("g",)
 
-# Where these stand among the factors.
+# Ranks among the factors: 0 numbers, 1 constants, 2 variables, 3 functions, 4 and 5 roots, 6 sums.
 CONSTANT_SUM: Rank = (1, 1)
 VARYING_SUM: Rank = (6,)
 EXPONENTIAL: Rank = (3,)
@@ -42,14 +42,14 @@ def factor_rank(generator: Generator) -> Rank:
 
 
 def radical_rank(inside: Sequence[Generator], key: str = "") -> Rank:
-    """Where a root stands: of a number first, of constants after them, any other last."""
+    """Rank of a root: of a number first, of constants after these, any other last."""
     if not inside:
         return (0, key)
     return (1, 2, key) if all(map(is_constant, inside)) else (4, key)
 
 
 def absolute_value_rank(inside: Iterable[Generator]) -> Rank:
-    """Where an absolute value stands: last, in the order of its contents."""
+    """Rank of an absolute value: after the roots, in the order of its contents."""
     return (5, sorted(map(factor_rank, inside)))
 
 
@@ -72,7 +72,7 @@ def term_rank(powers: Mapping[Generator, int]) -> Rank:
 
 
 def _level(symbol: Symbol) -> int:
-    """0 for a place, 1 for a velocity, 2 for an acceleration."""
+    """0 for a coordinate, 1 for a velocity, 2 for an acceleration."""
     if symbol.kind in (SymbolKind.PARAMETER, SymbolKind.TIME):
         return 0
     return symbol.order + (symbol.kind is SymbolKind.SPEED)

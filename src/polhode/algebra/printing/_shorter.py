@@ -43,7 +43,7 @@ def _bulk(quotient: Quotient) -> int:
 
 
 def _conjugated(ring: Ring, quotient: Quotient, generator: Generator) -> Quotient:
-    """Multiplied above and below so that the generator leaves the numerator."""
+    """Extended by a conjugate so that the generator leaves the numerator."""
     num, den = quotient
     position = ring.index[generator]
     if num.degrees()[position] != 1:
@@ -76,14 +76,14 @@ _LONGEST = 80
 
 @dataclass(frozen=True)
 class _Exchange:
-    """What may be written for what: `short`, a single term, equals `long`, which has `sign`."""
+    """An identity: `short`, a single term, equals `long`, whose leading monomial is `sign`."""
 
     short: Polynomial
     long: Polynomial
     sign: Monomial
 
     def applied(self, ring: Ring, polynomial: Polynomial) -> Iterator[Polynomial]:
-        """What the polynomial becomes by each exchange that makes it shorter."""
+        """The polynomial after each use of the identity that makes it shorter."""
         for monomial, coefficient in polynomial.to_dict().items():
             if not all(map(le, self.sign, monomial)):
                 continue
@@ -111,7 +111,7 @@ def in_sums_of_angles(ring: Ring, polynomial: Polynomial) -> tuple[Ring, Polynom
         wider = ring_of(frozenset(ring.generators) | set(_functions(first, second)))
         exchanges = list(_exchanges(wider, first, second))
         shorter = wider.lift(ring, polynomial)
-        # the exchange that saves most is made first, and so on until none saves anything
+        # greedy: the replacement that saves most is made first, until none saves anything
         while found := [p for e in exchanges for p in e.applied(wider, shorter)]:
             shorter = min(found, key=len)
         if len(shorter) < len(polynomial):

@@ -38,11 +38,11 @@ class LinearSolve:
 
     @property
     def solution(self) -> tuple[Expr, ...]:
-        """The unknowns, as expressions to be asked for."""
+        """The unknowns as expressions."""
         return tuple(Expr.generator(unknown) for unknown in self.unknowns)
 
 
-_LONG = 100  # terms from which on an expression is written once for all programs
+_LONG = 100  # terms above which the steps of an expression are cached for all programs
 
 Definitions: TypeAlias = Callable[[Symbol], Expr | None]
 
@@ -59,11 +59,11 @@ def compile_program(
     Args:
         expressions: what to compute, in the order of the outputs.
         arguments: the symbols whose values will be given, in their order.
-        where: what a further symbol stands for, as an expression in others and the arguments, or
+        where: the meaning of a further symbol, as an expression in others and the arguments, or
             None where it is not known; a dictionary's `get` will do.
         solves: further symbols, defined by systems of linear equations.
-        turned: of angles that have grown large: the argument that is the same angle less whole
-            turns, of which sines and cosines are more exact.
+        turned: for angles that can grow large, the argument that holds the angle less whole turns:
+            the sine of 10⁶ rad has lost six digits.
 
     Raises:
         DeclarationError: for a symbol that is neither given nor defined.
@@ -107,7 +107,7 @@ class _TapeWriter:
         }
 
     def know(self, values: Mapping[Generator, Value]) -> None:
-        """Take the values of generators as given."""
+        """Record the values of generators."""
         self._values.update(values)
 
     def expression(self, expression: Expr) -> Value:
@@ -120,7 +120,7 @@ class _TapeWriter:
         return self.written(expression)
 
     def _replayed(self, expression: Expr) -> Value:
-        """By steps that are worked out once for all programs."""
+        """By steps that are compiled once for all programs."""
         trimmed = expression.trimmed()
         for generator in trimmed.ring.generators:
             self._prepare(generator)
@@ -128,7 +128,7 @@ class _TapeWriter:
         return self.tape.replay(_steps_of(trimmed), values)
 
     def written(self, expression: Expr) -> Value:
-        """The same, step by step, every exp being a value of its own."""
+        """The same, step by step, with each exponential as a separate value."""
         forms = list(_forms(expression))
         for form in forms:
             for position, generator in enumerate(form.ring.generators):
@@ -221,7 +221,7 @@ class _TapeWriter:
         return self.tape.multiply(self.tape.constant(number), product)
 
     def _scaled(self, ring: Ring, polynomial: Polynomial, number: Fraction) -> Value:
-        """A number times a sum, the number multiplied in where that costs no step."""
+        """A number times a sum, the number multiplied in where that saves steps."""
         coefficients = [as_fraction(c) for c in polynomial.coeffs()]
         inside = sum(abs(c * number) != 1 for c in coefficients)
         outside = sum(abs(c) != 1 for c in coefficients) + (abs(number) != 1)
@@ -230,7 +230,11 @@ class _TapeWriter:
         return self.tape.multiply(self.tape.constant(number), self._sum(ring, polynomial))
 
     def _sum(self, ring: Ring, polynomial: Polynomial) -> Value:
-        """Greedy Horner form: the generator that most terms share is taken out first."""
+        """Greedy Horner form: the generator that most terms share is taken out first.
+
+        Ceberio and Kreinovich, Greedy algorithms for optimizing multivariate Horner schemes,
+        SIGSAM Bulletin 38 (2004).
+        """
         position, shared, power = _most_shared(polynomial)
         if shared < 2:
             terms = sorted(self._term(ring, m, c) for m, c in polynomial.to_dict().items())
@@ -266,7 +270,7 @@ def _steps_of(expression: Expr) -> Program:
 
 
 def _divided(solve: LinearSolve) -> tuple[Matrix, Row]:
-    """The same equations, those in one unknown divided out exactly so that factors cancel."""
+    """The same equations; those in one unknown are divided by its coefficient exactly."""
     rows, right = list(solve.matrix.rows), list(solve.right)
     for i, row in enumerate(rows):
         occurring = [entry for entry in row if entry]
@@ -333,7 +337,7 @@ def _split(
 # -- sums about the centre of an exponent ----------------------------------------------------------
 #
 # The second derivative of exp(−(t − c)²/w²) has the factor 2(t − c)² − w². Multiplied out, as
-# 2t² − 4ct + 2c² − w², it loses the digits of t²/w².
+# 2t² − 4ct + 2c² − w², it loses as many digits by cancellation as t²/w² has.
 
 
 class _Centred(NamedTuple):
@@ -363,7 +367,7 @@ def _centred(factor: Expr, exponent: Expr) -> _Centred | None:
         for symbol in sorted(meaning.symbols(), key=lambda s: s.published):
             slope = meaning.diff(symbol)
             if slope.generators:
-                continue  # it is not linear in the symbol with a number as coefficient
+                continue  # not linear in the symbol with a numeric coefficient
             distance = Symbol(f"({meaning.key})", SymbolKind.PARAMETER)
             image = Expr.generator(symbol) + (Expr.generator(distance) - meaning) / slope
             ways.append(_Centred(factor.subs({symbol: image}), distance, meaning))

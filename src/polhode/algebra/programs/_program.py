@@ -55,7 +55,7 @@ class Instruction(NamedTuple):
 
 @dataclass(frozen=True)
 class Arithmetic:
-    """How the steps are done on one sort of number; + - * / are the number's own."""
+    """How steps are done on one type of number; + - * / are its operators."""
 
     number: Callable[[Fraction], Any]
     pi: Any
@@ -108,6 +108,7 @@ class Program:
             if step.op is Op.CONST
         }
         names["pi"] = arithmetic.pi
+        # no builtins: the code can reach nothing but these names
         return FunctionType(_code(self), {"__builtins__": {}, **names})
 
 
@@ -131,7 +132,7 @@ def _rounded(value: Fraction, arithmetic: Arithmetic) -> Any:
 
 
 def _code(program: Program) -> CodeType:
-    """The steps as Python; every name in it is made here, whatever the symbols are called."""
+    """The steps as Python code, whose names are all generated here and never the user's."""
     slots = _Slots(program)
     lines = []
     for i, (op, operands, _) in enumerate(program.instructions):

@@ -1,4 +1,4 @@
-"""A tape on which arithmetic is recorded, each step once however often it is asked for."""
+"""A tape on which arithmetic is recorded, each distinct step once."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _EVEN = (Op.COS, Op.COSH)
 
 
 class Tape:
-    """Records steps, folds constants, and knows what has been recorded before."""
+    """Records steps, folds constants, and reuses steps recorded before."""
 
     def __init__(self) -> None:
         self._steps: list[Instruction] = []
@@ -70,6 +70,7 @@ class Tape:
             return self.constant(x + y)
         if a.sign == b.sign:
             return Value(self._record(Op.ADD, (a.step, b.step)), a.sign)
+        # a - b and b - a share one step: the earlier operand comes first, and the sign goes outside
         first, second = sorted((a, b))
         return Value(self._record(Op.SUB, (first.step, second.step)), first.sign)
 
@@ -185,10 +186,10 @@ def solve_on(
 ) -> list[Value]:
     """The unknowns of `rows` @ unknowns = `right`, by Gaussian elimination.
 
-    Of a symmetric matrix only one triangle is worked on (LDLᵀ); its pivots lie on the diagonal.
-    Zeros known beforehand cost nothing, and the row with fewest entries is the next pivot's, so
-    that little fills in. `algebra._elimination` cannot serve: it chooses pivots by their
-    expressions and clears above the diagonal too, which would take more steps.
+    For a symmetric matrix only one triangle is computed (LDLᵀ); its pivots lie on the diagonal.
+    Structural zeros cost nothing, and the row with fewest entries provides the next pivot, which
+    keeps fill-in low (minimum degree). `algebra._elimination` cannot serve: it chooses pivots by
+    their expressions and clears above the diagonal too, which would take more steps.
     """
     return _Elimination(tape, rows, right, symmetric).solution()
 
@@ -219,7 +220,7 @@ class _Elimination:
         return [found[j] for j in range(len(found))]
 
     def _pivot(self) -> tuple[int, int]:
-        """The place of the next pivot: in the row with fewest entries."""
+        """The position of the next pivot: in the row with fewest entries."""
         places = [
             (sum(self._occurs(i, j) for j in self._columns), i, j)
             for i in self._pending

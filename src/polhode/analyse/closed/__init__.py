@@ -1,1 +1,1 @@
-"""Closed forms of motions, and how equations are recognised that have one."""
+"""Closed forms of motions, and the recognition of equations that have one."""

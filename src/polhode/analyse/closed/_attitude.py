@@ -1,7 +1,7 @@
-"""Coordinates and speeds of a body from its attitude, whatever sequence of angles describes it.
+"""Coordinates and speeds of a body from its attitude, for any usual sequence of angles.
 
 R = Rot(m₁, q₁) Rot(m₂, q₂) Rot(m₃, q₃) K with m₂ perpendicular to m₁ and m₃ (P. Davenport, 1973):
-every usual sequence of angles has this form, also with reversed signs and constant rotations in
+every usual sequence of angles has this form, even with reversed signs and constant rotations in
 between.
 """
 
@@ -49,10 +49,10 @@ class Chart:
 
     Attributes:
         body: the body.
-        angles: three coordinates, or two of a body whose turn about its axis does not matter.
+        angles: three coordinates, or two for a body whose spin angle is not a coordinate.
         axes: m₁, m₂ and m₃, or the body's axis at q = 0 in place of the last.
         constant: K.
-        speeds: those that its angular velocity depends on.
+        speeds: on which its angular velocity depends.
         solved: the speeds in terms of the angles and the angular velocity along the root's axes.
     """
 
@@ -89,7 +89,7 @@ class Chart:
 
 
 def _turns(body: Body) -> tuple[tuple[Symbol, ...], tuple[Row, ...], Matrix] | None:
-    """Angles, directions they turn about at q = 0, and the constant rotation that is left."""
+    """Angles, the directions of their axes at q = 0, and the remaining constant rotation."""
     angles: list[Symbol] = []
     about: list[Row] = []
     constant = Matrix.diagonal([1, 1, 1])
@@ -116,7 +116,7 @@ def _solved(
     turning = equations.kinetics.velocities[body][1].express(body.axes).components
     speeds = tuple(s for s in equations.speeds if s in variables(turning))
     given = body.axes.root.rotation_to(body.axes).times([Expr.generator(s) for s in _W])
-    if count == 2:  # of the angular velocity only what moves the axis is known
+    if count == 2:  # only the part of the angular velocity that moves the axis is known
         turning, given = _across(turning, axis), _across(given, axis)
     try:
         parts = [linear_parts(component, speeds) for component in turning]
@@ -136,7 +136,7 @@ def _across(vector: Row, axis: Row) -> Row:
 
 @dataclass(frozen=True)
 class NumericChart:
-    """A chart with numbers for all that does not vary.
+    """A chart with numbers for all constants.
 
     Attributes:
         chart: the chart.
@@ -159,17 +159,20 @@ class NumericChart:
 
     @cached_property
     def _lag(self) -> Any:
-        """Angle from m₁ to m₃ in the plane that q₂ turns them in."""
+        """λ, the angle from m₁ to m₃ at q = 0, in the plane perpendicular to m₂."""
         first, _, beside, third = self._directions
         return self.data.context.atan2(scalar(third, beside), scalar(third, first))
 
     @cached_property
     def _side(self) -> int:
-        """Sign of sin(λ - q₂), constant on motions that avoid the singular position."""
+        """Sign of sin(λ - q₂), constant on motions that avoid the singular position.
+
+        (q₁, q₂) and (q₁ + π, 2λ - q₂) place m₃ alike: the start decides which is meant.
+        """
         return 1 if self.data.context.sin(self._lag - self.initial_angles[1]) > 0 else -1
 
     def angles(self, reals: Reals, attitude: Sequence[Vec], axis: Vec) -> list[Array]:
-        """Angles, but for whole turns, at which the attitude and the body's axis are these."""
+        """The angles, up to whole turns, for an attitude and direction of the body's axis."""
         if len(self.chart.angles) == 2:
             return self._two(reals, axis)
         m1, m2, _, m3 = (list(map(reals.number, v)) for v in self._directions)
@@ -237,7 +240,7 @@ def cross(a: Vec, b: Vec) -> list[Any]:
 
 
 def _rotated(reals: Reals, axis: Vec, angle: Array, vector: Vec) -> list[Array]:
-    """A vector turned about a unit axis."""
+    """A vector rotated about a unit axis."""
     c, s = reals.cos(angle), reals.sin(angle)
     along, beside = scalar(axis, vector), cross(axis, vector)
     return [
@@ -247,11 +250,11 @@ def _rotated(reals: Reals, axis: Vec, angle: Array, vector: Vec) -> list[Array]:
 
 _REFINEMENTS = 6  # how often steps are halved where an angle changes too far in one
 _MOST = 400_000  # steps
-_FAR = 1.5  # rad in a step; np.unwrap misses a turn beyond π
+_FAR = 1.5  # rad in a step, with a margin: np.unwrap misses a turn beyond π
 
 
 class Attitude(NamedTuple):
-    """How a body lies and turns, along the root's axes.
+    """Attitude and angular velocity of a body, along the root's axes.
 
     Attributes:
         rows: matrix from components along axes fixed in the body.
@@ -266,7 +269,7 @@ class Attitude(NamedTuple):
 
 @dataclass(frozen=True)
 class AttitudeFamily(Solvable):
-    """A family whose motion is the attitude of a body, in whatever angles it is described.
+    """A family whose motion is the attitude of a body, in any angles.
 
     Attributes:
         chart: the angles.
@@ -284,8 +287,8 @@ class AttitudeSolution(ExactSolution):
     """The attitude of a body at all times, in the coordinates and speeds of its chart.
 
     Attributes:
-        placed: the chart, at numbers.
-        solution: the motion in quantities of its own, such as Euler's angles from the vertical.
+        placed: the chart, with numbers.
+        solution: the motion in other variables, such as Euler's angles from the vertical.
     """
 
     placed: NumericChart
@@ -293,12 +296,12 @@ class AttitudeSolution(ExactSolution):
 
     @abstractmethod
     def attitude(self, reals: Reals, times: Array) -> Attitude:
-        """At times, s."""
+        """The attitude at times, s."""
 
     @property
     @abstractmethod
     def step(self) -> float:
-        """Time in which nothing turns far, s."""
+        """A time in which all angles change little, s."""
 
     @property
     def kind(self) -> str:
@@ -328,8 +331,8 @@ class AttitudeSolution(ExactSolution):
     def _whole_turns(self, times: Array, angles: Sequence[Array]) -> list[Array]:
         """Whole turns to be added to angles at times, counted from the start on.
 
-        An attitude says nothing of them: the angles are followed in doubles along a grid, which is
-        refined until none of them changes by more than a safe part of half a turn in one step.
+        The attitude does not contain them: the angles are followed in doubles along a grid, which
+        is refined until none of them changes by more than about half of π in one step.
         """
         import numpy as np
 
@@ -342,7 +345,7 @@ class AttitudeSolution(ExactSolution):
                 raise NumericError(
                     f"angles whose turns are counted over {count} steps",
                     expected=f"at most {_MOST}",
-                    advice="ask for times nearer to the start, or use Euler's angles from the "
+                    advice="choose times closer to the start, or use Euler's angles from the "
                     "vertical",
                 )
             even = np.linspace(first, last, count)

@@ -20,9 +20,9 @@ class Axle:
         phi: azimuth.
         theta_rate: θ̇, a speed of the equations.
         phi_rate: φ̇, another.
-        spin: n, the constant angular velocity along the axle; None for a pendulum without.
+        spin: n, the constant angular velocity along the axle; None for a pendulum without spin.
         psi: spin angle, of rate n - φ̇ cos θ; None where it is not among the coordinates.
-        ratio: κ, the moment of inertia about the axle over that across it.
+        ratio: κ, the moment of inertia about the axle divided by the transverse one.
     """
 
     theta: Symbol
@@ -88,7 +88,7 @@ def axles(equations: Equations) -> Iterator[Axle]:
 def _ratio(
     equations: Equations, theta: Symbol, theta_rate: Symbol, phi_rate: Symbol, spin: Symbol | None
 ) -> Expr | None:
-    """κ, where φ̈ is that of an axle without torque about the vertical; else None."""
+    """κ, if φ̈ is that of an axle without torque about the vertical; otherwise None."""
     accelerations = equations.accelerations
     angle, turning = Expr.generator(theta), Expr.generator(phi_rate)
     pull = accelerations[phi_rate.derivative()] * sin(angle) / Expr.generator(theta_rate)

@@ -25,7 +25,7 @@ from polhode.analyse.closed._solution import ExactSolution, Solvable
 from polhode.base import ConstraintError, NumericError, Shown
 from polhode.derive import Equations, equations_only
 
-# Quantities that are constant or grow uniformly: ignorable angles, spins, steady motions.
+# -- quantities that are constant or grow uniformly: ignorable angles, spins, steady motions -------
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class Uniform:
 
 @dataclass(frozen=True)
 class SteadySolution(ExactSolution):
-    """A motion in which nothing changes but angles, uniformly."""
+    """A motion in which only angles change, uniformly."""
 
     kind = "steady motion"
     period = None
@@ -59,19 +59,19 @@ class SteadySolution(ExactSolution):
         return {}
 
     def at(self, reals: Reals, times: Array) -> dict[str, Array]:
-        """Nothing: all of it is in `Uniform`."""
+        """Empty: all quantities are in `Uniform`."""
         return {}
 
 
 def is_steady(equations: Equations, data: Data) -> bool:
-    """Whether every speed and every essential coordinate is constant from this start on."""
+    """Whether every speed and every essential coordinate is constant from this start."""
     system = reduced(equations)
     rates = (*system.rates, *equations.accelerations.values())
     return not any(data.number(rate) for rate in rates)
 
 
 def uniform(equations: Equations, data: Data, steady: bool) -> Uniform:
-    """What changes uniformly on every motion, or on one that is steady."""
+    """The quantities that change uniformly on every motion, or on a steady one."""
     still = [s for s in equations.speeds if not equations.accelerations[s.derivative()]]
     if steady:
         still = [*reduced(equations).essential, *equations.speeds]
@@ -86,8 +86,8 @@ def uniform(equations: Equations, data: Data, steady: bool) -> Uniform:
 
 #: Digits of a double, with one for rounding.
 _DOUBLE = 17
-#: Sensitivities are difference quotients, whose relative step has so many digits more than wanted:
-#: it must be small also compared with the distance to a separatrix.
+#: Sensitivities are difference quotients. Their relative step is smaller than the last digit by so
+#: many more, as it must be small compared with the distance to a separatrix too.
 _FINER = 30
 #: Points of a period at which the sensitivity to the state is determined.
 _STOPS = 8
@@ -111,7 +111,7 @@ class ClosedForm(Shown):
     Attributes:
         family: the equations as recognised.
         data: exact values of parameters and start.
-        solution: its constants, to more digits than are wanted.
+        solution: its constants, with spare digits.
         uniform: the other quantities, which change uniformly.
         digits: of the values given; None for doubles.
     """
@@ -129,7 +129,7 @@ class ClosedForm(Shown):
 
     @property
     def kind(self) -> str:
-        """Which of the family's motions it is, such as "cusps" or "separatrix"."""
+        """The type of motion within the family, such as "cusps" or "separatrix"."""
         return self.solution.kind
 
     def latex(self) -> str:
@@ -148,7 +148,7 @@ class ClosedForm(Shown):
 
     @cached_property
     def quantities(self) -> tuple[str, ...]:
-        """Published names of what `at` gives."""
+        """Published names of the quantities that `at` returns."""
         return tuple(self.at(0))
 
     def at(self, times: Any) -> dict[str, Array]:
@@ -175,7 +175,7 @@ class ClosedForm(Shown):
             raise NumericError(
                 f"the period of {self.name}: {self.kind}",
                 expected="a motion that repeats",
-                advice="change the start a little: near a steady motion or a separatrix it does",
+                advice="change the start a little: motions close to this one have a period",
             )
         return self._reals.number(self.solution.period)
 
@@ -197,9 +197,9 @@ class ClosedForm(Shown):
 
     @cached_property
     def stepwise_conditioning(self) -> float | None:
-        """The same for errors of the state made on the way, as numerical integration makes them.
+        """The same for errors of the state during the motion, as in numerical integration.
 
-        The largest of eight points of a period. Near a separatrix it is far greater, since the
+        The largest at eight points of a period. Near a separatrix it is far greater, since the
         distance to the separatrix is smallest relative to the state where the motion is fastest.
         """
         period = self.solution.period
@@ -230,9 +230,9 @@ class ClosedForm(Shown):
 
 
 def recognise(equations: Equations) -> Solvable:
-    """The family of closed forms that the equations belong to, whatever their symbols are called.
+    """The family of closed forms that the equations belong to, by their structure alone.
 
-    Raises `NumericError` where none is known.
+    Raises `NumericError` if none is known.
     """
     try:
         is_solved = not equations.functions and bool(equations.accelerations)
@@ -265,14 +265,14 @@ def closed_form(
     Args:
         equations: derived equations.
         parameters: values by name: SI numbers, text with a unit, or constant expressions.
-        start: coordinates and independent speeds at t = 0, also as expressions of parameters;
+        start: coordinates and independent speeds at t = 0, as values or expressions of parameters;
             those not given are zero.
         digits: decimal digits of the values; doubles if not given.
 
     Raises:
         NumericError: where there is no closed form for the system or from this start.
         DeclarationError, UnitError: for values that cannot be read.
-        ConstraintError: for a start outside the side the equations were derived for.
+        ConstraintError: for a start where an expression assumed to be positive is not.
     """
     equations_only(equations, "the closed form")
     family = recognise(equations)
@@ -282,8 +282,8 @@ def closed_form(
         if value <= 0:
             raise ConstraintError(
                 f"{sign} = {float(value):g} at the start",
-                expected="a positive value: the equations were derived for that side",
-                advice="start on the other side, by symmetry",
+                expected="a positive value, for which the equations were derived",
+                advice="start from the mirror image, by symmetry",
             )
     family.check(data)
     steady = is_steady(equations, data)

@@ -1,9 +1,9 @@
 """A coin that spins on a smooth table: quadrature between turning angles, as a Fourier series.
 
 For a libration q̇² = F(q) between two turning points, q = mean - half cos s makes the rate
-ṡ = √G(s) regular, and the trapezoidal rule in s converges faster than any power. The period is
-∫ ds/√G, and every quantity of the motion is a series in the phase M = 2πt/T, as in Kepler's
-problem.
+ṡ = √G(s) regular, and the trapezoidal rule in s converges exponentially, as its integrand is
+periodic and analytic (Trefethen and Weideman, SIAM Review 56 (2014) 385). The period is ∫ ds/√G,
+and every quantity of the motion is a series in the phase M = 2πt/T, as in Kepler's problem.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class FourierSeries(NamedTuple):
 
 
 class _Nodes(NamedTuple):
-    """Midpoints of s, and there dt/ds and the rates of the angles that follow q."""
+    """Midpoints of s, with dt/ds and the rates of the angles that follow q at each."""
 
     s: list[Any]
     delay: list[Any]
@@ -62,7 +62,7 @@ class Libration:
         square: F(q).
         angle_rates: rates of the angles that follow q.
         start: s at t = 0.
-        digits: decimal digits wanted of the period.
+        digits: decimal digits of the period.
     """
 
     context: Any
@@ -114,7 +114,7 @@ class Libration:
 
     @cached_property
     def _nodes(self) -> _Nodes:
-        """As many as the period needs: doubled until it no longer changes."""
+        """As many as needed: their number is doubled until the period no longer changes."""
         coarse = self._at_nodes(_FEWEST)
         while len(coarse.s) < _MOST:
             fine = self._at_nodes(2 * len(coarse.s))
@@ -127,6 +127,7 @@ class Libration:
     def _at_nodes(self, count: int) -> _Nodes:
         context, (low, high) = self.context, self.ends
         mean, half = (low + high) / 2, (high - low) / 2
+        # midpoints, as at the turning points dt/ds is 0/0; half a period, by symmetry
         s = [(j + context.mpf(0.5)) * context.pi / count for j in range(count)]
         q = [mean - half * context.cos(angle) for angle in s]
         delay = [
@@ -149,6 +150,8 @@ class Libration:
         count, mean = len(nodes.s), nodes.mean_delay
         s, delay = reals.array(nodes.s), reals.array([d / mean for d in nodes.delay])
         orders = range(1, count // 2)
+        # First M(s) = s + Σ a_k sin ks, from dM/ds = (dt/ds)/mean; then its inverse s(M), whose
+        # coefficients are b_k = (2/πk) ∫ cos kM ds, as those of Kepler's equation (Bessel).
         at_s = [cos for _, cos in islice(reals.harmonics(s), count // 2 - 1)]
         advances = [2 * (delay * wave).sum() / (k * count) for k, wave in enumerate(at_s, 1)]
         M = s + _sines(reals, advances, s)
@@ -160,6 +163,7 @@ class Libration:
             for drift, rates in zip(self.drifts, zip(*nodes.rates, strict=True), strict=True)
         ]
         swings = [[(wave * weight).sum() for wave in waves] for weight in weights]
+        # below sixteen roundings the coefficients are noise of the sums over the nodes
         smallest = max(16 * reals.eps, reals.number(self.context.mpf(10) ** -(self.digits + 2)))
         if max(map(abs, lags[-count // 16 :])) > smallest:
             return None  # the tail has not decayed
@@ -176,8 +180,8 @@ def _sines(reals: Reals, coefficients: list[Any], angle: Array) -> Array:
 
 def _too_sharp() -> NumericError:
     return NumericError(
-        f"a motion too sharp for a series of {_MOST} nodes",
-        expected="turning points away from other places of rest and from singular ones",
+        f"a motion too sharply peaked for a series of {_MOST} nodes",
+        expected="turning points away from equilibria and from singular positions",
         advice="change the start a little, or simulate it",
     )
 
@@ -188,8 +192,8 @@ class SpinningCoin(Solvable):
 
     Attributes:
         axle: roles of coordinates and speeds.
-        lift: ε, m a² over the moment of inertia about a diameter.
-        weight: γ, m g a over the latter, 1/s².
+        lift: ε, m a² divided by the moment of inertia about a diameter.
+        weight: γ, m g a divided by the latter, 1/s².
     """
 
     axle: Axle
@@ -236,8 +240,8 @@ class CoinIntegrals:
     """Constants of the motion.
 
     Attributes:
-        energy: twice the energy over the moment about a diameter, less that of the spin, 1/s².
-        minus: α - β, momenta about the vertical and the axis over that moment, 1/s.
+        energy: twice the energy without the spin's, divided by the moment about a diameter, 1/s².
+        minus: α - β, momenta about the vertical and the axis divided by that moment, 1/s.
         plus: α + β.
         weight: γ.
         lift: ε.
@@ -275,7 +279,7 @@ class CoinIntegrals:
         """
         context = self.context
         tangent, roots = context.tan(theta / 2), self._turning_tangents()
-        # Where the start is a turning point itself, θ̈ says on which side of it the motion goes on.
+        # If the start is itself a turning point, θ̈ decides to which side the motion continues.
         nearest = min(roots, key=lambda x: abs(x - tangent))
         below = [x for x in roots if x < tangent and x != nearest]
         above = [x for x in roots if x > tangent and x != nearest]
@@ -286,8 +290,8 @@ class CoinIntegrals:
         if not above or not below or (self.minus == 0 and max(below) == 0):
             raise NumericError(
                 "a coin that falls flat on the table",
-                expected="a start with both momenta, about the vertical and the axis, so that it "
-                "rises again",
+                expected="a start with both momenta, about the vertical and the axis, so that the "
+                "coin rises again",
                 advice="simulate it up to the impact",
             )
         low, high = (2 * context.atan(x) for x in (max(below), min(above)))
@@ -298,6 +302,8 @@ class CoinIntegrals:
 
     def _turning_tangents(self) -> list[Any]:
         """tan θ/2 where θ̇ = 0, and 0 where the coin can fall flat to θ = 0."""
+        # With x = tan θ/2, φ̇ sin θ = (a + b x²)/2x, and the numerator of θ̇² is
+        # 4 E x² (1 + x²) - (a + b x²)² (1 + x²) - 16 γ x³, here from x⁶ down.
         context, a, b = self.context, self.minus, self.plus
         sextic = [
             -(b**2),

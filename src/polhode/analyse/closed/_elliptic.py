@@ -1,7 +1,8 @@
 """Jacobi's functions and Legendre's integrals by the complementary parameter m₁ = 1 - k².
 
-With m₁ itself nothing is lost as the modulus k approaches 1: near a separatrix m₁ is what is known
-exactly, and 1 - m₁ has lost its digits. At m₁ = 0 the functions are tanh and sech.
+No digits are lost as the modulus k approaches 1: near a separatrix m₁ is small and accurately
+known, which k² = 1 - m₁ no longer is once rounded. At m₁ = 0 the functions are tanh and sech.
+The integrals are Carlson's symmetric ones (DLMF, chapter 19).
 """
 
 from __future__ import annotations
@@ -16,12 +17,15 @@ _NUDGE = 1e-100
 
 
 def quarter_period(context: Any, m1: Any) -> Any:
-    """K, the complete integral of the first kind, by Gauss's arithmetic-geometric mean."""
+    """K = π/(2 agm(1, k')), the complete integral of the first kind (DLMF 19.8.5)."""
     return context.pi / (2 * context.agm(1, context.sqrt(m1)))
 
 
 def first_kind(context: Any, sn: Any, cn: Any, m1: Any) -> Any:
-    """The argument u in [-2K, 2K] that has this sn and cn."""
+    """The argument u in [-2K, 2K] that has this sn and cn: sn R_F(cn², dn², 1) for |u| ≤ K.
+
+    DLMF 19.25.5. Beyond the quarter period, where cn is negative, u is reflected about K.
+    """
     dn2 = cn**2 + m1 * sn**2
     if cn >= 0:
         return sn * context.elliprf(cn**2, dn2, 1)
@@ -30,7 +34,7 @@ def first_kind(context: Any, sn: Any, cn: Any, m1: Any) -> Any:
 
 
 def third_kind_complete(context: Any, n1: Any, m1: Any) -> Any:
-    """∫₀ᴷ du/(cn² + n₁ sn²)."""
+    """∫₀ᴷ du/(cn² + n₁ sn²), Legendre's Π with α² = 1 - n₁ (DLMF 19.25.2)."""
     return context.elliprf(0, m1, 1) + (1 - n1) / 3 * context.elliprj(0, m1, 1, n1)
 
 
@@ -42,14 +46,19 @@ def third_kind(reals: Reals, u: Array, sn: Array, cn: Array, n1: Any, m1: Any) -
 
 
 def jacobi(reals: Reals, u: Array, m1: Any) -> tuple[Array, Array, Array]:
-    """sn u, cn u, dn u for |u| ≤ 2K, by descending Landen steps (R. Bulirsch, 1965)."""
+    """sn u, cn u, dn u for |u| ≤ 2K, by descending Landen steps.
+
+    R. Bulirsch, Numerical calculation of elliptic integrals and elliptic functions, Numerische
+    Mathematik 7 (1965) 78.
+    """
     if m1 == 0:
         decay = reals.exp(-abs(u))
         sech = 2 * decay / (1 + decay * decay)
         return reals.tanh(u), sech, sech
     mean, root = reals.number(1), reals.sqrt(reals.number(m1))
     means = [(mean, root)]
-    while abs(mean - root) > mean * reals.sqrt(reals.eps):  # until the next would agree
+    # convergence is quadratic: once they agree to half the digits, the next mean has all of them
+    while abs(mean - root) > mean * reals.sqrt(reals.eps):
         mean, root = (mean + root) / 2, reals.sqrt(mean * root)
         means.append((mean, root))
     limit = (mean + root) / 2
@@ -66,7 +75,7 @@ def jacobi(reals: Reals, u: Array, m1: Any) -> tuple[Array, Array, Array]:
 
 
 class PhasePoint(NamedTuple):
-    """A point of a phase: the argument less whole half-periods, their number, and sn, cn, dn."""
+    """The argument less whole multiples of 2K, their number, and sn, cn, dn."""
 
     argument: Array
     halves: Array
@@ -99,7 +108,7 @@ class EllipticPhase:
 
     @property
     def half_period(self) -> Any:
-        """Time in which u grows by 2K, after which sn and cn change sign; None if never."""
+        """Time in which u grows by 2K, after which sn and cn change sign; None on a separatrix."""
         if self.m1 == 0:
             return None
         return 2 * quarter_period(self.context, self.m1) / self.rate
@@ -113,7 +122,7 @@ class EllipticPhase:
         half = self.half_period
         turns = reals.turns(times, 1 / half, self.start / (half * self.rate))
         u = turns.fraction * reals.number(half * self.rate)
-        sign = 1 - 2 * (turns.whole % 2)
+        sign = 1 - 2 * (turns.whole % 2)  # sn(u + 2K) = -sn u and cn(u + 2K) = -cn u
         sn, cn, dn = jacobi(reals, u, m1)
         return PhasePoint(u, turns.whole, sign * sn, sign * cn, dn)
 
@@ -130,7 +139,7 @@ class EllipticPhase:
     def _since_zero(self, reals: Reals, point: PhasePoint, n1: Any) -> Array:
         """The integral over u from the zero of u."""
         n, m1 = reals.number(n1), reals.number(self.m1)
-        # Within a half-period the sign of cn, which third_kind takes squared, does not matter.
+        # sn without the sign of the half-periods; third_kind uses cn squared only
         sn = point.sn * (1 - 2 * (point.halves % 2))
         within = third_kind(reals, point.argument, sn, point.cn, n, m1)
         if self.m1 == 0:

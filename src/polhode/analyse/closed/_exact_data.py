@@ -30,7 +30,7 @@ Name = str | Symbol | Expr
 
 #: Digits carried beyond those requested, so that short formulas are correct to rounding.
 SPARE = 50
-#: Multiples of the digits tried before a number that is lost in rounding is given up.
+#: Multiples of the digits that are tried to tell a small number from zero.
 _REFINEMENTS = (1, 2, 4, 8, 16, 32)
 
 
@@ -70,7 +70,7 @@ class Data:
 
     Attributes:
         values: a constant expression for every symbol.
-        digits: decimal digits of the numbers wanted.
+        digits: decimal digits of the results.
         tools: shared by similar data.
     """
 
@@ -101,6 +101,7 @@ class Data:
         approximations = self._approximations(expression)
         coarse = next(approximations)
         for fine in approximations:
+            # two precisions that agree to all digits: cancellation has cost none of them
             if fine and abs(fine - coarse) <= abs(fine) * self.context.eps:
                 return self.context.convert(fine)
             if self._vanishes(expression):
@@ -170,16 +171,16 @@ def exact_data(
     state = (*equations.coordinates, *equations.speeds)
     dimensions = equations.dimensions
     given = _read(parameters, constants, "parameter", dimensions)
-    begun = _read(start, state, "coordinate or independent speed", dimensions)
+    initial = _read(start, state, "coordinate or independent speed", dimensions)
     at_rest = dict.fromkeys(state, ZERO)
-    data = Data({**at_rest, **{s: v.subs(given) for s, v in begun.items()}, **given}, digits)
+    data = Data({**at_rest, **{s: v.subs(given) for s, v in initial.items()}, **given}, digits)
     for symbol, value in data.values.items():
-        loose = sorted(s.published for s in value.symbols() - pi.symbols())
-        if loose:
+        missing = sorted(s.published for s in value.symbols() - pi.symbols())
+        if missing:
             raise DeclarationError(
-                f"{symbol.published} = {value}, without a value for {', '.join(loose)}",
+                f"{symbol.published} = {value}, without a value for {', '.join(missing)}",
                 expected="numbers for all the quantities in it",
-                advice=f"give {loose[0]} among the parameters",
+                advice=f"give {missing[0]} among the parameters",
             )
     for symbol in (s for s in data.values if s.positive):
         quantity = Expr.generator(symbol)

@@ -31,7 +31,7 @@ from polhode.derive import Equations
 
 Three = tuple[Any, ...]
 
-#: Names of the angular velocities within a solution that is then expressed in angles.
+#: Names of the angular velocities in a solution that is later expressed in angles.
 _NAMES = ("omega_1", "omega_2", "omega_3")
 
 
@@ -72,7 +72,7 @@ class FreeBody(Solvable):
 
 
 def _excess(moments: Three, omega: Three, axis: int) -> Expr:
-    """L² - 2 T I for the moment of one axis, in which nothing cancels but between two terms."""
+    """L² - 2 T I_j = Σ I_i (I_i - I_j) ω_i² for one axis j, without subtracting L² and 2 T I_j."""
     terms = (
         moment * (moment - moments[axis]) * w**2 for moment, w in zip(moments, omega, strict=True)
     )
@@ -83,8 +83,8 @@ def _excess(moments: Three, omega: Three, axis: int) -> Expr:
 class FreeRotation(ExactSolution):
     """One free rotation.
 
-    The momentum L is at rest in space. Directions across it are counted from the one in which the
-    body's axis that is circled (on a separatrix, the middle one) leans from L at t = 0.
+    The momentum L is fixed in space. Directions across it are measured from the one in which the
+    body's axis that the polhode encircles (on a separatrix, the middle one) leans from L at t = 0.
 
     Attributes:
         speeds: published names of ω₁, ω₂, ω₃.
@@ -121,8 +121,8 @@ class FreeRotation(ExactSolution):
         sizes = (sqrt(of_c / (A * (A - C))), sqrt(of_c / (B * (B - C))), sqrt(of_a / (C * (C - A))))
         omega = tuple(map(data.number, rates))
         # Signs of ω along A, B, C where cn, sn and dn are positive. That of A may be chosen, except
-        # on a separatrix, where cn never changes sign; that of B follows from the handedness of the
-        # axes A, B, C.
+        # on a separatrix, where cn never changes sign. That of B follows from
+        # B ω̇_B = ± (C - A) ω_C ω_A, with + if the axes A, B, C are right-handed.
         a_sign = -1 if m1 == 0 and omega[first] < 0 else 1
         c_sign = 1 if omega[third] > 0 else -1
         is_cyclic = order in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
@@ -165,16 +165,16 @@ class FreeRotation(ExactSolution):
         return dict(zip(self.speeds, self._omega(reals, times), strict=True))
 
     def besides(self, reals: Reals, times: Array) -> dict[str, Array]:
-        """The attitude, and how the axis that is circled goes round the momentum.
+        """The attitude, and the precession about L of the axis that the polhode encircles.
 
-        "precession" is the turn of that axis about L since t = 0; "herpolhode_1" and
+        "precession" is the angle of that axis about L since t = 0; "herpolhode_1" and
         "herpolhode_2" are ω along two fixed directions across L; "attitude", of shape (..., 3, 3),
         has these directions and that of L as rows, in components along the body's axes.
         """
         import numpy
 
         omega = self._omega(reals, times)
-        if self.phase.m1 == 0:
+        if self.phase.m1 == 0:  # 2 T B = L², with which the rate of the middle axis is L/B
             turned = reals.number(self.momentum / self.moments[self.order[1]]) * times
         else:
             steady, varying, n1 = self._precession
@@ -201,7 +201,10 @@ class FreeRotation(ExactSolution):
 
     @property
     def _precession(self) -> Three:
-        """χ̇ = first + second/(cn² + third sn²), of the axis of C about L."""
+        """χ̇ = first + second/(cn² + third sn²), of the axis of C about L.
+
+        From χ̇ = L (A ω_A² + B ω_B²)/(A² ω_A² + B² ω_B²) (Landau and Lifshitz, Mechanics, § 37).
+        """
         A, B, C = (self.moments[i] for i in self.order)
         return (
             self.momentum / C,
@@ -212,7 +215,7 @@ class FreeRotation(ExactSolution):
     def _axes(
         self, reals: Reals, omega: list[Array], turned: Array
     ) -> tuple[list[Array], list[Array], list[Array]]:
-        """Directions at rest in space along the body's axes: across L, and along it."""
+        """Directions fixed in space, by components along the body's axes: across L, and along."""
         lead = self.order[1] if self.phase.m1 == 0 else self.order[2]
         along = [
             reals.number(moment / self.momentum) * w
@@ -231,7 +234,7 @@ class FreeRotation(ExactSolution):
 
 @dataclass(frozen=True)
 class FreeBodyInAnyAngles(AttitudeFamily):
-    """A free body by the angles of its principal axes: its angular momentum is at rest in space.
+    """A free body in any angles of its principal axes: its angular momentum is fixed in space.
 
     Attributes:
         moments: of inertia about the axes.
@@ -255,7 +258,7 @@ class FreeBodyInAnyAngles(AttitudeFamily):
 
 @dataclass(frozen=True)
 class FreeAttitude(AttitudeSolution):
-    """The attitude of a free body, whose `solution` gives it relative to its angular momentum."""
+    """The attitude of a free body, from the solution relative to its angular momentum."""
 
     solution: FreeRotation
 
@@ -265,7 +268,7 @@ class FreeAttitude(AttitudeSolution):
 
     @cached_property
     def _initial_axes(self) -> list[list[Any]]:
-        """The directions at rest that the solution refers to, along the root's axes."""
+        """The fixed directions of the solution, along the root's axes."""
         exact = Digits(self.placed.data.context)
         rows = self.solution.besides(exact, exact.array(0))["attitude"]
         return [[scalar(line, row) for row in rows] for line in self.placed.initial_attitude]
@@ -281,7 +284,7 @@ class FreeAttitude(AttitudeSolution):
 
 
 def recognise(equations: Equations) -> FreeBody | None:
-    """Three of the speeds obeying Euler's equations, with the moments of their mass matrix.
+    """Three speeds that obey Euler's equations, with moments from the mass matrix.
 
     I₁ ω̇₁ = (I₂ - I₃) ω₂ ω₃ and cyclic (Goldstein, Classical Mechanics, § 5.5).
     """

@@ -1,4 +1,4 @@
-"""A gyrocompass, free or driven by a motor: exact in Ω, with the first-order motion beside it."""
+"""A gyrocompass, free or driven by a motor: exact in Ω, and to first order for comparison."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Gyrocompass(Solvable):
         second: q, 1/s², of the second order in Ω.
         drag: r, 1/s.
         gain: s, 1/s.
-        shift: what is to be added to the coordinate to give θ, rad.
+        shift: added to the coordinate to give θ, rad.
     """
 
     angle: Symbol
@@ -100,11 +100,11 @@ class GyrocompassSwing(SwingSolution):
 
     Attributes:
         spin: ω, where it changes.
-        approximate: to the first order in Ω; None where nothing is of the first order.
+        approximate: the motion to first order in Ω; None if there is no term of that order.
         stiffness: square of the frequency of small swings, exact in Ω, 1/s².
         whole_spin: n = ω + s cos θ, 1/s.
         gain: s, 1/s.
-        shift: what is to be added to the coordinate to give θ, rad.
+        shift: added to the coordinate to give θ, rad.
     """
 
     spin: Symbol | None
@@ -116,7 +116,7 @@ class GyrocompassSwing(SwingSolution):
 
     @property
     def figures(self) -> dict[str, Any]:
-        """Also the frequency of small swings, 1/s, and the period to the first order in Ω, s."""
+        """With the frequency of small swings, 1/s, and the period to first order in Ω, s."""
         found = self.motion.figures
         if self.stiffness > 0:
             found |= {"small_swing_frequency": self.motion.swing.phase.context.sqrt(self.stiffness)}
@@ -141,7 +141,7 @@ class GyrocompassSwing(SwingSolution):
 
 
 def recognise(equations: Equations) -> Gyrocompass | None:
-    """The equations as those of a swing that exchanges spin with a rotor, or has none."""
+    """The equations as those of a swing, with a rotor whose spin may change or without one."""
     angles, accelerations = rates(equations), equations.accelerations
     moving = [s for s in equations.speeds if accelerations[s.derivative()]]
     if len(moving) not in (1, 2):

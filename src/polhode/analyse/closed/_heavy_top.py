@@ -32,9 +32,9 @@ class Integrals:
     """Constants of the motion of a top.
 
     Attributes:
-        alpha: momentum about the vertical over the moment across the axle, 1/s.
-        beta: momentum about the axle over the same, 1/s.
-        energy: ε, twice the energy over the same, less that of the spin, 1/s².
+        alpha: momentum about the vertical divided by the transverse moment of inertia, 1/s.
+        beta: momentum about the axle divided by the same, 1/s.
+        energy: ε, twice the energy without the spin's, divided by the same, 1/s².
         weight: 2 μ, 1/s².
     """
 
@@ -46,7 +46,7 @@ class Integrals:
 
 @dataclass(frozen=True)
 class InitialAngles:
-    """Angles and rates at t = 0, and what they are called."""
+    """Angles and rates at t = 0, and their names."""
 
     theta: Any
     theta_dot: Any
@@ -97,7 +97,7 @@ class Nutation(ExactSolution):
         halves = [context.atan2(context.sqrt(v), context.sqrt(w)) for v, w in ends]
         angles = (context.pi - 2 * h if self.inverted else 2 * h for h in halves)
         least, greatest = sorted(angles)
-        # φ̇ at both turning angles, and where it is stationary in between.
+        # extremes of φ̇: at both turning angles, and where it is stationary in between
         product = self.momenta[0] * self.momenta[1]
         if product > 0:
             # φ̇ is stationary where the two terms change alike: v/(1 - v) = √(α - β)/√(α + β).
@@ -167,7 +167,7 @@ class Nutation(ExactSolution):
         return found
 
     def _placed(self, reals: Reals, angle: Array, rate: Array) -> dict[str, Array]:
-        """θ and θ̇ on the side of the vertical, and in the turn, where θ started."""
+        """θ and θ̇ on the side of the vertical, and in the whole turn, of the start."""
         names, context, start = self.start.names, self.context, self.start.theta
         side = 1 if context.sin(start) > 0 else -1
         flip = -1 if self.inverted else 1
@@ -192,6 +192,9 @@ def nutation(data: Data, integrals: Integrals, start: InitialAngles) -> Nutation
     levels = (data.number(i.energy - sign * i.weight), data.number(i.energy + sign * i.weight))
     above = _roots(context, levels[0], 2 * weight, momenta[0], 2 * beta)
     below = _roots(context, levels[1], -2 * weight, momenta[1], -2 * beta)
+    # With the third root v₀, v̇² = 4μ (v - v₀)(v - low)(high - v) is solved by
+    # v = high cn² u + low sn² u with u̇² = μ (high - v₀) and m₁ = (low - v₀)/(high - v₀). The roots
+    # for 1 - v come from a cubic of their own, so that none is a difference of close numbers.
     (low, high), (high_below, low_below) = above[-2:], below[:2]
     rate, m1 = context.sqrt(levels[0] + beta**2) / 2, context.one
     if weight:
@@ -202,8 +205,8 @@ def nutation(data: Data, integrals: Integrals, start: InitialAngles) -> Nutation
             f"an axle that passes through the vertical, where {start.names.phi} jumps",
             expected=f"a start from which {start.names.theta} stays away from 0 and pi",
             advice=(
-                "keep it in a vertical plane, give it a little more or less momentum, or ask for "
-                "more digits if it does stay away"
+                "use a motion in a vertical plane, change the momentum a little, or use more "
+                "digits= if it does stay away"
             ),
         )
     at_ends = [momentum + 2 * beta * v for momentum, v in ((momenta[0], low), (momenta[0], high))]
@@ -242,14 +245,18 @@ def _phase(
     v_rate = sine * cosine * start.theta_dot * (-1 if inverted else 1)
     high, low = ends
     dn = context.sqrt(m1 + (1 - m1) * (v - low) / (high - low))
-    # Near its extremes cn² determines u badly: sine and cosine of twice the amplitude do not.
+    # Near its extremes cn² determines u badly; sine and cosine of twice the amplitude do so well:
+    # v - (high + low)/2 = (high - low)/2 · cos 2 am u, and v̇ = -(high - low) sin 2 am u · u̇ dn.
     twice_sine = -2 * v_rate / (rate * dn)
     amplitude = context.atan2(twice_sine, 2 * (2 * v - high - low)) / 2
     return EllipticPhase.through(context, rate, context.sin(amplitude), context.cos(amplitude), m1)
 
 
 def _pattern(data: Data, integrals: Integrals, product: Any) -> str:
-    """By the signs of φ̇ at the turning angles: cusps where it is exactly zero at one of them."""
+    """By the signs of φ̇ at the turning angles: cusps where it is exactly zero at one of them.
+
+    There cos θ = α/β and θ̇ = 0, hence ε = 2μ α/β.
+    """
     alpha, beta = integrals.alpha, integrals.beta
     at_rest = data.number(integrals.energy * beta - integrals.weight * alpha) == 0
     if at_rest and abs(data.number(alpha)) < abs(data.number(beta)):
@@ -288,11 +295,11 @@ class HeavyTop(Solvable):
         theta = Expr.generator(self.axle.theta)
         if data.number(sin(theta)) == 0:
             raise NumericError(
-                f"a sleeping top: {theta} at the vertical at the start, where "
+                f"a sleeping top: {theta} is vertical at the start, where "
                 f"{self.axle.names.phi} is not defined",
                 expected="an axle that leans",
                 advice=(
-                    "it sleeps as it is, a steady motion without a period; "
+                    "an upright top in steady motion has no period; "
                     "use other angles (Cardan's) for motions through the vertical"
                 ),
             )

@@ -58,6 +58,7 @@ class Circling(Solvable):
     def solve(self, data: Data) -> ExactSolution:
         rate = data.number(self.rate)
         x, y, vx, vy = (data.number(Expr.generator(s)) for s in self.place + self.velocity)
+        # v̇ = Λ ẑ × v + c vanishes at v = ẑ × c/Λ, about which the velocity turns with Λ
         drift = (data.number(-self.push[1] / self.rate), data.number(self.push[0] / self.rate))
         arm = ((vy - drift[1]) / rate, -(vx - drift[0]) / rate)
         names = tuple(s.published for s in self.place + self.velocity)
@@ -73,7 +74,7 @@ class CircularMotion(ExactSolution):
         names: of both coordinates and both velocities.
         rate: angular velocity on the circle, 1/s.
         centre: of the circle at t = 0, m.
-        arm: from it to the marble at t = 0, m.
+        arm: from the centre to the marble at t = 0, m.
         drift: velocity of the centre, m/s.
     """
 

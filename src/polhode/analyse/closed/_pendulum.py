@@ -20,7 +20,7 @@ class Pendulum(Solvable):
         angle: θ, from the upright where μ is positive.
         rate: θ̇, a speed of the equations.
         strength: μ, 1/s².
-        shift: what is to be added to the coordinate to give θ, rad.
+        shift: added to the coordinate to give θ, rad.
     """
 
     angle: Symbol
@@ -54,7 +54,7 @@ class Pendulum(Solvable):
 
 @dataclass(frozen=True)
 class PendulumSwing(SwingSolution):
-    """The swing or the turning over of a pendulum, with the times of its first passages.
+    """The swing or rotation of a pendulum, with the times of its first passages.
 
     Attributes:
         lowest: θ at the lowest point, rad.
@@ -64,7 +64,7 @@ class PendulumSwing(SwingSolution):
 
     @property
     def figures(self) -> dict[str, Any]:
-        """Also the time to the next passage of the horizontal and of the lowest point, s."""
+        """With the times to the next passage of the horizontal and of the lowest point, s."""
         quarter = self.motion.swing.phase.context.pi / 2
         level = [self.motion.first_arrival(self.lowest + side * quarter) for side in (1, -1)]
         arrivals = {
@@ -76,7 +76,7 @@ class PendulumSwing(SwingSolution):
 
 
 def recognise(equations: Equations) -> Pendulum | None:
-    """The equations as those of a pendulum, besides angles and spins that turn uniformly."""
+    """The equations as those of a pendulum, besides angles and spins that change uniformly."""
     angles = rates(equations)
     moving = [s for s in equations.speeds if equations.accelerations[s.derivative()]]
     if len(moving) != 1 or moving[0] not in angles:

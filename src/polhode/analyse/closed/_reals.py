@@ -1,6 +1,6 @@
-"""The functions that closed forms are written in: for doubles, or for any number of digits.
+"""The elementary functions used by closed forms: for doubles, or for any number of digits.
 
-Both work elementwise on arrays. Constants reach them as mpmath numbers of a higher precision, and
+Both work elementwise on arrays. Constants are passed as mpmath numbers of a higher precision, and
 whole periods are subtracted from the time without rounding, so that an angle after 1e6 turns is as
 accurate as one after the first.
 """
@@ -24,7 +24,7 @@ class WholeTurns(NamedTuple):
 
 
 class Reals(ABC):
-    """Elementwise functions of one sort of real number.
+    """Elementwise functions of one type of real number.
 
     Attributes:
         eps: distance from 1 to the next larger number.
@@ -47,15 +47,15 @@ class Reals(ABC):
 
     @abstractmethod
     def array(self, values: Any) -> Array:
-        """Numbers of any sort as an array."""
+        """Numbers of any type as an array."""
 
     @abstractmethod
     def turns(self, times: Array, frequency: Any, offset: Any) -> WholeTurns:
-        """frequency · times + offset; the fraction is correct to rounding however large it is."""
+        """frequency · times + offset; the fraction is correct to rounding after any whole turns."""
 
     @abstractmethod
     def exact(self, number: Any) -> Fraction:
-        """The binary fraction that a number is."""
+        """A number as an exact fraction."""
 
     @abstractmethod
     def harmonics(self, angle: Array) -> Iterator[tuple[Array, Array]]:
@@ -85,6 +85,8 @@ class DoubleReals(Reals):
     def turns(self, times: Array, frequency: Any, offset: Any) -> WholeTurns:
         import numpy
 
+        # The frequency as a sum of two doubles, and the product with the first without error; whole
+        # turns are removed before the small parts are added.
         high = float(frequency)
         product, error = _exact_product(times, high)
         whole = numpy.rint(product)
@@ -135,7 +137,7 @@ class Digits(Reals):
         return -mantissa if number < 0 else mantissa
 
     def harmonics(self, angle: Array) -> Iterator[tuple[Array, Array]]:
-        """By rotation: the spare digits absorb the rounding of the multiplications."""
+        """By the addition theorem: the spare digits absorb the rounding of the recurrence."""
         first_sin, first_cos = self.sin(angle), self.cos(angle)
         sin, cos = first_sin, first_cos
         while True:
@@ -143,7 +145,7 @@ class Digits(Reals):
             sin, cos = sin * first_cos + cos * first_sin, cos * first_cos - sin * first_sin
 
 
-#: Splits a double into two halves whose products are exact (T. J. Dekker, 1971).
+#: 2²⁷ + 1 splits a double into two halves whose products are exact (T. J. Dekker, 1971).
 _SPLITTER = 134217729.0
 
 

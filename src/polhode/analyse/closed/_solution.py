@@ -1,4 +1,4 @@
-"""What every closed form offers: a recogniser of equations, and solutions from a start."""
+"""The interface of every closed form: a family of equations, and solutions from a start."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from polhode.derive import Equations
 
 
 class ExactSolution(ABC):
-    """One motion, its constants known to more digits than are wanted."""
+    """One motion, with constants to spare digits."""
 
     @property
     @abstractmethod
     def kind(self) -> str:
-        """Which of the family's motions it is."""
+        """The type of motion within the family."""
 
     @property
     @abstractmethod
@@ -57,10 +57,10 @@ class Solvable(ABC):
     @property
     @abstractmethod
     def state(self) -> tuple[Symbol, ...]:
-        """Variables whose equations are closed; all other speeds must be constant."""
+        """Variables that form a closed system; all other speeds must be constant."""
 
     def check(self, data: Data) -> None:
-        """Raise `NumericError` where the start has no closed form and is not steady either."""
+        """Raise `NumericError` for a start that has no closed form and is not steady either."""
         return None
 
     @abstractmethod

@@ -4,8 +4,8 @@ With x = tan ϑ/2 and the energy E = ϑ̇²/2 - A cos ϑ - (B/2) sin² ϑ,
 
     2ẋ² = (E - A) x⁴ + 2 (E + B) x² + (E + A),
 
-which only Jacobi's functions solve. Every case is x = p/q, so that ϑ = 2 atan2(p, q) stays exact
-where x is infinite.
+which Jacobi's functions solve. In every case x = p/q, so that ϑ = 2 atan2(p, q) stays exact where x
+is infinite.
 """
 
 from __future__ import annotations
@@ -103,12 +103,12 @@ class Swing(ABC):
 
     @property
     def kind(self) -> str:
-        """What the motion is called."""
+        """The type of motion."""
         return self.style if self.phase.m1 else "separatrix"
 
     @property
     def period(self) -> Any:
-        """After which ϑ and ϑ̇ are the same, up to whole turns, s; None where never."""
+        """Time after which ϑ, up to whole turns, and ϑ̇ repeat, s; None on a separatrix."""
         half = self.phase.half_period
         return None if half is None else 2 * half
 
@@ -131,7 +131,7 @@ class Swing(ABC):
 
     @property
     def turning(self) -> Any:
-        """Greatest |ϑ|; None where it turns over."""
+        """Greatest |ϑ|; None for one that turns over."""
         return 2 * self.phase.context.atan2(self.p, self.q)
 
     @classmethod
@@ -163,7 +163,8 @@ class Across(Swing):
     @classmethod
     def from_start(cls, levels: SwingLevels, half: Half, rate: Any) -> Swing:
         sqrt = levels.context.sqrt
-        # Of the two forms of the greatest x², the one in which nothing cancels.
+        # the greatest x² is (root + middle)/(-top) = bottom/(root - middle): use the form without
+        # cancellation
         if levels.middle > 0:
             p2, q2 = levels.root + levels.middle, -levels.top
             m1 = -levels.top * levels.bottom / (2 * levels.root * p2)
@@ -223,7 +224,8 @@ class Beside(Swing):
         m1 = levels.bottom * levels.top / widest**2
         x = half.sin / half.cos
         side = 1 if x > 0 else -1
-        # Near its extremes dn determines u badly: sine and cosine of twice the amplitude do not.
+        # Near its extremes dn determines u badly; sine and cosine of twice the amplitude do so
+        # well: dn² = (1 + m₁)/2 + (1 - m₁)/2 · cos 2 am u.
         twice_sine = -2 * side * half.x_rate(rate) * q / (p * w * (1 - m1))
         twice_cosine = (2 * (x * q / p) ** 2 - 1 - m1) / (1 - m1)
         amplitude = levels.context.atan2(twice_sine, twice_cosine) / 2
@@ -313,9 +315,9 @@ class OverWell(Swing):
         yield self._argument(2 * s * c, c * c - s * s)
 
 
-# Which case a start belongs to.
+# -- the case that a start belongs to --------------------------------------------------------------
 
-#: What may be added to a coordinate to give θ: it is counted from an equilibrium, or across it.
+#: Added to a coordinate to give θ: it is measured from an equilibrium, or from 90° away.
 SHIFTS = (ZERO, pi / 2)
 
 
@@ -357,14 +359,17 @@ def swinging(data: Data, A: Expr, B: Expr, theta: Expr, rate: Expr) -> Swinging:
     start = data.number(theta)
     half = Half(data.context.sin(start / 2), data.context.cos(start / 2))
     turned = data.number(A) < 0
-    if turned:
+    if turned:  # ϑ = θ - π, with which A changes sign
         A, half = -A, Half(-half.cos, half.sin)
     c = -cos(theta) if turned else cos(theta)
     energy = rate**2 / 2 - A * c - B * sin(theta) ** 2 / 2
     levels = SwingLevels.of(data, A, B, energy)
     if levels.has_two_wells and levels.top * half.sin**4 > levels.bottom * half.cos**4:
-        # It swings about ϑ = π, in spite of a well at 0.
+        # it swings in the well at ϑ = π: 1/x, with the other sign, for x
         turned, levels, half = not turned, levels.mirrored(), Half(-half.cos, half.sin)
+    # The roots of top X² + 2 middle X + bottom in X = x², with bottom ≥ top as A ≥ 0: both positive
+    # and motion outside them; complex, so that none limits the motion; both negative, likewise; one
+    # positive, the greatest X; or both positive and motion between them.
     case: type[Swing]
     if levels.has_two_wells:
         case = AcrossWell

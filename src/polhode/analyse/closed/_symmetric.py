@@ -1,12 +1,12 @@
-"""A symmetric body recognised by its physics: its axis, the vertical, and its constants of motion.
+"""A symmetric body recognised by its axis, the vertical, and its constants of motion.
 
-Of a body symmetric about e the momenta about e and about the vertical u are constant,
+For a body symmetric about e the momenta about e and about the vertical u are constant,
 
     ω·e = n,    α = (e × ė)·u + κ n e·u,
 
 and so is the energy: ė² + 2μ e·u for a top; ė² + ε ṡ² + 2γ s for a coin on a smooth table, with the
-sine s of the angle between e and u. With these three constants e follows Euler's angles from u,
-whatever angles the equations are written in.
+sine s of the angle between e and u. These three constants determine the motion of e in Euler's
+angles from u, in whatever angles the equations are written.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ from polhode.base import NumericError
 from polhode.derive import Equations
 from polhode.model import Gravity
 
-#: Names of Euler's angles within a solution that is then expressed in other ones.
+#: Names of Euler's angles in a solution that is later expressed in other angles.
 _NAMES = Names("theta", "phi", "theta_dot", "phi_dot", "psi")
 
 
@@ -89,7 +89,7 @@ class Axis:
         return dot(self.e_rate, self.e_rate)
 
     def initial_angles(self, data: Data) -> InitialAngles:
-        """Euler's angles at the start, φ and ψ counted from there.
+        """Euler's angles at the start, with φ = ψ = 0 there.
 
         Raises `NumericError` for an axis along the vertical, where φ is not defined.
         """
@@ -98,7 +98,7 @@ class Axis:
             raise NumericError(
                 "an axis that passes through the vertical",
                 expected="an axis that leans",
-                advice="lean it a little at the start, or simulate it",
+                advice="tilt it a little at the start, or simulate it",
             )
         sine = data.context.sqrt(sine2)
         return InitialAngles(
@@ -249,7 +249,7 @@ class SymmetricAttitude(AttitudeSolution):
 
     @cached_property
     def _initial_triad(self) -> tuple[list[Any], list[Any], list[Any]]:
-        """The horizontal the axis leans towards at the start, the one across it, the vertical."""
+        """The horizontal direction of the initial lean, the one across it, the vertical."""
         data = self.placed.data
         e, u = [data.number(c) for c in self.axis.e], [data.number(c) for c in self.axis.u]
         lean = [a - scalar(e, u) * b for a, b in zip(e, u, strict=True)]
@@ -259,7 +259,7 @@ class SymmetricAttitude(AttitudeSolution):
 
     @cached_property
     def _fixed_axes(self) -> list[list[Any]]:
-        """The body's axes along those that Euler's angles give; they keep their components."""
+        """Constant components of the body's axes along those of Euler's angles."""
         e = [self.placed.data.number(c) for c in self.axis.e]
         node = self._initial_triad[1]  # ψ is counted from the horizontal
         return product([node, cross(e, node), e], self.placed.initial_attitude)
@@ -301,7 +301,10 @@ def recognise(equations: Equations) -> Solvable | None:
 
 
 def _coin(axis: Axis, gain: Expr, lifting: Expr, raising: Expr) -> CoinInAnyAngles | None:
-    """Constants ε and γ with gain + ε lifting + γ raising = 0, from two choices of the speeds."""
+    """Constants ε and γ with gain + ε lifting + γ raising = 0.
+
+    Solved at two arbitrary choices of the speeds, then verified for all.
+    """
     speeds = axis.chart.speeds
     choices = [{s: Expr.of(k + (i * 3 + 1) % 5) for i, s in enumerate(speeds)} for k in (1, 3)]
     rows = [[e.subs(choice) for e in (lifting, raising)] for choice in choices]
