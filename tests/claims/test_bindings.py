@@ -329,7 +329,7 @@ def test_definitions_may_use_earlier_ones() -> None:
 
 
 def test_a_correction_may_use_further_letters() -> None:
-    asked = notation("gyroscope").asked(read_latex("c_9 = I_1"), {"c_9": Expr.of(3)})
+    asked = notation("gyroscope").read_claim(read_latex("c_9 = I_1"), {"c_9": Expr.of(3)})
     assert asked.members[0].left == Expr.of(3)
 
 

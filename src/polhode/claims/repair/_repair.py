@@ -61,7 +61,7 @@ def repaired(
         return _fitted(statement, notation, context, holds)
     if context not in JUDGED_WHOLE:
         return ()
-    claim = notation.asked(statement, {})
+    claim = notation.read_claim(statement, {})
     if claim.small and all(small.order == 0 for small in claim.small):
         limit = AtLimit(notation, claim)
         found = _fitted(statement, limit, "motion", lambda changed: holds(limit.near(changed)))
@@ -136,7 +136,7 @@ def _is_sound(
     ):
         return False
     try:
-        claim = notation.asked(repair.statement, {})
+        claim = notation.read_claim(repair.statement, {})
         if dimensions_at_odds(claim):
             return False
         if inserted:  # it must not be what makes both sides of a member vanish
@@ -203,7 +203,7 @@ def _is_scalar_letter(node: Node) -> bool:
 def _of_one_dimension(repair: Repaired, notation: RepairNotation) -> BoundClaim | None:
     """The claim it makes, if that is of one dimension."""
     try:
-        claim = notation.asked(repair.statement, {})
+        claim = notation.read_claim(repair.statement, {})
         return None if dimensions_at_odds(claim) else claim
     except (PolhodeError, ArithmeticError):
         return None

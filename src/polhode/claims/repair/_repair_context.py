@@ -50,7 +50,7 @@ class RepairContext:
         self, changed: Statement, members: Sequence[int], extra: dict[str, Expr]
     ) -> list[Expr]:
         """What must vanish for some members of a changed statement, exactly."""
-        return self.trials.vanishing(self.notation.asked(changed, extra), members)
+        return self.trials.vanishing(self.notation.read_claim(changed, extra), members)
 
     def fitting(
         self, place: NodePosition, others: Sequence[Node], members: Sequence[int]

@@ -70,7 +70,7 @@ class RepairSearch:
         self._repair = repair
         self._statement = statement = repair.statement
         self._notation = notation
-        self._claim = claim = notation.asked(statement, {})
+        self._claim = claim = notation.read_claim(statement, {})
         self._trials = trials(claim, context)
         self._samples = self._trials.samples
         self._sides = MemberSides(statement, claim)
@@ -232,7 +232,7 @@ class RepairSearch:
     def _holds(self, changed: Statement, kept: Collection[int]) -> bool:
         """Whether members of a changed statement hold at the sample points."""
         try:
-            left = self._trials.vanishing(self._notation.asked(changed, {}), kept)
+            left = self._trials.vanishing(self._notation.read_claim(changed, {}), kept)
             return bool(np.abs(self._samples.values(left)).max(initial=0.0) < _CLOSE * 1e2)
         except NO_VALUE:
             return False
@@ -271,7 +271,7 @@ class RepairSearch:
 
     def _exactly(self, place: NodePosition, members: Collection[int]) -> Changing:
         changed = put(self._statement, place.path, times(Name(_LETTER), place.node))
-        claim = self._notation.asked(changed, {_LETTER: Expr.generator(_FACTOR)})
+        claim = self._notation.read_claim(changed, {_LETTER: Expr.generator(_FACTOR)})
         return self._samples.function(self._trials.vanishing(claim, members), _FACTOR)
 
 

@@ -20,7 +20,7 @@ from polhode.claims.states._steady_states import steady_states
 class RepairNotation(Protocol):
     """What repair needs to know of how a statement is read."""
 
-    def asked(self, statement: Statement, extra: Mapping[str, Expr]) -> BoundClaim:
+    def read_claim(self, statement: Statement, extra: Mapping[str, Expr]) -> BoundClaim:
         """The claim a statement makes; `extra` are further letters it may use."""
         ...
 
@@ -51,9 +51,9 @@ class AtLimit:
     notation: RepairNotation
     claim: BoundClaim
 
-    def asked(self, statement: Statement, extra: Mapping[str, Expr]) -> BoundClaim:
+    def read_claim(self, statement: Statement, extra: Mapping[str, Expr]) -> BoundClaim:
         """The claim a statement makes there."""
-        near = self.notation.asked(statement, extra)
+        near = self.notation.read_claim(statement, extra)
         return replace(near, given={**near.given, **vanished(self.claim.small)}, small=())
 
     def near(self, there: BoundClaim) -> BoundClaim:
