@@ -34,8 +34,8 @@ Declared = Callable[[str], System]
 
 _READY_WITHIN = 6.0  # time to start, in units of the limit on the processor time of a claim
 _ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # workers share the cores
-# Objects allocated between two runs of the garbage collector. Expressions hold no reference cycles
-# and are freed by counting alone; the default of 700 spends time on scanning them.
+# Objects allocated between two runs of the garbage collector: nearly all expressions are freed by
+# reference counts, so the far lower default only spends time on scanning them.
 _COLLECT_AFTER = 50_000
 
 
