@@ -62,11 +62,11 @@ class Trial:
         # The declared rates q̇ = f(q, u) give q̈ only once the q̇ of all coordinates are known, so a
         # first pass sets q̇ and a second one q̈.
         for _ in range(2):
-            rates = {
+            moving = {
                 q: self._table[q.derivative()] for q in known.coordinates if q not in known.rates
             }
-            rates |= zip(known.rates, self.scalars(known.rates.values()), strict=True)
-            for q, rate in rates.items():
+            moving |= zip(known.rates, self.scalars(known.rates.values()), strict=True)
+            for q, rate in moving.items():
                 first, second = self._wide(rate.value), self._wide(rate.rate)
                 self._table[q] = Jet(self._zeros + state[q], first, second)
                 self._table[q.derivative()] = Jet(first, second, _UNKNOWN)

@@ -192,5 +192,5 @@ class SampledRelation:
         """Whether the relation nearly holds throughout a twentieth of the motion, at any time."""
         left, right = self.sides
         near = np.logical_or(self._met(-_CLOSE), np.abs(left - right) <= _SETTLED * self._scale)
-        # The moving sum of consecutive samples reaches its full length only if all of them are near.
+        # The moving sum over a window reaches its full length only if all its samples are near.
         return bool(np.convolve(near, np.ones(_LASTING), "valid").max() >= _LASTING)

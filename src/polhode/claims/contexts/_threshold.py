@@ -84,7 +84,7 @@ def judged_threshold(claim: BoundClaim) -> Verdict:
 def _equivalent(
     claimed: Sequence[ScalarRelation], exact: ExactCondition, claim: BoundClaim
 ) -> Verdict:
-    """The verdict holds; with ≥ or ≤ undecided, since linear stability decides nothing at equality."""
+    """Holds; undecided for ≥ and ≤, since linear stability decides nothing at equality."""
     not_strict = [c for c in claimed if claim.members[c.member].sign not in STRICT]
     if not_strict and exact.decides == _STABILITY:
         return Verdict(
