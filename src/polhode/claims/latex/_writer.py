@@ -1,4 +1,4 @@
-"""Trees written as LaTeX, in the style of the texts: what is written is read as the same tree."""
+"""Trees written as LaTeX in the style of textbooks; the result is read back as the same tree."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ _TIME = re.compile(r"t\b|t_")
 
 @singledispatch
 def write_latex(piece: Piece) -> str:
-    """LaTeX for a tree; of a statement, its notes are left out.
+    """LaTeX for a tree; the notes of a statement are left out.
 
     Args:
         piece: a node, a relation or a statement.
@@ -318,7 +318,7 @@ def _angle(call: Call) -> str:
 
 
 def _closed(node: Node, written: str) -> str:
-    """A function with its argument in brackets, so that what follows is no part of it."""
+    """A function with its argument in brackets, so that a following t does not join the angle."""
     match node:
         case Call():
             return _function(node) + _bracketed(node.argument)

@@ -304,4 +304,4 @@ def with_replaced(
 
 
 def _unlike(sign: str) -> NumericError:
-    return NumericError(f"two kinds of quantity with {sign}", expected="kinds that go together")
+    return NumericError(f"two kinds of quantity with {sign}", expected="kinds that can be combined")
