@@ -128,7 +128,7 @@ def test_what_is_refused_is_refused_in_its_own_words(gyroscope):
         ph.check(RIGHT, gyroscope, context="sometimes")
     for seconds in (0, float("nan"), float("inf"), "5"):
         with pytest.raises(
-            ph.NumericError, match="a time limit of .* s; expected a positive number, or None"
+            ph.NumericError, match=r"a time limit of .* s; expected a positive number, or None"
         ):
             ph.check(RIGHT, gyroscope, seconds=seconds)
     with pytest.raises(ph.ParseError, match="an equation of type int; expected LaTeX"):
