@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -193,13 +193,19 @@ class Notation:
                 )
         given: dict[Symbol, Expr] = {as_symbol(s): value for s, value in values.items()}
         equations = self.vocabulary.mechanics.equations
+        # A condition left > right makes left - right positive.
+        differences = [
+            (as_scalar(r.left, "a bound") - as_scalar(r.right, "a bound")) * SENSE[r.sign]
+            for r in bound.conditions
+            if r.sign in SENSE
+        ]
         return BoundClaim(
             bound.branches,
             equations,
             given,
             vanishing,
             self.small,
-            (*self.vocabulary.positive, *_ranges(bound)),
+            (*self.vocabulary.positive, *differences),
             bound.digits,
             {as_symbol(s): value for s, value in restrictions(self.start)[0].items()},
             defined=tuple(bound.defined),
@@ -234,11 +240,3 @@ def letter(latex: str) -> Node:
     if others or relation.is_claim:
         raise ParseError(f"{latex!r}", expected="one letter or quantity, and no relation")
     return relation.sides[0]
-
-
-def _ranges(bound: Bound) -> Iterator[Expr]:
-    """Expressions that are positive where the inequalities among the conditions hold."""
-    for relation in bound.conditions:
-        if relation.sign in SENSE:
-            left, right = (as_scalar(s, "a bound") for s in (relation.left, relation.right))
-            yield (left - right) * SENSE[relation.sign]

@@ -25,6 +25,7 @@ from polhode.claims.latex import _tree as tree
 from polhode.model import Body, Pivot, System
 
 _EQUAL = ("=", "≡")
+_CONSTANT = ("constant", "const")
 
 _sin, _cos = JETS.functions[Op.SIN], JETS.functions[Op.COS]
 _sinh, _cosh = JETS.functions[Op.SINH], JETS.functions[Op.COSH]
@@ -110,7 +111,9 @@ class _SecondReader:
         try:
             one = self.value(left)
             match right:
-                case tree.Name(letter=text) | tree.Words(text=text) if _says_constant(text):
+                case tree.Name(letter=text) | tree.Words(text=text) if (
+                    text.strip(" .,") in _CONSTANT
+                ):  # "x = constant" claims that the rate of x vanishes
                     one, other = self._rate(one), Jet.of(0.0)
                 case _:
                     other = self.value(right)
@@ -279,10 +282,6 @@ def _vector_of_zero(side: Any) -> Any:
     if isinstance(side, Jet) and side.is_constant and not np.any(side.value):
         return np.array([side, side, side], dtype=object)
     raise UnreadError
-
-
-def _says_constant(text: str) -> bool:
-    return text.strip(" .,") in ("constant", "const")
 
 
 # -- the table of letters -------------------------------------------------------------------------

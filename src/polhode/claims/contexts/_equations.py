@@ -39,8 +39,13 @@ def judged(claim: BoundClaim, domains: Sequence[ClaimDomain], context: str) -> V
     wrong = [f for f in found if f not in equivalent]
     if wrong:
         return failed(wrong, context)
-    remarks = dict.fromkeys(_difference_of_lagrangians(f.component) for f in equivalent)
-    return Verdict(Answer.HOLDS, context, remarks=tuple(remarks))
+    remarks = []
+    for difference in (f.component.difference for f in equivalent):
+        kind = ", a total time derivative," if _varies(difference) else ","
+        remarks.append(
+            f"the Lagrangians differ by {difference}{kind} which no equation of motion contains"
+        )
+    return Verdict(Answer.HOLDS, context, remarks=tuple(dict.fromkeys(remarks)))
 
 
 @dataclass(frozen=True)
@@ -143,12 +148,6 @@ def _is_equivalent(claim: BoundClaim, component: ScalarRelation) -> bool:
     known = {s for s in rest.symbols() if s.kind.varies} <= {*coordinates, *rates}
     variations = (rest.diff(q.derivative()).dt() - rest.diff(q) for q in coordinates)
     return known and not any(map(bool, variations))
-
-
-def _difference_of_lagrangians(component: ScalarRelation) -> str:
-    difference = component.difference
-    kind = ", a total time derivative," if _varies(difference) else ","
-    return f"the Lagrangians differ by {difference}{kind} which no equation of motion contains"
 
 
 def _varies(expression: Expr) -> bool:

@@ -123,19 +123,16 @@ def _joined_rows(tokens: Sequence[Token]) -> list[Token]:
     r"""Rows of one bracket joined: without each ``\right. \\ \left.`` between them."""
     joined: list[Token] = []
     for token in tokens:
-        kept = _length_without_breaks(joined) if token.is_mark("null(") else 0
+        kept = len(joined)
+        while token.is_mark("null(") and kept:  # look back past breaks for the \right.
+            if joined[kept - 1].kind != "row" and not joined[kept - 1].is_mark("&"):
+                break
+            kept -= 1
         if 0 < kept < len(joined) and joined[kept - 1].is_mark("null)"):
             del joined[kept - 1 :]
         else:
             joined.append(token)
     return joined
-
-
-def _length_without_breaks(tokens: Sequence[Token]) -> int:
-    length = len(tokens)
-    while length and (tokens[length - 1].kind == "row" or tokens[length - 1].is_mark("&")):
-        length -= 1
-    return length
 
 
 def _without_layouts(tokens: Sequence[Token], partner: dict[int, int]) -> list[Token]:

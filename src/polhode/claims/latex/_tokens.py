@@ -309,13 +309,12 @@ def _prose_of(source: str) -> dict[int, int]:
     # Start and end of every dollar sign: prose runs from each fourth edge to the one after it.
     edges = [0, *(place for match in _DOLLARS.finditer(source) for place in match.span())]
     outside = zip(edges[::4], [*edges[1::4], len(source)], strict=False)
-    stretches = {start: end for start, end in outside if _is_prose(source[start:end])}
-    return stretches if len(edges) > 1 else {}
-
-
-def _is_prose(stretch: str) -> bool:
-    bare = _LINE_END.sub(" ", stretch)
-    return bool(_TWO_LETTERS.search(bare)) and not _MATHEMATICS.search(bare)
+    prose: dict[int, int] = {}
+    for start, end in outside:
+        bare = _LINE_END.sub(" ", source[start:end])
+        if _TWO_LETTERS.search(bare) and not _MATHEMATICS.search(bare):
+            prose[start] = end
+    return prose if len(edges) > 1 else {}
 
 
 def bare_names(latex: str) -> tuple[str, ...]:

@@ -157,7 +157,10 @@ def _(either: PlusMinus) -> str:
 def _(product: Product) -> str:
     if _is_angle_in_degrees(product):
         return rf"{write_latex(product.factors[0])}^{{\circ}}"
-    written = [_factor(factor) for factor in product.factors]
+    written = [
+        write_latex(f) if _is_angle_in_degrees(f) else _bracketed_if(f, _WIDE)
+        for f in product.factors
+    ]
     for place, (left, right) in enumerate(pairwise(product.factors)):
         if isinstance(left, Number) and _begins_with_number(right):
             written[place + 1] = _bracketed(right)
@@ -265,10 +268,6 @@ def _added(node: Node) -> str:
         case PlusMinus():
             return write_latex(node)
     return f"+ {_term(node)}"
-
-
-def _factor(node: Node) -> str:
-    return write_latex(node) if _is_angle_in_degrees(node) else _bracketed_if(node, _WIDE)
 
 
 def _is_angle_in_degrees(node: Node) -> bool:

@@ -16,7 +16,7 @@ from polhode.algebra import Vector
 from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Name, Node
 from polhode.claims.meaning._mechanics import Mechanics
-from polhode.model import Contact, Element, Frame, Gravity, Pivot
+from polhode.model import Contact, Element, Gravity, Pivot
 
 _VECTOR, _HAT = "vector", "hat"
 
@@ -137,7 +137,12 @@ def _directions(mechanics: Mechanics) -> Iterator[Entry]:
     named = mechanics.frames
     # Of two frames with one name, only the one that the name stands for is listed.
     chain = tuple(f for f in reversed(axes.lineage) if named[f.name] == f)
-    at_rest = [f for f in chain if _is_fixed(f)]
+    # At rest are frames whose own angles, and those of all frames below, are constant.
+    at_rest = [
+        frame
+        for frame in chain
+        if not any(s.kind.varies for f in frame.lineage for s in f.angle.symbols())
+    ]
     known: set[str] = set()
     for labels, frames in ((axes.root.labels, at_rest), (axes.labels, [axes]), ((), chain)):
         for frame in frames:
@@ -154,8 +159,3 @@ def _directions(mechanics: Mechanics) -> Iterator[Entry]:
                 Name("omega", subscript, decoration=_VECTOR),
                 (f"angular velocity of {frame.name}",),
             )
-
-
-def _is_fixed(frame: Frame) -> bool:
-    """Whether a frame keeps its directions in the root frame: all its angles are constant."""
-    return not any(s.kind.varies for f in frame.lineage for s in f.angle.symbols())

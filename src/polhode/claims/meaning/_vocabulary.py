@@ -182,16 +182,16 @@ class Vocabulary:
             if not axis.phrase.startswith("axis "):  # a length taken out of a vector
                 along = []
             # Declared along an axis at rest, the symbol is the component: there is no ambiguity.
-            if name in self._symbols and self._is_one_of(self._symbols[name], along):
-                return Sense(self._symbols[name])
+            declared, in_speeds = self._symbols.get(name), self.mechanics.in_speeds
+            if declared is not None and any(
+                alike(in_speeds(declared), in_speeds(quantity(self.mechanics, phrase)))
+                for phrase in along
+            ):
+                return Sense(declared)
             phrases = (*phrases, *along[:1])
         if len(phrases) == 1 and name in self._symbols:
             return Sense(self._symbols[name])
         return self._read(name, phrases) if phrases else None
-
-    def _is_one_of(self, meaning: Meaning, phrases: Iterable[str]) -> bool:
-        found = (self.mechanics.in_speeds(quantity(self.mechanics, phrase)) for phrase in phrases)
-        return any(alike(self.mechanics.in_speeds(meaning), other) for other in found)
 
     def _read(self, name: Name, phrases: tuple[str, ...]) -> Sense:
         distinct = _distinct(self.mechanics, phrases)

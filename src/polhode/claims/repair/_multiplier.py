@@ -231,21 +231,24 @@ class Products:
         number = simple_number(amount)
         if number is not None:
             yield Match(number)
-        elif self.known:
-            yield from sorted(
-                [*self._singles(amount), *self._pairs(amount)], key=attrgetter("size")
-            )
+        if number is not None or not self.known:
+            return
+        found: list[Match] = []
+        for (i, j), number in _simple(amount, self._powered):
+            if self._may_stand(self.known[i][0], _POWERS[j]):
+                found.append(Match(number, ((self.known[i][0], _POWERS[j]),)))
+        for (i, j), number in _simple(amount, self._table):
+            (first, p), (second, q) = self._signed[i], self._signed[j]
+            allowed = self._may_stand(first, p) and self._may_stand(second, q)
+            if allowed and i < j and first != second:
+                found.append(Match(number, ((first, p), (second, q))))
+        yield from sorted(found, key=attrgetter("size"))
 
     # -- one letter or two -----------------------------------------------------------------------
 
     @cached_property
     def _values(self) -> Array:
         return np.array([values for _, values in self.known])
-
-    def _singles(self, amount: Array) -> Iterator[Match]:
-        for (i, j), number in _simple(amount, self._powered):
-            if self._may_stand(self.known[i][0], _POWERS[j]):
-                yield Match(number, ((self.known[i][0], _POWERS[j]),))
 
     def _may_stand(self, node: Node, power: int) -> bool:
         return power > 0 or node not in self.numerator_only
@@ -264,13 +267,6 @@ class Products:
         """Products of two of the letters or of their reciprocals."""
         table = np.concatenate([self._values, 1 / self._values])
         return np.asarray(table[:, None] * table[None])
-
-    def _pairs(self, amount: Array) -> Iterator[Match]:
-        for (i, j), number in _simple(amount, self._table):
-            (first, p), (second, q) = self._signed[i], self._signed[j]
-            allowed = self._may_stand(first, p) and self._may_stand(second, q)
-            if allowed and i < j and first != second:
-                yield Match(number, ((first, p), (second, q)))
 
     # -- more of them ----------------------------------------------------------------------------
 
