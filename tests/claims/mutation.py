@@ -46,7 +46,7 @@ class Original:
         start = (f"{name} = {value}" for name, value in claim.start.items())
         notation = reduce(with_start, start, notation)
         statement = read_latex(claim.formula)
-        return cls(claim, notation, statement, notation.asked(statement, {}))
+        return cls(claim, notation, statement, notation.read_claim(statement, {}))
 
     def oracle(self) -> Oracle:
         scalars = self.notation.vocabulary.mechanics.scalars.values()
@@ -130,7 +130,7 @@ def _try(original: Original, oracle: Oracle, mutant: Mutant, counts: Counts) -> 
     latex = write_latex(mutant.statement)
     where = f"{original.claim.id} {mutant.slip}: {latex}"
     try:
-        bound = original.notation.asked(mutant.statement, {})
+        bound = original.notation.read_claim(mutant.statement, {})
         counted = [len(r.components()) for r in (bound, original.bound)]
     except (PolhodeError, ArithmeticError):
         counts.enter("without meaning", mutant.slip)
@@ -183,7 +183,7 @@ def _verdict(original: Original, latex: str):
 def _is_original(original: Original, latex: str) -> bool:
     """Whether a correction says the same: every member but for a number that multiplies it."""
     try:
-        bound = original.notation.asked(read_latex(latex), {})
+        bound = original.notation.read_claim(read_latex(latex), {})
     except (PolhodeError, ArithmeticError):
         return False
     states = original.bound.states(AnyState)

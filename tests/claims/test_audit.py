@@ -32,7 +32,7 @@ def test_every_claim_gets_its_verdict_and_consequences_are_listed():
 def test_the_consequences_of_a_failure_are_listed():
     (drawn,) = audit(DOCUMENT, equations).consequences
     assert (drawn.failed, drawn.feeds, drawn.results, drawn.surviving) == ("b", ("c",), ("c",), ())
-    assert "(b) feeds (c); what does not: (c)" in str(drawn)
+    assert "(b) feeds (c); results that do not: (c)" in str(drawn)
 
 
 def test_a_result_that_holds_survives_the_failure_it_was_derived_from():
@@ -40,7 +40,7 @@ def test_a_result_that_holds_survives_the_failure_it_was_derived_from():
     right = Claim("2", "7", latex=r"\dot\omega_1 = 0", follows_from=("1",))
     report = audit(Document("A text", "", (PART,), (wrong, right)), equations)
     assert report.consequences[0].surviving == ("2",)
-    assert "what survives: (2)" in report.table()
+    assert "results that survive: (2)" in report.table()
 
 
 def test_the_document_of_a_report_is_plain():

@@ -357,7 +357,7 @@ def test_what_is_right_still_holds(name, latex, options):
 
 def test_steady_motions_to_which_a_relation_does_not_apply_are_named():
     said = ph.check(r"\cos\theta = \frac{g}{\omega^2R}", equations("hoop"), context="steady")
-    assert any("does not speak of theta = 0; theta = pi" in remark for remark in said.remarks)
+    assert any("does not cover theta = 0; theta = pi" in remark for remark in said.remarks)
     wrong = ph.check(r"\cos\theta = 1", equations("hoop"), context="steady")
     assert any("it holds on the steady motions theta = 0" in remark for remark in wrong.remarks)
 

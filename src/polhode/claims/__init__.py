@@ -1,6 +1,6 @@
-"""Claims of texts, read, bound to a model, and judged.
+"""Published equations read from LaTeX, bound to a model and judged.
 
-What judges whole documents is imported on first use, so that a single check stays light.
+The code that judges whole documents is imported on first use, so that a single check stays light.
 """
 
 from importlib import import_module

@@ -1,4 +1,4 @@
-"""All claims of a document judged, each against the system its part treats."""
+"""All claims of a document judged, each against the system of its part."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Resolver = Callable[[str], Equations]
 
 @dataclass(frozen=True)
 class ClaimChecker:
-    """Judges the claims of a document; the notation of each part is worked out once.
+    """Judges the claims of a document; the notation of each part is built once.
 
     Attributes:
         resolver: gives the equations of a system by its name.
@@ -59,6 +59,8 @@ class ClaimChecker:
 
     def _notation(self, part: Part, claim: Claim, chosen: Chosen) -> Notation:
         start = (f"{name} = {value}" for name, value in claim.start.items())
+        # Start values are added to a copy: claims of one part share bindings and definitions, but
+        # each may start its own motion.
         key = part.id, frozenset(chosen.items())
         if key not in self._notations:
             self._notations[key] = Notation.of_part(self.resolver(part.system), part, chosen)
@@ -69,11 +71,11 @@ def _accompanying(part: Part, claim: Claim) -> Iterator[Statement]:
     """Formulas that a document states with the claim."""
     definitions = (d.latex for d in (*part.definitions, *claim.definitions))
     for text in (*definitions, *part.positive, *part.given, *claim.given, *claim.small):
-        yield _read(text)
+        yield _parsed(text)
 
 
-@lru_cache(maxsize=512)
-def _read(text: str) -> Statement:
+@lru_cache(maxsize=512)  # texts: the definitions of a part are read again for each of its claims
+def _parsed(text: str) -> Statement:
     return read_latex(text)
 
 
@@ -90,34 +92,34 @@ def audit(document: Document, resolver: Resolver, *, only: Iterable[str] = ()) -
     """
     began = perf_counter()
     checker = ClaimChecker(cache(resolver))
-    claims = asked_for(document, only)
+    claims = selected_claims(document, only)
     verdicts = {c.id: checker.verdict(document.part_of(c), c) for c in claims}
     return reported(document, claims, verdicts, perf_counter() - began)
 
 
-def asked_for(document: Document, only: Iterable[str]) -> tuple[Claim, ...]:
+def selected_claims(document: Document, only: Iterable[str]) -> tuple[Claim, ...]:
     """The claims with some ids, in the document's order; all of them where there are no ids.
 
     Raises:
         ParseError: for an id that the document does not have.
     """
-    wanted = {document.claim(id).id for id in only}
-    return tuple(c for c in document.claims if not wanted or c.id in wanted)
+    ids = {document.claim(id).id for id in only}
+    return tuple(c for c in document.claims if not ids or c.id in ids)
 
 
 def reported(
     document: Document, claims: Sequence[Claim], verdicts: Mapping[str, Verdict], seconds: float
 ) -> Report:
-    """A report of verdicts by id of their claim; claims without a verdict were not reached."""
-    found = ((claim.id, verdicts.get(claim.id)) for claim in claims)
-    failed = [id for id, verdict in found if verdict and verdict.answer is Answer.FAILS]
-    reached = {id: document.consequences(id) for id in failed}
+    """The report on verdicts given by claim id; claims without a verdict count as not reached."""
+    answers = ((claim.id, verdicts.get(claim.id)) for claim in claims)
+    failed = [id for id, verdict in answers if verdict and verdict.answer is Answer.FAILS]
+    consequences = {id: document.consequences(id) for id in failed}
     judged = tuple(
         Judged(
             claim,
             part.system,
             verdicts[claim.id],
-            tuple(id for id in failed if claim.id in reached[id]),
+            tuple(id for id in failed if claim.id in consequences[id]),
             part.convention,
         )
         for claim, part in ((claim, document.part_of(claim)) for claim in claims)

@@ -37,7 +37,7 @@ from polhode.derive import Equations
 
 @dataclass(frozen=True)
 class CheckRequest:
-    """A published equation with what goes with it; the attributes are the arguments of `check`.
+    """A published equation and its options; the attributes are the arguments of `check`.
 
     Attributes:
         latex: the equation, as printed.
@@ -78,9 +78,10 @@ class CheckRequest:
         return replace(verdict, remarks=(*verdict.remarks, *signs))
 
     def _notation(self, equations: Equations, chosen: Chosen) -> Notation:
-        """With all that goes with the claim, letters of several meanings read as chosen."""
+        """The notation with every option applied, and ambiguous letters read as chosen."""
         notation = reduce(with_reading, self.read, Notation.of(equations)).choosing(chosen)
         for extended, texts in (
+            # New symbols come first, since restrictions and small quantities may use them.
             (with_let, self.let),
             (with_positive, self.positive),
             (with_given, self.given),
@@ -102,14 +103,13 @@ def judged_claim(
 
     Args:
         latex: the claim.
-        notation: of the text, letters of several meanings read as chosen.
+        notation: of the text, with ambiguous letters read as chosen.
         context: where it is to hold.
         when: at which times of a motion.
-        accompanying: what else is stated with the claim, in letters that may be read in several
-            ways too.
+        accompanying: formulas stated with the claim, whose letters may be ambiguous too.
         tell: called with a failure before a correction is sought, which may take long.
 
-    Raises `ParseError` where what is stated with the claim cannot be read.
+    Raises `ParseError` where a formula stated with the claim cannot be read.
     """
     likeliest = notation({})
     try:
@@ -125,14 +125,14 @@ def judged_claim(
     if verdict.answer is not Answer.FAILS:
         return verdict
     tell(verdict)
-    # Residuals too long to be written out are kept under names; every trial of a correction is then
-    # slow.
+    # Residuals too long to be expanded are kept as named subexpressions, which makes every trial of
+    # a correction slow.
     generators = (g for r in verdict.residuals for g in r.expression.generators)
     if any(under_name(generator) is not None for generator in generators):
-        why = "no correction is sought where expressions are kept under names"
+        why = "no correction was sought, since the expressions are too long to be expanded"
         return replace(verdict, remarks=(*verdict.remarks, why))
-    # A correction to a claim on a motion cannot be tried, and one with a total derivative would be
-    # ambiguous again.
+    # A corrected statement on a whole motion ("never", "finally") has no residual to be fitted, and
+    # one with a total derivative would be ambiguous again.
     if when or found.notation.vocabulary.total_derivative:
         return verdict
     return _corrected(verdict, statement, found.notation)
@@ -140,11 +140,11 @@ def judged_claim(
 
 @dataclass(frozen=True)
 class _PublishedClaim:
-    """A claim as it was read, to be judged under one reading of its letters at a time.
+    """A parsed claim, to be judged under one reading of its letters at a time.
 
     Attributes:
         latex: as printed.
-        statement: the tree of it.
+        statement: its tree.
         context: where it is to hold.
         when: at which times of a motion.
     """
@@ -161,14 +161,14 @@ class _PublishedClaim:
             if bound.is_definition:
                 verdict = Verdict(Answer.DEFINITION, self.context, reason=_defined(bound.defined))
                 return JudgedReading(chosen, notation, None, verdict)
-            claim = replace(notation.asked(self.statement, {}), when=self.when)
+            claim = replace(notation.read_claim(self.statement, {}), when=self.when)
         except UnclearDerivativeError as error:
             return self._by_total_derivatives(chosen, notation, error)
         except (PolhodeError, ZeroDivisionError) as error:
             unread = Verdict.unread(self.context, error, _hint(self.latex))
             return JudgedReading(chosen, notation, None, unread)
         verdict = _judged(claim, self.context)
-        # Beside the verdict stand the conditions under which it was reached, and what is defined.
+        # Remarks name the conditions under which the verdict holds, and letters that are defined.
         remarks = [f"under the condition {self.latex[slice(*r.span)]}" for r in bound.conditions]
         if bound.defined:
             remarks.append(_defined(bound.defined))
@@ -180,7 +180,7 @@ class _PublishedClaim:
     def _by_total_derivatives(
         self, chosen: Chosen, notation: Notation, unclear: UnclearDerivativeError
     ) -> JudgedReading:
-        """The verdict where both readings of dE/dθ give the same answer; else it is ambiguous."""
+        """The verdict if both readings of dE/dθ give the same answer; otherwise ambiguous."""
         plain = notation.vocabulary
         found = {
             how: self.judged(
@@ -198,10 +198,9 @@ class _PublishedClaim:
         return replace(along, verdict=ambiguous)
 
     def _read_twice(self, verdict: Verdict, claim: BoundClaim, notation: Notation) -> Verdict:
-        """The verdict, unless a reader that shares nothing with the first one reads otherwise."""
-        from polhode.claims.contexts._second_reading import (
-            disputed,
-        )  # NumPy, needed only for claims that could be bound
+        """The verdict, unless an independent second reader contradicts it."""
+        # Deferred: it loads NumPy, which only claims that could be bound need.
+        from polhode.claims.contexts._second_reading import disputed
 
         vocabulary = notation.vocabulary
         phrases = {r.letter: r.phrase for r in vocabulary.readings([self.statement])} | dict(
@@ -220,11 +219,18 @@ class _PublishedClaim:
 
 
 def _judged(claim: BoundClaim, context: str) -> Verdict:
-    """The verdict, with terms of different dimensions named where it does not hold."""
+    """The verdict; for a failure, it names terms of different dimensions."""
     try:
         verdict = judge(claim, context).proved()
         if (second := verdict.confirmation) is not None and not second.agrees:
-            return Verdict(Answer.UNREAD, context, reason=_contradiction(verdict))
+            # Exact algebra and the numeric balance contradict each other: trust neither.
+            example = verdict.counterexample
+            exact = f"{example.left} and {example.right}" if example else "a failure"
+            reason = (
+                f"it was read, but not decided: exact algebra gives {exact} for the two sides, and "
+                f"the numeric balance of every body gives {second.left:.9g} and {second.right:.9g}"
+            )
+            return Verdict(Answer.UNREAD, context, reason=reason)
         odd = "" if verdict.holds else dimensions_at_odds(claim)
     except ParseError as error:
         return Verdict.unread(context, error)
@@ -233,19 +239,8 @@ def _judged(claim: BoundClaim, context: str) -> Verdict:
     return replace(verdict, reason=f"{verdict.reason}; {odd}") if odd else verdict
 
 
-def _contradiction(verdict: Verdict) -> str:
-    """What two independent judgements say differently; then neither is to be trusted."""
-    example, second = verdict.counterexample, verdict.confirmation
-    exact = f"{example.left} and {example.right}" if example else "a failure"
-    numeric = f"{second.left:.9g} and {second.right:.9g}" if second else "nothing"
-    return (
-        f"read, but not decided: for the two sides, exact algebra finds {exact}, and "
-        f"the numeric balance of every body {numeric}"
-    )
-
-
 def _hint(latex: str) -> str:
-    """What may be wrong with a formula that cannot be read or bound."""
+    """A likely cause why a formula cannot be read or bound: a function without its backslash."""
     bare = bare_names(latex)
     if not bare:
         return ""

@@ -1,4 +1,4 @@
-"""Whether all terms of a claim have one dimension, as far as the declaration determines."""
+"""Dimensional analysis of a claim, as far as the declaration determines dimensions."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from polhode.claims.states._bound_claim import BoundClaim
 
 
 def dimensions_at_odds(claim: BoundClaim) -> str:
-    """The members whose terms have different dimensions, in words; empty if all are consistent."""
+    """A sentence naming members whose terms differ in dimension; empty if all are consistent."""
     try:
         analysis = _DimensionalAnalysis(claim.equations.dimensions)
     except PolhodeError:
@@ -31,14 +31,15 @@ def dimensions_at_odds(claim: BoundClaim) -> str:
 
 
 class _DimensionalAnalysis:
-    """Dimensions of expressions from those of the symbols; of each generator only once."""
+    """Dimensions of expressions from those of the symbols, computed once for each generator."""
 
     def __init__(self, known: Mapping[Symbol, Dimension]) -> None:
         self._known = known
         self._found: dict[Generator, Dimension | None] = {}
 
     def terms(self, side: Expr) -> Iterator[Dimension]:
-        """Of every term whose dimension is known, over the first term of the denominator."""
+        """The dimension of each term of the numerator, divided by that of the denominator."""
+        # The denominator is taken as homogeneous: its first term stands for all of them.
         below = next((self._product(powers) for powers, _ in side.denominator.terms()), PURE)
         for powers, _ in side.numerator.terms():
             above = self._product(powers)
@@ -46,7 +47,7 @@ class _DimensionalAnalysis:
                 yield above / below
 
     def _product(self, powers: Mapping[Generator, int]) -> Dimension | None:
-        """Of a product of powers; None where it has a letter of unknown dimension."""
+        """The dimension of a product of powers; None if a factor has none that is known."""
         whole = PURE
         for generator, power in powers.items():
             if generator not in self._found:
@@ -62,9 +63,10 @@ class _DimensionalAnalysis:
             base = PURE if generator.name == "pi" else self._known.get(generator.base())
             return None if base is None else base / TIME**generator.order
         if under_name(generator) is not None:
-            return None  # unknown without expanding it
+            return None  # a named subexpression, which would have to be expanded
         if not generator.depth or generator.partner() is not None:
-            return PURE
+            return PURE  # sin, cos, sinh, cosh and exp are pure numbers
+        # What remains is a square root: half the exponents of its radicand.
         inside = next(iter(generator.arguments[0].numerator.terms()))[0]
         found = self._product(inside)
         return None if found is None else found ** Fraction(1, 2)

@@ -1,8 +1,8 @@
-"""The notation of a text on a system: letters, definitions, restrictions, small quantities."""
+"""The notation of a text about a system: letters, definitions, restrictions, small quantities."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -33,7 +33,7 @@ class Notation:
         vocabulary: letters of the text.
         given: restrictions, as bound relations.
         small: quantities taken as small.
-        start: values at the start of a motion, as bound relations.
+        start: initial values of a motion, as bound relations.
     """
 
     vocabulary: Vocabulary
@@ -50,7 +50,7 @@ class Notation:
     def of_part(
         cls, equations: Equations, part: Part, chosen: Mapping[Name, str] | None = None
     ) -> Notation:
-        """Of one part of a document.
+        """The notation of one part of a document.
 
         Raises:
             ParseError: for LaTeX in the part that cannot be read.
@@ -67,7 +67,7 @@ class Notation:
         )
 
     def of_claim(self, claim: Claim) -> Notation:
-        """Of one claim of that part, with what is stated for it alone."""
+        """The notation of one claim of that part, with its own bindings and restrictions."""
         return (
             self.binding(claim.bindings)
             .defining(claim.definitions)
@@ -75,7 +75,7 @@ class Notation:
             .with_small(claim.small)
         )
 
-    # -- more of it -----------------------------------------------------------------------------
+    # -- extended by what a text states ---------------------------------------------------------
 
     def choosing(self, chosen: Mapping[Name, str]) -> Notation:
         """With letters of several meanings read as quantities of the model."""
@@ -106,7 +106,7 @@ class Notation:
         return self.with_positive([self.scalar(latex) for latex in quantities])
 
     def with_positive(self, values: Iterable[Expr]) -> Notation:
-        """With quantities whose sign is known, which may simplify what is stated so far."""
+        """With positive quantities, by which earlier definitions are simplified: |a| becomes a."""
         vocabulary = self.vocabulary
         positive = (*vocabulary.positive, *values)
         stated = {node: signed(meaning, positive) for node, meaning in vocabulary.stated.items()}
@@ -162,10 +162,10 @@ class Notation:
         """A statement with its symbols given a meaning."""
         return bind(statement, self.vocabulary)
 
-    def asked(self, statement: Statement, extra: Mapping[str, Expr]) -> BoundClaim:
+    def read_claim(self, statement: Statement, extra: Mapping[str, Expr]) -> BoundClaim:
         """The claim a statement makes; `extra` are further letters by published name.
 
-        What it merely defines is not among the members.
+        Definitions are not among its members.
         """
         key = tuple(extra.items())
         if key not in self._wider:
@@ -175,7 +175,7 @@ class Notation:
 
     @cached_property
     def _wider(self) -> dict[tuple[tuple[str, Expr], ...], Notation]:
-        """Notations with further letters, kept with the values found so far."""
+        """Extended notations; each keeps the values of nodes that it has evaluated."""
         return {(): self}
 
     def claimed(self, bound: Bound) -> BoundClaim:
@@ -184,22 +184,28 @@ class Notation:
         values, vanishing = restrictions((*self.given, *equalities))
         for relation in bound.values:
             if relation.left not in values and relation.right not in values:
-                said = f"{relation.left} = {relation.right} in brackets"
                 raise ParseError(
-                    f"{said}, which may be a condition or a claim",
-                    expected="a word that tells which, such as (if ...)",
+                    f"{relation.left} = {relation.right} in brackets, which may be a condition or "
+                    "a claim",
+                    expected="a word that decides, such as (if ...)",
                     advice="write \\text{if} inside the bracket, or state it as given",
                     option="given",
                 )
         given: dict[Symbol, Expr] = {as_symbol(s): value for s, value in values.items()}
         equations = self.vocabulary.mechanics.equations
+        # A condition left > right makes left - right positive.
+        differences = [
+            (as_scalar(r.left, "a bound") - as_scalar(r.right, "a bound")) * SENSE[r.sign]
+            for r in bound.conditions
+            if r.sign in SENSE
+        ]
         return BoundClaim(
             bound.branches,
             equations,
             given,
             vanishing,
             self.small,
-            (*self.vocabulary.positive, *_ranges(bound)),
+            (*self.vocabulary.positive, *differences),
             bound.digits,
             {as_symbol(s): value for s, value in restrictions(self.start)[0].items()},
             defined=tuple(bound.defined),
@@ -234,11 +240,3 @@ def letter(latex: str) -> Node:
     if others or relation.is_claim:
         raise ParseError(f"{latex!r}", expected="one letter or quantity, and no relation")
     return relation.sides[0]
-
-
-def _ranges(bound: Bound) -> Iterator[Expr]:
-    """What is positive where the inequalities that restrict a statement hold."""
-    for relation in bound.conditions:
-        if relation.sign in SENSE:
-            left, right = (as_scalar(s, "a bound") for s in (relation.left, relation.right))
-            yield (left - right) * SENSE[relation.sign]

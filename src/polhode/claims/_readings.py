@@ -1,7 +1,8 @@
 """A claim judged in every reading of its letters.
 
-Texts write **L** about the centre of mass and about a fixed point. Every reading that fits is
-judged: where all lead to the same answer the verdict stands, where they differ it is ambiguous.
+Texts write **L** for the angular momentum about the centre of mass and about a fixed point. Every
+reading that fits is judged: if all lead to the same answer the verdict stands, if they differ it is
+ambiguous.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from polhode.claims.states._bound_claim import BoundClaim
 #: Letters of several meanings, each with the one that is taken.
 Chosen = Mapping[Name, str]
 
-_MOST = 16  # readings of a claim that are judged
+_MOST = 16  # readings of a claim that are judged: four letters of two meanings each
 
 
 @dataclass(frozen=True)
@@ -44,7 +45,7 @@ class JudgedReading:
 
     @property
     def fits(self) -> bool:
-        """Whether the claim makes sense with these meanings: it is bound, of one dimension."""
+        """Whether the claim makes sense in this reading: it is bound and, if false, homogeneous."""
         return self.claim is not None and not (
             self.verdict.answer is Answer.FAILS and dimensions_at_odds(self.claim)
         )
@@ -68,7 +69,10 @@ def choices(vocabulary: Vocabulary, pieces: Iterable[Piece]) -> tuple[Chosen, ..
 
 
 def _joint(readings: Sequence[Reading]) -> list[list[dict[Name, str]]]:
-    """Choices for each letter; **L** and τ are chosen jointly, about the same point."""
+    """Choices for each letter; **L** and τ are chosen jointly, about the same point.
+
+    Euler's second law dL/dt = τ holds about one common point, so mixed choices mean nothing.
+    """
     groups: dict[tuple[str, ...], list[Reading]] = {}
     for reading in readings:
         points = tuple(phrase.partition(" about ")[2] for phrase in reading.phrases)
@@ -90,6 +94,7 @@ def judged_in_every_reading(
     answers = dict.fromkeys(way.verdict.answer for way in fitting)
     if len(answers) == 1:
         return fitting[0]
+    # One reading for each answer, and the letters in which these readings differ.
     first, *others = (next(w for w in fitting if w.verdict.answer is a) for a in answers)
     differing = [n for n in first.chosen if any(w.chosen[n] != first.chosen[n] for w in others)]
     answered = []
@@ -102,7 +107,10 @@ def judged_in_every_reading(
 
 
 def with_readings(verdict: Verdict, vocabulary: Vocabulary, pieces: Iterable[Piece]) -> Verdict:
-    """The verdict with what the letters of the claim were taken to mean, where that is certain."""
+    """The verdict with the meanings that the letters of the claim were given.
+
+    An ambiguous verdict lists only the letters that have a single meaning.
+    """
     every = vocabulary.readings(pieces)
     found = [r for r in every if verdict.answer is not Answer.AMBIGUOUS or len(r.phrases) == 1]
     read = (Read(name_latex(r.letter), r.phrase, _plain(r.letter)) for r in found)

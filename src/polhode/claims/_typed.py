@@ -1,4 +1,4 @@
-"""What is typed to go with a claim: `theta = pi/2`, `epsilon = theta - pi/2`, `epsilon:1`.
+"""Options typed with a claim: `theta = pi/2`, `epsilon = theta - pi/2`, `epsilon:1`.
 
 Text with a backslash or a brace is read as LaTeX, other text in published names.
 """
@@ -24,7 +24,7 @@ _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
 
 def pieces_of(text: str) -> tuple[Piece, ...]:
-    """The letters in a text that goes with a claim, or the statement that it makes in LaTeX."""
+    """The letters in an option of a claim; for LaTeX, its statement."""
     if _is_latex(text):
         return (read_latex(text),)
     letters = map(name_of, _NAME.findall(text))
@@ -34,7 +34,7 @@ def pieces_of(text: str) -> tuple[Piece, ...]:
 def with_reading(notation: Notation, text: str) -> Notation:
     """With a letter of several meanings read as one of them: `L = about pivot`.
 
-    Raises `ParseError` for a letter that stands for nothing, and for what it cannot mean.
+    Raises `ParseError` for a letter without several meanings, and for a meaning it does not have.
     """
     left, right = _sides(text, "a letter and the quantity it means")
     named = letter(left) if _is_latex(left) else name_of(left)
@@ -46,6 +46,7 @@ def with_reading(notation: Notation, text: str) -> Notation:
             expected=f"a letter of several meanings in {vocabulary.system}, such as L or v",
             advice="define a new letter with let",
         )
+    # "about pivot" is enough for "angular momentum about pivot".
     meant = [p for p in reading.phrases if p == right] or [
         p for p in reading.phrases if p.endswith(f" {right}")
     ]
@@ -80,7 +81,10 @@ def with_let(notation: Notation, text: str) -> Notation:
 
 
 def _refuse_redefined(notation: Notation, new: Node, meaning: Meaning) -> None:
-    """A quantity of the motion may be written out, but not redefined as another one."""
+    """A quantity of the motion may be written out, but not redefined as another one.
+
+    L_z = I ω_z is accepted where it is true; E = 5 would turn every claim on E into another one.
+    """
     known = notation.vocabulary.find(new)
     if not isinstance(known, Expr) or not isinstance(meaning, Expr):
         return
@@ -132,7 +136,7 @@ def with_positive(notation: Notation, text: str) -> Notation:
 def typed(notation: Notation, text: str) -> Expr:
     """An exact expression of published names and of letters of the text, or a number with a unit.
 
-    Raises `ParseError` for what is neither, naming the symbol at fault.
+    Raises `ParseError` for any other text, naming the symbol at fault.
     """
     values: dict[str, Expr] = {}
     for name in _NAME.findall(text):

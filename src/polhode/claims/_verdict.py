@@ -43,7 +43,7 @@ class Read:
 
     @property
     def is_worth_saying(self) -> bool:
-        """Whether a reader might doubt it; the axes 1, 2, 3 of a body are unambiguous."""
+        """Whether a reader might doubt the meaning; axes 1, 2, 3 of a body are unambiguous."""
         return not self.meaning.startswith("axis ") or self.plain in ("x", "y", "z")
 
     def to_json(self) -> dict[str, str]:
@@ -53,7 +53,7 @@ class Read:
 
 @dataclass(frozen=True)
 class Residual:
-    """The residual of one component of one member: left side less right, in the claim's context.
+    """The residual of one component of one member: left minus right side, in the claim's context.
 
     Attributes:
         member: which link of a chain or row of a block, counted from 0.
@@ -75,8 +75,8 @@ class Counterexample:
     """A state that the context allows and the claim does not.
 
     Attributes:
-        values: exact value of every symbol of the state as text (SI); that of an angle is twice
-            the arc whose tangent is a rational number, so that its sine and cosine are rational.
+        values: exact value of every symbol of the state as text (SI). An angle is 2 atan(q) with
+            rational q, so that its sine and cosine are rational.
         left: exact value of the left side there.
         right: exact value of the right side there.
         residual: which part of the claim is refuted.
@@ -138,8 +138,8 @@ class Verdict(Shown):
         order: for an approximation, the highest order to which it is true.
         dropped: for an approximation, the first term left out.
         remarks: further notes, such as roots that are not covered.
-        readings: what letters that mean the same in most texts were taken to mean.
-        option: where it is undecided, the argument that would help, such as "let" or "read".
+        readings: the meanings given to letters by common usage.
+        option: for an undecided claim, the argument that would help, such as "let" or "read".
     """
 
     answer: Answer
@@ -158,13 +158,13 @@ class Verdict(Shown):
 
     @classmethod
     def unread(cls, context: str, error: Exception, hint: str = "") -> Verdict:
-        """On what could not be read, bound or decided, for the reason that an error gives."""
+        """For a claim that could not be read, bound or decided, for the reason an error gives."""
         option = error.option if isinstance(error, PolhodeError) else ""
         return cls(Answer.UNREAD, context, reason=f"{error}{hint}", option=option)
 
     @classmethod
     def undecided(cls, context: str, error: Exception) -> Verdict:
-        """On what was read but could not be decided, for the reason that an error gives."""
+        """For a claim that was read but could not be decided, for the reason an error gives."""
         return replace(cls.unread(context, error), reason=f"it was read, but not decided: {error}")
 
     @property
@@ -174,7 +174,7 @@ class Verdict(Shown):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What is shown beside the verdict: remarks, and what letters were taken to mean."""
+        """Notes shown beside the verdict: remarks, and the meanings that letters were given."""
         read = "; ".join(str(reading) for reading in self.readings if reading.is_worth_saying)
         return (*self.remarks, f"read: {read}") if read else self.remarks
 
@@ -201,13 +201,15 @@ class Verdict(Shown):
         return f"{text} ({self.reason})" if self.reason else text
 
 
-#: A state that refutes a claim, and an independent check of it, as far as they can be found.
+#: A state that refutes a claim, and an independent check of it; None where none was found.
 Evidence = tuple[Counterexample | None, Confirmation | None]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Refuted(Verdict):
-    """A failure that is certain, with evidence that is computed only on request.
+    """A certain failure whose evidence is computed only on request.
+
+    Trials of corrections judge many claims that fail, and need no evidence for any of them.
 
     Attributes:
         evidence: computes it.

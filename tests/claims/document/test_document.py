@@ -132,7 +132,7 @@ def line(text: str, beginning: str) -> int:
         ('words = "it is stable"', 'wrods = "it is stable"', "did you mean 'words'"),
         ("small = [", "small = ['x:two', ", "give the order as a number"),
         ("means = 'x > 0'", "", "write means = '...' in LaTeX"),
-        ('reason = "a letter is printed twice"', "", "say how the damage shows"),
+        ('reason = "a letter is printed twice"', "", "state the evidence of the damage"),
         ('follows_from = ["a"]', 'follows_from = ["z"]', "ids of other claims"),
         ('follows_from = ["a"]', 'follows_from = "a"', "a list of strings"),
         ('like = "1"', 'like = "9"', "an earlier part"),
@@ -176,7 +176,7 @@ def test_anything_but_a_document_is_refused(text: str, said: str) -> None:
 
 def test_repeated_ids_are_refused() -> None:
     for old, new in (('id = "b"', 'id = "a"'), ('id = "2"', 'id = "1"')):
-        with pytest.raises(ParseError, match="an id of its own"):
+        with pytest.raises(ParseError, match="a unique id"):
             read_document(changed(old, new))
 
 

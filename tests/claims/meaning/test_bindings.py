@@ -325,7 +325,7 @@ def test_definitions_may_use_earlier_ones() -> None:
 
 
 def test_a_correction_may_use_further_letters() -> None:
-    asked = notation("gyroscope").asked(read_latex("c_9 = I_1"), {"c_9": Expr.of(3)})
+    asked = notation("gyroscope").read_claim(read_latex("c_9 = I_1"), {"c_9": Expr.of(3)})
     assert asked.members[0].left == Expr.of(3)
 
 
@@ -340,7 +340,7 @@ def test_all_letters_of_a_text_have_a_meaning() -> None:
 
 
 def test_an_unknown_symbol_is_named_with_what_resembles_it() -> None:
-    with pytest.raises(BindingError, match="omega_4, which stands for nothing") as caught:
+    with pytest.raises(BindingError, match="omega_4, which has no meaning") as caught:
         bound("rolling-disk", r"\omega_3 = \omega_4")
     assert caught.value.symbol == "omega_4"
     assert "omega_3" in caught.value.near
@@ -354,7 +354,7 @@ def test_an_unknown_symbol_is_named_with_what_resembles_it() -> None:
         (r"\mathbf F\,\hat{\mathbf z} = 0", "a vector beside a vector"),
         (r"m/\mathbf F = 0", "a scalar over a vector"),
         (r"m = a/(g - g)", "a division by zero"),
-        (r"m = a^{b}", "stands for nothing"),
+        (r"m = a^{b}", "has no meaning"),
         (r"m = a^{g}", "exponent"),
         (r"m = a^{1000}", "exponent"),
         (r"m = \ln a + 1", "the function ln"),

@@ -1,4 +1,4 @@
-"""Balance of every body by numbers: a second opinion that shares nothing with `derive`.
+"""Numeric Newton-Euler balance of every body: a second opinion that shares nothing with `derive`.
 
-It knows the declaration (`model`, `algebra`) and the LaTeX tree; nothing else of claims.
+It uses the declaration (`model`, `algebra`) and the LaTeX tree, and nothing else of claims.
 """

@@ -1,4 +1,4 @@
-"""What a declaration says of positions, rotations, supports and loads, ready for numbers."""
+"""Positions, rotations, supports and loads of a declaration, ready for numbers."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ class Placement:
         places: centre of mass of every body from the origin of the root frame, m.
         rates: of the coordinates whose rate is declared, in terms of speeds.
         coordinates: all of them.
-        speeds: the rates of the other coordinates, and the speeds that are no rates.
-        restraints: what supports prescribe.
+        speeds: the rates of the other coordinates, and quasi-velocities such as ω₃.
+        restraints: velocities that supports prescribe.
         frictions: laws of sliding friction, by the name of the normal reaction.
     """
 
@@ -39,7 +39,7 @@ class Placement:
 
     @cached_property
     def parameters(self) -> tuple[Symbol, ...]:
-        """Constants that occur, whether the motion depends on them or not."""
+        """Constants that occur, even those on which the motion does not depend."""
         return self._of_kind(SymbolKind.PARAMETER)
 
     def _of_kind(self, kind: SymbolKind) -> tuple[Symbol, ...]:
@@ -71,7 +71,7 @@ class Placement:
 
     @cached_property
     def actions(self) -> tuple[Action, ...]:
-        """What the loads do, from velocities as they are declared."""
+        """Forces and couples of the loads, in terms of velocities as declared."""
         bodies = self.system.bodies
         velocities = {b: (self.places[b].dt(), b.angular_velocity) for b in bodies}
         return tuple(
@@ -83,35 +83,11 @@ class Placement:
 
 @lru_cache(maxsize=64)
 def declared(system: System) -> Placement:
-    """Read a declaration."""
-    places, elements = _placed(system)
-    rates = {_only(q): rate for b in system.bodies for q, rate in b.rates.items()}
-    rates |= {_only(q): rate for e in elements for q, rate in e.rates().items()}
-    geometry: list[Expr] = []
-    for body in system.bodies:
-        geometry += [*places[body].components, *body.angular_velocity.components]
-        geometry += [frame.angle for frame in body.axes.lineage]
-    found = {s.base() for s in variables(geometry) if s.kind is SymbolKind.COORDINATE}
-    coordinates = found | rates.keys()
-    bare = {q.derivative() for q in coordinates if q not in rates}
-    free = {
-        s.base() for rate in rates.values() for s in rate.symbols() if s.kind is SymbolKind.SPEED
-    }
-    own = {_only(s) for body in system.bodies for s in body.speeds}
-    return Placement(
-        system,
-        places,
-        rates,
-        tuple(sorted(coordinates, key=_name)),
-        tuple(sorted(bare | free | own, key=_name)),
-        tuple(r for e in elements for r in e.restraints(places)),
-        {f.normal.name: f for e in elements for f in e.friction(places)},
-    )
-
-
-def _placed(system: System) -> tuple[dict[Body, Vector], tuple[Element, ...]]:
+    """The declaration with every body placed."""
     places: dict[Body, Vector] = {}
     elements: tuple[Element, ...] = system.elements
+    # An element places its first body from bodies placed before, so the order is found by
+    # repetition. A body that no element places is free and gets coordinates of its own.
     while len(places) < len(system.bodies):
         before = len(places)
         for element in elements:
@@ -121,7 +97,28 @@ def _placed(system: System) -> tuple[dict[Body, Vector], tuple[Element, ...]]:
             flight = system.flights(places)[0]
             places |= flight.centre(places)
             elements = (*elements, flight)
-    return places, elements
+    rates = {_only(q): rate for b in system.bodies for q, rate in b.rates.items()}
+    rates |= {_only(q): rate for e in elements for q, rate in e.rates().items()}
+    geometry: list[Expr] = []
+    for body in system.bodies:
+        geometry += [*places[body].components, *body.angular_velocity.components]
+        geometry += [frame.angle for frame in body.axes.lineage]
+    found = {s.base() for s in variables(geometry) if s.kind is SymbolKind.COORDINATE}
+    coordinates = found | rates.keys()
+    plain_rates = {q.derivative() for q in coordinates if q not in rates}
+    quasi_velocities = {
+        s.base() for rate in rates.values() for s in rate.symbols() if s.kind is SymbolKind.SPEED
+    }
+    own = {_only(s) for body in system.bodies for s in body.speeds}
+    return Placement(
+        system,
+        places,
+        rates,
+        tuple(sorted(coordinates, key=_name)),
+        tuple(sorted(plain_rates | quasi_velocities | own, key=_name)),
+        tuple(r for e in elements for r in e.restraints(places)),
+        {f.normal.name: f for e in elements for f in e.friction(places)},
+    )
 
 
 def _only(expression: Expr) -> Symbol:
@@ -134,5 +131,5 @@ def _name(symbol: Symbol) -> str:
 
 
 def reaction_symbol(name: str) -> Symbol:
-    """The symbol of a reaction component in claims; unlike a parameter it varies."""
+    """The symbol of a reaction component in claims: a function of time, unlike a parameter."""
     return Symbol(name, SymbolKind.FUNCTION)

@@ -1,4 +1,4 @@
-"""Numbers with their first two time derivatives: automatic differentiation."""
+"""Numbers with their first two time derivatives: forward automatic differentiation."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Array: TypeAlias = NDArray[np.float64]
 class Jet:
     """A quantity and its first and second rate; each an array over several trial motions.
 
-    Where only the first rate is known, the second one must not be used.
+    Where only the first rate is known, the second one is not a number and must not be used.
     """
 
     value: Array
@@ -38,11 +38,12 @@ class Jet:
 
     @property
     def dt(self) -> Jet:
-        """The first rate, as a quantity of its own."""
+        """The first rate, as a jet; its own second rate would be a third one, which is not kept."""
         return Jet(self.rate, self.second, _ZERO)
 
     def __add__(self, other: Jet | float) -> Jet:
         b = Jet.of(other)
+        # Constants are recognised by the shared array _ZERO: it is passed on, never added to.
         if b.is_constant:
             return Jet(self.value + b.value, self.rate, self.second)
         return Jet(self.value + b.value, self.rate + b.rate, self.second + b.second)
@@ -59,7 +60,7 @@ class Jet:
             return self._scaled(b.value)
         if self.is_constant:
             return b._scaled(self.value)
-        return Jet(
+        return Jet(  # Leibniz: (ab)'' = a''b + 2a'b' + ab''
             self.value * b.value,
             self.rate * b.value + self.value * b.rate,
             self.second * b.value + 2 * self.rate * b.rate + self.value * b.second,
@@ -84,9 +85,10 @@ class Jet:
         return Jet.of(other) / self
 
     def through(self, value: Array, slope: Array, curvature: Array) -> Jet:
-        """A function of this quantity, by its value and first two derivatives here."""
+        """f of this quantity, from f, f' and f'' at its value."""
         if self.is_constant:
             return Jet.of(value)
+        # Chain rule: (f(x))'' = f'' x'² + f' x''.
         second = curvature * self.rate**2 + slope * self.second
         return Jet(value, slope * self.rate, second)
 

@@ -1,8 +1,9 @@
 """Accelerations and reactions at one state, by numbers, from the balance of every body.
 
-Works from the declaration alone and shares nothing with `derive`: every body keeps all its
-degrees of freedom, constraints are differentiated by jets, and one linear system gives all rates
-of speeds and all reactions. Redundant supports get the least-squares reactions, or those given.
+Works from the declaration alone and shares nothing with `derive`: every body obeys m a = F and
+dL/dt = τ about its centre of mass, constraints are differentiated by jets, and one linear system
+gives all rates of speeds and all reactions. Reactions of redundant supports are those of least
+squares, unless they are given.
 """
 
 from __future__ import annotations
@@ -19,21 +20,21 @@ from polhode.claims.balance._jets import Array
 from polhode.claims.balance._trial import Trial
 from polhode.model import Body, Restraint, System
 
-_TOLERANCE = 1e-8  # relative; to which constraints and supports must agree
-_TINY = 1e-12  # rows below this are zero and are not scaled
-_FINE = 1e-13  # tolerance of motions that are differentiated
-_STEP = 0.02  # s
+_TOLERANCE = 1e-8  # relative residual up to which the linear system counts as solvable
+_TINY = 1e-12  # rows below this are rounding of zero rows and must not be scaled up
+_FINE = 1e-13  # tolerance of motions that are differentiated: differences magnify their error
+_STEP = 0.02  # s, the first step of the differences
 
 Numbers = dict[Symbol, float]
 
 
 def true_motion(system: System, state: Mapping[Symbol, float]) -> Numbers:
-    """Numbers of every coordinate, speed, acceleration and reaction at a state, SI.
+    """The value of every coordinate, speed, acceleration and reaction at a state, SI.
 
     Args:
         system: the declaration.
-        state: parameters, coordinates, enough speeds to fix all others, and reactions of redundant
-            supports that are known.
+        state: parameters, coordinates, enough speeds to determine all others, and any known
+            reactions of redundant supports.
 
     Raises `NumericError` where supports contradict one another or the state leaves speeds open.
     """
@@ -42,7 +43,9 @@ def true_motion(system: System, state: Mapping[Symbol, float]) -> Numbers:
     trial = _trials(known, state, speeds)
     constraints, constrained = _constraints(trial)
     balances, loads = _balances(known, trial)
-    # unknowns: rates of speeds, then reactions, on which the constraints do not depend
+    # Unknowns: rates of speeds u̇, then reactions λ. The constraints C u̇ = c do not contain λ:
+    #     [ C    0 ] [u̇]   [ c ]
+    #     [ M   -W ] [λ] = [ f ]
     count = balances.shape[1] - constraints.shape[1]
     rows = np.vstack([np.hstack([constraints, np.zeros((len(constraints), count))]), balances])
     right = np.concatenate([constrained, loads])
@@ -60,7 +63,10 @@ def true_motion(system: System, state: Mapping[Symbol, float]) -> Numbers:
 def constrained_motion(
     system: System, state: Mapping[Symbol, float], accelerations: Mapping[Symbol, float]
 ) -> Numbers:
-    """The same for some motion that the constraints allow: these accelerations, and no forces."""
+    """The same for a virtual motion that obeys the constraints and has these accelerations.
+
+    No forces enter.
+    """
     known = declared(system)
     speeds = _speeds(known, state)
     trial = _trials(known, state, speeds)
@@ -71,9 +77,9 @@ def constrained_motion(
 
 
 def trial_of(system: System, numbers: Mapping[Symbol, float]) -> Trial:
-    """The motion of all bodies with these numbers: of speeds, their rates, and all that is given.
+    """The motion of all bodies for these values of parameters, coordinates, speeds and their rates.
 
-    Reactions are no part of it, for their rates are not known.
+    Reactions are not part of it, since their rates are unknown.
     """
     known = declared(system)
     given = (SymbolKind.PARAMETER, SymbolKind.COORDINATE, SymbolKind.TIME)
@@ -97,11 +103,12 @@ def moved(
     tolerance: float,
     dependent: Collection[Symbol] = (),
 ) -> Numbers:
-    """Every number of the state some time after a start, integrated by SciPy.
+    """The values of all quantities some time after a start, integrated by SciPy.
 
     Args:
         system: the declaration.
-        start: parameters, coordinates and speeds; parameters that are missing play no part.
+        start: parameters, coordinates and speeds; missing parameters are set to 1, since the motion
+            does not depend on them.
         duration: s.
         tolerance: of the integration, relative and absolute.
         dependent: speeds that follow from the others and are not integrated.
@@ -137,13 +144,13 @@ def moved(
 def rate_along_motion(
     system: System, state: Mapping[Symbol, float], speeds: Collection[Symbol], symbol: Symbol
 ) -> float:
-    """Rate of a number of the motion through a state, such as a reaction, by differences.
+    """The rate of a quantity along the motion through a state, such as a reaction, by differences.
 
     Args:
         system: the declaration.
         state: parameters, coordinates and speeds.
-        speeds: enough of them to fix all others.
-        symbol: of the number.
+        speeds: enough of them to determine all others.
+        symbol: the quantity.
     """
     from scipy.differentiate import derivative  # slow to import, and rates of forces are rare
 
@@ -174,7 +181,7 @@ def _speeds(known: Placement, state: Mapping[Symbol, float]) -> Numbers:
 def _trials(known: Placement, state: Mapping[Symbol, float], speeds: Numbers) -> Trial:
     """The state with all rates of speeds zero, and with each of them one in turn.
 
-    Everything is affine in these rates, so that differences of the trials are its coefficients.
+    Accelerations are affine in these rates, so differences of the trials give their coefficients.
     """
     steps = _steps(len(speeds))
     still = {s: np.full(len(speeds) + 1, v) for s, v in speeds.items()}
@@ -182,13 +189,14 @@ def _trials(known: Placement, state: Mapping[Symbol, float], speeds: Numbers) ->
 
 
 def _steps(count: int) -> Array:
+    """Rows over (count + 1) trials: zero in the first one, then one unknown after another at 1."""
     return np.hstack([np.zeros((count, 1)), np.eye(count)])
 
 
 def _holding(
     equations: tuple[Array, Array], given: Mapping[Symbol, float], symbols: Sequence[Symbol]
 ) -> tuple[Array, Array]:
-    """Rows over symbols and right-hand sides, with rows below that hold those given."""
+    """The equations with a row appended for each given symbol: symbol = its value."""
     rows, right = equations
     held = [[float(s == g) for s in symbols] for g in given]
     below = np.reshape(held, (len(given), len(symbols)))
@@ -196,13 +204,13 @@ def _holding(
 
 
 def _constraints(trial: Trial) -> tuple[Array, Array]:
-    """Rates of the ruled-out velocities vanish: rows over the rates of speeds, right-hand sides."""
+    """Rows over the rates of speeds, and right-hand sides, by which slip velocities stay zero."""
     _, rates = trial.slips()
     return rates[:, 1:] - rates[:, :1], -rates[:, 0]
 
 
 def _balances(known: Placement, trial: Trial) -> tuple[Array, Array]:
-    """Newton and Euler for every body: rows over the rates of speeds and then the reactions."""
+    """m a = F and dL/dt = τ for every body: rows over the rates of speeds, then the reactions."""
     wrenches = [_reaction_wrenches(known, trial, r) for r in known.restraints]
     rows, right = [], []
     for body in trial.bodies:
@@ -236,7 +244,7 @@ def _wrench(trial: Trial, direction: Array, arm: Vector | None) -> Array:
 
 
 def _friction(known: Placement, trial: Trial, restraint: Restraint) -> Array:
-    """Sliding friction that goes with one unit of a normal force."""
+    """The sliding friction per unit normal force: -μ v/|v|, with v the slip velocity."""
     friction = known.frictions.get(restraint.name)
     if friction is None:
         return np.zeros(3)
@@ -251,22 +259,25 @@ def _friction(known: Placement, trial: Trial, restraint: Restraint) -> Array:
 def _numbers(
     trial: Trial, state: Mapping[Symbol, float], speeds: Numbers, found: Sequence[float] | Array
 ) -> Numbers:
-    """Of the motion with these rates of speeds, in which all accelerations are affine."""
+    """All values of the motion with these rates of speeds, in which accelerations are affine."""
     rates = np.asarray(found[: len(speeds)], dtype=float)
     numbers = {**state, **speeds}
     numbers |= {s.derivative(): float(rate) for s, rate in zip(speeds, rates, strict=True)}
     for q in trial.coordinates:
         jet = trial.number(q)
-        still, *moved = jet.second
+        at_zero, *at_one = jet.second  # q̈ for zero rates of speeds, then for each of them one
         numbers[q.derivative()] = float(jet.rate[0])
-        numbers[q.derivative().derivative()] = float(still + (np.array(moved) - still) @ rates)
+        slopes = np.array(at_one) - at_zero
+        numbers[q.derivative().derivative()] = float(at_zero + slopes @ rates)
     return numbers
 
 
 def _solve(rows: Array, right: Array, trouble: str) -> Array:
-    """Least squares of rows scaled alike; raises `NumericError` where they cannot all be met."""
+    """Least squares with rows of equal scale; raises `NumericError` where no solution exists."""
     if not rows.shape[1]:
         return np.zeros(0)
+    # Rows carry different units (m/s², N, N m), so each is divided by its largest entry before
+    # singular values are compared.
     largest = np.abs(rows).max(axis=1)
     scale = np.where(largest > _TINY, largest, 1.0)
     rows, right = rows / scale[:, None], right / scale

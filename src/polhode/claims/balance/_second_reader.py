@@ -1,9 +1,9 @@
-"""Both sides of a claim by numbers, from its letters on: a reading independent of the first one.
+"""Both sides of a claim by numbers, read from the LaTeX tree independently of the first reading.
 
-Checking a verdict at a state does not reveal that a letter was misread. So the LaTeX tree is read
-again here, with a table of letters and rules for signs and rates of its own: vectors are three
-numbers along the root frame, unit vectors rows of its matrices, and rates are carried along as
-jets. What is not in this table is left unread; nothing is guessed.
+Checking a verdict at a state does not reveal that a letter was misread. So the tree is read again
+here, with a separate table of letters and separate rules for signs and rates: vectors are three
+components along the root frame, and rates are carried along as jets. Anything that is not in this
+table is left unread; nothing is guessed.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from polhode.claims.latex import _tree as tree
 from polhode.model import Body, Pivot, System
 
 _EQUAL = ("=", "≡")
+_CONSTANT = ("constant", "const")
 
 _sin, _cos = JETS.functions[Op.SIN], JETS.functions[Op.COS]
 _sinh, _cosh = JETS.functions[Op.SINH], JETS.functions[Op.COSH]
@@ -46,20 +47,20 @@ _FUNCTIONS: dict[str, Callable[[Any], Any]] = {
 
 @dataclass(frozen=True)
 class Sides:
-    """Numbers of the two sides of one member: of a scalar one, of a vector three."""
+    """Values of the two sides of one member: one for a scalar, three for a vector."""
 
     left: tuple[float, ...]
     right: tuple[float, ...]
 
     @property
     def differ_by(self) -> float:
-        """The largest difference, against the size of the sides or 1."""
+        """The largest difference, relative to the size of the sides or 1."""
         size = max(1.0, *map(abs, (*self.left, *self.right)))
         return max(abs(a - b) for a, b in zip(self.left, self.right, strict=True)) / size
 
     @property
     def is_known(self) -> bool:
-        """Whether all are numbers; a second rate that nothing determines is not."""
+        """Whether all are numbers; rates that nothing determines are nan."""
         return bool(np.all(np.isfinite([*self.left, *self.right])))
 
 
@@ -71,7 +72,7 @@ def read_members(
     defined: Mapping[tree.Node, object],
     points: Mapping[tree.Name, str],
 ) -> Iterator[Sides | None]:
-    """The sides of every member of a statement that claims an equality; None where it is not read.
+    """The two sides of every member of a statement; None for inequalities and unread members.
 
     Args:
         statement: the claim.
@@ -79,8 +80,8 @@ def read_members(
         numbers: reactions, by symbol.
         trial: the motion of all bodies.
         defined: letters that the text defines, as expressions and vectors.
-        points: the point that is meant, for moments that may be about several; empty for another
-            letter of which one of several meanings was chosen.
+        points: the chosen point of moments that may be about several; empty for other letters of
+            several meanings.
     """
     reader = _SecondReader(system, numbers, trial, defined, points)
     for relation in statement.relations:
@@ -110,7 +111,9 @@ class _SecondReader:
         try:
             one = self.value(left)
             match right:
-                case tree.Name(letter=text) | tree.Words(text=text) if _says_constant(text):
+                case tree.Name(letter=text) | tree.Words(text=text) if (
+                    text.strip(" .,") in _CONSTANT
+                ):  # "x = constant" claims that the rate of x vanishes
                     one, other = self._rate(one), Jet.of(0.0)
                 case _:
                     other = self.value(right)
@@ -171,7 +174,8 @@ class _SecondReader:
         vectors = [isinstance(side, np.ndarray | Inertia) for side in (one, other)]
         if any(isinstance(side, Inertia) for side in (one, other)) or all(vectors):
             raise UnreadError
-        return other * one if vectors[1] else one * other  # NumPy scales by what stands behind
+        # NumPy scales an object array by its right operand, so the vector has to stand left.
+        return other * one if vectors[1] else one * other
 
     @value.register
     def _(self, node: tree.Cross) -> Any:
@@ -202,7 +206,7 @@ class _SecondReader:
         if not isinstance(node.exponent, tree.Number) or isinstance(base, Inertia):
             raise UnreadError
         exponent = Fraction(node.exponent.text)
-        if isinstance(base, np.ndarray):
+        if isinstance(base, np.ndarray):  # a power of a vector is one of its length
             base, exponent = self._dot(base, base), exponent / 2
         if exponent.denominator == 2:
             base, exponent = _sqrt(base), exponent * 2
@@ -237,7 +241,7 @@ class _SecondReader:
 
     @value.register
     def _(self, node: tree.Name) -> Any:
-        if node in self._chosen:  # one of several meanings that this table does not have
+        if node in self._chosen:  # a chosen meaning, which this table does not have
             raise UnreadError
         for found in (self._by_definition, self._letters.scalar, self._letters.mechanical):
             value = found(node)
@@ -280,10 +284,6 @@ def _vector_of_zero(side: Any) -> Any:
     raise UnreadError
 
 
-def _says_constant(text: str) -> bool:
-    return text.strip(" .,") in ("constant", "const")
-
-
 # -- the table of letters -------------------------------------------------------------------------
 
 
@@ -299,13 +299,13 @@ class Inertia:
 
 
 class Letters:
-    """What letters stand for: scalars as jets, vectors as three of them along the root frame.
+    """Meanings of letters: scalars as jets, vectors as three of them along the root frame.
 
     Args:
         system: the declaration.
         numbers: reactions, by symbol.
         trial: the motion of all bodies.
-        points: of moments that may be about several points, which is meant.
+        points: the chosen point of moments that may be about several.
     """
 
     def __init__(
@@ -342,7 +342,7 @@ class Letters:
         if name.primes:
             return None
         if name.decoration == "hat" and not name.subscript:
-            # of the laboratory where it has the label, or else of the only body's own axes
+            # An axis of the laboratory if it has this label, otherwise one of the only body.
             for frame in (self._root, self._only_body.axes):
                 if name.letter in frame.labels:
                     return self._trial.vector(frame[name.letter])
@@ -354,7 +354,7 @@ class Letters:
         return None
 
     def _kinetic_energy(self, part: str) -> Jet:
-        """Of rotation about the centres of mass, of translation, or both."""
+        """ω·Iω/2 of rotation about the centres of mass, m v²/2 of translation, or both."""
         trial, half = self._trial, Jet.of(0.5)
         total = Jet.of(0.0)
         for body, moving in trial.bodies.items():
@@ -411,11 +411,12 @@ class Letters:
             if len(meant) != 1:
                 raise UnreadError
             point = centre + trial.vector(meant[0].at)
+        # L about a point P: that about the centre of mass C, plus (C - P) × m v.
         momentum = trial.bodies[body].velocity * trial.scalar(body.mass)
         return trial.angular_momentum(body) + cross(centre - point, momentum)
 
     def _force(self) -> Jets:
-        """Of the only contact or joint, by the numbers of its components; without their rates."""
+        """The force of the only contact or joint, from its components; their rates are unknown."""
         forces = [r for r in self._trial.restraints if r.arm is not None]
         stems = {r.name.partition("_")[0] for r in forces}
         holding = [e for e in self._system.elements if any(r.body in e.bodies for r in forces)]

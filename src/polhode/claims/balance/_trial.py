@@ -1,4 +1,4 @@
-"""Trial motions by numbers: how all bodies move for given speeds and rates of speeds."""
+"""Trial motions by numbers: velocities and accelerations of all bodies for given speeds."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Jets = Any
 
 @dataclass(frozen=True, eq=False)
 class BodyMotion:
-    """How one body moves, along the root frame, in inertial space.
+    """The inertial velocities of one body, by components along the root frame.
 
     Attributes:
         velocity: of the centre of mass, m/s.
@@ -32,13 +32,13 @@ class BodyMotion:
 
 
 class Trial:
-    """Several motions at once through one configuration.
+    """Several motions through one configuration, evaluated together.
 
     Args:
         known: the declaration.
         state: parameters, coordinates and prescribed functions with their rates.
-        speeds: of every declared speed, an array over the motions.
-        rates: of every declared speed likewise; zero where not given.
+        speeds: value of every declared speed, an array over the motions.
+        rates: their time derivatives likewise; zero where not given.
     """
 
     def __init__(
@@ -50,32 +50,30 @@ class Trial:
     ) -> None:
         self._known = known
         self.size = len(next(iter(speeds.values()), np.zeros(1)))
-        self._nothing = np.zeros(self.size)
+        self._zeros = np.zeros(self.size)
         table: dict[Symbol, Jet] = {s: Jet.of(v) for s, v in state.items()}
         for symbol in known.functions:
             table |= _prescribed(symbol, state)
         for symbol, speed in speeds.items():
-            table[symbol] = Jet(speed, rates.get(symbol, self._nothing), _UNKNOWN)
+            table[symbol] = Jet(speed, rates.get(symbol, self._zeros), _UNKNOWN)
         self._table = table
-        self._let_coordinates_move(state)
-
-    def _let_coordinates_move(self, state: Mapping[Symbol, float]) -> None:
-        """Give every coordinate its two rates; the second one needs the first ones of all."""
-        known = self._known
         for q in known.coordinates:
-            self._table[q] = Jet(self._nothing + state[q], self._nothing, self._nothing)
+            self._table[q] = Jet(self._zeros + state[q], self._zeros, self._zeros)
+        # The declared rates q̇ = f(q, u) give q̈ only once the q̇ of all coordinates are known, so a
+        # first pass sets q̇ and a second one q̈.
         for _ in range(2):
-            rates = {
+            moving = {
                 q: self._table[q.derivative()] for q in known.coordinates if q not in known.rates
             }
-            rates |= zip(known.rates, self.scalars(known.rates.values()), strict=True)
-            for q, rate in rates.items():
+            moving |= zip(known.rates, self.scalars(known.rates.values()), strict=True)
+            for q, rate in moving.items():
                 first, second = self._wide(rate.value), self._wide(rate.rate)
-                self._table[q] = Jet(self._nothing + state[q], first, second)
+                self._table[q] = Jet(self._zeros + state[q], first, second)
                 self._table[q.derivative()] = Jet(first, second, _UNKNOWN)
 
     def _wide(self, array: Array) -> Array:
-        return self._nothing + array
+        """A value as an array over all motions, also where it is the same in each."""
+        return self._zeros + array
 
     # -- reading --------------------------------------------------------------------------------
 
@@ -86,12 +84,12 @@ class Trial:
 
     @property
     def symbols(self) -> Collection[Symbol]:
-        """All that have a number."""
+        """All symbols that have a value."""
         return self._table.keys()
 
     @property
     def restraints(self) -> tuple[Restraint, ...]:
-        """What supports prescribe."""
+        """The velocities that supports prescribe."""
         return self._known.restraints
 
     def number(self, symbol: Symbol) -> Jet:
@@ -122,7 +120,8 @@ class Trial:
     # -- moving ---------------------------------------------------------------------------------
 
     @cached_property
-    def _carried(self) -> Jets:
+    def _frame_rotation(self) -> Jets:
+        """Angular velocity of the root frame, which may turn, such as a turntable."""
         return self.vector(self._root.angular_velocity)
 
     @cached_property
@@ -147,22 +146,23 @@ class Trial:
         return self.vector(self._known.places[body])
 
     def inertial_rate(self, vector: Jets) -> Jets:
-        """Rate of a vector in inertial space."""
-        return np.array([c.dt for c in vector], dtype=object) + cross(self._carried, vector)
+        """Rate of a vector in inertial space: that of its components, plus Ω × the vector."""
+        return np.array([c.dt for c in vector], dtype=object) + cross(self._frame_rotation, vector)
 
     def angular_momentum(self, body: Body) -> Jets:
         """About its centre of mass, kg m²/s."""
         return self.mapped_by_inertia(body, self.bodies[body].angular)
 
     def mapped_by_inertia(self, body: Body, vector: Jets) -> Jets:
-        """What the inertia tensor of a body about its centre of mass maps a vector to."""
+        """The inertia tensor of a body about its centre of mass, applied to a vector."""
         found = np.array(self.scalars(_axes_and_moments(body, self._root)), dtype=object)
         axes, moments = found.reshape(2, 3, 3)
+        # Project on the body's axes, apply the matrix there, and return to the root frame.
         along = [dot(axis, vector) for axis in axes]
         return sum(axis * dot(row, along) for axis, row in zip(axes, moments, strict=True))
 
     def slip(self, restraint: Restraint, direction: Vector) -> Jet:
-        """Relative velocity that a restraint rules out, along a direction."""
+        """Relative velocity at a restraint along a direction: zero along the restraint's own."""
         relative = self._point(restraint.body, restraint.arm) - self.vector(restraint.velocity)
         if restraint.other is not None:
             relative = relative - self._point(restraint.other, restraint.other_arm)
@@ -175,7 +175,7 @@ class Trial:
         return moving.velocity + cross(moving.angular, self.vector(arm))
 
     def slips(self) -> tuple[Array, Array]:
-        """All ruled-out relative velocities and their rates: (restraints, motions) each."""
+        """Relative velocities that restraints exclude, and their rates: (restraints, motions)."""
         found = [self.slip(r, r.direction) for r in self._known.restraints]
         shape = (len(found), self.size)
         values = np.array([self._wide(s.value) for s in found]).reshape(shape)
@@ -187,7 +187,7 @@ class Trial:
 
 
 _PI = Symbol("pi")
-#: A second rate that nothing determines: of speeds, whose first rates alone are given.
+#: The second rate of a speed, which nothing determines; nan shows wherever it is used by mistake.
 _UNKNOWN = np.array(np.nan)
 
 
@@ -198,7 +198,7 @@ def _along(vector: Vector, root: Frame) -> tuple[Expr, ...]:
 
 @lru_cache(maxsize=64)
 def _axes_and_moments(body: Body, root: Frame) -> tuple[Expr, ...]:
-    """Components of a body's axes, one after another, and then the rows of its inertia."""
+    """Components of a body's axes, one after another, then the rows of its inertia matrix."""
     axes = [_along(body.axes[label], root) for label in body.axes.labels]
     return tuple(entry for row in (*axes, *body.inertia.rows) for entry in row)
 

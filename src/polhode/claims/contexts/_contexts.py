@@ -1,4 +1,4 @@
-"""The contexts of a claim, and how members of different signs are judged in each."""
+"""The contexts of a claim, and how equations and inequalities are judged in each."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Judge = Callable[[BoundClaim], Verdict]
 
 
 def _deferred(module: str, name: str) -> Judge:
-    """A judge whose file, and all that it needs, is loaded only when its context is used."""
+    """A judge whose module is loaded only when its context is used."""
 
     def judged(claim: BoundClaim) -> Verdict:
         judge: Judge = getattr(import_module(f"polhode.claims.contexts.{module}"), name)
@@ -37,48 +37,49 @@ _WHOLE: dict[str, Judge] = {
     "launch": _deferred("_initial_value", "judged_launch"),
     "number": _deferred("_number", "judged_number"),
 }
-#: How a corrected claim is judged where there is a quicker way.
-_TRIED: dict[str, Judge] = {"launch": _deferred("_initial_value", "judged_along")}
-#: Where a claim may be asked to hold.
+#: Faster judges for corrected claims.
+_FASTER: dict[str, Judge] = {"launch": _deferred("_initial_value", "judged_along")}
+#: All contexts a claim may be judged in.
 CONTEXTS = (*_EQUATIONS, *_WHOLE)
 
 
 def judge(claim: BoundClaim, context: str) -> Verdict:
-    """The verdict on a claim; every member is judged by its sign.
+    """The verdict on a claim, each member judged by its relation sign.
 
-    Raises `ParseError` for an unknown context, and for signs that have no meaning in the context.
+    Raises `ParseError` for an unknown context, and for signs that have no meaning in it.
     """
     if context not in CONTEXTS:
         raise ParseError(f"context {context!r}", expected=f"one of {', '.join(CONTEXTS)}")
     magnitude = next((r.sign for r in claim.members if r.sign in MAGNITUDES), None)
     if magnitude is not None:
         raise ParseError(
-            f"the sign {magnitude}, which was read; no single state can decide it",
+            f"the sign {magnitude}, which was read, but which no single state can decide",
             expected="= ≈ or an inequality",
             advice="state what is small, and judge what follows from it in the context limit",
             option="small",
         )
     if context in _WHOLE:
         return _WHOLE[context](claim)
-    found = list(_by_signs(claim, context))
-    if not found:
+    verdicts = list(_by_signs(claim, context))
+    if not verdicts:
         raise ParseError(
             "a formula that states nothing",
             expected="two sides with a sign between them, such as = or <",
             advice="write out the whole equation",
         )
-    wrong = [v for v in found if not v.holds]
+    wrong = [v for v in verdicts if not v.holds]
     if wrong:
+        # A member that fails refutes the whole claim, whatever is undecided beside it.
         worst = next((v for v in wrong if v.answer is Answer.FAILS), wrong[0])
         return replace(worst, context=context)
-    approximate = next((v for v in found if v.answer is Answer.APPROXIMATE), None)
-    remarks = tuple(dict.fromkeys(r for v in found for r in v.remarks))
-    return replace(approximate or found[0], context=context, remarks=remarks)
+    approximate = next((v for v in verdicts if v.answer is Answer.APPROXIMATE), None)
+    remarks = tuple(dict.fromkeys(r for v in verdicts for r in v.remarks))
+    return replace(approximate or verdicts[0], context=context, remarks=remarks)
 
 
 def holds(claim: BoundClaim, context: str) -> bool:
-    """Whether a claim holds, without evidence where that is quicker."""
-    return _TRIED[context](claim).holds if context in _TRIED else judge(claim, context).holds
+    """Whether a claim holds; without a proof where that is faster."""
+    return _FASTER[context](claim).holds if context in _FASTER else judge(claim, context).holds
 
 
 def _by_signs(claim: BoundClaim, context: str) -> Iterator[Verdict]:
@@ -91,7 +92,7 @@ def _by_signs(claim: BoundClaim, context: str) -> Iterator[Verdict]:
         raise ParseError(
             f"the sign {others[0]} in the context {context}", expected="= ≈ or an inequality"
         )
-    # ± is one choice for the whole statement, so members judged separately must not share it
+    # ± is one choice for the whole statement, so members judged separately must not share it.
     with_choice = {i for i in range(len(claim.members)) if claim.says_choice(i)}
     groups = [group for group in (equal, close) if with_choice.intersection(group)]
     if len(groups) > 1 or with_choice.intersection(compared):
@@ -102,7 +103,7 @@ def _by_signs(claim: BoundClaim, context: str) -> Iterator[Verdict]:
         )
     if equal:
         yield _EQUATIONS[context](claim.only(equal))
-    if close:  # ≈ may be exact; otherwise only what is small says how close it is
+    if close:  # ≈ may hold exactly; if not, only a stated small quantity says how close it is
         exact = _EQUATIONS[context](claim.only(close))
         yield exact if exact.holds or not claim.small else _judged_limit(claim.only(close))
     if not compared:
@@ -118,7 +119,7 @@ def _by_signs(claim: BoundClaim, context: str) -> Iterator[Verdict]:
 
 def _domains(claim: BoundClaim, context: str) -> tuple[ClaimDomain, ...]:
     if context == "steady":
-        from polhode.claims.states._steady_states import steady_states  # it needs the analysis
+        from polhode.claims.states._steady_states import steady_states  # loads `analyse`
 
         return steady_states(claim)
     return (claim.states(AnyState if context == "identity" else TrueMotion),)

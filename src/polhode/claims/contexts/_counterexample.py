@@ -1,4 +1,4 @@
-"""A state that refutes a claim, with exact values of both sides and a second opinion by numbers."""
+"""Counterexamples: a state that refutes a claim, with exact values and a numeric second opinion."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ from polhode.claims.states._numeric import NO_VALUE, number
 from polhode.claims.states._sample_points import ExactPoint, exact_point, is_physical
 
 _TRIES = 300  # states drawn, of which few may be physical
-_ROUNDING = 1e-7  # relative; of the linear solve at a state, where wrong sides differ by far more
-_RATES = 4  # of a prescribed function that get numbers, the function itself among them
+_ROUNDING = 1e-7  # relative error of the linear solve at a state; wrong sides differ by far more
+_RATES = 4  # how many of f, ḟ, f̈, … get values for a prescribed function f
 
 
 def refutation(
@@ -31,22 +31,22 @@ def refutation(
     refutes: Callable[[Expr, Expr], bool] = ne,
     nonzero: Expr = ONE,
 ) -> Evidence:
-    """A counterexample and its confirmation, as far as they can be found.
+    """A counterexample and its confirmation; None where none is found.
 
     Args:
         component: what is refuted.
         residual: of that component, exactly.
-        states: where it is asked to hold.
-        refutes: whether values of the two sides do so; if they differ, by default.
+        states: where the claim should hold.
+        refutes: whether values of the two sides refute it; by default, if they differ.
         nonzero: what must not vanish there, such as the residuals of all branches of a ±.
     """
     sides = (states.on(component.left), states.on(component.right))
 
-    def does(point: ExactPoint) -> bool:
+    def is_example(point: ExactPoint) -> bool:
         left, right = (_at(point, side) for side in sides)
         return refutes(left, right) and bool(_at(point, nonzero))
 
-    return example_where(does, component, residual, states, nonzero)
+    return example_where(is_example, component, residual, states, nonzero)
 
 
 def example_where(
@@ -56,14 +56,14 @@ def example_where(
     states: ClaimDomain,
     used: Expr = ONE,
 ) -> Evidence:
-    """The first physical state among some that refutes a component.
+    """The first physical state that refutes a component, among those drawn.
 
     Args:
-        refutes: whether a state does so.
+        refutes: whether a state refutes it.
         component: what is refuted.
         residual: of that component, exactly.
-        states: where it is asked to hold.
-        used: what the state has to give a value besides.
+        states: where the claim should hold.
+        used: a further expression that needs a value at the state.
     """
     sides = (states.on(component.left), states.on(component.right))
     for point in _drawn((*sides, used), states):
@@ -78,7 +78,7 @@ def example_where(
 
 
 def drawn_numbers(sides: Sequence[Expr], states: ClaimDomain) -> Iterator[dict[Symbol, float]]:
-    """Numbers of every quantity at physical states of a domain, forces included."""
+    """Values of every quantity at physical states of a domain, forces included."""
     for point in _drawn(tuple(map(states.on, sides)), states):
         try:
             if is_physical(states, point.floats()):
@@ -95,7 +95,7 @@ def _drawn(sides: tuple[Expr, ...], states: ClaimDomain) -> Iterator[ExactPoint]
 
 
 def _state(states: ClaimDomain) -> set[Symbol]:
-    """All that has to have a value for a state to be complete."""
+    """The symbols that need a value for a state to be complete."""
     equations = states.equations
     known = declared(equations.system).parameters
     found = {*equations.coordinates, *equations.speeds, *equations.parameters, *known}
@@ -107,14 +107,14 @@ def _state(states: ClaimDomain) -> set[Symbol]:
 
 
 def _at(point: ExactPoint, expression: Expr) -> Expr:
-    """The exact value of an expression; to rounding where it holds parts under names."""
+    """The exact value of an expression; in doubles if it has named subexpressions."""
     if not any(under_name(generator) is not None for generator in expression.generators):
         return point(expression)
     return Expr.of(float(number(expression, point.floats())))
 
 
 def _described(point: ExactPoint, states: ClaimDomain) -> dict[str, str]:
-    """The state in full, with what the domain determines."""
+    """The state in full, including the quantities that the domain determines."""
     values = point.described()
     for symbol in _state(states):
         image = states.of(symbol)
@@ -143,7 +143,7 @@ def _confirmed(
         left, right = (float(number(s, numbers)) for s in (component.left, component.right))
     except NO_VALUE:
         return None
-    scale = max(abs(left), abs(right), 1e-12)
+    scale = max(abs(left), abs(right), 1e-12)  # one side may be zero: compare with the other
     expected = (number(found.left, {}), number(found.right, {}))
     agrees = all(
         isclose(one, other, rel_tol=_ROUNDING, abs_tol=_ROUNDING * scale)
@@ -156,7 +156,7 @@ def _confirmed(
 
 
 def _numbers(point: ExactPoint, states: ClaimDomain) -> dict[Symbol, float]:
-    """Every quantity at a point; accelerations and reactions from the balance alone."""
+    """Values of all quantities at a point; accelerations and reactions from the balance alone."""
     drawn = point.floats()
     state = dict(drawn)
     for symbol in _state(states):

@@ -39,8 +39,13 @@ def judged(claim: BoundClaim, domains: Sequence[ClaimDomain], context: str) -> V
     wrong = [f for f in found if f not in equivalent]
     if wrong:
         return failed(wrong, context)
-    remarks = dict.fromkeys(_difference_of_lagrangians(f.component) for f in equivalent)
-    return Verdict(Answer.HOLDS, context, remarks=tuple(remarks))
+    remarks = []
+    for difference in (f.component.difference for f in equivalent):
+        kind = ", a total time derivative," if _varies(difference) else ","
+        remarks.append(
+            f"the Lagrangians differ by {difference}{kind} which no equation of motion contains"
+        )
+    return Verdict(Answer.HOLDS, context, remarks=tuple(dict.fromkeys(remarks)))
 
 
 @dataclass(frozen=True)
@@ -53,17 +58,18 @@ class Failure:
 
 
 def failures(claim: BoundClaim, domains: Iterable[ClaimDomain]) -> Iterator[Failure]:
-    """Every component that does not vanish on every domain.
+    """Every component whose residual does not vanish on every domain.
 
-    ± is one choice for the whole statement: at every state all components vanish on one branch,
-    which is so where each product of residuals, one of each branch, vanishes. A ± of which one
-    sign is right everywhere and the other is not says too much.
+    ± is one choice for the whole statement: at every state all components must vanish on one of the
+    branches. That is so exactly if each product of residuals, one from each branch, vanishes. If
+    one sign is right everywhere and the other is not, the ± claims too much and fails.
     """
     branches = [claim.components(branch) for branch in range(len(claim.branches))]
     found: dict[ScalarRelation, Failure] = {}
     single: list[list[Failure]] = [[] for _ in branches]  # of one branch each
     for states in domains:
         wrong = [[c for c in branch if states.on(c.difference)] for branch in branches]
+        # Products of the same component on every branch come first: they read best in a verdict.
         for chosen in sorted(product(*wrong), key=lambda picked: len({*map(_place, picked)})):
             failure = _failure(chosen, states)
             if failure is not None:
@@ -77,7 +83,7 @@ def failures(claim: BoundClaim, domains: Iterable[ClaimDomain]) -> Iterator[Fail
 
 
 def _failure(chosen: Sequence[ScalarRelation], states: ClaimDomain) -> Failure | None:
-    """Of components, one of each branch: the failure where none of them vanishes."""
+    """The failure of components, one from each branch, if the product of residuals is not zero."""
     left = prod((states.on(component.difference) for component in chosen), start=ONE)
     first = chosen[0]
     return Failure(first, states, Residual(first.member, first.label, left)) if left else None
@@ -120,10 +126,11 @@ def _place(component: ScalarRelation) -> str:
 
 
 def _is_equivalent(claim: BoundClaim, component: ScalarRelation) -> bool:
-    """Whether a text's Lagrangian has the equations of motion of the model's.
+    """Whether a text's Lagrangian gives the same equations of motion as the model's.
 
-    It has where the variation of the difference vanishes for every coordinate: Landau and
-    Lifshitz, Mechanics, § 2.
+    It does if the Lagrange derivative d/dt ∂f/∂q̇ - ∂f/∂q of the difference f vanishes for every
+    coordinate: then f is a constant plus a total time derivative. See Landau and Lifshitz,
+    Mechanics, § 2.
     """
     printed = claim.members[component.member].printed
     if printed is None or not isinstance(printed.left, Name) or component.label:
@@ -141,12 +148,6 @@ def _is_equivalent(claim: BoundClaim, component: ScalarRelation) -> bool:
     known = {s for s in rest.symbols() if s.kind.varies} <= {*coordinates, *rates}
     variations = (rest.diff(q.derivative()).dt() - rest.diff(q) for q in coordinates)
     return known and not any(map(bool, variations))
-
-
-def _difference_of_lagrangians(component: ScalarRelation) -> str:
-    difference = component.difference
-    kind = ", a total time derivative," if _varies(difference) else ","
-    return f"the Lagrangians differ by {difference}{kind} which no equation of motion contains"
 
 
 def _varies(expression: Expr) -> bool:

@@ -1,4 +1,4 @@
-"""Inequalities that are to hold on all states of a context, and signs of expressions."""
+"""Inequalities on all states of a context, and signs of expressions."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def judged_inequality(claim: BoundClaim, component: ScalarRelation, states: Clai
     return Verdict(
         Answer.FAILS,
         "",
-        reason=f"both sides can be equal, which {sign} excludes"
+        reason=f"both sides can be equal, and {sign} excludes that"
         if equal
         else f"the left side is not {sign} the right side everywhere",
         residuals=(residual,),
@@ -51,7 +51,7 @@ def judged_inequality(claim: BoundClaim, component: ScalarRelation, states: Clai
 def _refuted(
     component: ScalarRelation, residual: Residual, states: ClaimDomain, sign: str
 ) -> Evidence:
-    """A state on the wrong side; for a strict inequality also one of equality."""
+    """A state that violates the inequality; for a strict one, also a state of equality."""
 
     def refutes(left: Expr, right: Expr) -> bool:
         return float(number(left - right, {})) * SENSE[sign] < 0
@@ -69,7 +69,7 @@ def _refuted(
 
 
 def _where_equal(difference: Expr, states: ClaimDomain) -> Iterator[ClaimDomain]:
-    """The states on which some factor of the difference vanishes."""
+    """The states on which a factor of the difference vanishes, one domain for each factor."""
     if not difference:
         yield states
         return
@@ -82,23 +82,24 @@ def _where_equal(difference: Expr, states: ClaimDomain) -> Iterator[ClaimDomain]
 
 
 def judged_unequal(claim: BoundClaim, component: ScalarRelation, states: ClaimDomain) -> Verdict:
-    """≠ holds where the difference has a sign; "sometimes", where it is not zero throughout."""
+    """≠ holds if the difference has a definite sign; with "sometimes", if it is not always zero."""
     difference = states.on(component.difference)
     residual = Residual(component.member, component.label, difference)
     if not difference:
-        return Verdict(Answer.FAILS, "", reason="both sides are the same", residuals=(residual,))
+        return Verdict(Answer.FAILS, "", reason="both sides are equal", residuals=(residual,))
     if claim.when == "sometimes" or strict_sign(difference, states.signs):
         return Verdict(Answer.HOLDS, "", reason=f"they differ by {difference}")
     return Verdict(Answer.UNREAD, "", reason="it was read, but not decided", residuals=(residual,))
 
 
-# -- signs of expressions, as far as they can be seen ---------------------------------------------
+# -- signs of expressions, where their factors show them ------------------------------------------
 
 
 def definite_sign(expression: Expr, assumed: Collection[Expr] = ()) -> int:
-    """1 or -1 where an expression is seen to have that sign or to vanish; 0 where it may change."""
+    """1 if the factors show an expression to be ≥ 0 everywhere, -1 for ≤ 0, 0 if undecided."""
     coefficient, powers = factors(expression)
     sign = 1 if coefficient > 0 else -1
+    # Even powers cannot change the sign, so only factors of odd power are looked at.
     for factor in (f for f, exponent in powers.items() if exponent % 2):
         if is_positive(-factor):
             sign = -sign
@@ -108,12 +109,12 @@ def definite_sign(expression: Expr, assumed: Collection[Expr] = ()) -> int:
 
 
 def strict_sign(expression: Expr, assumed: Collection[Expr] = ()) -> int:
-    """1 or -1 where an expression is seen to have that sign and never to vanish; 0 otherwise."""
+    """1 if the factors show an expression to be > 0 everywhere, -1 for < 0, 0 otherwise."""
     return 0 if any(may_vanish(expression, assumed)) else definite_sign(expression, assumed)
 
 
 def may_vanish(expression: Expr, assumed: Collection[Expr] = ()) -> Iterator[Expr]:
-    """The factors of an expression that are not seen to differ from zero."""
+    """The factors of an expression that are not known to differ from zero."""
     for factor, exponent in factors(expression)[1].items():
         known = is_positive(factor) or is_positive(-factor) or factor in assumed
         if exponent > 0 and not known and -factor not in assumed:
@@ -121,7 +122,7 @@ def may_vanish(expression: Expr, assumed: Collection[Expr] = ()) -> Iterator[Exp
 
 
 def _is_square_sum(factor: Expr) -> bool:
-    """Whether every term is a positive number times even powers or positive quantities."""
+    """Whether every term is a positive number times even powers or positive quantities: x² + y²."""
     return all(
         coefficient > 0 and all(g.positive or power % 2 == 0 for g, power in powers.items())
         for powers, coefficient in factor.terms()

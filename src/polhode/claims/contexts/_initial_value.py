@@ -35,22 +35,22 @@ from polhode.claims.states._claim_domain import TrueMotion
 from polhode.claims.states._numeric import number
 from polhode.claims.states._sample_points import SamplePoints, SymbolValues
 
-_MOTIONS = 3  # with different parameters, lest one agrees by chance
-_SHORT, _LONG = 6.0, 24.0  # s; the longer where something has yet to happen
-_PARTS = (0.2, 0.7)  # of a motion at which a correction is tried
-_HIGHEST_RATE = 4  # of both sides, by which they are compared just after the start
+_MOTIONS = 3  # with different parameters, so that agreement by chance is unlikely
+_SHORT, _LONG = 6.0, 24.0  # s; the longer one where an event has to be reached
+_PARTS = (0.2, 0.7)  # fractions of a motion at which a correction is tried
+_HIGHEST_RATE = 4  # highest derivative of both sides compared just after the start
 _TOLERANCES = (1e-6, 1e-9)  # of the second integration
-_ROUNDING = 1e-5  # relative; between the two integrations
+_ROUNDING = 1e-5  # relative difference allowed between the two integrations
 #: The letter of texts for the time at which a motion starts.
 _CLOCK = Symbol("t_0")
 
 
 def judged_launch(claim: BoundClaim) -> Verdict:
-    """Along the motion from the start that is given.
+    """Judge a claim along the motion from the given start.
 
-    Equations are first tried exactly, with the conserved quantities at their starting values;
-    what is left open then, and every statement on the course of the motion, is decided by
-    integrating it for several choices of the parameters.
+    Equations are first tried exactly, with the conserved quantities at their initial values. If
+    that leaves them open, and for every statement on the course of the motion, the motion is
+    integrated for several choices of the parameters.
     """
     claim = _started(claim)
     timeless = not any(TIME in c.difference.symbols() for c in claim.components())
@@ -60,7 +60,7 @@ def judged_launch(claim: BoundClaim) -> Verdict:
 
 
 def judged_along(claim: BoundClaim) -> Verdict:
-    """The same by integrating motions, without a proof: quicker where many claims are tried."""
+    """Judge it by integration alone, without a proof: faster where many claims are tried."""
     claim = _started(claim)
     fixed = {s: e for s, e in claim.given.items() if not s.kind.varies}
     if claim.when == "initially":
@@ -70,7 +70,7 @@ def judged_along(claim: BoundClaim) -> Verdict:
 
 
 def _started(claim: BoundClaim) -> BoundClaim:
-    """With the restrictions on the state as the start, where no start is given."""
+    """The claim with its restrictions on the state as the start, if no start is given."""
     if claim.start:
         return claim
     start = {s: e for s, e in claim.given.items() if s.kind.varies}
@@ -88,7 +88,7 @@ def _is_equation(claim: BoundClaim) -> bool:
 
 
 def _follows_from_invariants(claim: BoundClaim) -> bool:
-    """Whether it holds where all conserved quantities have their values at the start."""
+    """Whether it holds on all states with the same conserved quantities as the start."""
     state = (*claim.equations.coordinates, *claim.equations.speeds)
     open_start = {s: Expr.generator(Symbol(f"{s.published}_start")) for s in state}
     start = open_start | dict(claim.start)
@@ -111,7 +111,10 @@ def _conserved(the: EquationsKey) -> tuple[Expr, ...]:
 
 
 def _judged_initially(claim: BoundClaim) -> Verdict:
-    """At the start; an inequality whose sides are equal there, just after it."""
+    """Judge it at the start; an inequality whose sides are equal there, just after the start.
+
+    Just after it, the sign of left - right is that of its lowest derivative that does not vanish.
+    """
     states = claim.states(TrueMotion)
     equal = {i for i, r in enumerate(claim.members) if r.sign in EQUALITY}
     verdict = judged(claim.only(equal), [states], "launch")
@@ -137,7 +140,7 @@ def _lowest_rates(component: ScalarRelation, states: TrueMotion) -> ScalarRelati
 
 
 def _judged_by_numbers(claim: BoundClaim, event: Mapping[Symbol, Expr]) -> Verdict:
-    """All along several motions, or when something happens."""
+    """Judge it along several motions, or at the event at which it is claimed."""
     running = replace(claim, relations=()).states(TrueMotion)
     duration = _LONG if event or claim.when == "finally" else _SHORT
     found = (motion.at(event) for motion in _motions(claim, running, duration))
@@ -165,18 +168,20 @@ def _motions(claim: BoundClaim, running: TrueMotion, duration: float) -> Iterato
 
 
 def sample_points_along(claim: BoundClaim) -> tuple[TrueMotion, SamplePoints]:
-    """States at some moments of several motions from the start, to try an equation at.
+    """States at a few instants of several motions from the start, for trying an equation.
 
     Raises `NumericError` unless all members are equations along the whole motion.
     """
     claim = _started(claim)
     if not _is_equation(claim):
-        raise NumericError("a statement on single moments", expected="an equation along a motion")
+        raise NumericError(
+            "a statement about single instants", expected="an equation along a motion"
+        )
     running = replace(claim, relations=()).states(TrueMotion)
     motions = islice(_motions(claim, running, _SHORT), _MOTIONS)
-    moments = (motion.state(part) for motion in motions for part in _PARTS)
+    instants = (motion.state(part) for motion in motions for part in _PARTS)
     return running, SamplePoints(
-        tuple(SymbolValues(state, running, i) for i, state in enumerate(moments))
+        tuple(SymbolValues(state, running, i) for i, state in enumerate(instants))
     )
 
 
@@ -200,9 +205,9 @@ def _refuted(relation: SampledRelation, sample: int, claim: BoundClaim) -> Verdi
 
 
 def _integrated_anew(relation: SampledRelation, sample: int) -> Confirmation | None:
-    """Both sides at a sample of a motion, with the motion and all accelerations from the balance.
+    """Both sides at one sample, with the motion integrated again from the balance of every body.
 
-    Loosely at first, which is quick: agreement to several digits is no coincidence.
+    A loose tolerance is tried first: it is fast, and agreement to five digits is no coincidence.
     """
     motion, component = relation.motion, relation.component
     since = float(motion.times[sample])

@@ -1,4 +1,4 @@
-"""Claims that are true for small quantities, to an order."""
+"""Claims that hold to an order in small quantities."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ from polhode.claims.states._claim_domain import AnyState, ClaimDomain, TrueMotio
 from polhode.claims.states._numeric import number
 from polhode.claims.states._sample_points import real_states
 
-_DIGITS = 30  # binary ones that a remainder may lose to rounding
-_STEEPEST = 15  # order assumed for a remainder beyond all that is expanded
+_DIGITS = 30  # bits by which a remainder may be smaller than the sides, of the 53 of a double
+_STEEPEST = 15  # order assumed for a remainder that vanishes to every order expanded
 
 
 def judged_limit(claim: BoundClaim) -> Verdict:
-    """To the stated order in the small quantities, and to that of every term that is printed.
+    """Judge a claim to the stated order in the small quantities, and to that of every printed term.
 
-    What is left over must be smaller than all that is kept: smaller than the stated order, and
-    smaller than each printed term, which would otherwise not have been tested. A single quantity
-    that is said to vanish need only be beyond the stated order. Judged on all states where no
+    The remainder must be of higher order than all that is kept: higher than the stated order, and
+    higher than each printed term, which would otherwise not have been tested. A single quantity
+    claimed to vanish need only be beyond the stated order. The claim is judged on all states if no
     accelerations or reactions occur, otherwise on true motions, then for the roots of steady
-    motions; of a ± each sign by itself.
+    motions. Each sign of a ± is judged by itself.
     """
     if not claim.small:
         raise NumericError(
@@ -42,7 +42,7 @@ def judged_limit(claim: BoundClaim) -> Verdict:
     if others := [r.sign for r in claim.members if r.sign not in (*EQUALITY, "≈")]:
         raise ParseError(f"the sign {others[0]} in the context limit", expected="= or ≈")
     verdicts = [_of_branch(replace(claim, branches=(branch,))) for branch in claim.branches]
-    # failures before what is open, then what is true to the lowest order
+    # The worst branch decides: failures, then undecided ones, then the lowest order reached.
     answers = (Answer.FAILS, Answer.UNREAD, Answer.APPROXIMATE, Answer.HOLDS)
     return min(
         verdicts, key=lambda v: (answers.index(v.answer), inf if v.order is None else v.order)
@@ -50,7 +50,7 @@ def judged_limit(claim: BoundClaim) -> Verdict:
 
 
 def _of_branch(claim: BoundClaim) -> Verdict:
-    """With one choice of the signs of ±."""
+    """The verdict for one choice of the signs of ±."""
     verdicts = []
     for remainders in _candidates(claim):
         verdict = _judged(claim, remainders)
@@ -61,7 +61,11 @@ def _of_branch(claim: BoundClaim) -> Verdict:
 
 
 def _candidates(claim: BoundClaim) -> Iterator[Iterator[Remainder]]:
-    """What may have to be small: remainders on a domain, or of the roots of steady motions."""
+    """Sets of remainders that may have to be small: on a domain, or of roots of steady motions.
+
+    Texts print an approximate rate of precession as if it held always; it is a root of the exact
+    relation between steady speeds.
+    """
     anywhere = claim.states(AnyState)
     sides = [anywhere.on(side) for c in claim.components() for side in (c.left, c.right)]
     dynamic = any(_is_dynamic(side, anywhere) for side in sides)
@@ -80,7 +84,7 @@ def _candidates(claim: BoundClaim) -> Iterator[Iterator[Remainder]]:
 
 
 def _is_dynamic(side: Expr, states: ClaimDomain) -> bool:
-    """Whether accelerations or reactions occur, which only the motion determines."""
+    """Whether accelerations or reactions occur, which only the dynamics determines."""
     equations = states.equations
     known = {*equations.coordinates, *equations.speeds}
     forces = {reaction_symbol(name) for name in equations.components}
@@ -96,7 +100,7 @@ def _remainder(
 ) -> Remainder:
     first = component.left if root is None else root
     left, right = (scaled(states.on(side), claim.small) for side in (first, component.right))
-    # positive is what the text says is, and what is large: the denominators of small quantities
+    # Positive: what the text states, and what is large, the denominators of small quantities.
     large = (s for small in claim.small for s in small.quantity.denominator.symbols())
     positive = (*claim.positive, *map(Expr.generator, large))
     return Remainder(component, states, left, right, positive, claim, root is not None)
@@ -120,8 +124,8 @@ def _judged(claim: BoundClaim, remainders: Iterable[Remainder]) -> Verdict:
                 Answer.UNREAD,
                 "limit",
                 reason=f"it was read and is true up to order {order - 1}, but its left side has a "
-                f"term of order {aside} that neither equals one on the right side nor vanishes by "
-                "itself; leave it out, or state the order of what is small",
+                f"term of order {aside} that is neither matched on the right side nor zero; leave "
+                "it out, or state the order of the small quantity",
                 order=order - 1,
             )
         reached.append((order, term))
@@ -161,7 +165,10 @@ def _failed(remainder: Remainder, order: int, term: Expr, why: str) -> Verdict:
 
 
 def _measured(remainders: Sequence[Remainder]) -> Iterator[str]:
-    """How the first residual scales with the small quantities, by numbers: a check of its order."""
+    """How the first residual scales with the small quantities, by numbers: a check of its order.
+
+    The exact series gives an integer; the measured power must be close to it.
+    """
     for remainder in remainders:
         difference = remainder.left - remainder.right
         if difference:
@@ -174,11 +181,12 @@ def _measured(remainders: Sequence[Remainder]) -> Iterator[str]:
 
 
 def _slope(difference: Expr, remainder: Remainder) -> float:
-    """The power of the smallness ε with which a difference falls from ε = 2⁻ᵏ to 2⁻ᵏ⁻¹."""
+    """The power p of a difference ∝ ε^p, from its values at ε = 2⁻ᵏ and 2⁻ᵏ⁻¹."""
     point = next(real_states(remainder.states, [difference.subs({SMALLNESS: ONE})]), None)
     if point is None:
         raise NumericError("no state among those tried", expected="one that is real")
     expected = next(iter(remainder.orders), _STEEPEST)
-    first = max(2, min(7, _DIGITS // max(expected, 1)))  # the residual stays above rounding
+    # ε^p = 2^(-kp): k is chosen such that kp ≤ 30 bits keeps the residual above rounding.
+    first = max(2, min(7, _DIGITS // max(expected, 1)))
     sizes = [abs(number(difference, {**point, SMALLNESS: 2.0**-k})) for k in (first, first + 1)]
     return log(sizes[0] / sizes[1], 2)

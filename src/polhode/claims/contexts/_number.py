@@ -1,4 +1,4 @@
-"""Numbers that a text prints, judged within their digits."""
+"""Printed numbers, judged to the precision of their digits."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import TrueMotion
 from polhode.claims.states._numeric import number
 
-_ROUNDING = 1e-12
+_ROUNDING = 1e-12  # relative; of the evaluation in doubles
 
 
 def judged_number(claim: BoundClaim) -> Verdict:
@@ -26,7 +26,7 @@ def judged_number(claim: BoundClaim) -> Verdict:
             return Verdict(
                 Answer.FAILS,
                 "number",
-                reason=f"the left side is {left}, about {found}; the text has {printed}",
+                reason=f"the left side is {left}, about {found}; the text prints {printed}",
                 residuals=(Residual(component.member, component.label, left - right),),
             )
     return Verdict(Answer.HOLDS, "number")

@@ -1,4 +1,4 @@
-"""What is left of a claim on small quantities, and the order to which it has to vanish."""
+"""The remainder of a claim about small quantities, and the order to which it has to vanish."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from polhode.claims.meaning._relations import PrintedRelation, ScalarRelation, T
 from polhode.claims.states._bound_claim import EQUALITY, BoundClaim, Small
 from polhode.claims.states._claim_domain import ClaimDomain
 
-#: Scales everything small.
+#: The ε by whose powers all small quantities are scaled.
 SMALLNESS = Symbol("smallness", positive=True)
 
-_HIGHEST_RATE = 3  # rates of a small quantity are as small, up to this order
-_HIGHEST = 6  # order up to which a remainder is expanded, or further for printed terms
-_LIMIT = 12  # order beyond which nothing is expanded
-_LOWEST = -4  # the highest pole that is expanded
+_HIGHEST_RATE = 3  # derivatives of a small quantity count as equally small, up to this one
+_HIGHEST = 6  # order up to which a remainder is expanded; further if printed terms are smaller
+_LIMIT = 12  # order up to which a single term is expanded
+_LOWEST = -4  # order of the highest pole expanded, in units of the weight of a small quantity
 _TARGET = Symbol("departure")
 
 # -- small quantities scaled together, and series in the smallness --------------------------------
@@ -31,7 +31,7 @@ def scaled(expression: Expr, small: Sequence[Small]) -> Expr:
     """An expression with every small quantity multiplied by its power of the smallness.
 
     The symbol that a small quantity is formed of then stands for the departure itself: with
-    ε = θ - π/2 small, θ becomes π/2 + smallness · θ. Rates of it are as small.
+    ε = θ - π/2 small, θ becomes π/2 + smallness · θ. Its rates are taken as equally small.
     """
     return expression.subs(_images(tuple(small)))
 
@@ -39,8 +39,9 @@ def scaled(expression: Expr, small: Sequence[Small]) -> Expr:
 def weights(small: Sequence[Small]) -> tuple[int, ...]:
     """The power of the smallness that each small quantity stands for.
 
-    Those kept to a higher order are larger: with θ to the third order and Ω to the first, a
-    product such as θ²Ω is left out. What is kept to order zero is smaller than all that is kept.
+    Quantities kept to a higher order are larger: with θ to the third order and Ω to the first, θ
+    counts as ε and Ω as ε³, so that θ³ and Ω are kept and θ²Ω is left out. A quantity kept to order
+    zero is smaller than all terms kept.
     """
     whole = stated_order(small)
     if not whole:
@@ -56,19 +57,19 @@ def stated_order(small: Sequence[Small]) -> int | None:
 
 
 def vanished(small: Sequence[Small]) -> dict[Symbol, Expr]:
-    """The values that symbols have where every small quantity is zero."""
+    """The values of symbols in the limit, where every small quantity is zero."""
     images = _images(tuple(small))
     return {symbol: value.subs({SMALLNESS: ZERO}) for symbol, value in images.items()}
 
 
 def restored(expression: Expr, small: Sequence[Small]) -> Expr:
-    """A coefficient with departures written as the small quantities they are."""
+    """A coefficient with the symbol of each departure replaced by the small quantity itself."""
     return expression.subs({_formed_of(each.quantity)[0]: each.quantity for each in small})
 
 
 @lru_cache(maxsize=64)
 def _images(small: tuple[Small, ...]) -> dict[Symbol, Expr]:
-    """What the symbols of small quantities, and their rates, become when all is scaled."""
+    """The scaled forms of the symbols of small quantities and of their rates."""
     found: dict[Symbol, Expr] = {}
     for each, weight in zip(small, weights(small), strict=True):
         scale = Expr.generator(SMALLNESS) ** weight
@@ -81,9 +82,10 @@ def _images(small: tuple[Small, ...]) -> dict[Symbol, Expr]:
 
 
 def _formed_of(quantity: Expr) -> tuple[Symbol, Expr]:
-    """The symbol that a small quantity is formed of, and its value when the quantity has another.
+    """The symbol that a small quantity is formed of, and its value in terms of `_TARGET`.
 
-    Raises `NumericError` for a quantity that is neither linear in a symbol nor one over it.
+    Raises `NumericError` for a quantity that is neither linear in a symbol nor the reciprocal of
+    such an expression.
     """
     target = Expr.generator(_TARGET)
     for symbol in sorted(quantity.symbols(), key=lambda s: (not s.kind.varies, s.published)):
@@ -103,15 +105,16 @@ def _formed_of(quantity: Expr) -> tuple[Symbol, Expr]:
 def leading_orders(
     expression: Expr, lowest: int, highest: int, positive: Collection[Expr] = ()
 ) -> dict[int, Expr]:
-    """The first coefficient of the series in the smallness that is not zero, by its order.
+    """The first nonzero coefficient of the series in the smallness, by its order.
 
-    Negative orders are poles. Empty where all up to the highest order vanish; roots of squares of
-    what is positive are resolved.
+    Negative orders are poles. Empty if all coefficients up to the highest order vanish. |f| becomes
+    f for every f known to be positive.
     """
     below = expression.denominator
     if SMALLNESS not in below.symbols() or _has_poles_inside(expression):
         return _leading(expression, lowest, highest, positive)
-    # expressions grow far less when numerator and denominator are expanded separately
+    # Numerator and denominator are expanded separately, since derivatives of a quotient grow fast:
+    # (a εⁱ + …) / (b εʲ + …) = (a/b) εⁱ⁻ʲ + …
     least = _leading(below, lowest, highest - lowest, positive)
     order, share = next(iter(least.items()), (0, ZERO))
     if not share:
@@ -121,7 +124,7 @@ def leading_orders(
 
 
 def _has_poles_inside(expression: Expr) -> bool:
-    """Whether a root or the like holds one over the smallness."""
+    """Whether a root or another function has 1/ε in its argument."""
     arguments = (a for g in expression.generators for a in g.arguments)
     return any(SMALLNESS in a.denominator.symbols() or _has_poles_inside(a) for a in arguments)
 
@@ -129,6 +132,10 @@ def _has_poles_inside(expression: Expr) -> bool:
 def _leading(
     expression: Expr, lowest: int, highest: int, positive: Collection[Expr]
 ) -> dict[int, Expr]:
+    """Taylor coefficients of ε^(-order) times the expression, for the lowest pole it is finite at.
+
+    Multiplying by rising powers of ε removes the pole; then the coefficients are derivatives at 0.
+    """
     scale = Expr.generator(SMALLNESS)
     for order in range(0, lowest - 1, -1):
         derivative, factorial = expression * scale**-order, 1
@@ -147,7 +154,7 @@ def _leading(
     raise NumericError(f"a pole of order above {-lowest} in a small quantity")
 
 
-# -- what is left of one component ----------------------------------------------------------------
+# -- the remainder of one component ---------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -155,8 +162,9 @@ class PrintedOrders:
     """The orders of the terms that one component of a claim prints.
 
     Attributes:
-        kept: of those that are to be right: all on the right side, and all where one side is zero.
-        left_aside: the highest of those on the left side that may have been left out on the right.
+        kept: orders of the terms that have to be right: all on the right side, or all on the other
+            side where one side is zero.
+        left_aside: highest order of a term on the left side that the right side may have dropped.
     """
 
     kept: tuple[int, ...] = ()
@@ -165,27 +173,27 @@ class PrintedOrders:
 
 @dataclass(frozen=True)
 class _Terms:
-    """How many terms there are, and the orders of those that contribute."""
+    """The number of terms, and the orders of those that contribute."""
 
     count: int
     orders: tuple[int, ...]
 
     @property
     def several(self) -> tuple[int, ...]:
-        """The orders, where there is more than one term to cancel."""
+        """The orders, if there is more than one term, so that terms can cancel."""
         return self.orders if self.count > 1 else ()
 
 
 @dataclass(frozen=True)
 class Remainder:
-    """What is left of one component: as a power series in the smallness.
+    """The remainder of one component, left minus right, as a power series in the smallness.
 
     Attributes:
-        component: which.
-        states: where it is asked to hold.
+        component: the component.
+        states: where the claim should hold.
         left: its left side there, scaled.
-        right: its right side.
-        positive: what is taken as positive.
+        right: its right side, likewise.
+        positive: quantities taken as positive.
         claim: the claim.
         is_root: whether the left side is a root of the relation between steady speeds.
     """
@@ -205,33 +213,33 @@ class Remainder:
 
     @cached_property
     def highest(self) -> int:
-        """The order up to which it is expanded; all printed terms are of this order or lower."""
+        """The order up to which it is expanded, at least that of every printed term."""
         if self.left == self.right:
             return _HIGHEST
         printed = self.printed
         return max((_HIGHEST, self.stated, printed.left_aside, *printed.kept))
 
     def series(self, expression: Expr, highest: int = _HIGHEST) -> dict[int, Expr]:
-        """The first coefficient that does not vanish, by its order; signs of roots are resolved."""
+        """The first nonzero coefficient of an expression, by its order."""
         lowest = _LOWEST * max(weights(self.claim.small))
         return leading_orders(expression, lowest, highest, self.positive)
 
     @cached_property
     def stated(self) -> int:
-        """The order to which the claim is to be true: as stated, or else the leading one."""
+        """The order to which the claim has to hold: as stated, otherwise the leading one."""
         order = stated_order(self.claim.small)
         return self._leading if order is None else order
 
     @cached_property
     def _leading(self) -> int:
-        """Order of the larger side, or of the largest of the terms that are to cancel."""
+        """Order of the larger side; where one side is zero, of the largest of the other's terms."""
         if (not self.left or not self.right) and self.printed.kept:
             return min(self.printed.kept)
         both = map(self.series, (self.left, self.right))
         return min((order for orders in both for order in orders), default=0)
 
     def objection(self, order: int) -> str:
-        """Why the sides must not differ at an order; empty where they may."""
+        """Why the sides must not differ at this order; empty if they may."""
         if order <= self.stated:
             return f"the sides already differ at order {order}"
         highest = max(self.printed.kept, default=order - 1)
@@ -259,14 +267,14 @@ class Remainder:
         left = self._terms(printed.terms(printed.left))
         if not left.count or not right.count:
             alone = printed.left if left.count else printed.right
-            return PrintedOrders(self._to_vanish(printed, alone))
+            return PrintedOrders(self._orders_to_vanish(printed, alone))
         aside = left.orders if printed.is_first else ()
         return PrintedOrders(right.orders, max((_LOWEST, *aside)))
 
     def _terms(self, terms: Iterable[Term]) -> _Terms:
-        """How many terms of a side this component has, and the orders of what they contribute.
+        """The number of terms of a side that this component has, and the orders they contribute.
 
-        A vector counts in the components in which it is largest: only there is it tested.
+        A vector term counts only in the components in which it is largest: only there is it tested.
         """
         present = [(t, parts) for t in terms if (parts := self._parts(t.contribution))[self._place]]
         found = []
@@ -280,7 +288,7 @@ class Remainder:
 
     @cached_property
     def _place(self) -> int:
-        """Which of the components of its member it is."""
+        """Its position among the components of its member."""
         alike = [c for c in self.claim.components() if c.member == self.component.member]
         return [c.label for c in alike].index(self.component.label)
 
@@ -293,16 +301,20 @@ class Remainder:
         return (side,) if triad is None else (side,) * 3  # 0 stands for a vector
 
     def _is_argument(self, term: Term) -> bool:
-        """Whether it is as large as the argument it stands in, and so no correction to it."""
+        """Whether a term is as large as the argument of the function that it stands in.
+
+        In sin(α + x) with x small, x is a correction; in sin x it is the argument itself.
+        """
         if not term.among:
             return False
         own, whole = (scaled(self.states.on(e), self.claim.small) for e in (term.own, term.among))
         return not own or not whole or self._order(own) <= self._order(whole)
 
-    def _to_vanish(self, printed: PrintedRelation, node: Node) -> tuple[int, ...]:
-        """Orders of the terms of a side that is to vanish; other factors only shift them.
+    def _orders_to_vanish(self, printed: PrintedRelation, node: Node) -> tuple[int, ...]:
+        """Orders of the terms of a side claimed to vanish.
 
-        A single term that is said to vanish is a statement about its size alone.
+        In x (a + b) = 0, the orders of a and b are shifted by that of x. A single term claimed to
+        vanish is a statement about its size alone, and has no terms to be tested.
         """
         factors = printed.factors(node)
         values = [value for _, value in factors if isinstance(value, Expr)]
@@ -318,9 +330,9 @@ class Remainder:
         )
 
     def _order(self, share: Expr) -> int:
-        """The order of what does not vanish.
+        """The order of an expression that does not vanish.
 
-        Raises `NumericError` where it is beyond all that is expanded.
+        Raises `NumericError` if it is beyond the highest order expanded.
         """
         found = self.series(share, _LIMIT)
         if not found:

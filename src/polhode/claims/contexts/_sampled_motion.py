@@ -1,4 +1,4 @@
-"""A motion by numbers, and a relation along it."""
+"""Sampled motions, and relations along them."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ TIME = as_symbol(time)
 
 _SAMPLES = 400
 _CLOSE = 1e-6  # relative; well above the error of the integration
-_SETTLED = 1e-3  # relative; how near a relation must come for "finally"
-_LASTING = _SAMPLES // 20
+_SETTLED = 1e-3  # relative tolerance for "finally": a final state is only approached
+_LASTING = _SAMPLES // 20  # consecutive samples for which a relation has to stay settled
 _NARROWED = 8  # times that the interval of an event is narrowed
 _PARTS = 64  # samples of such an interval
 _KEPT = 16
@@ -39,9 +39,9 @@ class SampledMotion:
 
     Attributes:
         run: the motion.
-        start: the number of every symbol at its start, SI.
+        start: value of every symbol at the start, SI.
         begin: time at the start, as the text counts it, s.
-        times: since the start at which it is sampled, s.
+        times: sample times, counted from the start, s.
     """
 
     run: Trajectory
@@ -50,19 +50,19 @@ class SampledMotion:
     times: Array
 
     def at(self, event: Mapping[Symbol, Expr]) -> SampledMotion | None:
-        """The moment at which quantities first have these values; the whole where none are given.
+        """The motion at the instant of an event, or the whole motion if there is no event.
 
-        None where that does not happen.
+        An event is a quantity that first reaches a value. None if that does not happen.
         """
         for symbol, value in event.items():
-            moment = self._first_at(symbol, float(number(value, self.start)))
-            return None if moment is None else replace(self, times=moment)
+            instant = self._first_at(symbol, float(number(value, self.start)))
+            return None if instant is None else replace(self, times=instant)
         return self
 
     def _first_at(self, symbol: Symbol, level: float) -> Array | None:
-        """When a quantity first has a value, by sampling the bracketing interval ever more finely.
+        """The time at which a quantity first reaches a value, by refining the bracketing interval.
 
-        Each pass narrows it by a factor of 63, so that eight reach the rounding of the times.
+        Each pass narrows it by a factor of 63, so that eight of them reach rounding.
         """
         times = self.times
         for _ in range(_NARROWED):
@@ -75,14 +75,14 @@ class SampledMotion:
         return times[:1]
 
     def state(self, part: float) -> dict[Symbol, float]:
-        """The number of every symbol when some part of the motion is over, SI."""
-        moment = self.times[-1:] * part
-        found = replace(self, times=moment).states
+        """The value of every symbol after this fraction of the motion, SI."""
+        instant = self.times[-1:] * part
+        found = replace(self, times=instant).states
         return {s: float(np.ravel(values)[0]) for s, values in found.items()}
 
     @cached_property
     def states(self) -> dict[Symbol, Array | float]:
-        """The number of every symbol at the sample times, SI."""
+        """The value of every symbol at the sample times, SI."""
         equations = self.run.equations
         varying = (*equations.coordinates, *equations.speeds)
         found = {s: self.run.evaluate(s, self.times) for s in varying}
@@ -96,15 +96,16 @@ def sampled_motions(
 
     Args:
         states: the starts.
-        used: expressions that have to be real there.
-        clock: the letter of the text for the time at the start; None where that is zero.
+        used: expressions that have to be real at the start.
+        clock: the letter of the text for the time at the start; None if that is zero.
         duration: of the motions, s.
     """
     equations = states.equations
     state = (*equations.coordinates, *equations.speeds)
     letters = {s for e in used for s in e.symbols()} - {TIME}
     for start in real_states(states, used):
-        start.update({s: start[s] for s in letters})  # also those that vanish at the start alone
+        # `SymbolValues` finds a value on first use: look up also letters that occur only later.
+        start.update({s: start[s] for s in letters})
         first = tuple((s, start[s]) for s in state)
         parameters = tuple((s, start[s]) for s in equations.parameters)
         try:
@@ -119,7 +120,7 @@ def sampled_motions(
 def _simulated(
     the: EquationsKey, parameters: Numbers, first: Numbers, duration: float
 ) -> Trajectory:
-    """One motion; kept, since corrections of a claim are tried on it as well."""
+    """One motion, kept because corrections of a claim are tried on the same motions."""
     given: dict[Name, float] = dict(parameters)
     start: dict[Name, float] = dict(first)
     return simulate(the.equations, given, start, duration)
@@ -134,7 +135,7 @@ class SampledRelation:
         component: the relation.
         sign: its sign.
         sides: values of both sides at the sample times.
-        rounding: of the numbers that the text prints, at the sample times; zero where it has none.
+        rounding: half a unit of the last digit of printed decimal numbers; zero without any.
     """
 
     motion: SampledMotion
@@ -151,7 +152,7 @@ class SampledRelation:
         claim: BoundClaim,
         states: TrueMotion,
     ) -> SampledRelation:
-        """The relation, with accelerations and reactions those of the motion."""
+        """The relation, with the accelerations and reactions of the motion."""
         half = claim.digits.get(component.member, ZERO)
         values = (
             np.asarray(number(states.on(side), motion.states), float)
@@ -162,7 +163,7 @@ class SampledRelation:
         return cls(motion, component, sign, (left, right), np.abs(rounding))
 
     def exception(self, when: str) -> int | None:
-        """The sample that refutes that the relation holds this often; None where none does."""
+        """A sample that refutes the relation, claimed always, never and so on; None without one."""
         match when:
             case "never":
                 wrong = self._met(_CLOSE)
@@ -175,7 +176,7 @@ class SampledRelation:
         return int(np.argmax(wrong)) if wrong.any() else None
 
     def _met(self, margin: float) -> Array:
-        """Where the relation is met, an inequality by a margin."""
+        """The samples at which the relation holds, an inequality with a relative margin."""
         left, right = self.sides
         if self.sign in SENSE:
             return np.asarray((left - right) * SENSE[self.sign] > margin * self._scale)
@@ -184,11 +185,12 @@ class SampledRelation:
 
     @cached_property
     def _scale(self) -> float:
-        return float(max(np.abs(self.sides).max(), 1e-300))
+        return float(max(np.abs(self.sides).max(), 1e-300))  # both sides may be zero throughout
 
     @property
     def _settles(self) -> bool:
-        """Whether the relation is nearly met throughout some twentieth of the motion."""
+        """Whether the relation nearly holds throughout a twentieth of the motion, at any time."""
         left, right = self.sides
         near = np.logical_or(self._met(-_CLOSE), np.abs(left - right) <= _SETTLED * self._scale)
+        # The moving sum over a window reaches its full length only if all its samples are near.
         return bool(np.convolve(near, np.ones(_LASTING), "valid").max() >= _LASTING)

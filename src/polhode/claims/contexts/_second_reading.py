@@ -1,4 +1,4 @@
-"""A second reading of a claim that was judged: numbers from its letters on."""
+"""A judged claim compared with a second, numeric reading of its letters."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._claim_domain import AnyState, TrueMotion
 
 _KINDS: dict[str, type[AnyState] | type[TrueMotion]] = {"identity": AnyState, "motion": TrueMotion}
-_APART = 1e-4  # relative; what is meant by another quantity differs by far more
-_ALIKE = 1e-9  # relative; rounding of a reading by numbers
-_STATES = 3  # at which a claim that fails may not agree: a mass may happen to be 1
+_DIFFERENT = 1e-4  # relative; another quantity, misread for the one meant, differs by far more
+_EQUAL = 1e-9  # relative; rounding of the numeric reading
+_STATES = 3  # for a claim that fails: sides may agree at one state by chance, with a mass of 1
 
 
 def disputed(
@@ -30,7 +30,9 @@ def disputed(
     defined: Mapping[Node, object],
     points: Mapping[Name, str],
 ) -> str:
-    """Why a second reader does not agree with a verdict; empty where it does, or cannot read.
+    """How a second reader contradicts a verdict; empty if it agrees or cannot read the claim.
+
+    A claim judged true must not differ at any state; one judged false must not hold at all of them.
 
     Args:
         answer: of the verdict.
@@ -38,8 +40,8 @@ def disputed(
         context: where it is to hold.
         statement: the claim, as LaTeX was parsed.
         defined: letters that the text defines.
-        points: the point that was taken, for moments that may be about several; empty for another
-            letter of which one of several meanings was chosen.
+        points: the chosen point of moments that may be about several; empty for other letters of
+            several meanings.
     """
     if context not in _KINDS or any(isinstance(p, PlusMinus) for p in walk(statement)):
         return ""
@@ -55,8 +57,8 @@ def disputed(
                 found = list(read_members(statement, system, numbers, trial, defined, points))
             known = [s for s in found if s is not None and s.is_known]
             if answer is Answer.HOLDS:
-                return _described([s for s in known if s.differ_by > _APART], "they differ")
-            if len(known) < len(found) or any(s.differ_by > _ALIKE for s in known):
+                return _described([s for s in known if s.differ_by > _DIFFERENT], "they differ")
+            if len(known) < len(found) or any(s.differ_by > _EQUAL for s in known):
                 return ""
             agreed += known
     except (PolhodeError, ArithmeticError, KeyError, np.linalg.LinAlgError):

@@ -1,4 +1,4 @@
-"""Claims about steady motions, ± branches among them."""
+"""Claims about steady motions, including roots with ±."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from polhode.claims.states._steady_states import SteadyStates, steady_states
 
 
 def judged_steady(claim: BoundClaim) -> Verdict:
-    """With non-ignorable speeds and all accelerations zero, on every family.
+    """Judge a claim with all non-ignorable speeds and all accelerations zero, on every family.
 
-    A member that gives a speed by a root, with or without ±, claims that every branch of it is a
-    steady motion; whether it covers all of them is remarked. What a relation between speeds and
-    angles says need not hold where an angle has a value of its own, such as the bottom of a hoop:
-    that it does not speak of such motions is remarked.
+    A member that gives a speed by a root, with or without ±, claims that each of its branches is a
+    steady motion; a remark says whether it covers all of them. A relation between speeds and angles
+    need not hold where an angle is fixed by itself, such as at the bottom of a hoop; a remark then
+    says that the claim does not speak of such motions.
     """
     families = steady_states(claim)
     solved = [solved_members(claim, branch) for branch in range(len(claim.branches))]
@@ -44,7 +44,7 @@ def judged_steady(claim: BoundClaim) -> Verdict:
 
 
 def _on_families(claim: BoundClaim, families: Sequence[SteadyStates]) -> Verdict:
-    """On every family but those at rest in an angle, where the claim holds on all others."""
+    """The verdict on every family; families at a fixed angle are excused if it holds elsewhere."""
     wrong = [f for f in families if next(failures(claim, [f]), None) is not None]
     right = [f for f in families if f not in wrong]
     verdict = judged(claim, wrong, "steady")
@@ -53,7 +53,7 @@ def _on_families(claim: BoundClaim, families: Sequence[SteadyStates]) -> Verdict
     named, unnamed = ("; ".join(str(f.family) for f in group) for group in (right, wrong))
     remark = f"it holds on the steady motions {named}"
     if all(f.is_at_rest for f in wrong) and not all(f.is_at_rest for f in right):
-        remark += f", and does not speak of {unnamed}"
+        remark += f", and does not cover {unnamed}"
         return Verdict(Answer.HOLDS, "steady", remarks=(remark,))
     return replace(verdict, remarks=(*verdict.remarks, f"{remark}, but not on {unnamed}"))
 
@@ -67,8 +67,8 @@ class SolvedMember:
 
     Attributes:
         member: its number.
-        quantity: what it gives.
-        value: what that is to be.
+        quantity: the variable it gives.
+        value: the claimed value.
         is_alternative: whether it is a further value after an "or".
     """
 
@@ -93,7 +93,7 @@ def solved_members(claim: BoundClaim, branch: int) -> list[SolvedMember]:
 
 
 def _contradictions(solved: Sequence[SolvedMember], states: TrueMotion) -> Iterator[Failure]:
-    """Members that give one quantity different values, where the text does not say "or"."""
+    """Members that give one quantity different values without an "or" in the text."""
     for one, other in combinations(solved, 2):
         if one.quantity == other.quantity and not other.is_alternative:
             component = ScalarRelation(other.member, "", one.value, other.value)
@@ -105,8 +105,8 @@ def _contradictions(solved: Sequence[SolvedMember], states: TrueMotion) -> Itera
 def _not_steady(claim: BoundClaim, solved: SolvedMember) -> Iterator[Failure]:
     """Accelerations that do not vanish where the quantity has the claimed value."""
     equations = claim.equations
-    still = {q.derivative(): ZERO for q in reduced(equations).essential}
-    given = {**still, **claim.given}
+    at_rest = {q.derivative(): ZERO for q in reduced(equations).essential}
+    given = {**at_rest, **claim.given}
     given[solved.quantity] = solved.value.subs(given)
     states = TrueMotion(equations, given, claim.relations, claim.positive)
     for symbol in equations.acceleration_symbols:
@@ -118,7 +118,7 @@ def _not_steady(claim: BoundClaim, solved: SolvedMember) -> Iterator[Failure]:
 
 
 def _covered(solved: list[list[SolvedMember]], families: tuple[SteadyStates, ...]) -> Iterator[str]:
-    """How many of the roots of a family's relation the branches are."""
+    """How many of the roots of a family's relation the branches give."""
     for members in zip(*solved, strict=True):
         values = dict.fromkeys(member.value for member in members)
         quantity = members[0].quantity
@@ -152,6 +152,7 @@ def _roots(relation: Expr, quantity: Symbol) -> Iterator[Expr]:
     """The roots of a relation that is at most quadratic; none for one of higher degree."""
     at_zero = {quantity: ZERO}
     slope = relation.diff(quantity)
+    # a x² + b x + c = relation, from its derivatives at x = 0.
     a, b, c = slope.diff(quantity) / 2, slope.subs(at_zero), relation.subs(at_zero)
     if quantity in a.symbols():
         return

@@ -1,4 +1,4 @@
-"""Inequalities that are to be equivalent to the exact condition of a system: `threshold`."""
+"""Inequalities claimed to be equivalent to an exact condition of the system: `threshold`."""
 
 from __future__ import annotations
 
@@ -26,21 +26,21 @@ from polhode.claims.states._sample_points import ExactPoint, is_physical, physic
 from polhode.claims.states._steady_states import SteadyStates, steady_states
 
 _STABILITY, _EXISTENCE = "stability", "existence"
-_SAMPLES = 40  # physical states from which a distinguishing one is looked for
+_SAMPLES = 40  # physical states from which the search for a distinguishing state starts
 _DRAWN = 4000  # states drawn, physical or not
-_DECADES = 3.0  # to either side of a state, over which one number varies
-_STEPS = 240
-_BESIDE = 1e-5  # relative; neighbours that must distinguish too, lest rounding does
+_DECADES = 3.0  # by how many powers of ten a value is varied up and down
+_STEPS = 240  # values tried on such a line
+_BESIDE = 1e-5  # relative distance of neighbours that must distinguish too, to exclude rounding
 _PI = Symbol("pi")
 
 
 def judged_threshold(claim: BoundClaim) -> Verdict:
-    """Whether inequalities are together equivalent to the exact condition.
+    """Whether the inequalities together are equivalent to an exact condition.
 
-    The condition is that of linear stability of a family of steady motions, all parts of it
-    together, or that of its existence. Where it is even in a speed, the magnitude of that speed is
-    meant. Equivalence is proved from signs, or refuted by a physical state; where neither is
-    found, it stays open.
+    That is the condition of linear stability of a family of steady motions, with all its parts
+    together, or the condition of its existence. If it is even in a speed, the magnitude of that
+    speed is meant. Equivalence is proved from signs or refuted by a physical state; if neither
+    succeeds, it stays undecided.
     """
     if any(map(claim.says_choice, range(len(claim.members)))):
         raise ParseError("± in a threshold", expected="one sign, or a magnitude")
@@ -84,13 +84,13 @@ def judged_threshold(claim: BoundClaim) -> Verdict:
 def _equivalent(
     claimed: Sequence[ScalarRelation], exact: ExactCondition, claim: BoundClaim
 ) -> Verdict:
-    """Holds, but perhaps for equality: linear stability leaves open what happens there."""
-    loose = [c for c in claimed if claim.members[c.member].sign not in STRICT]
-    if loose and exact.decides == _STABILITY:
+    """Holds; undecided for ≥ and ≤, since linear stability decides nothing at equality."""
+    not_strict = [c for c in claimed if claim.members[c.member].sign not in STRICT]
+    if not_strict and exact.decides == _STABILITY:
         return Verdict(
             Answer.UNREAD,
             "threshold",
-            reason=f"it was read and is equivalent to {exact}, but for equality, where linear "
+            reason=f"it was read and is equivalent to {exact}, except at equality, where linear "
             "stability decides nothing; write < or >",
         )
     return Verdict(Answer.HOLDS, "threshold", reason=f"equivalent to {exact}")
@@ -119,17 +119,17 @@ def _refuted(component: ScalarRelation, exact: ExactCondition, comparison: Compa
     )
 
 
-# -- what the model demands -----------------------------------------------------------------------
+# -- exact conditions of the model ----------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class ExactCondition:
-    """What the model demands: expressions that have to be positive, all of them.
+    """A condition of the model: several expressions, all of which have to be positive.
 
     Attributes:
         expressions: what has to be positive.
-        decides: what depends on it.
-        states: where.
+        decides: stability or existence.
+        states: where the condition applies.
     """
 
     expressions: tuple[Expr, ...]
@@ -204,7 +204,8 @@ def _comparison(
         for s in e.symbols()
         if s.kind.varies and not s.positive and (s.order or s.kind is SymbolKind.SPEED)
     }
-    # those in which the condition is even, though the text bounds them with their sign
+    # Speeds in which the condition is even, but that the text bounds as if they were positive: the
+    # stability of a sleeping top needs ω₃² large, and texts write ω₃ > …
     magnitudes = frozenset(
         s
         for s in speeds
@@ -238,10 +239,14 @@ class Comparison:
 
     @cached_property
     def is_proved(self) -> bool:
-        """Whether the conditions follow from the inequalities and the reverse, by signs."""
-        sized = self._positive
-        claimed = (PrintedBound(b.greater.subs(sized), b.less.subs(sized)) for b in self.claimed)
-        conditions = tuple(c.subs(sized) for c in self.conditions)
+        """Whether the conditions follow from the inequalities and the reverse, by signs.
+
+        Each inequality has up to two forms, a - b > 0 and a² - b² > 0; any of them may serve, but
+        one choice must serve both ways.
+        """
+        images = self._positive
+        claimed = (PrintedBound(b.greater.subs(images), b.less.subs(images)) for b in self.claimed)
+        conditions = tuple(c.subs(images) for c in self.conditions)
         given = [tuple(_forms(bound, self._signs)) for bound in claimed]
         return any(
             all(self._follows(condition, forms) for condition in conditions)
@@ -249,32 +254,35 @@ class Comparison:
             for forms in product(*given)
         )
 
-    def _follows(self, wanted: Expr, known: Sequence[Expr]) -> bool:
-        """Whether something is positive where others are."""
-        return strict_sign(wanted, self._signs) == 1 or any(
-            self._is_more(wanted, each) for each in known
+    def _follows(self, conclusion: Expr, premises: Sequence[Expr]) -> bool:
+        """Whether an expression is positive wherever the premises are."""
+        return strict_sign(conclusion, self._signs) == 1 or any(
+            self._is_at_least(conclusion, premise) for premise in premises
         )
 
-    def _is_more(self, wanted: Expr, known: Expr) -> bool:
-        """Whether it is a positive multiple of what is positive, and something not negative."""
-        if strict_sign(wanted / known, self._signs) == 1:
+    def _is_at_least(self, conclusion: Expr, premise: Expr) -> bool:
+        """Whether conclusion = c · premise + r with c > 0 and r ≥ 0.
+
+        Candidates for c are the ratios of any two monomials, so that r has fewer terms.
+        """
+        if strict_sign(conclusion / premise, self._signs) == 1:
             return True
-        bars = (wanted.denominator, known.denominator)
-        if any(strict_sign(bar, self._signs) != 1 for bar in bars):
+        denominators = (conclusion.denominator, premise.denominator)
+        if any(strict_sign(below, self._signs) != 1 for below in denominators):
             return False
-        above, below = wanted.numerator, known.numerator
-        ratios = (one / other for one, other in product(_monomials(above), _monomials(below)))
+        target, known = conclusion.numerator, premise.numerator
+        ratios = (one / other for one, other in product(_monomials(target), _monomials(known)))
         return any(
             strict_sign(ratio, self._signs) == 1 and definite_sign(rest, self._signs) == 1
             for ratio in dict.fromkeys(ratios)
-            if (rest := above - ratio * below)
+            if (rest := target - ratio * known)
         )
 
     @cached_property
     def _positive(self) -> dict[Symbol, Expr]:
-        """Speeds of which the magnitude is meant, as positive symbols."""
+        """Speeds whose magnitude is meant, each replaced by a positive symbol."""
         named = ((s, Symbol(f"{s.published}_size", positive=True)) for s in self.magnitudes)
-        return {s: Expr.generator(size) for s, size in named}
+        return {s: Expr.generator(magnitude) for s, magnitude in named}
 
     @cached_property
     def _signs(self) -> tuple[Expr, ...]:
@@ -283,7 +291,10 @@ class Comparison:
     # -- refutation -----------------------------------------------------------------------------
 
     def agree(self, values: Mapping[Symbol, Array | float]) -> Array:
-        """1 where both are met or neither is, 0 where only one is, nan for no physical state."""
+        """1 where claim and condition both hold or both fail, 0 where only one holds.
+
+        It is nan where no physical body has these values.
+        """
         with np.errstate(all="ignore"):
             sides = [(number(b.greater, values), number(b.less, values)) for b in self.claimed]
             conditions = [number(c, values) for c in self.conditions]
@@ -304,7 +315,7 @@ class Comparison:
 
     @cached_property
     def distinguishing_state(self) -> dict[Symbol, float] | None:
-        """Numbers of a state that satisfies one and not the other; None where none is found."""
+        """A state that satisfies only the claim or only the condition; None if none is found."""
         for start in self._starts:
             for symbol in sorted(self._variables, key=lambda s: s.name):
                 found = self._beside(start, symbol)
@@ -314,8 +325,8 @@ class Comparison:
 
     @cached_property
     def _starts(self) -> tuple[dict[Symbol, float], ...]:
-        """Physical states of all sizes."""
-        random = np.random.default_rng(1)
+        """Physical states, values of which are spread over two decades."""
+        random = np.random.default_rng(1)  # a fixed seed, so that verdicts repeat
         needed = (self._variables | physical_symbols(self.states)) - {_PI}
         drawn = {s: self._drawn(s, random) for s in sorted(needed, key=lambda s: s.published)}
         known = np.flatnonzero(np.isfinite(self.agree(drawn)))[:_SAMPLES]
@@ -349,10 +360,9 @@ class Comparison:
 
 
 def _forms(bound: PrintedBound, signs: Sequence[Expr]) -> Iterator[Expr]:
-    """What is positive where an inequality holds and only there.
+    """Expressions that are positive exactly where an inequality a > b holds.
 
-    The difference of the sides, or of their squares where neither is negative, or neither
-    positive.
+    These are a - b; a² - b² if neither side is negative; b² - a² if neither is positive.
     """
     above, below = bound.greater, bound.less
     if above != below:

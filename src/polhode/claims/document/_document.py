@@ -28,14 +28,14 @@ class Definition:
 
 @dataclass(frozen=True)
 class Part:
-    """A stretch of text with one set of conventions.
+    """A section of the text with one set of conventions.
 
     Attributes:
-        id: by which claims refer to it.
+        id: the name by which claims refer to it.
         title: heading.
-        system: name of the system it treats, for a resolver to find.
+        system: name of the system it treats, which a resolver looks up.
         convention: of angles, axes and signs, in words.
-        bindings: what symbols stand for, as LaTeX → quantity of the model.
+        bindings: meanings of symbols, as LaTeX → quantity of the model.
         definitions: those the text states, in order; later ones may use earlier ones.
         constants: symbols, as LaTeX, that stand for constants without a value.
         positive: symbols and quantities that the text takes as positive.
@@ -75,21 +75,21 @@ class Claim:
     Attributes:
         id: number of the equation, or any other name.
         part: the part it stands in.
-        context: where it is to hold; one of the contexts of the command line.
+        context: where it should hold; one of the contexts of the command line.
         latex: the equation, byte for byte; empty for a statement in words.
         words: for a statement in words: the words, shortened, formulas spelled in plain letters.
-        means: what those words say, as LaTeX.
-        when: for a statement on a motion, "always", "never", "sometimes", "initially", "finally".
+        means: the statement of those words, as LaTeX.
+        when: for a statement about a motion: always, never, sometimes, initially or finally.
         read_as: the equation before the transcript was damaged.
         reason: the evidence of the damage.
-        where: the place in the text, unless the number tells it.
+        where: the place in the text, if the number does not give it.
         follows_from: ids of the claims it is derived from.
         bindings: as in `Part`, for this claim alone.
         definitions: as in `Part`, for this claim alone.
         given: restrictions, as LaTeX relations.
-        small: order to which each small quantity, as LaTeX, is kept; None where none is stated.
-        start: for the context launch, values at the start by published name.
-        line: in the document.
+        small: order to which each small quantity, as LaTeX, is kept; None if none is stated.
+        start: for the context launch, initial values by published name.
+        line: line of its header in the document.
     """
 
     id: str
@@ -117,7 +117,7 @@ class Claim:
 
     @property
     def notes(self) -> tuple[Note, ...]:
-        """How it was read beyond what is printed: the formula judged, why, what was given."""
+        """How it was read beyond what is printed: the formula judged, the reason, restrictions."""
         read = self.read_as or self.means
         return (
             *([Note("read as", read, is_formula=True)] if read else []),
@@ -127,7 +127,7 @@ class Claim:
 
     @property
     def printed(self) -> str:
-        """What the text has: its LaTeX, or its words."""
+        """The claim as the text prints it: its LaTeX, or its words."""
         return self.latex or self.words
 
 
@@ -173,6 +173,7 @@ class Document:
 
     def consequences(self, id: str) -> tuple[str, ...]:
         """Ids of all claims derived from this one, directly or through others, in order."""
+        # Transitive closure: at most one pass for each claim, and circles cannot make it endless.
         reached = {id}
         for _ in self.claims:
             more = {c.id for c in self.claims if reached & set(c.follows_from)}

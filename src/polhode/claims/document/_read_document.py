@@ -35,7 +35,7 @@ _CLAIM = (
     *("follows_from", "bindings", "let", "given", "small", "start"),
 )
 
-_SCHEMAS = (1, 2)  # what a document may hold is the same in both
+_SCHEMAS = (1, 2)  # documents have the same fields in both
 
 
 def read_document(source: str | Path) -> Document:
@@ -83,7 +83,7 @@ def _toml(text: str) -> dict[str, Any]:
         raise ParseError(
             f"a document that is not TOML: {error}",
             expected="tables [document], [[part]], [[claim]]",
-            advice="put LaTeX in single quotes, or triple ones if it has quotes or several lines",
+            advice="put LaTeX in single quotes, or in ''' if it has quotes or several lines",
         ) from None
     except RecursionError:
         raise ParseError("a document nested too deeply", expected="plain tables") from None
@@ -111,7 +111,7 @@ def _parts(found: tuple[Table, ...]) -> dict[str, Part]:
     for table in found:
         part = _part(table, parts)
         if part.id in parts:
-            raise table.wrong("id", "an id of its own", "another [[part]] has it already")
+            raise table.wrong("id", "a unique id", "another [[part]] has it already")
         parts[part.id] = part
     return parts
 
@@ -136,7 +136,7 @@ def _part(table: Table, earlier: dict[str, Part]) -> Part:
 
 
 def _extended(base: Part, own: Part) -> Part:
-    """A part with all conventions of an earlier one beside its own."""
+    """A part with all conventions of an earlier one in addition to its own."""
     convention = own.convention or base.convention
     if base.convention and own.convention:
         convention = f"{base.convention.rstrip('.')}. {own.convention}"
@@ -157,10 +157,10 @@ def _claims(found: tuple[Table, ...], parts: dict[str, Part]) -> tuple[Claim, ..
     for table in found:
         claim = _claim(table)
         if claim.id in claims:
-            raise table.wrong("id", "an id of its own", f"line {claims[claim.id].line} has it")
+            raise table.wrong("id", "a unique id", f"line {claims[claim.id].line} has it already")
         if claim.part not in parts:
             raise table.wrong(
-                "part", f"one of {', '.join(parts) or 'the parts, which are missing'}"
+                "part", f"one of {', '.join(parts) or 'the parts, but there is no [[part]]'}"
             )
         claims[claim.id] = claim
     for table in found:
@@ -196,7 +196,9 @@ def _claim(table: Table) -> Claim:
     if claim.words and not claim.means:
         raise table.wrong("means", "the words as a formula", "write means = '...' in LaTeX")
     if bool(claim.read_as) != bool(claim.reason):
-        raise table.wrong("reason", "read_as together with its reason", "say how the damage shows")
+        raise table.wrong(
+            "reason", "read_as together with its reason", "state the evidence of the damage"
+        )
     return claim
 
 
@@ -211,9 +213,9 @@ class Table:
     """A table such as `[[claim]]`.
 
     Attributes:
-        name: what its header says.
-        values: what it holds.
-        line: of its header.
+        name: the name in its header.
+        values: its fields.
+        line: line number of its header.
         lines: of the whole document.
     """
 
@@ -223,7 +225,7 @@ class Table:
     lines: Sequence[str]
 
     def text(self, key: str, *, required: bool = False) -> str:
-        """A string; empty where it is left out and may be."""
+        """A string; empty if it is optional and left out."""
         value = self.values.get(key, "")
         if not isinstance(value, str):
             raise self.wrong(key, "a string in quotes", "put it in single quotes: '...'")
@@ -318,6 +320,7 @@ def tables(name: str, entries: object, lines: Sequence[str]) -> tuple[Table, ...
 
     Raises `ParseError` where they are not a list of tables.
     """
+    # tomllib gives no line numbers, so headers are matched with tables in order.
     headers = [number for number, text in enumerate(lines, 1) if _header(text) == name]
     if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
         place = f"line {headers[0]}: " if headers else ""

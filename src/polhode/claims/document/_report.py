@@ -1,4 +1,4 @@
-"""The report of an audit: verdicts, consequences of failures, as a table and as plain data."""
+"""The report of an audit, with verdicts and consequences of failures, as a table or plain data."""
 
 from __future__ import annotations
 
@@ -71,9 +71,9 @@ class Consequence:
         lost = [id for id in self.results if id not in (*self.surviving, *self.unjudged)]
         text = f"feeds {_listed(self.feeds)}"
         if self.surviving:
-            text += f"; what survives: {_listed(self.surviving)}"
+            text += f"; results that survive: {_listed(self.surviving)}"
         if lost:
-            text += f"; what does not: {_listed(lost)}"
+            text += f"; results that do not: {_listed(lost)}"
         return text + (f"; not judged: {_listed(self.unjudged)}" if self.unjudged else "")
 
 
@@ -84,7 +84,7 @@ class Report(Shown):
     Attributes:
         document: what the text states.
         judged: the claims judged.
-        left: ids of those requested but not reached before an interruption.
+        left: ids of claims not reached before an interruption.
         seconds: duration of the audit.
     """
 
@@ -135,9 +135,9 @@ class Report(Shown):
             rows += wrap(part.convention, _WIDE, initial_indent=_INDENT, subsequent_indent=_INDENT)
             rows += [line for judged in found for line in _lines(judged)]
             rows.append("")
-        drawn = [f"  {consequence}" for consequence in self.consequences if consequence.feeds]
-        if drawn:
-            rows += ["", "What the failures feed:", *drawn]
+        feeding = [f"  {consequence}" for consequence in self.consequences if consequence.feeds]
+        if feeding:
+            rows += ["", "Claims derived from those that fail:", *feeding]
         return "\n".join([*rows, "", self.total()])
 
     def short_table(self) -> str:
@@ -190,7 +190,7 @@ def tally(judged: Sequence[Judged]) -> str:
 
 
 def _lines(judged: Judged) -> Iterator[str]:
-    """A claim in a line, and below it how it was read, where it was not read as printed."""
+    """A claim in one line, and below it how it was read, if not as printed."""
     claim = judged.claim
     yield _row(judged)
     stated = (("in words" if claim.words else "printed"), claim.printed)

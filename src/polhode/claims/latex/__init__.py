@@ -1,4 +1,4 @@
-"""LaTeX read into trees that keep to what is printed, and trees written as LaTeX."""
+"""LaTeX read into trees of what is printed, and trees written as LaTeX."""
 
 from polhode.claims.latex._parser import read_latex as read_latex
 from polhode.claims.latex._tokens import bare_names as bare_names

@@ -1,6 +1,6 @@
-"""Brackets paired, and what only sets the layout of a formula removed.
+"""Pairing of brackets, and removal of marks that only set the layout of a formula.
 
-After this a line break, a column mark or a wide space stands only where it separates one statement
+Afterwards a line break, a column mark or a wide space stands only where it separates one statement
 or entry from the next: between the rows of a display, of a column or of cases, never inside a
 bracket.
 """
@@ -26,19 +26,20 @@ CLOSERS = {
 }
 _SHOWN = {"bar(": "\\left|", "bar)": "\\right|", "null(": "\\left.", "null)": "\\right."}
 _ENDS = frozenset(CLOSERS.values())
-_WANTED = {"dots": 1, "decoration": 1, "alphabet": 1, "root": 1, "fraction": 2, "derivative": 2}
+#: Number of arguments that a token takes.
+_ARGUMENTS = {"dots": 1, "decoration": 1, "alphabet": 1, "root": 1, "fraction": 2, "derivative": 2}
 
 
 @dataclass(frozen=True)
 class Paired:
-    """Tokens, and for the place of each one that opens the place of the one that closes it."""
+    """Tokens, with the position of the closing token for that of each opening one."""
 
     tokens: tuple[Token, ...]
     partner: dict[int, int]
 
     @property
     def around_relations(self) -> frozenset[int]:
-        """Where the round brackets open that hold a relation."""
+        """Positions of the round brackets that contain a relation, such as (θ < π/2)."""
         found: set[int] = set()
         around: list[int] = []
         for place, token in enumerate(self.tokens):
@@ -76,19 +77,19 @@ def closes(token: Token) -> bool:
 
 def _partners(source: str, tokens: Sequence[Token]) -> dict[int, int]:
     partner: dict[int, int] = {}
-    waiting: list[int] = []
+    unclosed: list[int] = []
     for place, token in enumerate(tokens):
         if opens(token):
-            waiting.append(place)
-            if len(waiting) > DEEPEST:
+            unclosed.append(place)
+            if len(unclosed) > DEEPEST:
                 problem = f"brackets nested more than {DEEPEST} deep"
                 raise refusal(source, token.span, problem, "a formula with less nesting")
         elif closes(token):
-            if not waiting or not _match(tokens[waiting[-1]], token):
-                raise _unmatched(source, [tokens[place] for place in waiting], token)
-            partner[waiting.pop()] = place
-    if waiting:
-        opener = tokens[waiting[-1]]
+            if not unclosed or not _match(tokens[unclosed[-1]], token):
+                raise _unmatched(source, [tokens[place] for place in unclosed], token)
+            partner[unclosed.pop()] = place
+    if unclosed:
+        opener = tokens[unclosed[-1]]
         problem = f"{shown(opener)} is never closed"
         raise refusal(source, opener.span, problem, "brackets in pairs")
     return partner
@@ -99,13 +100,14 @@ def _match(opener: Token, closer: Token) -> bool:
         return (opener.kind, closer.kind, opener.text) == ("begin", "end", closer.text)
     if opener.text == "{" or closer.text == "}":
         return CLOSERS[opener.text] == closer.text
+    # \left. and \right. close any bracket, as in \left. x \right|.
     return CLOSERS[opener.text] == closer.text or "null" in opener.text + closer.text
 
 
-def _unmatched(source: str, waiting: Sequence[Token], closer: Token) -> ParseError:
-    if not waiting:
+def _unmatched(source: str, unclosed: Sequence[Token], closer: Token) -> ParseError:
+    if not unclosed:
         return refusal(source, closer.span, f"{shown(closer)} closes nothing", "an opening bracket")
-    opener = waiting[-1]
+    opener = unclosed[-1]
     problem = f"{shown(opener)} at character {opener.span[0] + 1} closed by {shown(closer)}"
     return refusal(source, closer.span, problem, "brackets in pairs")
 
@@ -121,7 +123,11 @@ def _joined_rows(tokens: Sequence[Token]) -> list[Token]:
     r"""Rows of one bracket joined: without each ``\right. \\ \left.`` between them."""
     joined: list[Token] = []
     for token in tokens:
-        kept = _length_without_breaks(joined) if token.is_mark("null(") else 0
+        kept = len(joined)
+        while token.is_mark("null(") and kept:  # look back past breaks for the \right.
+            if joined[kept - 1].kind != "row" and not joined[kept - 1].is_mark("&"):
+                break
+            kept -= 1
         if 0 < kept < len(joined) and joined[kept - 1].is_mark("null)"):
             del joined[kept - 1 :]
         else:
@@ -129,15 +135,11 @@ def _joined_rows(tokens: Sequence[Token]) -> list[Token]:
     return joined
 
 
-def _length_without_breaks(tokens: Sequence[Token]) -> int:
-    length = len(tokens)
-    while length and (tokens[length - 1].kind == "row" or tokens[length - 1].is_mark("&")):
-        length -= 1
-    return length
-
-
 def _without_layouts(tokens: Sequence[Token], partner: dict[int, int]) -> list[Token]:
-    """Without the environments that set a display; arrays are such where nothing brackets them."""
+    """The tokens without environments that only set a display.
+
+    An array is one of these unless it stands in brackets, where it is a column or a matrix.
+    """
     dropped: set[int] = set()
     end_of_bracket = 0
     for place, token in enumerate(tokens):
@@ -152,24 +154,24 @@ def _without_layouts(tokens: Sequence[Token], partner: dict[int, int]) -> list[T
 
 
 def _without_bare_braces(tokens: Sequence[Token], partner: dict[int, int]) -> list[Token]:
-    r"""Without the braces that print nothing: those that hold no argument and no ``\over``."""
+    r"""The tokens without braces that print nothing: those with no argument and no ``\over``."""
     dropped: set[int] = set()
     overs = _braces_around_over(tokens, partner)
-    awaited = [0]  # arguments still to come, bracket by bracket
+    pending = [0]  # arguments still expected, for each open bracket
     for place, token in enumerate(tokens):
         if place in dropped:
             continue
         if closes(token):
-            awaited.pop()
+            pending.pop()
             continue
-        is_argument = awaited[-1] > 0 or (place > 0 and tokens[place - 1].kind == "function")
+        is_argument = pending[-1] > 0 or (place > 0 and tokens[place - 1].kind == "function")
         if token.is_mark("{") and not is_argument and place not in overs:
             dropped |= {place, partner[place]}
             continue
-        arguments = 1 if token.is_mark("^", "_") else _WANTED.get(token.kind, 0)
-        awaited[-1] = max(0, awaited[-1] - 1) + arguments
+        arguments = 1 if token.is_mark("^", "_") else _ARGUMENTS.get(token.kind, 0)
+        pending[-1] = max(0, pending[-1] - 1) + arguments
         if opens(token):
-            awaited.append(0)
+            pending.append(0)
     return [token for place, token in enumerate(tokens) if place not in dropped]
 
 
@@ -187,7 +189,7 @@ def _braces_around_over(tokens: Sequence[Token], partner: dict[int, int]) -> set
 
 
 def _without_breaks_in_brackets(tokens: Sequence[Token]) -> list[Token]:
-    """Without the breaks that end nothing; an environment keeps its rows."""
+    """The tokens without breaks inside brackets; an environment keeps its rows."""
     kept: list[Token] = []
     around: list[Token] = []
     for token in tokens:

@@ -37,8 +37,8 @@ class Operator(Node):
 
 
 def derivative(above: Node, below: Node, span: Span) -> Node | None:
-    """The derivative, or the operator, that a fraction prints; None for a mere fraction."""
-    if isinstance(above, Negative):
+    """The derivative or operator that a fraction prints; None for an ordinary fraction."""
+    if isinstance(above, Negative):  # -dx/dt: the sign belongs to the derivative
         inner = derivative(above.of, below, span)
         lacks_operand = inner is None or isinstance(factors_of(inner)[-1], Operator)
         return None if inner is None or lacks_operand else replace(above, of=inner)
@@ -96,7 +96,7 @@ def _differentiated(
 
 
 def _started(factor: Node, sign: str, order: int) -> tuple[Node, ...] | None:
-    """What is differentiated, if a factor begins a numerator: the x of dx; None for any other."""
+    """The x of a numerator that begins with dx, empty for a bare d; None if it begins otherwise."""
     match factor:
         case Differential(of, printed) if printed == sign and order == 1:
             return (of,)

@@ -31,7 +31,7 @@ def spells(token: Token) -> bool:
 
 
 def is_label(inside: Sequence[Token]) -> bool:
-    """Whether what stands above a letter is no power: a star, a sign alone, ``(n)``."""
+    """Whether a superscript is a label rather than a power: a star, a sign alone, ``(n)``."""
     if len(inside) == 1:
         return inside[0].is_mark("*", "+", "-")
     return len(inside) == 3 and inside[0].is_mark("(") and inside[2].is_mark(")")
@@ -49,7 +49,7 @@ def label_text(inside: Sequence[Token]) -> str:
 
 
 def _words(inside: Sequence[Token]) -> Iterator[tuple[str, bool]]:
-    """The words of a label, and whether each is set off from what stands beside it."""
+    """The words of a label, and whether each needs a space beside letters and digits."""
     for token in inside:
         if token.kind == "letter":
             yield token.text, len(token.text) > 1

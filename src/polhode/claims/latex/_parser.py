@@ -70,7 +70,7 @@ from polhode.claims.latex._tree import (
     walk,
 )
 
-DEEPEST = 60  # quantities within quantities; each takes some eight calls of Python's thousand
+DEEPEST = 60  # levels of nesting; each takes some eight of the thousand calls Python allows
 LONGEST_CHAIN = 40  # of slashes, or of products between vectors, one after another
 
 _ADDING = ("+", "-", "±", "∓")
@@ -181,7 +181,7 @@ class _Parser:
         return statement
 
     def _took_separator(self) -> bool:
-        """Take what stands between relations, if it is there, and keep its words and numbers."""
+        """Take a separator between relations, if one is next, and keep its words and numbers."""
         token = self._token
         if token.kind in ("row", "gap") or self._at(",", ";", ".", ":", "&"):
             self._take()
@@ -222,7 +222,7 @@ class _Parser:
         """Whether a number in brackets ends the display, as equation numbers do."""
         if not (self._at("(") and self._holds_one() and self._next.text.isdigit()):
             return False
-        place = self._place + 3
+        place = self._place + 3  # behind the bracket, the number and the closing bracket
         while self._tokens[place].kind == "row" or self._tokens[place].is_mark(".", ","):
             place += 1
         is_number = self._tokens[place].kind == "close" and self._next.text != "0"
@@ -285,7 +285,10 @@ class _Parser:
         return Cases(tuple(cases), span=self._since(start))
 
     def _at_or(self) -> bool:
-        """Whether an "or" follows that stands between two values, not between two relations."""
+        """Whether the next "or" separates two values of one relation rather than two relations.
+
+        It separates relations if a relation sign follows before the end of the line.
+        """
         place = self._past_breaks(self._place)
         token = self._tokens[place]
         if token.kind != "words" or not _OR.fullmatch(token.text):
@@ -342,7 +345,7 @@ class _Parser:
         return Negative(of, span=span) if sign == "-" else PlusMinus(of, sign, span=span)
 
     def _behind_sign(self, read: Callable[[], Node]) -> Node:
-        """What stands behind a sign; a further sign counts as a level of nesting."""
+        """The quantity behind a sign; a further sign counts as a level of nesting."""
         if not self._at(*_ADDING):
             return read()
         with self._deeper():
@@ -389,9 +392,9 @@ class _Parser:
         return factors
 
     def _over_slash(self, above: Node, start: int) -> Node:
-        """All before a slash over all behind it, but a vector is never below.
+        """All factors before a slash over all behind it, up to a vector.
 
-        Texts print g/3a for g over 3a, and F ẑ/2 or v/r ẑ without brackets.
+        Texts print g/3a for g over 3a, and v/r ẑ for (v/r) ẑ: nothing is divided by a vector.
         """
         below_start = self._start
         if self._at_differential():
@@ -434,9 +437,9 @@ class _Parser:
         return True
 
     def _subtracts(self, place: int) -> bool:
-        """Whether a minus sign subtracts, or begins another statement on a line of its own.
+        """Whether a minus sign subtracts, rather than begins a new statement on the next line.
 
-        It subtracts where the columns say so, and where its line has no sign of a relation.
+        It subtracts if a column mark stands before it, or if its line has no relation sign.
         """
         is_new_line = any(token.kind == "row" for token in self._tokens[self._place : place])
         if not is_new_line or self._tokens[place - 1].is_mark("&"):
@@ -461,7 +464,7 @@ class _Parser:
         return self._around != "" or not (is_aside or self._at_equation_number())
 
     def _factor(self) -> Node:
-        """An atom with all that belongs to it."""
+        """An atom with its scripts, its argument and its bar."""
         if self._at_differential():
             return self._differential()
         is_bracket = self._at("{", "|", *_OPENERS)
@@ -493,7 +496,7 @@ class _Parser:
         return self._raised(Differential(of, sign, span=self._since(start)), scripts)
 
     def _with_operand(self, operator: Operator) -> Node:
-        """A d/dt with what it acts on: a bracket, or else all that stands beside it."""
+        """A d/dt with its operand: a bracket, otherwise all factors behind it."""
         start = operator.span[0]
         if not self._starts_factor():
             raise self._without_operand(operator)
@@ -506,7 +509,7 @@ class _Parser:
         return self._refused(operator.span, problem, "the quantity that is differentiated")
 
     def _of_argument(self, node: Node) -> Node:
-        """With the bracket behind it, if that holds a single letter or a zero: v(t), θ(0)."""
+        """A letter with its argument, if a bracket with a letter or a zero follows: v(t), θ(0)."""
         base = node.of if isinstance(node, Dots) else node
         if not isinstance(base, Name) or base.decoration == "hat" or not self._at("("):
             return node
@@ -531,7 +534,7 @@ class _Parser:
         return replace(node, of=name, span=span) if isinstance(node, Dots) else name
 
     def _evaluated(self, node: Node) -> Node:
-        """With the bar and label behind it, if there are: dL/dt|_P."""
+        """A quantity with the bar and label behind it, if there are any: dL/dt|_P."""
         if self._at("|") and self._next.is_mark("_"):
             self._take()
             self._take()
@@ -551,7 +554,7 @@ class _Parser:
         raise self._unexpected("a quantity")
 
     def _argument(self) -> Node:
-        """What a macro, a ``^`` or a ``_`` is given: a group or a single token."""
+        """The argument of a macro, a ``^`` or a ``_``: a group or a single token."""
         if self._at("{"):
             return self._group()
         atom = self._atom()
@@ -728,7 +731,10 @@ class _Parser:
             return self._argument()
 
     def _angle(self) -> Node:
-        """A number, a count and one more factor; a time t behind a rate belongs to it."""
+        """The argument of a function without brackets: numbers and counts, then one more factor.
+
+        So sin 2θ cos φ is a product. A time t behind a rate belongs to the angle: cos Ωt.
+        """
         start = self._start
         if self._took("-"):
             with self._deeper():
@@ -974,12 +980,12 @@ _ATOMS: dict[str, Callable[[_Parser], Node]] = {
 
 
 def _is_count(node: Node) -> bool:
-    """Whether it stands before an angle: 2θ, nθ, πt/T."""
+    """Whether a factor is a multiple that stands before an angle: 2θ, nθ, πt/T."""
     return isinstance(node, Number) or (isinstance(node, Name) and node.letter in lexicon.COUNTS)
 
 
 def _is_rate(node: Node) -> bool:
-    """Whether a time behind it makes an angle with it."""
+    """Whether a time t behind this factor makes an angle with it."""
     if isinstance(node, Name):
         return node.letter in lexicon.RATES or (len(node.letter) == 1 and node.letter != "t")
     return isinstance(node, Dots)

@@ -123,7 +123,7 @@ class _Scanner:
         return [*self._found, Token("close", "the end", (end, end))]
 
     def _words_outside(self) -> Iterator[Token]:
-        """What stands between formulas in dollar signs, and the equation number that ends it."""
+        """The words between formulas in dollar signs, and the equation number at their end."""
         start, self._place = self._place, self._prose[self._place]
         prose = " ".join(_LINE_END.sub(" ", self._source[start : self._place]).split())
         number = _EQUATION_NUMBER.search(prose)
@@ -145,7 +145,7 @@ class _Scanner:
         yield self._token("row", text, start)
 
     def _number(self, text: str, start: int) -> Iterator[Token]:
-        """A number; what takes a single token is given the first digit alone, as in TeX."""
+        """A number; as in TeX, a macro or script takes its first digit alone: x^23 is x² 3."""
         if len(text) > _LONGEST:
             problem = f"a number of {len(text)} characters"
             raise self._refused(start, problem, f"one of at most {_LONGEST}")
@@ -158,6 +158,7 @@ class _Scanner:
             yield Token("number", text[digits:], (start + digits, self._place))
 
     def _single_digits(self) -> int:
+        """How many digits are single arguments of the token before: two for a fraction."""
         before = self._found[-1] if self._found else Token("row", "", (0, 0))
         if before.kind == "fraction":
             return 2
@@ -302,18 +303,18 @@ _SPECIAL = (
 def _prose_of(source: str) -> dict[int, int]:
     """Where each stretch of words begins and ends.
 
-    Outside the dollar signs is prose, unless it holds signs of mathematics: transcripts lose
-    dollar signs. Without any, all is mathematics.
+    Text outside dollar signs is prose, unless it has mathematical signs, since transcripts lose
+    dollar signs. In a source without dollar signs, all is mathematics.
     """
+    # Start and end of every dollar sign: prose runs from each fourth edge to the one after it.
     edges = [0, *(place for match in _DOLLARS.finditer(source) for place in match.span())]
     outside = zip(edges[::4], [*edges[1::4], len(source)], strict=False)
-    stretches = {start: end for start, end in outside if _is_prose(source[start:end])}
-    return stretches if len(edges) > 1 else {}
-
-
-def _is_prose(stretch: str) -> bool:
-    bare = _LINE_END.sub(" ", stretch)
-    return bool(_TWO_LETTERS.search(bare)) and not _MATHEMATICS.search(bare)
+    prose: dict[int, int] = {}
+    for start, end in outside:
+        bare = _LINE_END.sub(" ", source[start:end])
+        if _TWO_LETTERS.search(bare) and not _MATHEMATICS.search(bare):
+            prose[start] = end
+    return prose if len(edges) > 1 else {}
 
 
 def bare_names(latex: str) -> tuple[str, ...]:

@@ -1,8 +1,8 @@
-"""What a formula prints, before its letters are given a meaning.
+"""Syntax trees of printed formulas, before letters are given a meaning.
 
-The tree keeps to what is printed: which letter carries a hat, which sign stands between two
-vectors, what is divided by what. Whether a letter is a vector, a function of time or a parameter is
-for the bindings to say. Letters go by their published names: ``theta``, ``Omega``, ``a``.
+A tree records what is printed: which letter carries a hat, which sign stands between two vectors,
+which quantity is divided by which. Whether a letter is a vector, a function of time or a parameter
+is decided by the bindings. Letters have their published names: ``theta``, ``Omega``, ``a``.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ NOWHERE: Span = (0, 0)
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """Any part of what was read, with the place it was read from.
+    """Any part of a formula, with its place in the source.
 
     Args:
         span: first and one past the last character in the source; two pieces that differ only in
@@ -57,7 +57,7 @@ class Piece:
         )
 
     def __getstate__(self) -> dict[str, object]:
-        """What is printed, and where: hashes differ from process to process."""
+        """The fields alone: cached hashes differ from process to process."""
         return {entry.name: getattr(self, entry.name) for entry in fields(self)}
 
 
@@ -75,7 +75,7 @@ class Number(Node):
 
 @dataclass(frozen=True, eq=False)
 class Name(Node):
-    r"""A letter and all it carries except dots.
+    r"""A letter with its labels, primes and decoration, but without dots.
 
     Args:
         letter: ``"theta"``, ``"I"``, ``"1"`` (of ``\hat{\mathbf 1}``), ``"cal L"`` (of
@@ -333,11 +333,11 @@ def factors_of(node: Node) -> tuple[Node, ...]:
 
 def walk(piece: Piece) -> Iterator[Piece]:
     """The piece and all inside it, outermost first."""
-    waiting = [piece]
-    while waiting:
-        found = waiting.pop()
+    stack = [piece]
+    while stack:
+        found = stack.pop()
         yield found
-        waiting.extend(reversed(found.parts))
+        stack.extend(reversed(found.parts))
 
 
 def mapped(piece: PieceT, change: Callable[[Any], Piece]) -> PieceT:
@@ -350,7 +350,7 @@ def mapped(piece: PieceT, change: Callable[[Any], Piece]) -> PieceT:
 
 
 def replaced(node: Node, old: Node, new: Node) -> Node:
-    """The node with one node in it replaced, found by identity: its equals stay."""
+    """The node with one node in it replaced, found by identity: equal nodes elsewhere stay."""
 
     def change(piece: Node) -> Node:
         return new if piece is old else mapped(piece, change)

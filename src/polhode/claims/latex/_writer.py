@@ -1,4 +1,4 @@
-"""Trees written as LaTeX, in the style of the texts: what is written is read as the same tree."""
+"""Trees written as LaTeX in the style of textbooks; the result is read back as the same tree."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ _TIME = re.compile(r"t\b|t_")
 
 @singledispatch
 def write_latex(piece: Piece) -> str:
-    """LaTeX for a tree; of a statement, its notes are left out.
+    """LaTeX for a tree; the notes of a statement are left out.
 
     Args:
         piece: a node, a relation or a statement.
@@ -157,7 +157,10 @@ def _(either: PlusMinus) -> str:
 def _(product: Product) -> str:
     if _is_angle_in_degrees(product):
         return rf"{write_latex(product.factors[0])}^{{\circ}}"
-    written = [_factor(factor) for factor in product.factors]
+    written = [
+        write_latex(f) if _is_angle_in_degrees(f) else _bracketed_if(f, _WIDE)
+        for f in product.factors
+    ]
     for place, (left, right) in enumerate(pairwise(product.factors)):
         if isinstance(left, Number) and _begins_with_number(right):
             written[place + 1] = _bracketed(right)
@@ -267,10 +270,6 @@ def _added(node: Node) -> str:
     return f"+ {_term(node)}"
 
 
-def _factor(node: Node) -> str:
-    return write_latex(node) if _is_angle_in_degrees(node) else _bracketed_if(node, _WIDE)
-
-
 def _is_angle_in_degrees(node: Node) -> bool:
     match node:
         case Product((Number(), Name("degree"))):
@@ -318,7 +317,7 @@ def _angle(call: Call) -> str:
 
 
 def _closed(node: Node, written: str) -> str:
-    """A function with its argument in brackets, so that what follows is no part of it."""
+    """A function with its argument in brackets, so that a following t does not join the angle."""
     match node:
         case Call():
             return _function(node) + _bracketed(node.argument)

@@ -1,1 +1,1 @@
-"""What the letters and phrases of a text mean in a model."""
+"""The meaning of the letters and phrases of a text in a model."""

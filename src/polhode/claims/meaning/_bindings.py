@@ -33,9 +33,9 @@ class Bound:
 
     Attributes:
         branches: the members; twice, for the upper and the lower sign, where it says ±.
-        defined: letters that it defines, which nothing else does, with what they stand for.
-        conditions: what restricts it: relations in brackets after a word such as "if", and the
-            range of a coordinate or speed.
+        defined: letters that only this statement defines, with their meaning.
+        conditions: its restrictions: relations in brackets after a word such as "if", and ranges
+            of coordinates or speeds.
         values: values of coordinates and speeds in brackets, which may be conditions or claims.
         digits: for members with a decimal number on the right, half a unit of its last digit.
     """
@@ -53,7 +53,7 @@ class Bound:
 
     @property
     def is_definition(self) -> bool:
-        """Whether all it does is define."""
+        """Whether it only defines letters."""
         return bool(self.defined) and not self.relations
 
 
@@ -61,8 +61,8 @@ def bind(statement: Statement, vocabulary: Vocabulary) -> Bound:
     """Give every symbol of a statement its meaning.
 
     Raises:
-        BindingError: for a symbol that stands for nothing, naming it and what resembles it, and
-            for scalars and vectors that do not go together.
+        BindingError: for a symbol without a meaning, with names that resemble it, and for scalars
+            and vectors that cannot be combined.
     """
     pieces = list(walk(statement))
     signs = (True, False) if any(isinstance(p, tree.PlusMinus) for p in pieces) else (True,)
@@ -72,6 +72,8 @@ def bind(statement: Statement, vocabulary: Vocabulary) -> Bound:
     first = binders[0]
     ranges: list[BoundRelation] = []
     values: list[BoundRelation] = []
+    # A relation in brackets restricts the state if it bounds a coordinate or speed by a constant;
+    # an equality of that form is ambiguous, and any other relation is one more member.
     for relation in statement.conditions:
         found = [tuple(binder.members([relation])) for binder in binders]
         of_state = [r for r in found[0] if _is_of_state(r, vocabulary)]
@@ -85,7 +87,7 @@ def bind(statement: Statement, vocabulary: Vocabulary) -> Bound:
 
 
 def _is_of_state(relation: BoundRelation, vocabulary: Vocabulary) -> bool:
-    """Whether it sets a coordinate or speed against a constant, as no equation of a model does."""
+    """Whether it compares a coordinate or speed with a constant, unlike any equation of motion."""
     equations = vocabulary.mechanics.equations
     state = {*equations.coordinates, *equations.speeds}
     left, right = relation.left, relation.right
@@ -107,7 +109,7 @@ class _Binder:
         self._count = 0
 
     def members(self, relations: Sequence[Relation]) -> Iterator[BoundRelation]:
-        """All members of some chains."""
+        """All members of the given chains."""
         for relation in relations:
             for number, chain in enumerate(_by_cases(relation)):
                 for member in self._chain(chain):
@@ -127,7 +129,7 @@ class _Binder:
                 yield self._member(PrintedRelation(self._evaluator, left, right, place == 0), sign)
 
     def _is_new(self, node: Node) -> bool:
-        """Whether a node is a letter without a meaning so far, be it by its parts."""
+        """Whether a node is a letter that has no meaning yet, neither itself nor by its parts."""
         self._refuse_primes(node)
         is_letter = isinstance(node, tree.Name | tree.Differential | tree.At)
         if not is_letter or self._evaluator.vocabulary.has(node):
@@ -141,7 +143,7 @@ class _Binder:
         return False
 
     def _refuse_primes(self, node: Node) -> None:
-        """Two primes on a quantity of the system are meant as a rate, not as a new letter."""
+        """Refuse two primes on a known quantity: they mean a rate there, not a new letter."""
         vocabulary = self._evaluator.vocabulary
         if not isinstance(node, tree.Name) or node.primes < 2 or vocabulary.has(node):
             return
@@ -158,6 +160,7 @@ class _Binder:
         if sign not in COMPARED:
             raise BindingError(f"the sign {sign}", expected=f"one of {' '.join(COMPARED)}")
         one, other = self._sides(left, right)
+        # A printed 9.81 stands for any value within half a unit of its last digit.
         half = self._half_unit(right)
         if half is not None:
             self.digits[self._count] = half
@@ -173,7 +176,7 @@ class _Binder:
         for node, other in ((left, right), (right, left)):
             inverse = _inverse(node)
             if inverse is not None:
-                # c artanh x = y is read as x = tanh(y/c), which has no branches to choose from
+                # c artanh x = y is read as x = tanh(y/c), which needs no choice of a branch.
                 value = self._evaluator.value
                 factor = value(tree.replaced(node, inverse, tree.Number("1")))
                 inside = as_scalar(over(value(other), factor), inverse.function)
@@ -182,7 +185,10 @@ class _Binder:
         return _side(one), _side(two)
 
     def _half_unit(self, node: Node) -> Expr | None:
-        """Half a unit of the last digit of the only decimal number in a node, times its factor."""
+        """Half a unit of the last digit of the only decimal number in a node, times its factor.
+
+        The factor is the slope of the node, which is taken as linear in the number.
+        """
         numbers = [p for p in walk(node) if isinstance(p, tree.Number) and "." in p.text]
         if len(numbers) != 1:
             return None
@@ -220,7 +226,7 @@ def _says_constant(node: Node) -> bool:
 
 
 def _inverse(node: Node) -> tree.Call | None:
-    """The inverse function that a side consists of, apart from factors."""
+    """The inverse function, such as arctan, that a side consists of, apart from factors."""
     match node:
         case tree.Call(function) if function in FORWARD:
             return node
@@ -241,7 +247,7 @@ def _side(meaning: Meaning) -> Side:
 def restrictions(
     relations: Sequence[BoundRelation],
 ) -> tuple[dict[Expr, Expr], tuple[Expr, ...]]:
-    """Equalities taken as given: symbols with their values, and what else vanishes.
+    """Equalities taken as given: symbols with values, and further expressions that vanish.
 
     Raises `BindingError` for an inequality.
     """

@@ -1,4 +1,4 @@
-"""Values of printed formulas: a node of the tree becomes a scalar, a vector or a tensor."""
+"""Evaluation of printed formulas: a node of the tree becomes a scalar, a vector or a tensor."""
 
 from __future__ import annotations
 
@@ -86,9 +86,9 @@ class Evaluator:
     per_time: bool = False
 
     def value(self, node: tree.Node) -> Meaning:
-        """What a node stands for.
+        """The meaning of a node.
 
-        Raises `BindingError` for symbols without a meaning and for kinds that do not go together.
+        Raises `BindingError` for symbols without a meaning and for kinds that cannot be combined.
         """
         key = node, self.upper, self.per_time
         known = self.vocabulary.values
@@ -110,7 +110,7 @@ class Evaluator:
             ) from error
 
     def scalar(self, node: tree.Node) -> Expr:
-        """What a node stands for, where it has to be a scalar."""
+        """The meaning of a node that has to be a scalar."""
         return as_scalar(self.value(node), spelled(node))
 
     @singledispatchmethod
@@ -139,6 +139,7 @@ class Evaluator:
             change = self._seen_from_axes if node.partial else meanings.rate
             return reduce(lambda value, _: change(value), range(node.order), found)
         variable = as_symbol(self.scalar(node.by))
+        # ∂L/∂q is of the Lagrangian, though a plain L stands for the angular momentum here.
         if node.partial and node.of == LAGRANGIAN and isinstance(found, Vector):
             found = self.value(replace(LAGRANGIAN, letter="cal L"))
         whole = as_scalar(found, "what is differentiated")
@@ -154,7 +155,7 @@ class Evaluator:
         return reduce(lambda value, _: value.diff(variable), range(node.order), whole)
 
     def _seen_from_axes(self, value: Meaning) -> Meaning:
-        """∂L/∂t of a vector: its rate relative to the axes of the body."""
+        """∂L/∂t of a vector is its rate relative to the axes of the body: dL/dt = ∂L/∂t + ω × L."""
         if isinstance(value, Vector):
             axes = self.vocabulary.mechanics.body.axes
             return value.express(axes).dt(axes)
@@ -236,6 +237,7 @@ class Evaluator:
 
     @_value.register
     def _(self, node: tree.At) -> Meaning:
+        # v(t) is a value at a time, but in m(l) the bracket is a factor, since m is constant.
         if self.vocabulary.has(node.of) and isinstance(node.of, tree.Name):
             whole = self.value(node.of)
             if not _is_function(whole):

@@ -1,9 +1,9 @@
-"""Letters that mean the same in most texts, each with the quantities of a model it may stand for.
+"""Letters with a common meaning, each with the quantities of a model it may stand for.
 
 Where the field uses a letter for more than one quantity of a system, all of them are listed, the
-likeliest first: **L** is about the centre of mass or about a fixed point, **v** is that of one
-body or of another. Unit vectors x, y, z are those of frames at rest, never those of a frame that
-turns with the body and happens to keep their labels.
+likeliest first: **L** may be about the centre of mass or about a fixed point, **v** the velocity of
+one body or of another. Unit vectors x, y, z are those of frames at rest, never those of a frame
+that turns with the body and happens to have the same labels.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from polhode.algebra import Vector
 from polhode.claims.latex._names import name_of
 from polhode.claims.latex._tree import Name, Node
 from polhode.claims.meaning._mechanics import Mechanics
-from polhode.model import Contact, Element, Frame, Gravity, Pivot
+from polhode.model import Contact, Element, Gravity, Pivot
 
 _VECTOR, _HAT = "vector", "hat"
 
@@ -89,7 +89,7 @@ def _motion(mechanics: Mechanics) -> Iterator[Entry]:
 def _about_points(quantity: str, mechanics: Mechanics) -> tuple[str, ...]:
     """The quantity about the centre of mass, and about every point that a pivot keeps at rest.
 
-    That of a free particle is about the origin, since it has none about itself.
+    For a free particle it is about the origin, since about the particle itself it vanishes.
     """
     fixed = [e.name for e in mechanics.equations.kinetics.elements if _keeps_at_rest(e)]
     bodies = mechanics.equations.system.bodies
@@ -107,9 +107,9 @@ def _keeps_at_rest(element: Element) -> bool:
 
 
 def _elements(mechanics: Mechanics) -> Iterator[Entry]:
-    """Velocity, force and moments of contacts and pivots, any of which a plain letter may mean.
+    """Velocity, force and moments of contacts and pivots, and forces of loads.
 
-    Loads have their forces.
+    A plain letter, without the label of an element, may mean any of them.
     """
     kinetics = mechanics.equations.kinetics
     for element in kinetics.elements:
@@ -134,9 +134,15 @@ def _elements(mechanics: Mechanics) -> Iterator[Entry]:
 def _directions(mechanics: Mechanics) -> Iterator[Entry]:
     """Unit vectors: of frames at rest, then of the body's axes, then of the frames between."""
     axes = mechanics.body.axes
-    named = mechanics.frames  # of two frames with one name a phrase could mean either
+    named = mechanics.frames
+    # Of two frames with one name, only the one that the name stands for is listed.
     chain = tuple(f for f in reversed(axes.lineage) if named[f.name] == f)
-    at_rest = [f for f in chain if _is_fixed(f)]
+    # At rest are frames whose own angles, and those of all frames below, are constant.
+    at_rest = [
+        frame
+        for frame in chain
+        if not any(s.kind.varies for f in frame.lineage for s in f.angle.symbols())
+    ]
     known: set[str] = set()
     for labels, frames in ((axes.root.labels, at_rest), (axes.labels, [axes]), ((), chain)):
         for frame in frames:
@@ -145,7 +151,7 @@ def _directions(mechanics: Mechanics) -> Iterator[Entry]:
                     yield Name(label, decoration=_HAT), (f"axis {label} of {frame.name}",)
         known.update(labels)
     for frame in reversed(chain):
-        # Below an ω, texts write the labels of a triad: 123, (1,2,3) or 1,2,3.
+        # As a subscript of ω, texts write the labels of a triad: 123, (1,2,3) or 1,2,3.
         short = all(len(label) == 1 for label in frame.labels)
         joined = "".join(frame.labels) if short else " ".join(frame.labels)
         for subscript in (joined, f"({','.join(frame.labels)})", ",".join(frame.labels)):
@@ -153,8 +159,3 @@ def _directions(mechanics: Mechanics) -> Iterator[Entry]:
                 Name("omega", subscript, decoration=_VECTOR),
                 (f"angular velocity of {frame.name}",),
             )
-
-
-def _is_fixed(frame: Frame) -> bool:
-    """Whether a frame keeps its directions in the root frame: all its angles are constant."""
-    return not any(s.kind.varies for f in frame.lineage for s in f.angle.symbols())

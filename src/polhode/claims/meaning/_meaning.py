@@ -33,7 +33,7 @@ class BindingError(ParseError):
     """A formula that was read but whose symbols cannot be given a meaning.
 
     Attributes:
-        symbol: the symbol at fault, in ASCII; empty where two quantities do not go together.
+        symbol: the symbol at fault, in ASCII; empty where two quantities cannot be combined.
         near: known names that resemble it.
     """
 
@@ -67,7 +67,7 @@ def plus(left: Meaning, right: Meaning) -> Meaning:
 
 
 def minus(meaning: Meaning) -> Meaning:
-    """The same with the opposite sign."""
+    """The quantity with the opposite sign."""
     if isinstance(meaning, Tensor):
         return Tensor(Matrix.of([[-x for x in row] for row in meaning.matrix.rows]), meaning.triad)
     return -meaning
@@ -97,7 +97,7 @@ def cross(left: Meaning, right: Meaning) -> Meaning:
         case Expr(), Expr():
             return left * right
         case (Expr() as factor, Vector()) | (Vector(), Expr() as factor):
-            # Unless the scalar is a plain number, it is a vector that lost its hat or boldness.
+            # 2 × v is a product; any other scalar must be a vector that lost its hat or boldness.
             if factor.rational is None:
                 raise _mismatch(left, "×", right, "look for a lost hat or arrow")
             return times(left, right)
@@ -146,7 +146,7 @@ def power(base: Meaning, exponent: Meaning, root: Callable[[Expr], Expr]) -> Mea
     return base**number
 
 
-_HIGHEST = 20
+_HIGHEST = 20  # exponents beyond this are hardly meant, and expand into too many terms
 
 
 def as_scalar(meaning: Meaning, what: str) -> Expr:
@@ -171,7 +171,7 @@ def rate(meaning: Meaning) -> Meaning:
 
 
 def sort(meaning: Meaning) -> str:
-    """What kind of quantity it is, in a word."""
+    """The kind of a quantity in one word."""
     return {Expr: "scalar", Vector: "vector", Tensor: "tensor"}[type(meaning)]
 
 
@@ -201,7 +201,7 @@ def signed(meaning: Meaning, positive: Collection[Expr]) -> Meaning:
 
 
 def with_signs(x: Expr, positive: Collection[Expr]) -> Expr:
-    """With |f| replaced by f for every f that is known to be positive."""
+    """The expression with |f| replaced by f for every f known to be positive."""
     known: dict[Generator, Expr] = {}
     for generator in x.generators:
         inside = getattr(generator, "plain", None)  # the f of a generator |f|
@@ -237,6 +237,6 @@ def _scaled(tensor: Tensor, factor: Expr) -> Tensor:
 def _mismatch(left: Meaning, sign: str, right: Meaning, advice: str) -> BindingError:
     return BindingError(
         f"a {sort(left)} {sign} a {sort(right)}",
-        expected="quantities of kinds that go together",
+        expected="quantities that can be combined",
         advice=advice,
     )

@@ -1,7 +1,7 @@
-"""Quantities of a model, formed from its declaration.
+"""Mechanical quantities of a model, formed from its declaration.
 
-All declared speeds, all rates and the reaction components stay symbols, so that a claim about a
-quantity is a claim about the declaration, and not about equations derived from it.
+All declared speeds, rates and reaction components stay symbols, so that a quantity does not depend
+on the equations of motion that claims are judged by.
 """
 
 from __future__ import annotations
@@ -21,7 +21,10 @@ from polhode.model import Action, Body, Frame, Gravity, Load, Restraint
 
 @dataclass(frozen=True, eq=False)
 class EquationsKey:
-    """Equations as a key of a cache, equal only to the key of the very same object."""
+    """Equations as a key of a cache, equal only to a key of the same object.
+
+    Comparing equations by content would be slow.
+    """
 
     equations: Equations
 
@@ -34,7 +37,7 @@ class EquationsKey:
 
 @dataclass(frozen=True, eq=False)
 class Mechanics:
-    """The quantities of one system; of its first body unless another is named.
+    """The quantities of one system; those of its first body unless another is named.
 
     A point is "cm" (of all bodies), "origin", the name of a body (its centre of mass) or of a
     contact or joint (the point of the body where it acts). Vectors are in inertial space, SI.
@@ -104,7 +107,7 @@ class Mechanics:
         raise DeclarationError(f"axis {label!r}", expected=f"one of {', '.join(labels)}")
 
     def fixed(self, of: str) -> Vector:
-        """Any vector fixed in a frame: three constants as its components."""
+        """An arbitrary vector fixed in a frame, with three constants as components."""
         return Vector.along(self.frame(of), symbols("c_1 c_2 c_3"))
 
     def _place(self, point: str) -> tuple[Body, Vector]:
@@ -193,6 +196,7 @@ class Mechanics:
         turning = self.frame(relative).angular_velocity if relative else self.body.axes.zero
         total = self.body.axes.zero
         for body in self.equations.system.bodies:
+            # L = Σ [I ω + (r - r_P) × m v], with inertial velocities also where P moves.
             orbital = (places[body] - centre).cross(places[body].dt()) * body.mass
             total = total + self.inertia(body.name).of(body.angular_velocity - turning) + orbital
         return total
@@ -231,7 +235,7 @@ class Mechanics:
         total = self.body.axes.zero
         for line in self.equations.lines:
             restraint, share = line.restraint, line.direction * _reaction(line.name)
-            if restraint.other is None:
+            if restraint.other is None:  # reactions between two bodies are internal and cancel
                 lever = places[restraint.body] + restraint.arm - centre if restraint.arm else None
                 total = total + (lever.cross(share) if lever else share)
         for action in self.declared.actions:
@@ -306,7 +310,7 @@ class Mechanics:
         found = {s for rate in rates.values() for s in rate.symbols() if s.kind is SymbolKind.SPEED}
         speeds = sorted(found, key=lambda symbol: symbol.published)
         if not speeds or len(speeds) != len(rates):
-            return expression
+            return expression  # the rates q̇ = A u + b can be solved for u only if A is square
         parts = [(q, *linear_parts(rate, speeds)) for q, rate in rates.items()]
         right = [Expr.generator(q.derivative()) - rest for q, _, rest in parts]
         values = solve([row for _, row, _ in parts], right)

@@ -26,7 +26,7 @@ from polhode.claims.meaning._mechanics import Mechanics
 
 @lru_cache(maxsize=4096)
 def quantity(mechanics: Mechanics, phrase: str) -> Meaning:
-    """The quantity of a model that a phrase names; docs/claims-format.md lists all of them.
+    """The quantity of a model named by a phrase; docs/claims-format.md lists all phrases.
 
     Raises `BindingError` for any other phrase, and for quantities that the system does not have.
     """
@@ -87,7 +87,10 @@ def _published(mechanics: Mechanics, name: str) -> Expr:
 
 
 def _radius_of_curvature(mechanics: Mechanics) -> Vector:
-    """From the centre of curvature of the path to the point, m; of a path that is not straight."""
+    """From the centre of curvature of a curved path to the point, m.
+
+    With v and a × the velocity and acceleration, it is v × (v × a) v²/|v × a|².
+    """
     velocity = mechanics.position().dt()
     across = velocity.cross(velocity.dt())
     outwards = velocity.cross(across)
@@ -95,7 +98,7 @@ def _radius_of_curvature(mechanics: Mechanics) -> Vector:
 
 
 def _uniform_velocity(mechanics: Mechanics) -> Vector:
-    """The one velocity at which there is no acceleration, m/s."""
+    """The only velocity at which all accelerations vanish, m/s."""
     equations, velocity = mechanics.equations, mechanics.velocity()
     unknowns = tuple(
         speed
@@ -135,7 +138,8 @@ def _precession(mechanics: Mechanics, pace: str, coordinate: str) -> Expr:
             coefficients = _quadratic(relation, symbol)
             if coefficients is not None:
                 a, b, c = coefficients
-                # The slow root vanishes with c; b/a is taken as negative.
+                # Roots are written as -b/(2a) (1 ∓ √(1 - 4ac/b²)): with the minus sign the one
+                # that vanishes with c is the slow one, whatever the sign of b.
                 root = sqrt(1 - 4 * a * c / b**2)
                 return -b / (2 * a) * (1 - root if pace == "slow" else 1 + root)
     raise DeclarationError(

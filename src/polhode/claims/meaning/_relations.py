@@ -1,7 +1,7 @@
-"""Relations of a claim: as bound, by scalar components, and with the terms that they print.
+"""Relations of a claim: as bound, by scalar components, and with their printed terms.
 
-A term contributes what its side changes by, to first order, when the term is stretched by a small
-factor: of √(1 - 4x) the term 4x contributes -2x/√(1 - 4x), however small x itself is.
+The contribution of a term is the first-order change of its side when the term is multiplied by
+1 + s: in √(1 - 4x) the term 4x contributes -2x/√(1 - 4x), however small x itself is.
 """
 
 from __future__ import annotations
@@ -105,7 +105,7 @@ class Term:
     Attributes:
         contribution: to its side; a vector where that is one.
         own: for a term under a function such as sin, its value.
-        among: the whole argument that it stands in; a term as large as that is no correction.
+        among: the whole argument that it stands in; a term of that size is not a correction to it.
     """
 
     contribution: Side
@@ -149,7 +149,7 @@ class PrintedRelation:
         return tuple(found)
 
     def factors(self, node: Node) -> tuple[tuple[Node, Meaning], ...]:
-        """The factors of one of the sides with their values; a sum is its own."""
+        """The factors of one of the sides with their values; a sum is a single factor."""
         return tuple((f, self.evaluator.value(f)) for f in _factors(node))
 
 
@@ -194,7 +194,7 @@ def _sums(piece: tree.Piece, argument: Node | None) -> Iterator[tuple[tree.Sum, 
 
 
 def _contribution(node: Node, leaf: Node, evaluator: Evaluator) -> Side:
-    """What a side changes by, to first order, as one of its terms is stretched."""
+    """The first-order change of a side as one of its terms is multiplied by 1 + s."""
     stretched = tree.replaced(node, leaf, tree.Product((_STRETCHED, leaf)))
     found = evaluator.value(stretched)
     if isinstance(found, Tensor):

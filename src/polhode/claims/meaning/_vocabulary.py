@@ -1,4 +1,4 @@
-"""What the letters of a text stand for in a model: by usage, or as the text states."""
+"""The meaning of the letters of a text in a model: by common usage, or as the text states."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _KEPT = 16
 
 @dataclass(frozen=True)
 class Reading:
-    """What a letter of a text was taken to mean.
+    """The meaning that a letter of a text was given.
 
     Attributes:
         letter: as printed, such as **L** or ẑ.
@@ -40,7 +40,7 @@ class Reading:
 
 @dataclass(frozen=True)
 class Sense:
-    """What a letter stands for, and the readings behind it: of **L** and ẑ for L_z."""
+    """The meaning of a letter, and the readings behind it: those of **L** and ẑ for L_z."""
 
     meaning: Meaning
     readings: tuple[Reading, ...] = ()
@@ -52,7 +52,7 @@ class Vocabulary:
 
     Attributes:
         mechanics: of the system.
-        stated: what the text says its letters stand for; this overrides all other meanings.
+        stated: meanings that the text itself states, which override all others.
         positive: quantities that the text takes as positive.
         columns: name of the frame that components in a bracket are along.
         chosen: letters that the field uses for several quantities, with the one that is meant.
@@ -74,7 +74,7 @@ class Vocabulary:
 
     @classmethod
     def of(cls, equations: Equations) -> Vocabulary:
-        """What is known from the declaration alone."""
+        """The vocabulary given by the declaration alone."""
         return cls(_mechanics(EquationsKey(equations)))
 
     def stating(self, meanings: Mapping[Node, Meaning]) -> Vocabulary:
@@ -95,7 +95,7 @@ class Vocabulary:
         return self.find(node) is not None
 
     def readings(self, pieces: Iterable[Piece]) -> tuple[Reading, ...]:
-        """What the letters of some pieces of text were taken to mean, by the field's usage."""
+        """The meanings that letters of some pieces of text were given, by common usage."""
         senses = (self.sense(name) for piece in pieces for name in _names(piece))
         found = (reading for sense in senses if sense for reading in sense.readings)
         return tuple(dict.fromkeys(found))
@@ -112,7 +112,7 @@ class Vocabulary:
     def meaning(self, node: Node) -> Meaning:
         """What a letter stands for.
 
-        Raises `BindingError` for one that stands for nothing, with names that resemble it.
+        Raises `BindingError` for one without a meaning, with names that resemble it.
         """
         found = self.find(node)
         if found is None:
@@ -144,11 +144,11 @@ class Vocabulary:
 
     @cached_property
     def _senses(self) -> dict[Name, Sense | None]:
-        """What letters were found to stand for."""
+        """The meanings of letters found so far."""
         return {}
 
     def _candidates(self, name: Name) -> Iterator[Sense | None]:
-        """What a letter may mean, likeliest first; what the text states comes before the rest."""
+        """Possible meanings of a letter, likeliest first; those the text states come before all."""
         yield self._stated(name)
         yield self._component(name, self._stated)
         yield self._exactly(name)
@@ -163,10 +163,10 @@ class Vocabulary:
         return Sense(self.stated[name]) if name in self.stated else None
 
     def _exactly(self, name: Name) -> Sense | None:
-        """What a letter itself means, by the text, the declaration or the usage of the field.
+        """The meaning of a letter as printed, by the text, the declaration or common usage.
 
-        A letter with the label of an axis may still be meant as a component: an F_z declared
-        along a swinging rod is not F·ẑ.
+        A letter with the label of an axis may also be meant as a component: an F_z declared along
+        a swinging rod is not F·ẑ, so both readings are kept.
         """
         if name in self.stated:
             return self._stated(name)
@@ -181,18 +181,17 @@ class Vocabulary:
             along = [f"{vector.phrase} along {phrase}" for phrase in axis.phrases]
             if not axis.phrase.startswith("axis "):  # a length taken out of a vector
                 along = []
-            if name in self._symbols and self._is_one_of(self._symbols[name], along):
-                return Sense(
-                    self._symbols[name]
-                )  # along an axis at rest, as the declaration has it
+            # Declared along an axis at rest, the symbol is the component: there is no ambiguity.
+            declared, in_speeds = self._symbols.get(name), self.mechanics.in_speeds
+            if declared is not None and any(
+                alike(in_speeds(declared), in_speeds(quantity(self.mechanics, phrase)))
+                for phrase in along
+            ):
+                return Sense(declared)
             phrases = (*phrases, *along[:1])
         if len(phrases) == 1 and name in self._symbols:
             return Sense(self._symbols[name])
         return self._read(name, phrases) if phrases else None
-
-    def _is_one_of(self, meaning: Meaning, phrases: Iterable[str]) -> bool:
-        found = (self.mechanics.in_speeds(quantity(self.mechanics, phrase)) for phrase in phrases)
-        return any(alike(self.mechanics.in_speeds(meaning), other) for other in found)
 
     def _read(self, name: Name, phrases: tuple[str, ...]) -> Sense:
         distinct = _distinct(self.mechanics, phrases)
@@ -211,7 +210,7 @@ class Vocabulary:
         return replace(sense, meaning=sense.meaning / length)
 
     def _component(self, name: Name, known: Callable[[Name], Sense | None]) -> Sense | None:
-        """L_z, F_ρ, τ_1: a vector with the label of an axis below."""
+        """The component that L_z, F_ρ or τ_1 stands for: a vector with the label of an axis."""
         whole, _, label = name.subscript.rpartition(",")
         vector = known(replace(name, subscript=whole, decoration=_VECTOR)) if label else None
         if vector is None or not isinstance(vector.meaning, Vector):
@@ -226,7 +225,7 @@ class Vocabulary:
         names = {spelled(node): node for node in known}
         near = tuple(get_close_matches(spelled(node), names, n=3, cutoff=0.6))
         return BindingError(
-            f"{spelled(node)}, which stands for nothing in {self.system}",
+            f"{spelled(node)}, which has no meaning in {self.system}",
             expected="a quantity of the system, or a symbol that the text defines",
             advice=f"did you mean {' or '.join(near)}?" if near else "define it",
             option="" if near else "let",
@@ -275,13 +274,13 @@ def _names(piece: Piece) -> Iterator[Name]:
 
 @lru_cache(maxsize=_KEPT)
 def _mechanics(key: EquationsKey) -> Mechanics:
-    """One for all texts on a system, so that what it has computed is kept."""
+    """One object for all texts about a system, so that computed quantities are kept."""
     return Mechanics(key.equations)
 
 
 @lru_cache(maxsize=4096)
 def _distinct(mechanics: Mechanics, phrases: tuple[str, ...]) -> tuple[str, ...]:
-    """Those of some phrases that name different quantities."""
+    """The phrases that name different quantities, the first of each."""
     found: dict[str, Meaning] = {}
     for phrase in phrases:
         meaning = mechanics.in_speeds(quantity(mechanics, phrase))

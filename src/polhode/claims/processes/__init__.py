@@ -1,1 +1,1 @@
-"""Claims judged in worker processes, which are ended where they take too long."""
+"""Claims judged in worker processes, with limits on their time and memory."""

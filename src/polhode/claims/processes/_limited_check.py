@@ -1,4 +1,4 @@
-"""One claim checked against a model, in a process that is ended where it takes too long."""
+"""One claim checked against a model, in a worker process with a limit on its time."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from polhode.derive import Equations, equations_only
 LONGEST = 60.0  # s of processor time
 
 _ADVICE = "judge its members one by one, restrict it with given, or allow more seconds"
-_KEPT = 2  # workers
+_KEPT = 2  # idle workers, each of which holds a copy of the memory that it has changed
 
 _ClaimWorker: TypeAlias = Worker[CheckRequest, Verdict]
 
@@ -48,9 +48,10 @@ def check(
 ) -> Verdict:
     r"""Judge a published equation against a model.
 
-    It is judged in a copy of this process, which is kept for the next claim on the same equations
-    and ended where it takes too long. On macOS and Windows, where a process cannot be copied, the
-    judgement is interrupted instead, between steps of Python and in the main thread alone.
+    The claim is judged in a forked copy of this process, which is kept for the next claim on the
+    same equations and ended if it takes too long. On macOS and Windows, where processes cannot be
+    forked, the claim is judged here and interrupted between steps of Python, in the main thread
+    only.
 
     Args:
         latex: the equation, as printed.
@@ -62,17 +63,18 @@ def check(
         read: letters that the field uses for several quantities, each with the one that is meant:
             ``L = about pivot``.
         positive: quantities that are positive, such as ``sin(alpha)``.
-        seconds: of processor time that it may take; None for as long as it takes, in this process.
-        tell: called with a failure as soon as it is found; a correction may take longer.
+        seconds: limit on the processor time; None to judge in this process without a limit.
+        tell: called with a failure as soon as it is found; the search for a correction may take
+            longer.
 
     Returns:
-        The verdict with its evidence and with what its letters were taken to mean; ``unread`` for
-        what cannot be read or bound, ``ambiguous`` where readings that the field allows lead to
-        different verdicts. A failure for which no correction was found in time says so.
+        The verdict with its evidence and the meanings its letters were given; ``unread`` for an
+        equation that cannot be read or bound, ``ambiguous`` where readings that the field allows
+        lead to different verdicts. If no correction was found in time, the failure says so.
 
     Raises:
         ParseError: for an unknown context, a `let` of a known symbol, and unreadable restrictions.
-        NumericError: for what cannot be decided in time, or takes too much memory.
+        NumericError: for a claim that is not decided in time, or takes too much memory.
     """
     if not isinstance(latex, str):
         raise ParseError(f"an equation of type {type(latex).__name__}", expected="LaTeX, as a str")
@@ -82,7 +84,9 @@ def check(
     if seconds is None:
         return request.judged(equations, tell)
     if not isinstance(seconds, int | float) or not 0 < seconds < inf:
-        raise NumericError(f"{seconds!r} s to judge in", expected="some time, or None for no bound")
+        raise NumericError(
+            f"a time limit of {seconds!r} s", expected="a positive number, or None for no limit"
+        )
     failures: list[Verdict] = []
 
     def failed(failure: Verdict) -> None:
@@ -91,7 +95,7 @@ def check(
 
     try:
         if can_copy():
-            return _asked(request, equations, seconds, failed)
+            return _by_worker(request, equations, seconds, failed)
         return within(seconds, partial(request.judged, equations), advice=_ADVICE, heard=failed)
     except NumericError:
         if not failures:
@@ -100,25 +104,26 @@ def check(
 
 
 def uncorrected(failure: Verdict, seconds: float) -> Verdict:
-    """A failure for which no correction was found in some seconds."""
+    """A failure with the remark that no correction was found within these seconds."""
     remark = f"looking for a correction took more than {seconds:g} s of computing"
     return replace(failure, remarks=(*failure.remarks, remark))
 
 
-# Workers that judge claims on some equations, each while nobody asks it.
+# Idle workers by the equations that they judge claims on; one that is busy is not among them.
 _idle: dict[EquationsKey, _ClaimWorker] = {}
 if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_idle.clear)  # they answer the process that began them
+    # A worker answers only the process that started it; a fork must not write into its pipe.
+    os.register_at_fork(after_in_child=_idle.clear)
 
 
-def _asked(
+def _by_worker(
     request: CheckRequest, equations: Equations, seconds: float, failed: Tell[Verdict]
 ) -> Verdict:
-    """Ask the worker that judges claims on these equations, or a new one."""
+    """The verdict of the idle worker for these equations, or of a new one."""
     worker = _idle.pop(EquationsKey(equations), None)
     if worker is None or not worker.is_open:
         worker = _ClaimWorker(
-            lambda: lambda asked, tell: asked.judged(equations, tell),
+            lambda: lambda task, tell: task.judged(equations, tell),
             StartMethod.COPY,
             memory=COPY_MEMORY,
         )
@@ -128,8 +133,9 @@ def _asked(
         raise ended.explained(seconds, _ADVICE) from None
     finally:
         if worker.is_open:
-            # Another thread may have kept one for the same equations meanwhile.
+            # Another thread may have put back one for the same equations in the meantime.
             other, _idle[EquationsKey(equations)] = _idle.get(EquationsKey(equations)), worker
+            # Dictionaries keep the order of insertion: those unused for longest come first.
             surplus = [_idle.pop(old) for old in list(_idle)[:-_KEPT]]
             for old in filter(None, [other, *surplus]):
                 old.close()

@@ -23,7 +23,7 @@ from polhode.base import (
     WorkerEndedError,
     answers,
 )
-from polhode.claims._audit import ClaimChecker, asked_for, reported
+from polhode.claims._audit import ClaimChecker, reported, selected_claims
 from polhode.claims._verdict import Answer, Verdict
 from polhode.claims.document._document import Claim, Document, Part
 from polhode.claims.document._report import Report
@@ -32,9 +32,11 @@ from polhode.model import System
 
 Declared = Callable[[str], System]
 
-_READY_WITHIN = 6.0  # times the limit on the processor time of a claim
+_READY_WITHIN = 6.0  # time to start, in units of the limit on the processor time of a claim
 _ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}  # workers share the cores
-_RARELY = 50_000  # objects that wait for the collector; nearly all are freed without it
+# Objects allocated between two runs of the garbage collector: nearly all expressions are freed by
+# reference counts, so the far lower default only spends time on scanning them.
+_COLLECT_AFTER = 50_000
 
 
 @dataclass(frozen=True)
@@ -59,18 +61,18 @@ def audit_apart(
     limits: ClaimLimits | None = None,
     progress: Progress | None = None,
 ) -> Report:
-    """Judge every claim of a document, or those with some ids, in worker processes.
+    """Judge every claim of a document, or those with the given ids, in worker processes.
 
-    A claim that takes too long or too much memory is unread, with that as its reason; the others
-    go on. An interruption keeps what is judged by then, and names what is left.
+    A claim that takes too long or too much memory is reported as unread for that reason, and the
+    others go on. After an interruption, the report has the verdicts so far and names the rest.
 
     Args:
-        document: what a text states, and how its symbols are meant.
+        document: the claims of a text, and the meaning of its symbols.
         declared: gives a system by its name.
         only: ids of the claims to judge; all of them if empty.
         workers: number of processes.
         limits: what one claim may cost.
-        progress: told of every claim.
+        progress: advanced by one with every claim.
 
     Raises:
         ParseError: for an id that the document does not have.
@@ -79,16 +81,16 @@ def audit_apart(
     if workers < 1:
         raise DeclarationError(f"{workers} workers", expected="one or more")
     began, shown = perf_counter(), progress or SilentProgress()
-    asked, allowed = asked_for(document, only), limits or ClaimLimits()
-    tasks, verdicts = _tasks(document, asked, cache(declared))
+    claims, limits = selected_claims(document, only), limits or ClaimLimits()
+    tasks, verdicts = _tasks(document, claims, cache(declared))
     shown.begin("audit", len(tasks))
     try:
-        with closing(_judged(tasks, workers, allowed)) as judged:
+        with closing(_judged(tasks, workers, limits)) as judged:
             for outcome in judged:
-                verdicts[outcome.task.claim.id] = _verdict(outcome, allowed)
+                verdicts[outcome.task.claim.id] = _verdict(outcome, limits)
                 shown.advance()
     except (KeyboardInterrupt, StopRequested):
-        pass  # the report names what is left
+        pass  # the report names the claims not reached
     except WorkerEndedError:
         raise DeclarationError(
             "a worker process that does not start",
@@ -97,12 +99,12 @@ def audit_apart(
         ) from None
     finally:
         shown.finish()
-    return reported(document, asked, verdicts, perf_counter() - began)
+    return reported(document, claims, verdicts, perf_counter() - began)
 
 
 @dataclass(frozen=True)
 class _Task:
-    """A claim to be judged, and what it is about."""
+    """A claim to be judged, with its part of the text and its system."""
 
     claim: Claim
     part: Part
@@ -110,12 +112,12 @@ class _Task:
 
 
 def _tasks(
-    document: Document, asked: Iterable[Claim], declared: Declared
+    document: Document, claims: Iterable[Claim], declared: Declared
 ) -> tuple[list[_Task], dict[str, Verdict]]:
-    """What workers are to judge, and the verdicts on claims whose system is not there."""
+    """The claims that workers are to judge, and verdicts on those whose system is unavailable."""
     tasks: list[_Task] = []
     unread: dict[str, Verdict] = {}
-    for claim in asked:
+    for claim in claims:
         part = document.part_of(claim)
         try:
             tasks.append(_Task(claim, part, declared(part.system)))
@@ -127,15 +129,15 @@ def _tasks(
 def _judged(
     tasks: Iterable[_Task], workers: int, limits: ClaimLimits
 ) -> Generator[Outcome[_Task, Verdict]]:
-    waiting: dict[str, list[_Task]] = {}
+    queues: dict[str, list[_Task]] = {}
     for task in tasks:
-        waiting.setdefault(task.part.system, []).insert(0, task)
+        queues.setdefault(task.part.system, []).insert(0, task)
 
     def following(last: _Task | None) -> _Task | None:
-        """One about the same system, which is derived there, or about that with most left."""
-        same = waiting.get(last.part.system) if last is not None else None
-        left = same or max(waiting.values(), key=len, default=[])
-        return left.pop() if left else None
+        """A claim on the system that this worker has derived, else on the one with most left."""
+        same = queues.get(last.part.system) if last is not None else None
+        queue = same or max(queues.values(), key=len, default=[])
+        return queue.pop() if queue else None
 
     begin = partial(
         Worker[_Task, Verdict],
@@ -148,13 +150,13 @@ def _judged(
 
 
 def _verdict(outcome: Outcome[_Task, Verdict], limits: ClaimLimits) -> Verdict:
-    """The verdict of a worker, or what is known of a claim whose worker ended."""
+    """The verdict of a worker; where it was ended, the last failure it reported, or unread."""
     if outcome.lost is None:
         assert outcome.reply is not None
         return outcome.reply
-    why = "the process that looked further ended, for lack of memory perhaps"
+    why = "the worker process ended before it was done, perhaps for lack of memory"
     if outcome.lost.out_of_time:
-        why = f"looking further took more than {limits.seconds:g} s of processor time"
+        why = f"judging took more than {limits.seconds:g} s of processor time"
     if outcome.told:
         return _remarked(outcome.told[-1], why)
     why = f"it was read, but not decided: {why}"
@@ -169,11 +171,11 @@ def _remarked(failure: Verdict, remark: str) -> Verdict:
 
 
 def _claim_checker() -> Callable[[_Task, Tell[Verdict]], Verdict]:
-    """What judges claims in a worker; equations that it has derived are kept."""
-    gc.set_threshold(_RARELY)
-    nothing = os.open(os.devnull, os.O_WRONLY)
-    for stream in (sys.stdout, sys.stderr):  # compiled libraries print there
-        os.dup2(nothing, stream.fileno())
+    """Judges claims in a worker, which keeps the equations it has derived."""
+    gc.set_threshold(_COLLECT_AFTER)
+    devnull = os.open(os.devnull, os.O_WRONLY)
+    for stream in (sys.stdout, sys.stderr):  # compiled libraries print there, past Python
+        os.dup2(devnull, stream.fileno())
     systems: dict[str, System] = {}
     equations: dict[str, Equations] = {}
 
@@ -196,7 +198,7 @@ def _claim_checker() -> Callable[[_Task, Tell[Verdict]], Verdict]:
             return checker.verdict(task.part, task.claim, failed)
         except MemoryError:
             why = "it was read, but not decided: it needs more memory than a claim is allowed"
-        except Exception as error:  # a fault of the program's is reported, and the others go on
+        except Exception as error:  # report a bug of the program, and go on with other claims
             why = f"unexpected {type(error).__name__}: {error}"[:500]
         if failures:
             return _remarked(failures[-1], why)

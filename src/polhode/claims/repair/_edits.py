@@ -1,4 +1,4 @@
-"""Changes of a formula at one place, as an author would write them, and what they make of it."""
+"""Changes of a formula at one place, written as an author would."""
 
 from __future__ import annotations
 
@@ -37,6 +37,8 @@ from polhode.claims.repair._places import (
 _AXES = (("1", "2", "3"), ("x", "y", "z"), ("rho", "phi", "z"))
 _PAIRS = (("sin", "cos"), ("sinh", "cosh"), ("tan", "cot"), ("sech", "tanh"))
 _OTHER = {one: other for pair in _PAIRS for one, other in (pair, pair[::-1])}
+# Sizes rank corrections: 1 is one wrong sign, number or letter; fractions of it order changes of
+# the same kind, so that the slip an author is most likely to make is proposed first.
 _EXCHANGE = 2.0  # size of exchanging sine and cosine throughout: one slip, but not a small one
 _EQUALLY_SMALL = 0.15  # difference in size up to which corrections are proposed together
 
@@ -59,7 +61,7 @@ class Edit:
 
     @property
     def inserts(self) -> bool:
-        """Whether it brings letters in, which may just be those of the other side."""
+        """Whether it inserts letters, by which one side may become a copy of the other."""
         return self.what in ("missing factor", "missing term", "wrong symbol", "wrong expression")
 
 
@@ -95,7 +97,7 @@ def smallest(found: Sequence[Repaired]) -> tuple[Repaired, ...]:
 
 
 def edits(place: NodePosition, match: Match) -> Iterator[Edit]:
-    """Ways to write that a place is to be multiplied by a matched factor."""
+    """Edits that multiply a place by a matched factor, in several notations."""
     if not match.powers:
         yield from _by_number(place, match.number)
         return
@@ -113,6 +115,7 @@ def _by_number(place: NodePosition, number: Fraction) -> Iterator[Edit]:
     node = place.node
     if number == -1 and (place.is_term or isinstance(node, Negative | PlusMinus)):
         yield Edit("wrong sign", place.path, negated(node), 1.0)
+    # A printed integer is replaced; where the term has no number, one is written before it.
     if isinstance(node, Number) and "." not in node.text and number > 0:
         value = Fraction(node.text) * number
         extra = 0.0 if value.denominator == 1 else 0.5
@@ -157,7 +160,7 @@ def _scaled(node: Node, number: Fraction) -> Node:
 def _inserted(place: NodePosition, match: Match) -> Iterator[Edit]:
     """Letters that are missing as factors above or below."""
     if any(power < 0 and node in bases(place.node) for node, power in match.powers):
-        return  # it would only be cancelled
+        return  # the letter would only be cancelled; its power is changed instead
     sign = 1 if match.number < 0 else 0
     inner = place.node.of if isinstance(place.node, Negative) else place.node
     above, below = _above_and_below(match)
@@ -218,7 +221,7 @@ def bases(node: Node) -> set[Node]:
 
 
 def emptied(place: NodePosition) -> Iterator[Edit]:
-    """Ways to write that a whole side vanishes: zero, or the rate of a constant."""
+    """Edits by which a whole side vanishes: zero, or ẋ for a constant x."""
     is_letter = isinstance(place.node, Name | Dots)
     beside_zero = Number("0") in place.parent.parts
     if is_letter and beside_zero:
@@ -228,19 +231,19 @@ def emptied(place: NodePosition) -> Iterator[Edit]:
 
 
 def replaced_by(place: NodePosition, others: Iterable[Node]) -> Iterator[Edit]:
-    """Letters or functions whose value fits, put in the place of one."""
+    """Other letters or functions put at a place, for those whose value fits."""
     for other in dict.fromkeys(others):
         if other != place.node:
             yield replaced(place, other, _distance(place.node, other))
 
 
 def replaced(place: NodePosition, node: Node, size: float) -> Edit:
-    """Something else put at a place."""
-    return Edit(_slip(place.node, node), place.path, node, size)
+    """Another node put at a place."""
+    return Edit(_kind_of_slip(place.node, node), place.path, node, size)
 
 
-def _slip(old: Node, new: Node) -> str:
-    """What an author did who wrote the one for the other."""
+def _kind_of_slip(old: Node, new: Node) -> str:
+    """The slip of an author who wrote the old node for the new one, in words."""
     if isinstance(old, Call) and isinstance(new, Call):
         same = old.function == new.function
         return "wrong angle" if same else f"{old.function} where {new.function} is right"
@@ -256,7 +259,7 @@ def _slip(old: Node, new: Node) -> str:
 
 
 def _distance(old: Node, new: Node) -> float:
-    """The size of the change: a little larger for letters that are less alike."""
+    """The size of the change, a little larger for letters that look less alike."""
     if isinstance(old, Call) and isinstance(new, Call):
         return 1.0
     first, second = _bare(old), _bare(new)
@@ -282,7 +285,7 @@ def _dots(node: Node) -> int:
 
 
 def dotted(node: Node) -> Node:
-    """With one dot more."""
+    """The node with one more dot."""
     return Dots(node.of, node.count + 1) if isinstance(node, Dots) else Dots(node, 1)
 
 
@@ -309,16 +312,16 @@ def _other_labels(label: str) -> Iterator[str]:
 
 
 def other_function(node: Node) -> Node | None:
-    """The function that a sine, cosine or the like is most easily confused with."""
+    """The function that this one is most easily confused with, such as the cosine for a sine."""
     if isinstance(node, Call) and node.function in _OTHER:
         return Call(_OTHER[node.function], node.argument)
     return None
 
 
 def exchanged_functions(statement: Statement) -> Iterator[tuple[Edit, ...]]:
-    """An angle taken from the wrong axis: its sine and cosine exchanged wherever they stand.
+    """The sine and cosine of an angle exchanged throughout, as if it were taken from another axis.
 
-    For every angle of which both occur, the changes that exchange them.
+    Yields one set of changes for every angle of which both occur.
     """
     calls: dict[object, list[NodePosition]] = {}
     for place in places(statement):

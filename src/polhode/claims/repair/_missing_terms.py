@@ -1,7 +1,7 @@
-"""Terms that a claim has lost, and whole expressions that are wrong, in the letters of its text.
+"""Missing terms, and whole expressions that are wrong, in the letters of the text.
 
-What is needed at a place is found by numbers along known directions, or exactly: the claim is
-solved for an unknown that stands there, and the solution is written as products of letters.
+A missing term is found by numbers along known directions, or exactly: the claim is solved for an
+unknown put at the place, and the solution is written as products of letters.
 """
 
 from __future__ import annotations
@@ -50,14 +50,16 @@ from polhode.claims.repair._places import (
 from polhode.claims.repair._repair_context import RepairContext, VectorTerms
 from polhode.claims.states._numeric import NO_VALUE
 
+# Bounds on the search: longer terms would hold too, but no author lost them in one slip, and
+# factoring long polynomials takes most of the time.
 _MOST_MATCHES = 5
 _MOST_VECTOR_MATCHES = 2
 _LARGEST_SIZE = 12  # factors of a term
 _LONGEST_SUM = 4  # terms of a sum of letters
-_LONGEST = 16  # terms of what is factored
-_FACTOR = 4  # how much longer something may be than a short multiple of it
+_LONGEST = 16  # terms of a polynomial that is factored
+_FACTOR = 4  # ratio of lengths above which one expression is no short multiple of another
 
-#: Stands in a statement where something is to be found.
+#: Stands in a statement for the unknown term.
 _UNKNOWN_TERM = Name("missing")
 _UNKNOWN = Symbol("missing")
 
@@ -71,13 +73,13 @@ def missing_terms(
     members: Sequence[int],
     inner: Collection[NodePosition],
 ) -> Iterator[Edit]:
-    """Terms to be added to a side, or to whatever can be a sum inside it.
+    """Terms to be added to a side, or to a part of it that can be a sum.
 
     Args:
         context: the statement that fails.
         place: where a term may be added.
-        members: of the claim, that are to hold with it.
-        inner: factors and the like that another value could make right.
+        members: members of the claim that have to hold with it.
+        inner: factors, arguments and the like that another value would make right.
     """
     inside = isinstance(place.parent, Derivative | Root | ComponentList | Cross | Dot)
     if not (place.is_side or inside or isinstance(place.node, Sum) or place in inner):
@@ -85,7 +87,8 @@ def missing_terms(
     deep = 0.05 if isinstance(place.parent, Node) else 0.0
     for term in _terms(context, place, members):
         letters = {piece for piece in walk(term) if isinstance(piece, Node)}
-        if any(map(context.is_strange, letters)):  # it would only rewrite what is left over
+        # A term in new forces or accelerations would only restate the residual.
+        if any(map(context.is_foreign, letters)):
             continue
         size = 2.0 + deep + _length(term) / 20
         yield Edit("missing term", place.path, added(place.node, term), size)
@@ -93,7 +96,7 @@ def missing_terms(
 
 def _terms(context: RepairContext, place: NodePosition, members: Sequence[int]) -> Iterator[Node]:
     def adds(term: Node) -> bool:
-        """Whether a term does more than put something else in the place of what is there."""
+        """Whether a term does more than replace what stands there already."""
         parts = term.terms if isinstance(term, Sum) else (term,)
         is_letter = isinstance(place.node, Name | Dots)
         cancels = negated(place.node) in parts or (is_letter and place.node in bases(term))
@@ -116,7 +119,7 @@ def _along(
     members: Sequence[int],
     adds: Callable[[Node], bool],
 ) -> Iterator[Node]:
-    """Terms along one direction, or scalar ones."""
+    """Terms along one direction, or scalar terms: by numbers first, then exactly."""
     evaluator = context.evaluator
     ones = np.ones(context.trials.samples.size)
     tail = [] if direction is None else [direction]
@@ -134,15 +137,15 @@ def _along(
         if found:
             return
     unknown = added(place.node, times(_UNKNOWN_TERM, *tail))
-    lost = _solved(context, put(context.statement, place.path, unknown), members)
-    if lost is not None:
-        yield from filter(adds, _written(context, lost, tail))
+    missing = _solved(context, put(context.statement, place.path, unknown), members)
+    if missing is not None:
+        yield from filter(adds, _written(context, missing, tail))
 
 
 def _multiples(
     context: RepairContext, place: NodePosition, members: Sequence[int], terms: VectorTerms
 ) -> Iterator[Node]:
-    """Multiples of vectors of the text, or of products of two, that make a formula right."""
+    """Multiples of vectors of the text, or of vector products of two, that correct a formula."""
     if not len(terms):
         return
     try:
@@ -158,7 +161,7 @@ def _multiples(
 
 
 def may_be_rewritten(place: NodePosition) -> bool:
-    """Whether it is a whole side, a term or a sum; what the claim is about keeps its letter."""
+    """Whether it is a whole side, a term or a sum; a side of one letter is the claim's subject."""
     is_subject = place.is_side and isinstance(_base(place.node), Name | Dots)
     return (place.is_term or isinstance(place.node, Sum)) and not is_subject
 
@@ -166,14 +169,14 @@ def may_be_rewritten(place: NodePosition) -> bool:
 def rewritten(
     context: RepairContext, place: NodePosition, members: Sequence[int]
 ) -> Iterator[Edit]:
-    """What would have to stand at a place, with its vectors unchanged."""
+    """The expression that would have to stand at a place, with its vectors unchanged."""
     tail = _tail(context, place.node)
     if tail is None:
         return
     changed = put(context.statement, place.path, times(_UNKNOWN_TERM, *tail))
-    wanted = _solved(context, changed, members)
-    if wanted:
-        for node in _plainly_written(context, wanted, tail):
+    required = _solved(context, changed, members)
+    if required:
+        for node in _plainly_written(context, required, tail):
             if not _repeats(context, place, node):
                 one, other = _letters(place.node), _letters(node)
                 unshared = (one - other).total() + (other - one).total()
@@ -182,7 +185,7 @@ def rewritten(
 
 
 def _tail(context: RepairContext, node: Node) -> list[Node] | None:
-    """The vectors that scalars of a term multiply; None where there is not exactly one."""
+    """The vector of a term as a list, empty for a scalar; None for more than one vector."""
     if isinstance(node, Negative):
         return _tail(context, node.of)
     if isinstance(context.value(node), Expr):
@@ -193,7 +196,7 @@ def _tail(context: RepairContext, node: Node) -> list[Node] | None:
 
 
 def _letters(node: Node) -> Counter[Node]:
-    """The letters and functions of an expression, as often as they are multiplied."""
+    """The letters and functions of an expression, counted with their powers."""
     match node:
         case Power(base, Number(text)) if text.isdigit():
             return Counter({letter: n * int(text) for letter, n in _letters(base).items()})
@@ -203,7 +206,7 @@ def _letters(node: Node) -> Counter[Node]:
 
 
 def _in_order(node: Node, old: Node) -> Node:
-    """A product with its factors in the order in which they stood before, and vectors last."""
+    """A product with its factors in the author's order, and vectors last."""
     before = [*walk(old)]
 
     def place(factor: Node) -> int:
@@ -227,7 +230,10 @@ def _base(node: Node) -> Node:
 
 
 def _solved(context: RepairContext, changed: Statement, members: Sequence[int]) -> Expr | None:
-    """What the unknown term of a changed statement has to be for some members to hold, exactly."""
+    """The exact value of the unknown term with which some members hold; None without one.
+
+    Each residual has to be linear in the unknown, s x + r; all of them must have the same root.
+    """
     found = None
     try:
         extra = {_UNKNOWN_TERM.letter: Expr.generator(_UNKNOWN)}
@@ -247,7 +253,7 @@ def _solved(context: RepairContext, changed: Statement, members: Sequence[int]) 
 
 
 def _length(node: Node) -> int:
-    """How much a term says: letters with their powers, and how they are put together."""
+    """The length of a term: letters with their powers, more for sums, quotients and derivatives."""
     match node:
         case Power(base, Number(text)) if text.isdigit():
             return _length(base) * int(text)
@@ -265,21 +271,21 @@ def _length(node: Node) -> int:
 
 
 def _written(context: RepairContext, value: Expr, tail: Sequence[Node]) -> Iterator[Node]:
-    """A quantity times vectors in the letters of the text.
+    """A quantity times vectors, in letters of the text.
 
-    At most one of them is of a quantity that the motion determines, such as a reaction.
+    At most one letter stands for a quantity that the motion determines, such as a reaction.
     """
     yield from _plainly_written(context, value, tail)
-    for node, moved in context.settled.items():
-        if not moved or moved == context.vocabulary[node]:
+    for node, on_domain in context.on_domain.items():
+        if not on_domain or on_domain == context.vocabulary[node]:
             continue
-        shorter, longer = sorted((length(value), length(moved)))
+        shorter, longer = sorted((length(value), length(on_domain)))
         if longer <= _FACTOR * shorter:  # else neither is a short multiple of the other
-            yield from _plainly_written(context, value / moved, [node, *tail])
+            yield from _plainly_written(context, value / on_domain, [node, *tail])
 
 
 def _plainly_written(context: RepairContext, value: Expr, tail: Sequence[Node]) -> Iterator[Node]:
-    """The same in letters alone that are free on the states of the claim, if it is that simple."""
+    """A quantity times vectors, in letters that are free on the claim's states, if possible."""
     product = _product(value, context.spellings)
     if product is not None and len(product[1]) + len(product[2]) < _LARGEST_SIZE:
         number, above, below = product
@@ -290,7 +296,7 @@ def _plainly_written(context: RepairContext, value: Expr, tail: Sequence[Node]) 
 def _product(
     expression: Expr, plain: Mapping[Expr, Node]
 ) -> tuple[Fraction, list[Node], list[Node]] | None:
-    """An expression as a number times letters over letters, if it is that simple."""
+    """An expression as a number times letters over letters; None if it is not that simple."""
     if _is_longer(expression.numerator, _LONGEST) or _is_longer(expression.denominator, _LONGEST):
         return None
     number, powers = factors(expression)
@@ -298,6 +304,8 @@ def _product(
     below: list[Node] = []
     for factor, power in powers.items():
         node = plain.get(factor)
+        # Factors have an arbitrary sign: use the one that is a letter, or that prints no leading
+        # minus, and count the sign in the number.
         if node is None and -factor in plain:
             node, number = plain[-factor], number * (-1) ** (power % 2)
         elif (
@@ -342,13 +350,13 @@ def _fraction(number: Fraction, above: Iterable[Node], below: Iterable[Node]) ->
 
 
 def _repeats(context: RepairContext, place: NodePosition, node: Node) -> bool:
-    """Whether something new at a place brings in a whole other side of the same chain."""
+    """Whether a new node at a place contains a whole other side of the same chain."""
     sides = context.statement.relations[place.relation].sides
     others = {side for i, side in enumerate(sides) if i != place.path[1]} - {ZERO}
     return _stands_in(node, others)
 
 
 def _stands_in(piece: Piece, others: Collection[Piece]) -> bool:
-    """Whether one of these is the piece or stands in it, other than as the base of a power."""
+    """Whether one of the others is this piece or stands in it, except as the base of a power."""
     inside = (*piece.base.parts, piece.exponent) if isinstance(piece, Power) else piece.parts
     return piece in others or any(_stands_in(part, others) for part in inside)

@@ -1,7 +1,7 @@
-"""By what a place in a formula would have to be multiplied for the claim to hold, in letters.
+"""The factor by which a place in a formula has to be multiplied for the claim to hold.
 
-The factor is found as one number per sample point, then matched with numbers and products of
-known letters that take the same values.
+It is found as one number per sample point, then matched with numbers and products of known letters
+that take the same values.
 """
 
 from __future__ import annotations
@@ -19,27 +19,29 @@ import numpy as np
 from polhode.claims.latex._tree import Node
 from polhode.claims.states._numeric import Array
 
-_CLOSE = 1e-8  # relative; values in doubles at sample points
+_CLOSE = 1e-8  # relative; half the digits of a double, the rest may be lost in long residuals
 _STEPS = 25  # of the secant method
 _LARGEST = 60  # numerator or denominator of a simple number
-_SETTLED = 1e-14  # relative step at which the secant method ends
+_CONVERGED = 1e-14  # relative step at which the secant method ends
 _QUOTIENTS = (Fraction(n, d) for n in range(1, 5) for d in range(1, 5) if n != d)
 _TRIED = (Fraction(-1), Fraction(0), *dict.fromkeys(_QUOTIENTS))
+# Factors at which a residual is computed: 1 and 1.25 start the secant method, 1, 2 and 3 show
+# whether it is linear, and the others are the numbers that authors most often get wrong.
 _PROBES = (1.0, 1.25, *map(float, _TRIED))
-_MOST_LETTERS = 40
+_MOST_LETTERS = 40  # letters of which triples are formed: some 12 000 products
 _MOST_TOGETHER = 3
 _POWERS = (1, -1, 2, -2)
 
 
 @dataclass(frozen=True, eq=False)
 class Response:
-    """How what must vanish changes with a factor put at a place.
+    """Residuals as a function of a factor put at a place.
 
     Attributes:
-        changing: those rows that may change, (rows, trials, states), by the factor in every trial
-            at every state.
-        rows: which of all they are.
-        before: all rows as they are: (rows, states).
+        changing: the residuals that may change, (rows, trials, states), from the factor in every
+            trial at every state.
+        rows: their numbers among all residuals.
+        before: all residuals for a factor of one: (rows, states).
     """
 
     changing: Callable[[Array], Array]
@@ -47,17 +49,17 @@ class Response:
     before: Array
 
     def __call__(self, factors: Array) -> Array:
-        """The changing rows; not a number at states where arithmetic fails."""
+        """The changing residuals; nan at states where arithmetic fails."""
         with np.errstate(all="ignore"):
             return self.changing(factors)
 
     @cached_property
     def probed(self) -> Array:
-        """The changing rows for some factors that are the same at all states, all at once."""
+        """The changing residuals for the factors `_PROBES`, the same at all states."""
         return self(np.outer(_PROBES, np.ones(self.states)))
 
     def among(self, kept: Sequence[int]) -> Response | None:
-        """The same for some of all rows only; None where none of those changes."""
+        """The response of some residuals only; None if none of those changes."""
         places = [k for k, row in enumerate(self.rows) if row in kept]
         if len(kept) == len(self.before):
             return self
@@ -67,25 +69,25 @@ class Response:
         return _Part(lambda at: self.changing(at)[places], rows, self.before[kept], self, places)
 
     @cached_property
-    def moved(self) -> tuple[int, ...]:
-        """Which of all rows do change."""
-        away = np.abs(self.probed - self.probed[:, :1])
-        still = np.asarray((away <= _CLOSE * (1 + np.abs(self.probed))).all(axis=(1, 2)))
-        return tuple(row for row, stays in zip(self.rows, still, strict=True) if not stays)
+    def affected(self) -> tuple[int, ...]:
+        """The numbers of the residuals that do change."""
+        change = np.abs(self.probed - self.probed[:, :1])
+        constant = np.asarray((change <= _CLOSE * (1 + np.abs(self.probed))).all(axis=(1, 2)))
+        return tuple(row for row, stays in zip(self.rows, constant, strict=True) if not stays)
 
     @property
     def here(self) -> Array:
-        """The changing rows for a factor of one: (rows, states)."""
+        """The changing residuals for a factor of one: (rows, states)."""
         return np.asarray(self.probed[:, 0])
 
     @property
     def states(self) -> int:
-        """At how many states it is known."""
+        """The number of states."""
         return int(self.before.shape[1])
 
     @property
     def is_faithful(self) -> bool:
-        """Whether a factor of one changes nothing, as it must."""
+        """Whether a factor of one gives the residuals back: a check on evaluation by numbers."""
         known = self.before[list(self.rows)]
         if self.here.shape != known.shape:
             return False
@@ -93,7 +95,7 @@ class Response:
 
     @cached_property
     def change(self) -> Array | None:
-        """Change of the changing rows per unit of the factor; None where it is not linear in it."""
+        """Change of the changing residuals per unit of the factor; None if it is not linear."""
         one, two, three = (self.probed[:, _PROBES.index(x)] for x in (1.0, 2.0, 3.0))
         change = two - one
         straight = np.abs(three - two - change) <= _CLOSE * (np.abs(one) + np.abs(three))
@@ -102,7 +104,7 @@ class Response:
         return np.asarray(change)
 
     def slope(self) -> Array | None:
-        """The same for all rows; None where it is not linear."""
+        """Change of all residuals per unit of the factor; None if it is not linear."""
         if self.change is None:
             return None
         whole = np.zeros_like(self.before)
@@ -111,9 +113,10 @@ class Response:
 
     @cached_property
     def multiplier(self) -> Array | None:
-        """The factor at every state at which all vanishes, by secants from one; None without one.
+        """The factor, state by state, with which all residuals vanish; None without one.
 
-        A residual that no factor changes must vanish already.
+        It is solved from the residual that depends on it most clearly, by its slope or by secants,
+        and must then make the others vanish too.
         """
         here, there = self.here, self.probed[:, _PROBES.index(1.25)]
         size = np.abs(here) + np.abs(there)
@@ -142,12 +145,12 @@ class _Part(Response):
 
     @cached_property
     def probed(self) -> Array:
-        """The same rows of what is known of the whole."""
+        """The same rows of the probes of the whole, which need not be computed again."""
         return np.asarray(self.whole.probed[self.places])
 
 
 def _by_secants(response: Response, row: int) -> Array:
-    """Where one row vanishes, state by state, as closely as the secant method finds it."""
+    """The factor with which one residual vanishes, state by state, by the secant method."""
     here, there = (response.probed[row, _PROBES.index(x)] for x in (1.0, 1.25))
     at, before = np.full(response.states, 1.0), np.full(response.states, 1.25)
     for _ in range(_STEPS):
@@ -158,14 +161,14 @@ def _by_secants(response: Response, row: int) -> Array:
             break
         before, there = at, here
         at = at - step
-        if (np.abs(step) < _SETTLED * (1 + np.abs(at))).all():
+        if (np.abs(step) < _CONVERGED * (1 + np.abs(at))).all():
             break
         here = response(at[None])[row, 0]
     return at
 
 
 def simple_numbers(response: Response) -> Iterator[Fraction]:
-    """The simple factors at which everything vanishes; there may be several if not linear."""
+    """The simple factors with which all residuals vanish; several where they are not linear."""
     size = np.abs(response.here).max(axis=1) + 1
     tried = response.probed[:, -len(_TRIED) :]
     vanishes = np.isfinite(tried) & (np.abs(tried) <= _CLOSE * size[:, None, None])
@@ -174,7 +177,7 @@ def simple_numbers(response: Response) -> Iterator[Fraction]:
 
 @dataclass(frozen=True)
 class Match:
-    """A number times powers of known quantities that a factor equals at every state.
+    """A number times powers of known quantities, equal to a factor at every state.
 
     Attributes:
         number: the number.
@@ -186,13 +189,13 @@ class Match:
 
     @property
     def size(self) -> int:
-        """How much it says: powers counted, and a number other than one."""
+        """Its length: the powers, plus one for a number other than 1, and one for a fraction."""
         number = self.number != 1
         return sum(abs(power) for _, power in self.powers) + number + (self.number.denominator > 1)
 
 
 def simple_number(values: Array) -> Fraction | None:
-    """The simple rational number that all values are, if they are."""
+    """The simple rational number that all values equal; None without one."""
     first = float(values[0])
     if not np.ptp(values) <= _CLOSE * abs(first) + 1e-10:
         return None
@@ -210,11 +213,11 @@ class Products:
 
     Attributes:
         known: letters with their values: (states,).
-        upright: those that may stand above a fraction line only.
+        numerator_only: those that may stand above a fraction line only.
     """
 
     known: Sequence[tuple[Node, Array]]
-    upright: Collection[Node] = ()
+    numerator_only: Collection[Node] = ()
 
     def equal_to(self, amount: Array) -> Iterator[Match]:
         """A number times products of letters, the shortest first.
@@ -224,14 +227,22 @@ class Products:
         yield from list(self.short(amount)) or sorted(self._long(amount), key=attrgetter("size"))
 
     def short(self, amount: Array) -> Iterator[Match]:
-        """Those of up to two letters alone, the simplest first."""
+        """A number times at most two letters, the simplest first."""
         number = simple_number(amount)
         if number is not None:
             yield Match(number)
-        elif self.known:
-            yield from sorted(
-                [*self._singles(amount), *self._pairs(amount)], key=attrgetter("size")
-            )
+        if number is not None or not self.known:
+            return
+        found: list[Match] = []
+        for (i, j), number in _simple(amount, self._powered):
+            if self._may_stand(self.known[i][0], _POWERS[j]):
+                found.append(Match(number, ((self.known[i][0], _POWERS[j]),)))
+        for (i, j), number in _simple(amount, self._table):
+            (first, p), (second, q) = self._signed[i], self._signed[j]
+            allowed = self._may_stand(first, p) and self._may_stand(second, q)
+            if allowed and i < j and first != second:
+                found.append(Match(number, ((first, p), (second, q))))
+        yield from sorted(found, key=attrgetter("size"))
 
     # -- one letter or two -----------------------------------------------------------------------
 
@@ -239,13 +250,8 @@ class Products:
     def _values(self) -> Array:
         return np.array([values for _, values in self.known])
 
-    def _singles(self, amount: Array) -> Iterator[Match]:
-        for (i, j), number in _simple(amount, self._powered):
-            if self._may_stand(self.known[i][0], _POWERS[j]):
-                yield Match(number, ((self.known[i][0], _POWERS[j]),))
-
     def _may_stand(self, node: Node, power: int) -> bool:
-        return power > 0 or node not in self.upright
+        return power > 0 or node not in self.numerator_only
 
     @cached_property
     def _powered(self) -> Array:
@@ -262,19 +268,13 @@ class Products:
         table = np.concatenate([self._values, 1 / self._values])
         return np.asarray(table[:, None] * table[None])
 
-    def _pairs(self, amount: Array) -> Iterator[Match]:
-        for (i, j), number in _simple(amount, self._table):
-            (first, p), (second, q) = self._signed[i], self._signed[j]
-            allowed = self._may_stand(first, p) and self._may_stand(second, q)
-            if allowed and i < j and first != second:
-                yield Match(number, ((first, p), (second, q)))
-
     # -- more of them ----------------------------------------------------------------------------
 
     def _long(self, amount: Array) -> Iterator[Match]:
-        """Meet in the middle: what a few letters leave must be the product of a few others.
+        """Products of up to six letters, by meeting in the middle.
 
-        Of the logarithms, so that products are sums; up to a constant factor, found at the end.
+        The quotient of the amount by three letters must be the product of three others. Logarithms
+        turn products into sums; the constant factor drops out and is found at the end.
         """
         if len(amount) < _MOST_TOGETHER or not amount.all() or not self.known:
             return
@@ -290,15 +290,16 @@ class Products:
     def _few(self) -> _FewLetters:
         different = list({v.tobytes(): (n, v) for n, v in reversed(self.known)}.values())[::-1]
         kept = different[:_MOST_LETTERS]
-        # the empty product stands first, so that shorter ones are among them
+        # A row of ones stands first as the empty letter, so that shorter products are included.
         values = np.array([np.ones_like(kept[0][1]), *(v for _, v in kept)])
         return _FewLetters([kept[0][0], *(n for n, _ in kept)], values)
 
 
 class _FewLetters:
-    """Products of a few letters by the logarithms of their values, sorted by a random projection.
+    """Products of up to three letters, by logarithms of their values and a random projection.
 
-    Equal products have equal projections, so that candidates are found by bisection.
+    The projection of a sum of vectors of logarithms is the sum of their projections. So the partner
+    of each product is found by bisection among sorted numbers, then compared in full.
     """
 
     def __init__(self, nodes: Sequence[Node], values: Array) -> None:
@@ -311,20 +312,21 @@ class _FewLetters:
         self._order = np.argsort(self._keys)
         self._sorted = self._keys[self._order]
 
-    def pairs(self, wanted: Array) -> Iterator[tuple[int, int]]:
-        """Pairs of them whose logarithms add up to a sum, the first one before the other."""
-        keys = wanted @ self._weights - self._keys
+    def pairs(self, total: Array) -> Iterator[tuple[int, int]]:
+        """Pairs of products whose logarithms add up to a total, each pair once."""
+        keys = total @ self._weights - self._keys
         first = np.searchsorted(self._sorted, keys - _CLOSE)
         last = np.searchsorted(self._sorted, keys + _CLOSE)
         for one in np.flatnonzero(last > first):
             for other in self._order[first[one] : last[one]]:
-                left = wanted - self._sums[one] - self._sums[other]
+                left = total - self._sums[one] - self._sums[other]
                 if one <= other and np.abs(left).max() < _CLOSE:
                     yield int(one), int(other)
 
 
 def _simple(amount: Array, table: Array) -> Iterator[tuple[tuple[int, int], Fraction]]:
-    """Where an amount over a table of values, (.., .., states), is one simple number throughout."""
+    """Entries of a table, (.., .., states), by which an amount is a simple number at all states."""
+    # Two states rule out nearly all entries before the rest are compared.
     first, last = (amount[state] / table[:, :, state] for state in (0, -1))
     likely = np.abs(last - first) <= _CLOSE * np.abs(first)
     for i, j in zip(*np.nonzero(likely), strict=True):

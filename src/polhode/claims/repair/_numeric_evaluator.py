@@ -1,4 +1,4 @@
-"""A statement by numbers: what is left of its members when something else stands at a place."""
+"""A statement by numbers: residuals of its members when another quantity stands at a place."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from polhode.claims.states._bound_claim import BoundClaim
 from polhode.claims.states._numeric import NO_VALUE, Array
 from polhode.claims.states._sample_points import SamplePoints
 
-_CLOSE = 1e-7
+_CLOSE = 1e-7  # relative; residuals of sums of many terms, in doubles
 
 
 class NumericEvaluator:
@@ -47,7 +47,7 @@ class NumericEvaluator:
         self._statement, self._members, self._sides = statement, claim.members, sides
         self._notation, self._samples = notation, samples
         self._values: dict[Node, NumericTensor] = {}
-        self._turns: dict[tuple[Triad, Triad], Array] = {}
+        self._rotations: dict[tuple[Triad, Triad], Array] = {}
         triads = (triad_of(r.left, r.right) for r in claim.members)
         self._triad = next((triad for triad in triads if triad is not None), None)
 
@@ -58,7 +58,7 @@ class NumericEvaluator:
         return self._values[node]
 
     def _found(self, node: Node) -> NumericTensor:
-        """From the values of its parts where possible, which is quicker than exactly."""
+        """Its value from those of its parts where possible, which is faster than exactly."""
         if is_arithmetic(node):
             try:
                 return combined(node, [self.of(part) for part in node.parts])  # type: ignore[arg-type]
@@ -70,27 +70,27 @@ class NumericEvaluator:
                 return scalar(self._samples.values([value])[0])
             case Vector(components, triad):
                 along = self._samples.values(components)
-                array = np.einsum("ijs,js->is", self._turn(triad), along)
+                array = np.einsum("ijs,js->is", self._rotation(triad), along)
                 return NumericTensor(1, array[:, None])
             case Tensor(matrix, triad):
-                turn = self._turn(triad)
+                rotation = self._rotation(triad)
                 entries = self._samples.values([e for row in matrix.rows for e in row])
                 square = entries.reshape(3, 3, -1)
-                array = np.einsum("iks,kls,jls->ijs", turn, square, turn)
+                array = np.einsum("iks,kls,jls->ijs", rotation, square, rotation)  # R I Rᵀ
                 return NumericTensor(2, array[:, :, None])
         raise NumericError(f"{value}", expected="a scalar, a vector or a tensor")
 
     def rows(self, place: NodePosition, new: NumericTensor, members: Sequence[int]) -> Array:
-        """What is left of members with another quantity at a place: (rows, trials, states).
+        """Residuals of members with another quantity at a place: (rows, trials, states).
 
         A member of vectors has three rows, along the triad that its residuals are along.
         """
         relation, side, *inside = place.path
         whole = self._statement.relations[relation].sides[side]
         changed = with_replaced(whole, inside, new, self.of)
-        left = [self._left(member, (relation, side), changed) for member in members]
-        trials = np.broadcast_shapes(*(rows.shape[1:] for rows in left))
-        return np.concatenate([np.broadcast_to(r, (len(r), *trials)) for r in left])
+        residuals = [self._residual(member, (relation, side), changed) for member in members]
+        trials = np.broadcast_shapes(*(rows.shape[1:] for rows in residuals))
+        return np.concatenate([np.broadcast_to(r, (len(r), *trials)) for r in residuals])
 
     def fitting(
         self, place: NodePosition, others: Sequence[Node], members: Sequence[int]
@@ -103,14 +103,15 @@ class NumericEvaluator:
         return [node for i, node in enumerate(others) if holds[i]]
 
     def amounts(self, place: NodePosition, terms: NumericTensor, members: Sequence[int]) -> Array:
-        """How much of each of some terms is missing at a place: (terms, states), or not a number.
+        """The missing multiple of each term at a place: (terms, states); nan for unsuited terms.
 
-        Raises `NumericError` where what is left is not linear in what is added.
+        Raises `NumericError` if the residuals are not linear in the added term.
         """
-        there, size = self.of(place.node), 3**terms.rank
+        present, size = self.of(place.node), 3**terms.rank
         shape = (*(3,) * terms.rank, 1, 1)
         axes = [NumericTensor(terms.rank, unit.reshape(shape)) for unit in np.eye(size)]
-        tried = [there, *(there + axis for axis in axes), there + axes[0] + axes[0]]
+        # Trials: nothing added, each unit component added, and the first one twice for linearity.
+        tried = [present, *(present + axis for axis in axes), present + axes[0] + axes[0]]
         rest, *steps, twice = np.moveaxis(self.rows(place, stacked(tried), members), 1, 0)
         slopes = np.array([step - rest for step in steps])
         if not np.allclose(twice - rest, 2 * slopes[0], rtol=_CLOSE, atol=_CLOSE):
@@ -118,12 +119,14 @@ class NumericEvaluator:
         parts = terms.array.reshape(len(axes), *terms.array.shape[-2:])
         effects = np.einsum("irs,its->trs", slopes, parts)
         with np.errstate(all="ignore"):
+            # Least squares of rest + amount · effect over the rows, at each state by itself.
             found = -(effects * rest).sum(axis=1) / (effects * effects).sum(axis=1)
         left = np.abs(rest + effects * found[:, None]).max(axis=(1, 2))
         fits = left <= _CLOSE * (1 + np.abs(rest).max())
         return np.where(fits[:, None], found, np.nan)
 
-    def _left(self, member: int, side: tuple[int, int], changed: NumericTensor) -> Array:
+    def _residual(self, member: int, side: tuple[int, int], changed: NumericTensor) -> Array:
+        """Left minus right side of a member, one of whose sides is changed."""
         first, second = self._sides.sides(member)
         sides = self._statement.relations[first[0]].sides
         one, other = (changed if s == side else self.of(sides[s[1]]) for s in (first, second))
@@ -134,22 +137,22 @@ class NumericEvaluator:
         triad = triad_of(relation.left, relation.right)
         if difference.rank != 1 or triad is None:
             raise NumericError("a member", expected="two scalars or two vectors")
-        turn = self._turn(triad)
-        return np.asarray(np.einsum("jis,jbs->ibs", turn, difference.array))
+        rotation = self._rotation(triad)  # its transpose leads back to the triad of the residuals
+        return np.asarray(np.einsum("jis,jbs->ibs", rotation, difference.array))
 
-    def _turn(self, triad: Triad) -> Array:
-        """Turns components along a triad into those along the one of all values: (3, 3, states)."""
+    def _rotation(self, triad: Triad) -> Array:
+        """Matrix from components along a triad to those along the common one: (3, 3, states)."""
         if self._triad is None:
             self._triad = triad
         key = triad, self._triad
-        if key not in self._turns:
+        if key not in self._rotations:
             matrix = triad.rotation_to(self._triad)
             entries = [matrix[i, j] for i, j in product(range(3), range(3))]
-            self._turns[key] = self._samples.values(entries).reshape(3, 3, -1)
-        return self._turns[key]
+            self._rotations[key] = self._samples.values(entries).reshape(3, 3, -1)
+        return self._rotations[key]
 
 
-# -- quantities by numbers, and what nodes make of them --------------------------------------------
+# -- quantities by numbers, and the operations of nodes on them ------------------------------------
 
 
 @dataclass(frozen=True, eq=False)
@@ -226,7 +229,7 @@ def scalar(array: Array) -> NumericTensor:
 
 
 def stacked(quantities: Sequence[NumericTensor]) -> NumericTensor:
-    """Several of one rank as trials of one."""
+    """Several quantities of one rank as trials of one quantity."""
     shape = np.broadcast_shapes(*(quantity.array.shape for quantity in quantities))
     alike = [np.broadcast_to(quantity.array, shape) for quantity in quantities]
     return NumericTensor(quantities[0].rank, np.concatenate(alike, axis=-2))
@@ -259,7 +262,7 @@ _ARITHMETIC = (tree.Sum, tree.Product, tree.Negative, tree.Quotient, tree.Cross,
 
 
 def is_arithmetic(node: Piece) -> bool:
-    """Whether its value follows from those of its parts with no choice of a branch."""
+    """Whether its value follows from those of its parts without choosing a branch of a root."""
     return isinstance(node, _ARITHMETIC)
 
 
@@ -282,13 +285,13 @@ def combined(node: Piece, inside: Sequence[NumericTensor]) -> NumericTensor:
 def with_replaced(
     root: Piece, path: Sequence[int], new: NumericTensor, known: Callable[[Node], NumericTensor]
 ) -> NumericTensor:
-    """The value of a whole in which another quantity stands at a place.
+    """The value of a tree in which another quantity stands at a place.
 
     Args:
-        root: the whole, such as a side.
+        root: the tree, such as a side.
         path: of the place in it.
-        new: what stands there instead.
-        known: values of all that is unchanged.
+        new: the quantity put there.
+        known: gives the values of unchanged nodes.
     """
     if not path:
         return new
@@ -301,4 +304,4 @@ def with_replaced(
 
 
 def _unlike(sign: str) -> NumericError:
-    return NumericError(f"two kinds of quantity with {sign}", expected="kinds that go together")
+    return NumericError(f"two kinds of quantity with {sign}", expected="kinds that can be combined")

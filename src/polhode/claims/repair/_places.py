@@ -31,7 +31,7 @@ ZERO = Number("0")
 #: Relation of a statement, and number of a side in it.
 Side = tuple[int, int]
 
-_LEFT = 0.02  # size of changing the earlier side: slips are likelier in what is derived from it
+_LEFT = 0.02  # extra size of changing the left side: slips are likelier in the result on the right
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ def put(statement: Statement, path: tuple[int, ...], node: Node) -> Statement:
 
 
 def _changer(path: tuple[int, ...], node: Node) -> Callable[[Piece], Piece]:
-    """Changes the part that the first step of the path leads to; parts come in their order."""
+    """A function for `mapped`, which calls it part by part in order, to change one at a path."""
     position = count()
 
     def change(part: Piece) -> Piece:
@@ -121,7 +121,7 @@ def negated(node: Node) -> Node:
 
 
 def times(*nodes: Node) -> Node:
-    """A product without brackets inside and without ones."""
+    """The product of some nodes, flattened and without factors of one."""
     flat: list[Node] = []
     for node in nodes:
         flat += node.factors if isinstance(node, Product) else [node]
@@ -132,7 +132,7 @@ def times(*nodes: Node) -> Node:
 
 
 def tidied(piece: Piece) -> Piece:
-    """Without factors one, terms zero, and sums and products of a single part."""
+    """The piece without factors of one, zero terms, and sums and products of a single part."""
     piece = mapped(piece, tidied)
     match piece:
         case Product(factors):
@@ -150,7 +150,7 @@ def tidied(piece: Piece) -> Piece:
 
 
 def over(above: Node, below: Node) -> Node:
-    """A quotient; what is above alone where nothing is below."""
+    """A quotient, or the numerator alone over a denominator of one."""
     return above if below == ONE else Quotient(above, below)
 
 
@@ -194,7 +194,7 @@ class MemberSides:
 
     @cached_property
     def _is_plain(self) -> bool:
-        """Whether there is one member for each sign, and none depends on sides of others."""
+        """Whether there is one member for each sign, and none depends on the sides of others."""
         pieces = list(walk(self._statement))
         used = any(pieces.count(letter) > 1 for letter in self._defined)
         cases = any(isinstance(piece, Cases) for piece in pieces)
@@ -208,17 +208,14 @@ class MemberSides:
         return (relation, left), (relation, left + 1)
 
     def members(self, place: NodePosition) -> frozenset[int]:
-        """Those that change with what stands at a place."""
+        """The members that depend on what stands at a place."""
         if not self._is_plain:
             return self._every
         side = place.path[:2]
         return frozenset(m for m in range(len(self._pairs)) if side in self.sides(m))
 
     def cost(self, place: NodePosition, targets: Collection[int]) -> float | None:
-        """What it costs to change this side for these members; None where it is no side of them.
-
-        The later side is the cheaper.
-        """
+        """Extra size of changing this side for these members; None if it is no side of theirs."""
         for member in targets:
             sides = self.sides(member)
             if place.path[:2] in sides:

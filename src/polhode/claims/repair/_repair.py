@@ -1,8 +1,9 @@
 """The smallest correction that makes a claim hold.
 
-Where what is left of a claim can be fitted, `RepairSearch` proposes candidates from numbers at
-sample points, and only those are judged exactly; claims that are judged as a whole are corrected by
-small changes tried one by one. A correction must hold, be of one dimension and say something.
+Where the residual of a claim can be fitted, `RepairSearch` proposes candidates from numbers at
+sample points, and only those are judged exactly. Claims that are judged as a whole are corrected by
+small changes tried one by one. A correction must hold, be dimensionally homogeneous and not be
+empty.
 """
 
 from __future__ import annotations
@@ -43,13 +44,13 @@ _MOST_EDITS = 4  # rounds in which some members are corrected
 _MOST_TRIED = 40  # exact judgements of a claim that is judged as a whole
 _NUMBERS = (Fraction(-1), Fraction(2), Fraction(1, 2), Fraction(4), Fraction(1, 4))
 _TRIALS = 3  # random values of each letter
-_CLOSE = 1e-9
+_CLOSE = 1e-9  # of values of order one, in doubles
 
 
 def repaired(
     statement: Statement, notation: RepairNotation, context: str, holds: Holds
 ) -> tuple[Repaired, ...]:
-    """The smallest corrections, all of about the same size; none where none was found.
+    """The smallest corrections, all of about the same size; empty if none was found.
 
     Args:
         statement: the claim that fails.
@@ -61,7 +62,8 @@ def repaired(
         return _fitted(statement, notation, context, holds)
     if context not in JUDGED_WHOLE:
         return ()
-    claim = notation.asked(statement, {})
+    claim = notation.read_claim(statement, {})
+    # A claim to order zero is an equation at the limit itself, where its residual can be fitted.
     if claim.small and all(small.order == 0 for small in claim.small):
         limit = AtLimit(notation, claim)
         found = _fitted(statement, limit, "motion", lambda changed: holds(limit.near(changed)))
@@ -70,7 +72,7 @@ def repaired(
     return _one_by_one(statement, notation, holds)
 
 
-# -- where what is left can be fitted -------------------------------------------------------------
+# -- where the residual can be fitted -------------------------------------------------------------
 
 
 def _fitted(
@@ -78,12 +80,12 @@ def _fitted(
 ) -> tuple[Repaired, ...]:
     whole = Repaired(statement, ())
     starts = chain([whole], _exchanged(whole, notation, context))
-    found = (_from(start, notation, context, holds) for start in starts)
+    found = (_corrections_from(start, notation, context, holds) for start in starts)
     return next(filter(None, found), ())
 
 
 def _exchanged(whole: Repaired, notation: RepairNotation, context: str) -> Iterator[Repaired]:
-    """With sines and cosines of an angle exchanged, where that makes fewer residuals wrong."""
+    """Statements with sine and cosine of an angle exchanged, if fewer residuals are then wrong."""
     before = RepairSearch(whole, notation, context).wrong
     for changes in exchanged_functions(whole.statement):
         repair = whole.with_changes(changes)
@@ -91,19 +93,20 @@ def _exchanged(whole: Repaired, notation: RepairNotation, context: str) -> Itera
             yield repair
 
 
-def _from(
+def _corrections_from(
     repair: Repaired, notation: RepairNotation, context: str, holds: Holds
 ) -> tuple[Repaired, ...]:
-    """The smallest corrections that begin with some changes.
+    """The smallest corrections that include the changes made so far.
 
-    Where no candidate mends the whole claim, some of its members are corrected and the search
-    begins again from there.
+    If no candidate corrects the whole claim, some of its members are corrected and the search
+    starts again from there.
     """
     for _ in range(_MOST_EDITS):
         search = RepairSearch(repair, notation, context)
         if not search.failing:
             return ()
         whole: list[Repaired] = []
+        # Later stages find larger changes, so the search stops once a small one is sound.
         for found, enough in zip(search.corrected(search.failing), ENOUGH, strict=True):
             whole += [r for r in found if _is_sound(r, search.failing, notation, holds)]
             if any(r.size - repair.size < enough for r in whole):
@@ -118,7 +121,10 @@ def _from(
 
 
 def _partly_corrected(search: RepairSearch) -> Repaired | None:
-    """Some of the members corrected: with one place changed where possible, else with more."""
+    """The claim with one or two of its members corrected, by the smallest change of any stage.
+
+    Neighbours in a chain share a side, so pairs come first.
+    """
     pairs = [pair for pair in pairwise(search.failing) if pair[1] == pair[0] + 1]
     groups = [*pairs, *((member,) for member in search.failing)]
     stages = [search.corrected(group) for group in groups]
@@ -129,17 +135,17 @@ def _partly_corrected(search: RepairSearch) -> Repaired | None:
 def _is_sound(
     repair: Repaired, failing: Sequence[int], notation: RepairNotation, holds: Holds
 ) -> bool:
-    """Whether it holds, is of one dimension, and says something."""
+    """Whether it holds, is dimensionally homogeneous, and is neither empty nor a tautology."""
     inserted = [change.path for change in repair.changes if change.inserts]
     if _is_empty(repair.statement) or any(
         _is_tautology(repair.statement, (p[0], p[1]), notation) for p in inserted
     ):
         return False
     try:
-        claim = notation.asked(repair.statement, {})
+        claim = notation.read_claim(repair.statement, {})
         if dimensions_at_odds(claim):
             return False
-        if inserted:  # it must not be what makes both sides of a member vanish
+        if inserted:  # the insertion must not make both sides of a member vanish
             sides = ((c.member, c.left or c.right) for c in claim.components())
             left = {member for member, rest in sides if rest}
             if any(member not in left for member in failing):
@@ -157,7 +163,7 @@ def _one_by_one(
 ) -> tuple[Repaired, ...]:
     """The smallest single changes with which a claim holds.
 
-    Only what is of one dimension is judged, and only a limited number of changes.
+    Only homogeneous statements are judged, and only a limited number of them.
     """
     whole = Repaired(statement, ())
     found = [edit for place in places(statement) for edit in _single_changes(place, notation)]
@@ -201,26 +207,26 @@ def _is_scalar_letter(node: Node) -> bool:
 
 
 def _of_one_dimension(repair: Repaired, notation: RepairNotation) -> BoundClaim | None:
-    """The claim it makes, if that is of one dimension."""
+    """The claim it makes, or None if terms differ in dimension or it cannot be read."""
     try:
-        claim = notation.asked(repair.statement, {})
+        claim = notation.read_claim(repair.statement, {})
         return None if dimensions_at_odds(claim) else claim
     except (PolhodeError, ArithmeticError):
         return None
 
 
-# -- whether a statement says anything, by its form alone -----------------------------------------
+# -- empty statements and tautologies, by their form alone ----------------------------------------
 
 
 def _is_empty(statement: Statement) -> bool:
-    """Whether some member has the same on both sides, or a vector is crossed with itself."""
+    """Whether some member is of the form a = a, or a vector is crossed with itself."""
     sides = (tuple(map(tidied, relation.sides)) for relation in statement.relations)
     same = any(one == other for chain in sides for one, other in pairwise(chain))
     return same or any(isinstance(p, Cross) and p.left == p.right for p in walk(statement))
 
 
 def _is_tautology(statement: Statement, side: tuple[int, int], notation: RepairNotation) -> bool:
-    """Whether a side cancels, or equals one beside it, whatever its letters stand for."""
+    """Whether a side vanishes or equals its neighbour for any values of its letters."""
     relation, position = side
     sides = statement.relations[relation].sides
     beside = sides[max(position - 1, 0) : position] + sides[position + 1 : position + 2]
@@ -233,7 +239,7 @@ def _is_tautology(statement: Statement, side: tuple[int, int], notation: RepairN
 
 
 class _RandomValues:
-    """Nodes with random numbers for letters, rates and whatever has no value of its own."""
+    """Values of nodes, with random numbers for letters, rates and all that is not arithmetic."""
 
     def __init__(self, notation: RepairNotation) -> None:
         self._notation = notation

@@ -1,4 +1,4 @@
-"""One statement that fails, with all that is known of it while a correction is looked for."""
+"""A statement that fails, with the letters and values that the search for a correction uses."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from polhode.claims.repair._places import NodePosition, places, put
 from polhode.claims.repair._trials import RepairNotation, Trials
 from polhode.claims.states._numeric import NO_VALUE, Array
 
-_CLOSE = 1e-7
-_MOST_VECTORS = 40
+_CLOSE = 1e-7  # relative; values in doubles at sample points
+_MOST_VECTORS = 40  # of which all pairs are crossed: 780 products
 _UPWARD = Name("z", decoration="hat")
 
 
@@ -40,7 +40,7 @@ class RepairContext:
     evaluator: NumericEvaluator
 
     def value(self, node: Node) -> Side | None:
-        """What a node stands for, if it stands for something."""
+        """The meaning of a node, or None."""
         try:
             return self.notation.value(node)
         except NO_VALUE:
@@ -49,13 +49,13 @@ class RepairContext:
     def vanishing(
         self, changed: Statement, members: Sequence[int], extra: dict[str, Expr]
     ) -> list[Expr]:
-        """What must vanish for some members of a changed statement, exactly."""
-        return self.trials.vanishing(self.notation.asked(changed, extra), members)
+        """Exact residuals of some members of a changed statement."""
+        return self.trials.vanishing(self.notation.read_claim(changed, extra), members)
 
     def fitting(
         self, place: NodePosition, others: Sequence[Node], members: Sequence[int]
     ) -> list[Node]:
-        """Those of some nodes of one rank that make all members hold when put at a place."""
+        """Nodes, among others of one rank, with which all members hold when put at a place."""
         try:
             return self.evaluator.fitting(place, others, members)
         except NO_VALUE:
@@ -80,7 +80,7 @@ class RepairContext:
 
     @cached_property
     def vocabulary(self) -> dict[Node, Expr | None]:
-        """Letters of the claim and of the text; with the scalar, where one that is not zero."""
+        """Letters of the claim and of the text, each with its value if that is a nonzero scalar."""
         functions = [other for n in self.own if (other := other_function(n)) is not None]
         indexed = [other for n in self.own for other in relabelled(n)]
         found: dict[Node, Expr | None] = {}
@@ -110,9 +110,9 @@ class RepairContext:
     @cached_property
     def products(self) -> Products:
         """Products of the scalars; authors divide by no force, and by no acceleration."""
-        return Products(self.scalars, [node for node, _ in self.scalars if self.is_strange(node)])
+        return Products(self.scalars, [node for node, _ in self.scalars if self.is_foreign(node)])
 
-    def is_strange(self, node: Node) -> bool:
+    def is_foreign(self, node: Node) -> bool:
         """Whether it is a reaction or an acceleration that does not occur in the claim."""
         value = self.vocabulary.get(node)
         symbol = None if value is None else value.symbol
@@ -123,13 +123,13 @@ class RepairContext:
         return symbol.order + (symbol.kind is SymbolKind.SPEED) > 1
 
     @cached_property
-    def settled(self) -> dict[Node, Expr]:
-        """The scalars as they are where the claim is to hold."""
+    def on_domain(self) -> dict[Node, Expr]:
+        """The scalars on the states where the claim should hold."""
         known = {node: e for node, e in self.vocabulary.items() if e is not None}
-        return {n: value for n, e in known.items() if (value := self._settled(e)) is not None}
+        return {n: value for n, e in known.items() if (value := self._on_domain(e)) is not None}
 
-    def _settled(self, value: Expr) -> Expr | None:
-        """A scalar as it is where the claim is to hold; None where it has no value there."""
+    def _on_domain(self, value: Expr) -> Expr | None:
+        """A scalar on the states where the claim should hold; None if it has no value there."""
         try:
             return self.trials.states.on(value)
         except NO_VALUE:
@@ -137,8 +137,8 @@ class RepairContext:
 
     @cached_property
     def spellings(self) -> dict[Expr, Node]:
-        """How scalars are written; the first one, where several letters stand for the same."""
-        known = reversed(self.settled)
+        """The letter of each scalar; the first one, if several letters stand for the same."""
+        known = reversed(self.on_domain)  # later entries of a dictionary override earlier ones
         return {e: node for node in known if (e := self.vocabulary[node]) is not None}
 
     # -- vectors ---------------------------------------------------------------------------------
@@ -150,7 +150,7 @@ class RepairContext:
         found: list[Node] = []
         for node in named:
             value = self.value(node)
-            if isinstance(value, Vector) and any(map(self._settled, value.components)):
+            if isinstance(value, Vector) and any(map(self._on_domain, value.components)):
                 found.append(node)
         return found
 
@@ -164,7 +164,7 @@ class RepairContext:
 
     @cached_property
     def vectors(self) -> VectorTerms:
-        """Different vectors a missing term may be formed of, and then their rates."""
+        """Distinct vectors that a missing term may be formed of, followed by their rates."""
         found: dict[Node, NumericTensor] = {}
         for node in dict.fromkeys([*self.own, *self.notation.vectors]):
             if isinstance(node, Name) and isinstance(self.value(node), Vector):
@@ -174,7 +174,7 @@ class RepairContext:
         return VectorTerms(tuple((node,) for node in found), stacked(list(found.values())))
 
     def _add_if_new(self, node: Node, found: dict[Node, NumericTensor]) -> None:
-        """Add a vector, unless it vanishes or has the values of one that was found before."""
+        """Add a vector, unless it vanishes or equals one that was found before."""
         try:
             vector = self.evaluator.of(node)
         except NO_VALUE:
@@ -198,11 +198,11 @@ class RepairContext:
 
 @dataclass(frozen=True, eq=False)
 class VectorTerms:
-    """Vectors a formula may lack.
+    """Vectors that a formula may lack.
 
     Attributes:
-        nodes: for every one the vectors it is the product of; one or two.
-        values: of all of them, as trials of one.
+        nodes: for each, the one vector it is, or the two it is the vector product of.
+        values: values of all of them, as trials of one quantity.
     """
 
     nodes: tuple[tuple[Node, ...], ...]

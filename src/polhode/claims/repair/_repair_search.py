@@ -1,4 +1,4 @@
-"""One statement that fails, tried at sample points: what could be changed for it to hold."""
+"""Search for the changes with which a statement that fails would hold at sample points."""
 
 from __future__ import annotations
 
@@ -40,8 +40,9 @@ from polhode.claims.states._numeric import NO_VALUE, Array
 
 Changing = Callable[[Array], Array]
 
-#: How many sorts of changes are tried in turn, and from which size on the next sort may be smaller.
+#: Number of stages, each of which tries larger changes.
 STAGES = 3
+#: For each stage, the size below which a correction cannot be undercut by the stages after it.
 ENOUGH = (1.9, 2.15, 99.0)
 
 _FACTOR = Symbol("multiplier")
@@ -70,7 +71,7 @@ class RepairSearch:
         self._repair = repair
         self._statement = statement = repair.statement
         self._notation = notation
-        self._claim = claim = notation.asked(statement, {})
+        self._claim = claim = notation.read_claim(statement, {})
         self._trials = trials(claim, context)
         self._samples = self._trials.samples
         self._sides = MemberSides(statement, claim)
@@ -96,7 +97,7 @@ class RepairSearch:
 
     @cached_property
     def _is_wrong(self) -> list[bool]:
-        """Whether each residual differs from zero at the sample points."""
+        """Whether each residual differs from zero at the sample points, beyond rounding."""
         size = 1 + np.abs(self._values).max(initial=0.0)
         return list(np.abs(self._values).max(axis=1, initial=0.0) > _CLOSE * size)
 
@@ -107,7 +108,7 @@ class RepairSearch:
 
     @cached_property
     def failing(self) -> tuple[int, ...]:
-        """Members that do not hold at the sample points."""
+        """Members of the claim that do not hold at the sample points."""
         bad = zip(self._members, self._is_wrong, strict=True)
         return tuple(dict.fromkeys(member for member, wrong in bad if wrong))
 
@@ -116,20 +117,20 @@ class RepairSearch:
     def corrected(self, targets: Sequence[int]) -> Iterator[list[Repaired]]:
         """Statements in which these members hold, and those that held before still do.
 
-        First those with one place changed, then those with several, or with a term more, and then
-        those in which a whole expression is another; `STAGES` in all.
+        One list for each of the `STAGES`: one place changed; several places changed or a term
+        added; a whole expression rewritten.
         """
         kept = (frozenset(self._members) - set(self.failing)) | set(targets)
-        open_ = [p for p in places(self._statement) if self._sides.cost(p, targets) is not None]
-        able = [p for p in open_ if self._sides.members(p).issuperset(targets)]
-        responses = {p: r for p in able if (r := self._response(p, kept)) is not None}
-        costs = {p: self._sides.cost(p, targets) or 0.0 for p in able}
+        on_sides = [p for p in places(self._statement) if self._sides.cost(p, targets) is not None]
+        eligible = [p for p in on_sides if self._sides.members(p).issuperset(targets)]
+        responses = {p: r for p in eligible if (r := self._response(p, kept)) is not None}
+        costs = {p: self._sides.cost(p, targets) or 0.0 for p in eligible}
         yield self._ranked(
             (replace(edit, size=edit.size + costs[place]),)
-            for place in able
+            for place in eligible
             for edit in self._at(place, responses.get(place), kept)
         )
-        # a factor, an argument or the like can take a term if another value makes it right
+        # A factor or an argument can be short of a term only if some other value corrects it.
         inner = [
             place
             for place, response in responses.items()
@@ -138,14 +139,14 @@ class RepairSearch:
         ][:_MOST_INNER]
         missing = (
             (replace(edit, size=edit.size + costs[place]),)
-            for place in able
+            for place in eligible
             for edit in missing_terms(self._context, place, self._within(place, kept), inner)
         )
         chains = {side[0] for target in targets for side in self._sides.sides(target)}
-        others = [p for p in places(self._statement) if p.relation in chains and p not in able]
+        others = [p for p in places(self._statement) if p.relation in chains and p not in eligible]
         whole = responses | {p: r for p in others if (r := self._response(p, kept)) is not None}
         several = [*self._throughout(kept), *self._along_components(responses, targets, kept)]
-        yield self._ranked([*several, *map(self._late, fitted(whole)), *missing])
+        yield self._ranked([*several, *map(self._preferring_later_sides, fitted(whole)), *missing])
         yield self._ranked(
             (replace(edit, size=edit.size + costs[place]),)
             for place, response in responses.items()
@@ -154,7 +155,7 @@ class RepairSearch:
         )
 
     def _ranked(self, found: Iterable[tuple[Edit, ...]]) -> list[Repaired]:
-        """The smallest different statements that sets of changes lead to."""
+        """The smallest distinct statements that sets of changes lead to."""
         different: dict[Piece, Repaired] = {}
         for changes in sorted(found, key=lambda changes: sum(c.size for c in changes)):
             repair = self._repair.with_changes(changes)
@@ -180,7 +181,7 @@ class RepairSearch:
                         yield edit
 
     def _scaled(self, place: NodePosition, response: Response) -> Iterator[Edit]:
-        """What a place multiplied by a factor makes right, or a letter of the value it then has."""
+        """Edits that multiply a place by the factor needed, or put a letter of the value needed."""
         for number in simple_numbers(response):
             yield from edits(place, Match(number))
         factor = response.multiplier
@@ -190,8 +191,8 @@ class RepairSearch:
             yield from edits(place, match)
         scalars = dict(self._context.scalars)
         if place.node in scalars:
-            wanted = factor * scalars[place.node]
-            close = np.abs(self._context.scalar_values - wanted) <= _CLOSE * (1 + np.abs(wanted))
+            needed = factor * scalars[place.node]
+            close = np.abs(self._context.scalar_values - needed) <= _CLOSE * (1 + np.abs(needed))
             fitting = np.flatnonzero(close.all(axis=1))
             yield from replaced_by(place, (self._context.scalars[i][0] for i in fitting))
 
@@ -201,27 +202,27 @@ class RepairSearch:
         targets: Collection[int],
         kept: Collection[int],
     ) -> Iterator[tuple[Edit, ...]]:
-        """One place changed for each wrong component of a vector, where none mends them all."""
+        """One place changed for each wrong component of a vector, where none corrects them all."""
         rows = [i for i, m in enumerate(self._members) if m in kept]
         wrong = [k for k, i in enumerate(rows) if self._members[i] in targets and self._is_wrong[i]]
         if not 1 < len(wrong) <= _MOST_COMPONENTS:
             return
-        apart = {p: r for p, r in responses.items() if len(r.moved) == 1}
+        separate = {p: r for p, r in responses.items() if len(r.affected) == 1}
         options = []
         for row in wrong:
-            alone = ((p, r.among([row])) for p, r in apart.items() if r.moved == (row,))
+            alone = ((p, r.among([row])) for p, r in separate.items() if r.affected == (row,))
             found = [edit for p, r in alone if r for edit in self._scaled(p, r)]
             options.append(sorted(found, key=lambda edit: edit.size)[:_MOST_EDITS_EACH])
         yield from product(*options)
 
-    def _late(self, changes: tuple[Edit, ...]) -> tuple[Edit, ...]:
-        """With changes of earlier sides of a chain a little larger."""
+    def _preferring_later_sides(self, changes: tuple[Edit, ...]) -> tuple[Edit, ...]:
+        """Changes with a little size added for earlier sides of a chain: slips come late."""
         last = [len(self._statement.relations[change.path[0]].sides) for change in changes]
         extra = [0.02 * (n - change.path[1]) for n, change in zip(last, changes, strict=True)]
         return tuple(replace(c, size=c.size + e) for c, e in zip(changes, extra, strict=True))
 
     def _throughout(self, kept: Collection[int]) -> Iterator[tuple[Edit, ...]]:
-        """One slip made everywhere: the variable of partial derivatives has lost its dot."""
+        """One slip made everywhere: partial derivatives by q where q̇ is meant."""
         found = [p for p in places(self._statement) if p.is_variable]
         for letter in dict.fromkeys(p.node for p in found):
             alike = [p for p in found if p.node == letter]
@@ -232,26 +233,27 @@ class RepairSearch:
     def _holds(self, changed: Statement, kept: Collection[int]) -> bool:
         """Whether members of a changed statement hold at the sample points."""
         try:
-            left = self._trials.vanishing(self._notation.asked(changed, {}), kept)
+            # Looser than for one response: a changed statement is evaluated along another route.
+            left = self._trials.vanishing(self._notation.read_claim(changed, {}), kept)
             return bool(np.abs(self._samples.values(left)).max(initial=0.0) < _CLOSE * 1e2)
         except NO_VALUE:
             return False
 
     def _within(self, place: NodePosition, kept: Collection[int]) -> list[int]:
-        """Those of some members that a place is part of."""
+        """The members, among those kept, that a place is part of."""
         return sorted(self._sides.members(place) & set(kept))
 
     # -- how residuals respond to a factor -------------------------------------------------------
 
     def _response(self, place: NodePosition, kept: Collection[int]) -> Response | None:
-        """How the residuals of these members change with a factor at a place."""
+        """The residuals of these members as a function of a factor at a place."""
         if place not in self._responses:
             self._responses[place] = self._found_response(place)
         found = self._responses[place]
         return found and found.among([i for i, m in enumerate(self._members) if m in kept])
 
     def _found_response(self, place: NodePosition) -> Response | None:
-        """By numbers alone where possible; else with a letter for the factor, exactly."""
+        """By numbers alone where possible; otherwise exactly, with a symbol for the factor."""
         members = sorted(self._sides.members(place))
         rows = tuple(i for i, m in enumerate(self._members) if m in members)
         if not rows:
@@ -271,18 +273,18 @@ class RepairSearch:
 
     def _exactly(self, place: NodePosition, members: Collection[int]) -> Changing:
         changed = put(self._statement, place.path, times(Name(_LETTER), place.node))
-        claim = self._notation.asked(changed, {_LETTER: Expr.generator(_FACTOR)})
+        claim = self._notation.read_claim(changed, {_LETTER: Expr.generator(_FACTOR)})
         return self._samples.function(self._trials.vanishing(claim, members), _FACTOR)
 
 
-# -- several coefficients of a claim's own terms, fitted together ---------------------------------
+# -- several coefficients of a claim's terms, fitted together -------------------------------------
 
 
 def fitted(responses: Mapping[NodePosition, Response]) -> Iterator[tuple[Edit, ...]]:
-    """Sets of two or three changes of numbers or signs that together let a claim hold.
+    """Sets of two or three changes of numbers or signs with which a claim holds.
 
     Args:
-        responses: how what must vanish changes with a factor put at each place.
+        responses: the residuals as a function of a factor at each place.
     """
     possible = [p for p in responses if p.is_term or isinstance(p.node, Number)]
     slopes = {p: s.ravel() for p in possible if (s := responses[p].slope()) is not None}
@@ -311,7 +313,11 @@ def _is_inside(place: NodePosition, whole: NodePosition) -> bool:
 def _solutions(
     rest: Array, slopes: Array, count: int
 ) -> Iterator[tuple[tuple[int, ...], list[Match]]]:
-    """Which slopes, with which factors, cancel the rest; by QR of all sets of them at once."""
+    """Sets of slopes, with the factors by which they cancel the residual.
+
+    Each set is a small least-squares problem; all of them are solved in one batched QR
+    factorisation, and sets that leave a remainder or are nearly dependent are dropped.
+    """
     sets = list(combinations(range(len(slopes)), count))
     if not sets or count > len(rest):
         return

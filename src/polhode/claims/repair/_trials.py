@@ -1,4 +1,4 @@
-"""How a changed statement is read, and what must vanish for it to hold in each context."""
+"""How a changed statement is read, and which residuals must vanish for it to hold."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from polhode.claims.states._steady_states import steady_states
 
 
 class RepairNotation(Protocol):
-    """What repair needs to know of how a statement is read."""
+    """The part of a notation that repair uses to read statements."""
 
-    def asked(self, statement: Statement, extra: Mapping[str, Expr]) -> BoundClaim:
+    def read_claim(self, statement: Statement, extra: Mapping[str, Expr]) -> BoundClaim:
         """The claim a statement makes; `extra` are further letters it may use."""
         ...
 
     def value(self, node: Node) -> Side:
-        """What one node stands for."""
+        """The meaning of one node."""
         ...
 
     @property
@@ -41,19 +41,19 @@ class RepairNotation(Protocol):
 
 @dataclass(frozen=True)
 class AtLimit:
-    """How statements to order zero are read at the limit itself, where all that is small vanishes.
+    """Reads statements of order zero at the limit itself, where all small quantities vanish.
 
     Attributes:
-        notation: how they are read near it.
-        claim: whose small quantities vanish.
+        notation: reads them near the limit.
+        claim: the claim that states the small quantities.
     """
 
     notation: RepairNotation
     claim: BoundClaim
 
-    def asked(self, statement: Statement, extra: Mapping[str, Expr]) -> BoundClaim:
+    def read_claim(self, statement: Statement, extra: Mapping[str, Expr]) -> BoundClaim:
         """The claim a statement makes there."""
-        near = self.notation.asked(statement, extra)
+        near = self.notation.read_claim(statement, extra)
         return replace(near, given={**near.given, **vanished(self.claim.small)}, small=())
 
     def near(self, there: BoundClaim) -> BoundClaim:
@@ -61,7 +61,7 @@ class AtLimit:
         return replace(there, given=self.claim.given, small=self.claim.small)
 
     def value(self, node: Node) -> Side:
-        """What one node stands for."""
+        """The meaning of one node."""
         return self.notation.value(node)
 
     @property
@@ -75,9 +75,9 @@ class AtLimit:
         return self.notation.vectors
 
 
-# -- what must vanish -----------------------------------------------------------------------------
+# -- residuals ------------------------------------------------------------------------------------
 
-#: What must vanish, with the member of the claim it belongs to.
+#: Residuals of a claim, each with the member it belongs to.
 Residuals = Callable[[BoundClaim], list[tuple[int, Expr]]]
 
 
@@ -86,9 +86,9 @@ class Trials:
     """Expressions that vanish where a claim holds, and states to try them at.
 
     Attributes:
-        states: where the claim is asked to hold.
+        states: where the claim should hold.
         samples: some of these states by numbers.
-        residuals: of any claim of the same form, such as a corrected one.
+        residuals: gives those of any claim of the same form, such as a corrected one.
     """
 
     states: ClaimDomain
@@ -96,12 +96,12 @@ class Trials:
     residuals: Residuals
 
     def vanishing(self, claim: BoundClaim, members: Collection[int]) -> list[Expr]:
-        """What must vanish for some of the members of a claim."""
+        """The residuals of some members of a claim."""
         return [e for m, e in self.residuals(claim.only(members)) if m in members]
 
 
 def trials(claim: BoundClaim, context: str) -> Trials:
-    """Where a claim can be tried, by its context."""
+    """Residuals and sample states of a claim, by its context."""
     return _TRIALS[context](claim)
 
 
@@ -114,7 +114,8 @@ def _differences(claim: BoundClaim) -> list[tuple[int, Expr]]:
 
 
 def _steady(claim: BoundClaim) -> Trials:
-    """Differences in steady motion; of members that give a quantity, the relation it is to meet."""
+    """Differences of the sides in steady motion; for a member that gives a speed by a root, the
+    relation between steady speeds with that root put in."""
     family, *_ = steady_states(claim)
     if not solved_members(claim, 0):
         return _on(family, claim, _differences)
@@ -141,5 +142,5 @@ _TRIALS: dict[str, Callable[[BoundClaim], Trials]] = {
     "launch": _launch,
 }
 
-#: Contexts in which what is left can be fitted.
+#: Contexts in which residuals can be fitted.
 FITTED = tuple(_TRIALS)

@@ -20,7 +20,7 @@ _KEPT = 64
 
 #: Signs that claim the equality of both sides.
 EQUALITY = ("=", "≡")
-#: Sign of left less right that each sign claims.
+#: The sign of left - right that each relation sign claims.
 SENSE = {">": 1, "≥": 1, "<": -1, "≤": -1}
 #: Of these, the signs that exclude equality.
 STRICT = (">", "<")
@@ -34,7 +34,7 @@ class Small:
 
     Attributes:
         quantity: it vanishes in the limit: θ - π/2, Ω, or 1/ω for a large ω.
-        order: highest power of it that the claim keeps; None where no order is stated.
+        order: highest power of it that the claim keeps; None if no order is stated.
     """
 
     quantity: Expr
@@ -49,26 +49,26 @@ def _states(
     relations: tuple[Expr, ...],
     positive: tuple[Expr, ...],
 ) -> ClaimDomain:
-    """The states; kept, for it takes time to find what expressions are on them."""
+    """The states, kept because reducing expressions on them takes most of the time."""
     return kind(the.equations, dict(given), relations, positive)
 
 
 @dataclass(frozen=True)
 class BoundClaim:
-    """A claim and where it is asked to hold.
+    """A claim and where it should hold.
 
     Attributes:
-        branches: the members of the claim; more than one tuple of them where it says ±.
+        branches: the members of the claim; two tuples of them where it says ±.
         equations: of the system.
         given: symbols restricted to values.
-        relations: expressions that vanish besides, such as L² - 2 I₂ T.
+        relations: further expressions that vanish, such as L² - 2 I₂ T.
         small: quantities that are small.
         positive: expressions that the text takes as positive.
         digits: for every member, half a unit of the last printed digit of a number.
-        start: for claims on a motion, values at its start.
-        when: for statements on a motion, how often they hold: always, never, sometimes,
-            initially, finally.
-        defined: letters that the claim defines itself; their definitions are no members.
+        start: for claims about a motion, initial values.
+        when: for statements about a motion, when they hold: always, never, sometimes, initially,
+            finally.
+        defined: letters that the claim itself defines; their definitions are not members.
     """
 
     branches: tuple[tuple[BoundRelation, ...], ...]
@@ -98,13 +98,13 @@ class BoundClaim:
         return any(other.left != first.left or other.right != first.right for other in others)
 
     def states(self, kind: type[States]) -> States:
-        """The states of a kind on which the claim is asked to hold."""
+        """The states of a kind on which the claim should hold."""
         given = tuple(self.given.items())
         found = _states(kind, EquationsKey(self.equations), given, self.relations, self.positive)
         return cast(States, found)
 
     def only(self, members: Collection[int]) -> BoundClaim:
-        """The claim that some of the members make; the others are left in place, as 0 = 0."""
+        """The claim of some members alone; the others become 0 = 0, so that numbers stay."""
         branches = tuple(
             tuple(r if i in members else NOTHING for i, r in enumerate(branch))
             for branch in self.branches
@@ -112,5 +112,5 @@ class BoundClaim:
         return replace(self, branches=branches)
 
 
-#: The relation 0 = 0, which keeps the place of a member that is judged elsewhere.
+#: The relation 0 = 0, in place of a member that is judged elsewhere.
 NOTHING = BoundRelation(ZERO, "=", ZERO)

@@ -1,4 +1,4 @@
-"""The states on which a claim is asked to hold, and what expressions are on them."""
+"""The states on which a claim should hold, and expressions reduced on them."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from polhode.claims.balance._declared import reaction_symbol
 from polhode.claims.meaning._meaning import with_signs
 from polhode.derive import Equations
 
-_KEPT = 1024  # expressions
+_KEPT = 1024  # reduced expressions; corrections try many that never occur again
 
 
 @dataclass(frozen=True)
 class ClaimDomain(ABC):
-    """A set of states, and what expressions are on them.
+    """A set of states, and expressions reduced on them.
 
     Attributes:
         equations: of the system.
         given: symbols that the claim itself restricts to values, such as θ = π/2.
         relations: further expressions that vanish, such as L² - 2 I₂ T.
-        positive: what the text takes as positive besides.
+        positive: further quantities that the text takes as positive.
     """
 
     equations: Equations
@@ -45,7 +45,7 @@ class ClaimDomain(ABC):
 
     @cached_property
     def _reduced(self) -> dict[Expr, Expr]:
-        """Expressions and what they are on these states: the same ones occur again and again."""
+        """Reduced expressions, kept because the same ones occur again and again."""
         return {}
 
     def of(self, symbol: Symbol) -> Expr:
@@ -59,7 +59,8 @@ class ClaimDomain(ABC):
         return {}
 
     def _on(self, expression: Expr) -> Expr:
-        # parameters first: accelerations and reactions are much shorter once they are given
+        # Parameters are replaced first: accelerations and reactions are much shorter with them.
+        # State variables are replaced last, since rates have to be taken before, not after.
         parameters = {s: e for s, e in self.given.items() if not s.kind.varies}
         try:
             settled = self._settled(expression.subs(parameters))
@@ -74,16 +75,16 @@ class ClaimDomain(ABC):
 
     @abstractmethod
     def _settled(self, expression: Expr) -> Expr:
-        """The expression with everything replaced that these states determine."""
+        """The expression with all quantities replaced that these states determine."""
 
     @cached_property
     def settled_relations(self) -> tuple[Expr, ...]:
-        """The relations in terms of what these states leave open."""
+        """The relations in terms of the quantities that these states leave free."""
         return tuple(self._settled(r.subs(self.given)).subs(self.given) for r in self.relations)
 
     @cached_property
     def signs(self) -> tuple[Expr, ...]:
-        """All that is positive on these states; what a restriction makes vanish is not."""
+        """The expressions assumed positive, except those that a restriction makes vanish."""
         assumed = (*self.equations.assumed_positive, *self.positive)
         return tuple(e for e in assumed if self.on(e))
 
@@ -101,7 +102,10 @@ class ClaimDomain(ABC):
 
 
 def _renamed(expression: Expr, names: Mapping[Symbol, Symbol]) -> Expr:
-    """With other symbols of the same names, so that both never meet in one expression."""
+    """The expression with each parameter F replaced by the function of time of the same name.
+
+    Reactions are parameters in `derive` but vary in claims; two symbols of one name must not meet.
+    """
     images = {g: names.get(g, g) if isinstance(g, Symbol) else g for g in expression.generators}
     return expression.recast({g: Expr.generator(image) for g, image in images.items()})
 
@@ -122,7 +126,7 @@ class TrueMotion(ClaimDomain):
         forces: dict[Symbol, Expr] = {}
         for symbol in (s for s in expression.symbols() if s.base() in self._reactions):
             value = on_motion(self._reactions[symbol.base()], self.equations)
-            for _ in range(symbol.order):
+            for _ in range(symbol.order):  # rates of reactions follow along the true motion
                 value = on_motion(self.equations.rate(value), self.equations)
             forces[symbol] = value
         return on_motion(expression.subs(forces), self.equations)
@@ -132,16 +136,16 @@ class TrueMotion(ClaimDomain):
 
 
 def on_constraints(expression: Expr, equations: Equations) -> Expr:
-    """With every rate that the constraints give put in terms of independent speeds and their rates.
+    """An expression in terms of the independent speeds and their rates, by the constraints.
 
-    Accelerations of the independent speeds stay as they are: no dynamics is used.
+    Accelerations of the independent speeds are kept: no dynamics is used.
     """
     given = {s: e for s in expression.symbols() if (e := _by_constraints(s, equations)) is not None}
     return expression.subs(given) if given else expression
 
 
 def _by_constraints(symbol: Symbol, equations: Equations) -> Expr | None:
-    """What the constraints make of a symbol; None where it is independent."""
+    """The value that the constraints give to a symbol; None if it is independent."""
     base, motion = symbol.base(), equations.kinetics
     rate = base.derivative()
     if base in equations.dependent:
@@ -156,44 +160,44 @@ def _by_constraints(symbol: Symbol, equations: Equations) -> Expr | None:
 
 
 def on_motion(expression: Expr, equations: Equations) -> Expr:
-    """With the accelerations besides replaced by those of the true motion, whatever the order."""
-    settled = on_constraints(expression, equations)
+    """An expression with accelerations, and rates of any higher order, of the true motion."""
+    constrained = on_constraints(expression, equations)
     accelerations: dict[Symbol, Expr] = {}
-    for symbol in settled.symbols():
+    for symbol in constrained.symbols():
         speed = next((s for s in equations.speeds if s.base() == symbol.base()), None)
         if speed is not None and speed.order < symbol.order:
             value = equations.accelerations[speed.derivative()]
             for _ in range(symbol.order - speed.order - 1):
                 value = equations.rate(value)
             accelerations[symbol] = value
-    return settled.subs(accelerations) if accelerations else settled
+    return constrained.subs(accelerations) if accelerations else constrained
 
 
 # -- expressions where given relations vanish -----------------------------------------------------
 
 
 def eliminated(expression: Expr, relations: Sequence[Expr]) -> Expr:
-    """An expression with one quantity eliminated by each relation that is to vanish.
+    """An expression with one quantity eliminated by each relation that vanishes.
 
-    Each relation is solved for a quantity that it is linear in; a parameter where possible, so
-    that nothing is lost but states where its factor vanishes.
+    Each relation is solved for a quantity in which it is linear, a parameter where possible. Only
+    states at which the coefficient of that quantity vanishes are lost.
 
-    Raises `NumericError` for a relation that is linear in nothing, and where what is positive by
-    declaration would vanish.
+    Raises `NumericError` for a relation that is linear in no quantity, and if a quantity declared
+    positive would have to vanish.
     """
     pending = list(relations)
-    sizes: dict[Symbol, Expr] = {}  # of what is positive by declaration
+    positive: dict[Symbol, Expr] = {}  # values of eliminated quantities that are declared positive
     while pending:
-        relation = _essential(pending.pop(0))
+        relation = _without_positive_factors(pending.pop(0))
         if not relation:
             continue
         symbol, value = solved(relation)
         expression = expression.subs({symbol: value})
         pending = [other.subs({symbol: value}) for other in pending]
-        sizes = {s: size.subs({symbol: value}) for s, size in sizes.items()}
+        positive = {s: e.subs({symbol: value}) for s, e in positive.items()}
         if symbol.positive:
-            sizes[symbol] = value
-        for vanished in (s for s, size in sizes.items() if not size):
+            positive[symbol] = value
+        for vanished in (s for s, e in positive.items() if not e):
             raise NumericError(
                 f"conditions that are met only where {vanished.published} vanishes",
                 expected="conditions that some body meets",
@@ -202,24 +206,26 @@ def eliminated(expression: Expr, relations: Sequence[Expr]) -> Expr:
     return expression
 
 
-def _essential(relation: Expr) -> Expr:
-    """The factors of a relation that can vanish, each once: a mass is no way to make it hold.
+def _without_positive_factors(relation: Expr) -> Expr:
+    """The product of the factors that can vanish, each to the first power.
 
-    Raises `NumericError` where no factor can.
+    In m² θ = 0, only θ can vanish. Raises `NumericError` if no factor can.
     """
     if not relation:
         return relation
-    able = [f for f in factors(relation.numerator)[1] if not is_positive(f) and not is_positive(-f)]
-    if not able:
+    found = factors(relation.numerator)[1]
+    vanishing = [f for f in found if not is_positive(f) and not is_positive(-f)]
+    if not vanishing:
         raise NumericError(
-            f"the condition {relation} = 0, which nothing meets",
+            f"the condition {relation} = 0, which no state meets",
             expected="conditions that do not contradict one another or the model",
         )
-    return prod(able, start=ONE).numerator
+    return prod(vanishing, start=ONE).numerator
 
 
 def solved(relation: Expr) -> tuple[Symbol, Expr]:
-    """A symbol that a relation is linear in, and its value where the relation vanishes."""
+    """A symbol in which a relation is linear, and its value where the relation vanishes."""
+    # Parameters come first: see `eliminated`.
     candidates = sorted(relation.symbols(), key=lambda s: (s.kind.varies, s.published))
     for symbol in candidates:
         slope = relation.diff(symbol)

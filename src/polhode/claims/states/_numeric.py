@@ -1,4 +1,4 @@
-"""Values of exact expressions in floating-point numbers, one at a time or in arrays."""
+"""Exact expressions evaluated in floating point, at one state or at arrays of states."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Array: TypeAlias = NDArray[np.float64]
 _FUNCTIONS = {name: getattr(np, name) for name in ("sin", "cos", "sinh", "cosh", "exp", "sqrt")}
 _PI = Symbol("pi")
 
-#: What is raised where an expression or a formula has no value at a state.
+#: The exceptions raised where an expression or a formula has no value at a state.
 NO_VALUE = (PolhodeError, ArithmeticError, ValueError, KeyError)
 
 
@@ -64,7 +64,7 @@ def rationals(
     values: Mapping[Symbol, Any],
     shape: tuple[int, ...],
 ) -> list[Rational] | None:
-    """Expressions as functions of an unknown; None where it stands inside a root or the like."""
+    """Expressions as rational functions of an unknown; None if it is inside a root or a sine."""
     known: dict[Generator, Any] = {}
     found = []
     with np.errstate(all="ignore"):
@@ -82,7 +82,7 @@ def rationals(
 def _coefficients(
     polynomial: Expr, unknown: Symbol, known: Mapping[Generator, Any], shape: tuple[int, ...]
 ) -> Array:
-    """By power of the unknown, the highest first."""
+    """Coefficients of the powers of the unknown, the highest power first, as `np.polyval` takes."""
     found: dict[int, Any] = {}
     for powers, coefficient in polynomial.terms():
         power = powers.pop(unknown, 0)
@@ -94,8 +94,9 @@ def _coefficients(
 def _value(expression: Expr, values: Mapping[Symbol, Any], known: dict[Generator, Any]) -> Any:
     _evaluate(expression.generators, values, known)
     above = _sum(expression.numerator, known)
-    if expression.is_polynomial:
+    if expression.is_polynomial:  # the denominator is a number
         return above / _sum(expression.denominator, known)
+    # NumPy's division gives inf or nan at a pole, where Python's would raise an exception.
     return np.true_divide(above, _sum(expression.denominator, known))
 
 

@@ -19,9 +19,9 @@ from polhode.claims.meaning._mechanics import EquationsKey
 from polhode.claims.states._claim_domain import ClaimDomain
 from polhode.claims.states._numeric import NO_VALUE, Array, number, numbers, rationals
 
-_STATES = 6  # enough for no wrong correction to hold at all of them by chance
+_STATES = 6  # so many that no wrong correction holds at all of them by chance
 _TRIES = 40
-_ROUNDING = 1e-9  # relative; moments of inertia of thin bodies only just obey their inequality
+_ROUNDING = 1e-9  # relative; for a flat body I₁ + I₂ = I₃ exactly, up to rounding
 _PI = Symbol("pi")
 
 # -- one state with simple exact numbers ----------------------------------------------------------
@@ -32,11 +32,13 @@ _HALF_TANGENTS = [Fraction(n, d) for d in range(2, 8) for n in range(1, d) if d 
 
 @dataclass(frozen=True)
 class ExactPoint:
-    """Exact values of symbols; angles by the tangent of their half, so that sines are rational.
+    """Exact values of symbols; an angle is given by t = tan(θ/2).
+
+    Then sin θ = 2t/(1 + t²) and cos θ = (1 - t²)/(1 + t²) are rational.
 
     Attributes:
-        numbers: value of every symbol that is no angle, SI.
-        half_tangents: of the symbols that sines and cosines are taken of.
+        numbers: value of every symbol that is not an angle, SI.
+        half_tangents: tan(θ/2) of the symbols of which sines and cosines are taken.
     """
 
     numbers: Mapping[Symbol, Fraction]
@@ -68,7 +70,7 @@ class ExactPoint:
             raise _not_exact(generator)
         cosine = Expr.of((1 - tangent**2) / (1 + tangent**2))
         sine = Expr.of(2 * tangent / (1 + tangent**2))
-        if part == Fraction(1, 2):
+        if part == Fraction(1, 2):  # half-angle formulas; the angle lies between 0 and π
             sine, cosine = sqrt((1 - cosine) / 2), sqrt((1 + cosine) / 2)
         elif part != 1:
             raise _not_exact(generator)
@@ -87,17 +89,21 @@ class ExactPoint:
 
 
 def exact_point(expressions: Iterable[Expr], symbols: Iterable[Symbol], seed: int) -> ExactPoint:
-    """A point with simple values for all symbols, those under a sine or cosine being angles."""
+    """A point with simple values for all symbols; those under a sine or cosine are angles."""
     random = Random(seed)
     angles = {a for e in expressions for g in e.generators for a in _angles(g)}
-    wanted = sorted({*symbols} - {_PI}, key=lambda s: s.published)
+    # A fixed order, so that the same seed gives the same point in every process.
+    ordered = sorted({*symbols} - {_PI}, key=lambda s: s.published)
     draw, draw_tangent = _draws(random, _SIMPLE), _draws(random, _HALF_TANGENTS)
-    plain = {s: draw(s) for s in wanted if s not in angles}
-    return ExactPoint(plain, {s: draw_tangent(s) for s in wanted if s in angles})
+    plain = {s: draw(s) for s in ordered if s not in angles}
+    return ExactPoint(plain, {s: draw_tangent(s) for s in ordered if s in angles})
 
 
 def _draws(random: Random, pool: list[Fraction]) -> Callable[[Symbol], Fraction]:
-    """Draws values from a pool without repetition as long as it lasts; some rates are negative."""
+    """Draws values from a pool without repetition as long as it lasts; some rates are negative.
+
+    Equal values would make differences such as I₁ - I₂ vanish and hide what they multiply.
+    """
     left: list[Fraction] = []
 
     def draw(symbol: Symbol) -> Fraction:
@@ -112,7 +118,7 @@ def _draws(random: Random, pool: list[Fraction]) -> Callable[[Symbol], Fraction]
 
 @lru_cache(maxsize=1024)
 def _angles(generator: Generator) -> tuple[Symbol, ...]:
-    """Symbols that the generator takes a sine or cosine of, also under roots."""
+    """Symbols of which the generator takes a sine or cosine, also under roots."""
     meaning = under_name(generator)
     if meaning is not None:
         return tuple(dict.fromkeys(a for g in meaning.generators for a in _angles(g)))
@@ -125,14 +131,17 @@ def _angles(generator: Generator) -> tuple[Symbol, ...]:
 
 
 def _odd(generator: Generator) -> tuple[Generator, int] | None:
-    """The odd function and sign of the family of a sine or cosine."""
+    """The odd function of the pair that a function belongs to, sin or sinh, and the pair's sign.
+
+    The sign is that of d²f/dx² = ±f: -1 for sine and cosine, 1 for the hyperbolic pair.
+    """
     pairs = (g.partner() for g in generator.companions() if g.depth)
     own = generator.partner()
     return own or next((pair for pair in pairs if pair and pair[0] == generator), None)
 
 
 def _angle(generator: Generator) -> tuple[Symbol, Fraction]:
-    """Symbol and factor of the argument of a sine or cosine."""
+    """Symbol and factor of the argument c θ of a sine or cosine."""
     argument = generator.arguments[0]
     symbols = argument.symbols()
     if len(symbols) != 1:
@@ -155,12 +164,12 @@ def _not_exact(generator: Generator) -> NumericError:
 
 
 class SymbolValues(dict[Symbol, float]):
-    """The number of every symbol at one state, found when it is first needed.
+    """The value of every symbol at one state, computed on first use.
 
     Args:
-        free: of the symbols that the domain leaves open.
+        free: values of the symbols that the domain leaves free.
         states: the domain.
-        seed: of further symbols that it leaves open.
+        seed: for drawing further free symbols.
     """
 
     def __init__(self, free: Mapping[Symbol, float], states: ClaimDomain, seed: int) -> None:
@@ -179,10 +188,10 @@ class SymbolValues(dict[Symbol, float]):
 
 @dataclass(frozen=True, eq=False)
 class SamplePoints:
-    """Several states of a domain, at which to see quickly whether relations can hold.
+    """Several states of a domain, for a quick check whether relations can hold.
 
     Attributes:
-        states: the number of every symbol, state by state.
+        states: the value of every symbol, state by state.
     """
 
     states: tuple[SymbolValues, ...]
@@ -193,7 +202,7 @@ class SamplePoints:
         return len(self.states)
 
     def values(self, expressions: Sequence[Expr]) -> Array:
-        """Values of expressions: (expressions, states); not a number where there is none."""
+        """Values of expressions: (expressions, states); nan where there is none."""
         columns = self._columns(variables(expressions) - {_PI})
         return numbers(expressions, columns, (self.size,))
 
@@ -212,11 +221,12 @@ class SamplePoints:
 
     def _columns(self, symbols: Iterable[Symbol]) -> dict[Symbol, Array]:
         """The values of each symbol over the states."""
-        wanted = tuple(symbols)
-        for symbol in wanted:
+        found = {}
+        for symbol in symbols:
             if symbol not in self._known:
                 self._known[symbol] = np.array([state[symbol] for state in self.states])
-        return {symbol: self._known[symbol] for symbol in wanted}
+            found[symbol] = self._known[symbol]
+        return found
 
     @cached_property
     def _known(self) -> dict[Symbol, Array]:
@@ -229,7 +239,7 @@ def sample_points(states: ClaimDomain, expressions: Iterable[Expr]) -> SamplePoi
 
 
 def real_states(states: ClaimDomain, expressions: Iterable[Expr]) -> Iterator[SymbolValues]:
-    """Such states one after another, of the first ones drawn those where all values are real."""
+    """States of a domain, one after another: those drawn at which all values are real."""
     used = [states.on(e) for e in expressions]
     used += [*states.settled_relations, *states.signs]
     used += list(states.equations.accelerations.values())
@@ -243,27 +253,27 @@ def real_states(states: ClaimDomain, expressions: Iterable[Expr]) -> Iterator[Sy
 
 
 def _is_real(state: SymbolValues, states: ClaimDomain, symbols: Iterable[Symbol]) -> bool:
-    """Whether all is real at a state, and positive where it has to be; notes the values there."""
+    """Whether all values at a state are real, and positive where required; stores them in it."""
     ordered = tuple(symbols)
     try:
-        settled = numbers([states.of(s) for s in ordered], state, ())
+        values = numbers([states.of(s) for s in ordered], state, ())
         positive = numbers([states.on(e) for e in states.signs], state, ()) > 0
     except NO_VALUE:
         return False
-    state.update(zip(ordered, settled.tolist(), strict=True))
-    return bool(positive.all() and np.isfinite(settled).all())
+    state.update(zip(ordered, values.tolist(), strict=True))
+    return bool(positive.all() and np.isfinite(values).all())
 
 
-# -- what real bodies demand: positive parameters, possible moments of inertia --------------------
+# -- conditions on physical bodies: positive parameters, possible moments of inertia --------------
 
 
 def is_physical(states: ClaimDomain, values: Mapping[Symbol, Any]) -> Any:
-    """Whether there can be bodies with these numbers, which may be arrays of one shape.
+    """Whether bodies can have these values, which may be arrays of one shape.
 
-    What is declared or was derived as positive is positive, also where the domain determines it;
-    no moment of inertia exceeds the sum of the other two.
+    Quantities declared or derived as positive must be positive, also where the domain determines
+    them, and no moment of inertia may exceed the sum of the other two.
     """
-    above, not_below = _demands(EquationsKey(states.equations))
+    above, not_below = _inequalities(EquationsKey(states.equations))
     with np.errstate(all="ignore"):
         met = [number(states.on(e), values) > 0 for e in (*states.signs, *above)]
         for larger, size in not_below:
@@ -273,18 +283,17 @@ def is_physical(states: ClaimDomain, values: Mapping[Symbol, Any]) -> Any:
 
 
 def physical_symbols(states: ClaimDomain) -> frozenset[Symbol]:
-    """The symbols whose numbers decide whether bodies are physical."""
-    above, not_below = _demands(EquationsKey(states.equations))
+    """The symbols whose values decide whether bodies are physical."""
+    above, not_below = _inequalities(EquationsKey(states.equations))
     every = (*states.signs, *above, *(e for pair in not_below for e in pair))
     return frozenset(s for e in every for s in states.on(e).symbols())
 
 
 @lru_cache(maxsize=16)
-def _demands(the: EquationsKey) -> tuple[tuple[Expr, ...], tuple[tuple[Expr, Expr], ...]]:
-    """What has to be positive, and what must not be negative, each with its size.
+def _inequalities(the: EquationsKey) -> tuple[tuple[Expr, ...], tuple[tuple[Expr, Expr], ...]]:
+    """Expressions that must be positive, and those that must not be negative, with their scale.
 
-    The latter are the moments of inertia and the sum of each two less the third, which hold along
-    any axes.
+    The latter are I₁₁ = ∫(y² + z²) dm, I₂₂ + I₃₃ - I₁₁ = 2 ∫x² dm and so on, along any axes.
     """
     inertias: list[tuple[Expr, Expr]] = []
     for body in the.equations.system.bodies:

@@ -23,7 +23,7 @@ class SteadyStates(TrueMotion):
 
     @cached_property
     def is_at_rest(self) -> bool:
-        """Whether an angle stays at a value of its own, such as 0, however the rest moves."""
+        """Whether an angle stays at a fixed value, such as 0, however the rest moves."""
         if self.family is None or self.family.relations:
             return False
         essential = self.family.reduced.essential
@@ -46,8 +46,8 @@ class SteadyStates(TrueMotion):
 def steady_states(claim: BoundClaim) -> tuple[SteadyStates, ...]:
     """Every family of steady motions that obeys the claim's own restrictions.
 
-    Families where the coordinates are singular are left out: a rate of precession means nothing
-    about an upright axis.
+    Families at which the coordinates are singular are left out: for an upright axis, precession and
+    spin cannot be told apart.
     """
     given = tuple(claim.given.items())
     return _families(EquationsKey(claim.equations), given, claim.relations, claim.positive)
@@ -63,6 +63,7 @@ def _families(
     found = []
     for family in steady(the.equations, dict(given)):
         rows = [[entry.subs(family.fixed) for entry in row] for row in the.equations.mass.rows]
+        # Coordinates are singular where the mass matrix is.
         is_singular = bool(rows) and bool(eliminate(rows, [ZERO] * len(rows)).free)
         if not is_singular:
             vanishing = (*family.relations, *relations)
