@@ -167,7 +167,7 @@ def test_samples_have_an_axis_of_their_own(tmp_path):
         ({}, {}, "no axes"),
         ({"theta": 1.0}, {}, "the axis theta"),
         ({"theta": []}, {}, "the axis theta"),
-        ({"theta": st.norm()}, {}, "not how often"),
+        ({"theta": st.norm()}, {}, "without their number"),
         ({"theta": [1.0]}, {"chunk": 0}, "0 members"),
         ({"theta": [1.0]}, {"workers": 0}, "0 workers"),
     ],

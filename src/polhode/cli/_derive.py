@@ -67,7 +67,7 @@ def _lines(entry: CatalogueEntry, equations: Equations) -> Iterator[str]:
     yield ""
     yield str(equations)
     if equations.undetermined:
-        # Redundant supports: only sums are determined; shown is the solution of least norm.
+        # Redundant supports leave these open; shown is the choice of smallest sum of squares.
         yield "  of which the least forces are"
         least = {name: equations.least[name] for name in equations.undetermined}
         yield from _assigned(equations, least)

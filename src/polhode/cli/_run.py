@@ -63,7 +63,7 @@ def configure(parser: Parser) -> None:
         "--mu", metavar="MU", default="", help="coefficient of kinetic friction at the contacts"
     )
     parser.add_argument(
-        "--mu-static", metavar="MU", default="", help="of static friction (default: the kinetic)"
+        "--mu-static", metavar="MU", default="", help="coefficient of static friction (default: MU)"
     )
     parser.add_argument(
         "--sheet",
