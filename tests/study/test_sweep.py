@@ -134,9 +134,9 @@ def test_another_sweep_is_not_gone_on_with(whole, tmp_path):
     path, _ = whole
     with pytest.raises(StoreError, match="exists already"):
         fates(path)
-    with pytest.raises(StoreError, match="other options"):
+    with pytest.raises(StoreError, match="different options"):
         fates(path, resume=True, near_flat=0.2)
-    with pytest.raises(StoreError, match="other batch"):
+    with pytest.raises(StoreError, match="different batch"):
         fates(path, resume=True, chunk=2)
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "file").touch()
